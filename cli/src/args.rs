@@ -206,6 +206,9 @@ pub struct CheckArgs {
     /// Apply the fixes that are certain to instruction lists, and report what remains.
     #[arg(long)]
     pub fix: bool,
+    /// Draw the network that each diagnostic is about as ladder, with its place marked.
+    #[arg(long)]
+    pub draw: bool,
 }
 
 /// Arguments of `build`.

@@ -31,6 +31,19 @@ fn networks_are_chosen_by_number_device_and_finding() {
 }
 
 #[test]
+fn diagnostics_show_their_network_with_the_place_marked() {
+    let list = "LD X0\nOR M0\nANI X1\nOUT Y0\nLD X2\nMPS\nAND M7999\nOUT Y1\nMPP\nMOV K70000 D0\nLD X4\nOUT Y0\nEND\nLD\n";
+    let folder = folder(&[("list.il", list.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["check", "list.il", "--draw"]));
+    // Reports for tools stay as they are.
+    let json = |more: &[&str]| {
+        let args = [&["check", "list.il", "--format", "json"], more].concat();
+        rungc(folder.path(), &args).stdout
+    };
+    assert_eq!(json(&[]), json(&["--draw"]));
+}
+
+#[test]
 fn what_cannot_be_chosen_is_said() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
     let said = |args: &[&str]| {

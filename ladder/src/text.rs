@@ -23,11 +23,32 @@ pub fn draw(resolved: &Resolved, networks: &[(usize, &Network)], style: Style) -
         width: style.width,
         margin: Margin::of(resolved, networks),
         counted: true,
+        marked: None,
     };
     let mut out = String::new();
     for (number, network) in networks {
         page.network(*number, network, &mut out);
     }
+    out
+}
+
+/// Draws a network, with `^` beneath the symbol of an instruction.
+pub fn draw_marked(
+    resolved: &Resolved,
+    (number, network): (usize, &Network),
+    style: Style,
+    marked: InstrIndex,
+) -> String {
+    let networks = [(number, network)];
+    let page = Page {
+        face: Face::of(resolved, &networks, style.comments),
+        width: style.width,
+        margin: Margin::of(resolved, &networks),
+        counted: true,
+        marked: Some(marked),
+    };
+    let mut out = String::new();
+    page.network(number, network, &mut out);
     out
 }
 
@@ -52,6 +73,7 @@ pub fn draw_alike(networks: &[(&Resolved, &Network)], style: Style) -> Vec<Strin
             width: style.width,
             margin,
             counted: false,
+            marked: None,
         };
         let mut out = String::new();
         page.network(1, network[0].1, &mut out);
@@ -104,6 +126,8 @@ struct Page<'a> {
     margin: Margin,
     /// Whether numbers and steps are shown.
     counted: bool,
+    /// The instruction whose symbol is marked.
+    marked: Option<InstrIndex>,
 }
 
 impl Page<'_> {
@@ -189,6 +213,9 @@ impl Page<'_> {
             let lead = self.lead("", &std::mem::take(&mut step));
             let wires = self.wires(grid, row, placed).text();
             let _ = writeln!(out, "{lead}{wires}{}", self.note(placed));
+            if let Some(marks) = self.marks(grid, row, placed) {
+                let _ = writeln!(out, "{}{}", self.lead("", ""), marks.text());
+            }
             let comments: Vec<Vec<String>> = placed
                 .iter()
                 .map(|placed| self.face.comment(*placed))
@@ -209,6 +236,27 @@ impl Page<'_> {
                 let _ = writeln!(out, "{}{}", self.lead("", ""), text.text());
             }
         }
+    }
+
+    /// The line beneath a row that marks a symbol in it.
+    fn marks(&self, grid: &Grid, row: usize, placed: &[Placed]) -> Option<Line> {
+        let marked = placed.iter().find(|placed| match placed.cell {
+            Cell::Contact(contact) => Some(contact.instr) == self.marked,
+            Cell::Result(instr) => Some(instr) == self.marked,
+            Cell::Output(output) => Some(output.instr) == self.marked,
+            Cell::FoldOut(_) | Cell::FoldIn(_) => false,
+        })?;
+        let mut line = self.blank(grid, |boundary| {
+            row + 1 < grid.rows && grid.down(row, boundary)
+        });
+        let start = self.column(marked.column) + 1;
+        let room = self.face.cell * marked.span - 1;
+        let sign = "^".repeat(self.face.symbol(marked.cell).width().min(room));
+        match marked.cell {
+            Cell::Output(_) => line.put(start + room - sign.len(), &sign),
+            _ => line.center(start, room, &sign),
+        }
+        Some(line)
     }
 
     /// The note of the output on a row, after the right rail, where numbers and steps are left out.

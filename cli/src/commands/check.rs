@@ -1,5 +1,7 @@
 //! `rungc check`.
 
+mod draw;
+
 use super::subject::{self, Subject};
 use super::{Context, Result, conclude, counted, findings, fix, grouped, ports, read};
 use crate::args::CheckArgs;
@@ -16,15 +18,18 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
         if args.fix {
             fix::fix(subject, cx)?;
         }
-        check(subject, reporter, cx)
+        check(subject, reporter, args.draw, cx)
     })
 }
 
-fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
+fn check(subject: &Subject, reporter: &mut Reporter, draw: bool, cx: Context) -> Result {
     let start = Instant::now();
     let read = read(subject, reporter)?;
     let checked = compile::check(&read.program, &subject.options());
-    let findings = findings(subject, &read, &checked);
+    let mut findings = findings(subject, &read, &checked);
+    if draw && reporter.is_for_people() {
+        findings.drawn = draw::networks(&read.program, checked.model, &findings.diagnostics);
+    }
     if let Some(parameters) = &read.program.parameters {
         cx.detail(|| parameter_lines(parameters, checked.model));
     }

@@ -36,8 +36,11 @@ pub fn print(
     }
     let all = findings.diagnostics.len();
     let shown = if limit == 0 { all } else { limit };
-    for diagnostic in findings.diagnostics.iter().take(shown) {
+    for (i, diagnostic) in findings.diagnostics.iter().take(shown).enumerate() {
         writeln!(out, "{}", draw(findings, name, diagnostic, color)?)?;
+        if let Some(network) = findings.drawn.get(i).filter(|drawn| !drawn.is_empty()) {
+            writeln!(out, "{network}")?;
+        }
     }
     let hidden = all.saturating_sub(shown);
     if hidden > 0 {

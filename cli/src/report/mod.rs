@@ -34,6 +34,8 @@ pub struct Findings<'a> {
     pub ports: Vec<Setup>,
     /// What it takes on a machine, if that was asked for.
     pub takes: Option<Takes>,
+    /// The network that each diagnostic is about, drawn, if that was asked for; empty if it is about none.
+    pub drawn: Vec<String>,
 }
 
 /// What a program is for, and how long it is.
@@ -78,6 +80,7 @@ impl<'a> Findings<'a> {
             step_numbers: Vec::new(),
             ports: Vec::new(),
             takes: None,
+            drawn: Vec::new(),
         }
     }
 
@@ -91,6 +94,7 @@ impl<'a> Findings<'a> {
             step_numbers: Vec::new(),
             ports: Vec::new(),
             takes: None,
+            drawn: Vec::new(),
         }
     }
 
