@@ -39,7 +39,7 @@ const CHECKED_SCANS: u32 = 300;
 const COUNTED_SCANS: u32 = 200;
 
 /// Instructions that QEMU executes in one tick of the core's clock: a nanosecond each, at 168 MHz.
-const INSTRUCTIONS_PER_TICK: f64 = 1000.0 / 168.0;
+pub(crate) const INSTRUCTIONS_PER_TICK: f64 = 1000.0 / 168.0;
 
 /// How to optimise.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -193,7 +193,7 @@ fn machine() -> impl Iterator<Item = &'static str> {
 }
 
 /// A command that links an image.
-fn linker(folder: &Path, image: &Path) -> Command {
+pub(crate) fn linker(folder: &Path, image: &Path) -> Command {
     let mut linker = Command::new(CORTEX_M4F.cc);
     linker
         .args(machine())
@@ -327,7 +327,7 @@ pub fn blink() -> Result<(u64, u64)> {
 }
 
 /// A folder with the files of a board.
-fn board_folder() -> Result<tempfile::TempDir> {
+pub(crate) fn board_folder() -> Result<tempfile::TempDir> {
     let folder = tools::folder()?;
     for (path, text) in BOARD {
         tools::write(&folder.path().join(path), text)?;

@@ -13,6 +13,7 @@ pub mod host;
 pub mod interp;
 pub mod ladder;
 pub mod problem;
+pub mod pulse_counts;
 pub mod pulses;
 pub mod random;
 pub mod subject;

@@ -7,7 +7,7 @@ use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
-use rungc_benches::{checks, embedded, interp, pulses, tools};
+use rungc_benches::{checks, embedded, interp, pulse_counts, pulses, tools};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -70,7 +70,10 @@ impl Section {
                 embedded::size_table(embedded_sizes(quick))?,
                 embedded::image_table()?,
             ]),
-            Section::Icount => Ok(vec![embedded::count_table(embedded_sizes(quick))?]),
+            Section::Icount => Ok(vec![
+                embedded::count_table(embedded_sizes(quick))?,
+                pulse_counts::table()?,
+            ]),
             Section::Compile => Ok(vec![
                 compile::table(compiled_sizes(quick))?,
                 compile::native_table(16_000)?,

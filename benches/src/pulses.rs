@@ -4,6 +4,7 @@ use crate::clock::Clock;
 use crate::problem::{Problem, Result};
 use crate::table::{Cell, Table};
 use rungc_interp::Machine;
+use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::{Class, Hal, NoHal, Plc, Program};
@@ -33,16 +34,20 @@ impl Hal for Pins {
     }
 }
 
-/// One row: how long this many seconds of machine time take.
-fn measure(what: &str, seconds: u32, mut scan: impl FnMut(&mut Machine, u32)) -> Result<Vec<Cell>> {
+/// The program, compiled.
+pub(crate) fn module() -> Result<Module> {
     let read = rungc_frontend::read_text("pulses.il", PROGRAM);
     let options = CompileOptions {
         model: Some(ModelId::L01s),
         ..CompileOptions::default()
     };
-    let Some(module) = compile(&read.program, &options).module else {
-        return Err(Problem::Wrong("the program does not compile".to_string()));
-    };
+    let module = compile(&read.program, &options).module;
+    module.ok_or_else(|| Problem::Wrong("the program does not compile".to_string()))
+}
+
+/// One row: how long this many seconds of machine time take.
+fn measure(what: &str, seconds: u32, mut scan: impl FnMut(&mut Machine, u32)) -> Result<Vec<Cell>> {
+    let module = module()?;
     let mut machine = Machine::new(&module);
     let _ = machine.set_bit(Class::X, 0, true);
     let clock = Clock::start();

@@ -227,10 +227,17 @@ pub fn millihertz<P: Plc + ?Sized>(plc: &mut P, output: u32) -> u32 {
     sum
 }
 
+/// The bit of an output; no model has 64.
+fn bit_of(output: u16) -> u64 {
+    1u64.checked_shl(output.into()).unwrap_or(0)
+}
+
 /// Drives the pins of all pulse outputs; see [`crate::Program::pulse_timer`]. It touches nothing of the PLC but [`Plc::axis`].
 pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
     let outputs = plc.pulses().outputs().len() as u16;
     let mut next = None;
+    // The outputs that exist, and those that are on, a bit each: several axes may be bound to one.
+    let (mut present, mut shown) = (0u64, 0u64);
     for output in 0..outputs {
         let Some(axis) = plc.axis(output.into()) else {
             continue;
@@ -240,15 +247,13 @@ pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<
             (Some(a), Some(b)) => Some(u32::min(a, b)),
             (a, b) => a.or(b),
         };
-    }
-    for output in 0..outputs {
-        if plc.axis(output.into()).is_some() {
-            let on = (0..outputs).any(|n| {
-                let axis = plc.axis(n.into());
-                axis.is_some_and(|axis| axis.output == output && axis.on)
-            });
-            hal.set_output(output, on);
+        present |= bit_of(output);
+        if axis.on {
+            shown |= bit_of(axis.output);
         }
+    }
+    for output in (0..outputs).filter(|&output| present & bit_of(output) != 0) {
+        hal.set_output(output, shown & bit_of(output) != 0);
     }
     next
 }

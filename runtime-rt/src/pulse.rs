@@ -227,9 +227,13 @@ impl Generator {
                 self.phase += gain;
                 break;
             };
-            let pulses = (1 + past / self.full).min(self.alike().into());
+            // A division of 64 bits takes a microcontroller hundreds of instructions, and mostly one pulse ends.
+            let pulses = match past < self.full {
+                true => 1,
+                false => (1 + past / self.full).min(self.alike().into()),
+            };
             let needed = pulses * self.full - self.phase;
-            let used = needed.div_ceil(self.rate.into());
+            let used = quotient_up(needed, self.rate);
             self.phase = used * u64::from(self.rate) - needed;
             left -= used;
             count = count.wrapping_add(pulses as u32);
@@ -300,7 +304,7 @@ impl Generator {
         if self.total != 0 && self.sent >= self.total {
             return self.rest();
         }
-        let wanted = square(self.speed);
+        let (wanted, before) = (square(self.speed), self.square);
         self.square = match (self.square < wanted, self.up, self.down) {
             // Below the lowest speed it stands still.
             (false, _, 1..) if wanted == 0 && self.square <= self.lowest => 0,
@@ -309,7 +313,9 @@ impl Generator {
             _ => wanted,
         };
         self.hold_back();
-        self.rate = self.square.isqrt() as u32;
+        if self.square != before {
+            self.rate = self.square.isqrt() as u32;
+        }
     }
 
     /// No pulse is faster than the way down from it allows.
@@ -395,8 +401,16 @@ impl Generator {
         }
         let on = u64::from(self.on).min(self.full);
         let next = if self.phase < on { on } else { self.full };
-        let wait = (next - self.phase).div_ceil(self.rate.into());
+        let wait = quotient_up(next - self.phase, self.rate);
         Some(u32::try_from(wait).unwrap_or(u32::MAX))
+    }
+}
+
+/// A quotient, rounded up, by a division of 32 bits where that is enough.
+fn quotient_up(dividend: u64, divisor: u32) -> u64 {
+    match u32::try_from(dividend) {
+        Ok(dividend) => dividend.div_ceil(divisor).into(),
+        Err(_) => dividend.div_ceil(divisor.into()),
     }
 }
 
