@@ -5,7 +5,7 @@ mod forms;
 mod values;
 
 pub use diff::{DiffArgs, DiffFormat};
-pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
+pub use forms::{ConvertArgs, ConvertTo, Names, ReadArgs, ReadFrom};
 
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -154,6 +154,9 @@ pub struct Reading {
     /// What a file is, where its content does not show it.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub from: Option<ReadFrom>,
+    /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`.
+    #[arg(long, value_parser = forms::names, value_name = "FILE")]
+    pub names: Option<Names>,
     #[command(flatten)]
     pub reporting: Reporting,
 }
@@ -165,6 +168,7 @@ impl Reading {
             encoding: self.encoding,
             compiled: self.compiled,
             image: self.from == Some(ReadFrom::Image),
+            names: self.names.clone().unwrap_or_default().0,
             ..ReadOptions::default()
         }
     }

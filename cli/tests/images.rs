@@ -59,3 +59,32 @@ fn nothing_is_written_of_what_machine_code_does_not_hold() {
         shown(path, &["check", "short.bin", "--from", "image"])
     );
 }
+
+#[test]
+fn variables_of_plcopen_xml_are_named_by_a_table() {
+    let project = br#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="m" pouType="program">
+        <body><IL>LD Start
+ST Motor</IL></body></pou></pous></types></project>"#;
+    let folder = folder(&[
+        ("plc.xml", project),
+        ("names.csv", b"Start,X003\nMotor,Y010\n"),
+        ("odd.csv", b"Start X003\n"),
+    ]);
+    let path = folder.path();
+    let convert = |names| {
+        rungc(
+            path,
+            &["convert", "plc.xml", "--to", "il", "--names", names],
+        )
+    };
+    let list = text(&convert("names.csv").stdout);
+    assert_eq!(instructions(&list), ["LD X003", "OUT Y010", "END"]);
+    let odd = convert("odd.csv");
+    assert_eq!(odd.status.code(), Some(2));
+    assert!(
+        text(&odd.stderr).contains("`Start X003` is not a row"),
+        "{}",
+        text(&odd.stderr)
+    );
+    insta::assert_snapshot!("plcopen_variable", shown(path, &["check", "plc.xml"]));
+}

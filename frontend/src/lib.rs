@@ -20,7 +20,8 @@ mod search;
 mod text;
 
 use rungc_syntax::order;
-use rungc_syntax::{Diagnostic, Diagnostics, Program, Span, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Program, Span, codes};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -31,6 +32,7 @@ pub use gx::table::has_code;
 pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
+pub use plcopen::names;
 pub use search::{is_project, programs};
 
 /// A program and what its reader found.
@@ -58,6 +60,8 @@ pub struct ReadOptions {
     pub compiled: bool,
     /// Take a file of unknown format for an image of program memory.
     pub image: bool,
+    /// The devices of variables, by their names in upper case; they take precedence over addresses.
+    pub names: BTreeMap<String, Device>,
 }
 
 impl ReadOptions {
@@ -228,7 +232,7 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         });
     };
     let mut read = match csv::detect(&text) {
-        _ if plcopen::is_project(&text) => plcopen::read(name, &text),
+        _ if plcopen::is_project(&text) => plcopen::read(name, &text, &options.names),
         Some(layout) => csv::read(name, &text, layout),
         None if ladder_text::detect(&text) => ladder_text::read(name, &text),
         None => read_text(name, &text),

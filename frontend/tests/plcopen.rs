@@ -1,6 +1,6 @@
 //! PLCopen XML: what becomes of ladders and lists, and what is named as foreign.
 
-use rungc_frontend::{Read, read_bytes};
+use rungc_frontend::{Read, ReadOptions, names, read_bytes, read_bytes_with};
 use rungc_syntax::SourceKind;
 
 /// A project with these variables and this body.
@@ -103,6 +103,25 @@ fn a_ladder_becomes_a_list() {
         comments.collect::<Vec<_>>(),
         ["X000 start button", "X012 Stop", "Y010 Motor", "M7 M7"]
     );
+}
+
+#[test]
+fn a_table_names_devices() {
+    let table = "Hidden,M20\r\n\"start\"\tX005\n";
+    let options = ReadOptions {
+        names: names(table).unwrap(),
+        ..ReadOptions::default()
+    };
+    let body = "<IL><xhtml:p>LD Start\nAND Hidden\nST Motor</xhtml:p></IL>";
+    let text = project(VARIABLES, body);
+    let read = read_bytes_with("plc.xml", text.as_bytes(), &options).unwrap();
+    assert_eq!(findings(&read), "");
+    assert_eq!(
+        instructions(&read),
+        ["LD X005", "AND M20", "OUT Y010", "END"]
+    );
+    assert_eq!(names("Start,X000\nStop\n"), Err("Stop".to_owned()));
+    assert_eq!(names("Start,%IX0.0\n"), Err("Start,%IX0.0".to_owned()));
 }
 
 #[test]

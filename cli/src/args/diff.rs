@@ -1,6 +1,7 @@
 //! Arguments of `diff`.
 
-use super::{Plc, ReadFrom, Reading, Reporting, encoding, plc};
+use super::forms::names;
+use super::{Names, Plc, ReadFrom, Reading, Reporting, encoding, plc};
 use clap::{Args, ValueEnum};
 use rungc_frontend::Encoding;
 use std::path::PathBuf;
@@ -36,6 +37,9 @@ pub struct DiffArgs {
     /// What both files are, where their content does not show it.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub from: Option<ReadFrom>,
+    /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`.
+    #[arg(long, value_parser = names, value_name = "FILE")]
+    pub names: Option<Names>,
 }
 
 impl DiffArgs {
@@ -47,6 +51,7 @@ impl DiffArgs {
             encoding: self.encoding,
             compiled: self.compiled,
             from: self.from,
+            names: self.names.clone(),
             reporting: Reporting::default(),
         }
     }

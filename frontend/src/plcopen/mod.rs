@@ -34,9 +34,28 @@ pub(crate) fn is_project(text: &str) -> bool {
     head.starts_with('<') && head[..end].contains(NAMESPACE)
 }
 
-/// Reads a project.
-pub(crate) fn read(name: &str, text: &str) -> Read {
-    let mut reader = Reader::default();
+/// A table of variables and their devices: rows of a name and a device, separated by a comma or a tab.
+///
+/// # Errors
+/// The first row that is not of this form.
+pub fn names(table: &str) -> Result<BTreeMap<String, Device>, String> {
+    let lines = table.trim_start_matches('\u{FEFF}').lines();
+    let rows = lines.filter(|line| !line.trim().is_empty());
+    let row = |line: &str| {
+        let (name, written) = line.split_once([',', '\t'])?;
+        let plain = |field: &str| field.trim().trim_matches('"').trim().to_uppercase();
+        Some((plain(name), device(&plain(written))?))
+    };
+    rows.map(|line| row(line).ok_or_else(|| line.to_owned()))
+        .collect()
+}
+
+/// Reads a project; `named` are the devices of variables by their names in upper case.
+pub(crate) fn read(name: &str, text: &str, named: &BTreeMap<String, Device>) -> Read {
+    let mut reader = Reader {
+        variables: named.clone(),
+        ..Reader::default()
+    };
     match Document::parse(text.trim_start_matches('\u{FEFF}')) {
         Ok(document) => reader.project(&document),
         Err(error) => reader.faults.push((
@@ -56,7 +75,7 @@ struct Reader {
     list: String,
     title: Option<String>,
     comments: BTreeMap<Device, String>,
-    /// The devices of variables that have an address, by their names in upper case.
+    /// The devices of variables, by their names in upper case.
     variables: BTreeMap<String, Device>,
     faults: Vec<Fault>,
 }
@@ -138,7 +157,9 @@ impl Reader {
     /// Takes a declaration.
     fn variable(&mut self, node: Node) {
         let name = node.attribute("name").unwrap_or_default();
+        let named = self.variables.get(&name.to_uppercase()).copied();
         let device = match node.attribute("address") {
+            _ if named.is_some() => named,
             Some(address) => addressed(address),
             None => device(name),
         };
@@ -319,7 +340,8 @@ impl Reader {
 }
 
 /// Which addresses and names mean devices.
-const ADDRESSES: &str = "give the variable an address (`%IX0.0` is X000, `%QX0.0` Y000, `%MX0.0` M0, `%MW0` D0) or the name of a device";
+const ADDRESSES: &str = "name its device in a table for `--names`, or give it an address: `%IX0.0` is X000, `%QX0.0` Y000, \
+                         `%MX0.0` M0, `%MW0` D0";
 
 /// The device that a name is, such as `X010`.
 fn device(name: &str) -> Option<Device> {
