@@ -213,12 +213,17 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
         };
         session.run();
         request = request.or(session.request);
-        // From one to the other at once, lest they be taken to overlap.
         if let Some(port) = session.plc.port(wiring.number) {
-            *port.status = session.status;
+            keep(port.status, &session.status);
         }
     }
     request
+}
+
+/// A function of its own says that the two do not overlap: else it is done by `memmove`, which is larger than all else here.
+#[inline(never)]
+fn keep(place: &mut Status, status: &Status) {
+    *place = *status;
 }
 
 impl Session<'_> {

@@ -13,8 +13,8 @@ pub enum Framing {
     Ascii,
 }
 
-/// The shortest RTU frame: anything below is a wrong length (h1u-h2u-programming §8.1, 63x1).
-const SHORTEST_RTU: usize = 5;
+/// The shortest RTU frame of an answer: anything below is a wrong length.
+const SHORTEST_ANSWER: usize = 5;
 /// The longest RTU frame.
 pub const LONGEST_RTU: usize = 256;
 /// The longest ASCII frame.
@@ -35,21 +35,21 @@ pub fn cut_ascii(received: &[u8]) -> Cut {
 pub(super) struct Body<'a>(pub &'a [u8]);
 
 impl<'a> Body<'a> {
-    /// Takes a serial frame apart; the bytes of an ASCII frame come to be in `decoded`. A damaged frame is not answered.
+    /// Takes an answer apart; the bytes of an ASCII frame come to be in `decoded`. A damaged frame is not answered.
     pub fn open(
         framing: Framing,
         frame: &'a [u8],
         decoded: &'a mut [u8; LONGEST_RTU],
     ) -> Result<Self, LineFault> {
         match framing {
-            Framing::Rtu => Self::open_rtu(frame),
-            Framing::Ascii => Self::open_ascii(frame, decoded),
+            Framing::Rtu => Self::open_rtu(frame, SHORTEST_ANSWER),
+            Framing::Ascii => Self::open_ascii(frame, SHORTEST_ANSWER, decoded),
         }
     }
 
-    /// Takes an RTU frame apart.
-    pub fn open_rtu(frame: &'a [u8]) -> Result<Self, LineFault> {
-        if !(SHORTEST_RTU..=LONGEST_RTU).contains(&frame.len()) {
+    /// Takes an RTU frame apart, which has at least `shortest` bytes.
+    pub fn open_rtu(frame: &'a [u8], shortest: usize) -> Result<Self, LineFault> {
+        if !(shortest..=LONGEST_RTU).contains(&frame.len()) {
             return Err(LineFault::Length);
         }
         // The check code of a frame with its check code is 0.
@@ -59,15 +59,19 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Takes an ASCII frame apart.
-    pub fn open_ascii(frame: &[u8], decoded: &'a mut [u8; LONGEST_RTU]) -> Result<Self, LineFault> {
+    /// Takes an ASCII frame apart, which would have at least `shortest` bytes in RTU.
+    pub fn open_ascii(
+        frame: &[u8],
+        shortest: usize,
+        decoded: &'a mut [u8; LONGEST_RTU],
+    ) -> Result<Self, LineFault> {
         let digits = frame
             .strip_prefix(b":")
             .and_then(|rest| rest.strip_suffix(b"\r\n"))
             .ok_or(LineFault::Form)?;
         let length = digits.len() / 2;
         // The same bytes as in RTU, with one byte of check code rather than two.
-        if digits.len() % 2 == 1 || length < SHORTEST_RTU - 1 || frame.len() > LONGEST_ASCII {
+        if digits.len() % 2 == 1 || length < shortest - 1 || frame.len() > LONGEST_ASCII {
             return Err(LineFault::Length);
         }
         let mut sum = 0u8;

@@ -211,6 +211,7 @@ pub static NOTHING: Profile = Profile {
     input_registers: &[],
     limits: Limits::STANDARD,
     any_value_is_on: false,
+    shortest: 5,
     counters_by_06: false,
 };
 
@@ -223,6 +224,7 @@ pub static H2U: Profile = Profile {
     input_registers: INOVANCE_WORDS,
     limits: Limits::H2U,
     any_value_is_on: true,
+    shortest: 5,
     counters_by_06: false,
 };
 
@@ -262,6 +264,7 @@ pub static L01S: Profile = Profile {
     input_registers: &[packed(0xa7b8, 8, Class::X)],
     limits: Limits::STANDARD,
     any_value_is_on: false,
+    shortest: 4,
     counters_by_06: true,
 };
 
@@ -295,6 +298,7 @@ pub static FX3U: Profile = Profile {
     input_registers: &[packed(0xa7b8, 16, Class::X)],
     limits: Limits::STANDARD,
     any_value_is_on: false,
+    shortest: 4,
     counters_by_06: true,
 };
 
@@ -331,6 +335,7 @@ pub static HM: Profile = Profile {
     input_registers: HM_WORDS,
     limits: Limits::STANDARD,
     any_value_is_on: false,
+    shortest: 4,
     counters_by_06: true,
 };
 

@@ -42,6 +42,7 @@ static PROFILE: Profile = Profile {
     input_registers: &[area(INPUT_REGISTERS, Class::R, Fill::Words)],
     limits: Limits::STANDARD,
     any_value_is_on: false,
+    shortest: 5,
     counters_by_06: true,
 };
 

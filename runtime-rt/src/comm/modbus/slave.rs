@@ -47,7 +47,7 @@ pub(in crate::comm) fn answer_rtu<M: Map + ?Sized>(
     reply: &mut Frame,
 ) -> Result<(), LineFault> {
     let station = settings.station()?;
-    let body = Body::open_rtu(request)?;
+    let body = Body::open_rtu(request, settings.profile.shortest)?;
     let done = answer_body(settings.profile, station, body, map, reply);
     if !reply.is_empty() {
         close_rtu(reply)?;
@@ -64,7 +64,7 @@ pub(in crate::comm) fn answer_ascii<M: Map + ?Sized>(
 ) -> Result<(), LineFault> {
     let station = settings.station()?;
     let mut decoded = [0; LONGEST_RTU];
-    let body = Body::open_ascii(request, &mut decoded)?;
+    let body = Body::open_ascii(request, settings.profile.shortest, &mut decoded)?;
     let done = answer_body(settings.profile, station, body, map, reply);
     if !reply.is_empty() {
         close_ascii(reply)?;
@@ -305,7 +305,7 @@ fn write_several<M: Map + ?Sized>(
 mod tests {
     use super::*;
     use crate::comm::Served;
-    use crate::comm::modbus::{Fill, H1U, H2U, HM, L01S, crc16};
+    use crate::comm::modbus::{FX3U, Fill, H1U, H2U, HM, L01S, crc16};
     use crate::double::Double;
     use crate::{Class, Plc};
     use proptest::prelude::*;
@@ -435,6 +435,24 @@ mod tests {
         }
         assert_eq!(plc.d(0, 2), [0, 0]);
         assert_eq!(plc.bit(Class::M, 0), Some(false));
+    }
+
+    #[test]
+    fn frames_of_four_bytes_are_requests_but_on_h1u_and_h2u() {
+        let mut plc = Double::new();
+        for profile in [&L01S, &HM, &FX3U] {
+            let refused = (std::vec![1, 0x87, 1], Err(LineFault::Command));
+            assert_eq!(ask(profile, &mut plc, &[1, 7]), refused);
+        }
+        for profile in [&H1U, &H2U] {
+            let dropped = (std::vec![], Err(LineFault::Length));
+            assert_eq!(ask(profile, &mut plc, &[1, 7]), dropped);
+        }
+        let ascii =
+            |profile| ask_frame(Framing::Ascii, profile, &mut Double::new(), b":0107F8\r\n");
+        assert_eq!(ascii(&L01S).0, b":01870177\r\n");
+        assert_eq!(ascii(&H2U), (std::vec![], Err(LineFault::Length)));
+        assert_eq!(ask(&L01S, &mut plc, &[1]).1, Err(LineFault::Length));
     }
 
     #[test]
