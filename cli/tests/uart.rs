@@ -60,6 +60,33 @@ OUT M900
 END
 ";
 
+const NN_MASTER: &str = "\
+LD M8002
+MOV H40 D8126
+MOV K1 D8177
+MOV K1 D8178
+MOV K3 D8179
+MOV K50 D8180
+LD M8000
+OUT M1000
+MOV K5 D0
+LD M1064
+AND= D10 K12
+OUT Y000
+END
+";
+
+const NN_SLAVE: &str = "\
+LD M8002
+MOV H4 D8126
+MOV K1 D8176
+LD M1000
+OUT M1064
+LD M8000
+ADD D0 K7 D10
+END
+";
+
 /// A microcontroller that QEMU emulates, with its board's description.
 struct Machine {
     name: &'static str,
@@ -260,4 +287,9 @@ fn a_modbus_master_and_a_slave_talk() {
 #[test]
 fn a_parallel_link_keeps_devices_equal() {
     they_talk(PARALLEL_MASTER, PARALLEL_SLAVE);
+}
+
+#[test]
+fn an_nn_link_keeps_devices_equal() {
+    they_talk(NN_MASTER, NN_SLAVE);
 }
