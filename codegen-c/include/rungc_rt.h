@@ -1229,13 +1229,10 @@ bool rungc_virtual_fit(uint16_t unit, uint16_t kind);
 void rungc_virtual_set_running(bool running);
 
 /**
- * What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if
- * there is no such input.
+ * What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a
+ * degree Celsius (2). False if there is no such input.
  */
-bool rungc_virtual_set_signal(uint16_t unit,
-                              uint8_t channel,
-                              uint8_t quantity,
-                              int32_t millionths);
+bool rungc_virtual_set_signal(uint16_t unit, uint8_t channel, uint8_t quantity, int32_t millionths);
 
 /**
  * What is at a channel of a module, in millionths of that unit; false if there is no such channel.
