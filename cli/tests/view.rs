@@ -82,4 +82,7 @@ fn a_page_and_a_picture_are_files() {
     assert_eq!(out.status.code(), Some(2));
     assert!(text(&out.stderr).contains("ends in .html or .svg"));
     assert!(!folder.path().join("motor.bmp").exists());
+    let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.pdf"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("print it from a browser"));
 }

@@ -89,6 +89,10 @@ fn view(
                 Some("svg") => Painter::new(&resolved, &networks, PICTURE_WIDTH)
                     .sheet(&networks)
                     .to_string(),
+                Some("pdf") => {
+                    let why = "-o: PDF is not written; write a page (.html) and print it from a browser, which saves it as PDF";
+                    return Err(Failure::Because(why.to_string()));
+                }
                 _ => {
                     let why = "-o: name a file that ends in .html or .svg";
                     return Err(Failure::Because(why.to_string()));
