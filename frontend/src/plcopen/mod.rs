@@ -8,9 +8,10 @@ mod logic;
 
 use crate::Read;
 use crate::il;
+use crate::listing::Listing;
 use logic::{Logic, Sense};
 use roxmltree::{Document, Node};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, SourceKind, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -323,17 +324,20 @@ impl Reader {
         read.program.kind = SourceKind::Plcopen;
         read.program.title = self.title.filter(|title| !title.trim().is_empty());
         read.program.comments = self.comments;
+        if self.faults.is_empty() {
+            return read;
+        }
+        // A list with gaps would mislead: what is quoted is the elements that make them.
+        let mut listing = Listing::default();
         let mut diagnostics = Diagnostics::new();
         for (code, what, help) in self.faults {
-            diagnostics.push(
-                code.at(Span::default(), what)
-                    .label("in the project")
-                    .help(help),
-            );
-            read.program.unread.push(0);
+            listing.next_line();
+            let span = listing.word(&format!("?? {what}"));
+            diagnostics.push(code.at(span, what).label("in the project").help(help));
         }
-        diagnostics.extend(read.diagnostics.sorted());
-        read.program.unread.sort_unstable();
+        read.program.source = listing.finish(name);
+        read.program.instrs.clear();
+        read.program.unread = vec![0];
         read.diagnostics = diagnostics;
         read
     }
