@@ -141,26 +141,7 @@ static void print_stop(const PROGRAM_plc *plc, uint32_t now_ms)
     told = error.stop != PLC_STOP_NONE;
 }
 
-/* Reports the operation error that the last scan has met, once for each instruction. */
-static void print_error(const PROGRAM_plc *plc, uint32_t now_ms)
-{
-    static bool told[sizeof instructions / sizeof instructions[0]];
-    const plc_error error = PROGRAM_error(plc);
-    const size_t i = instruction_at(error.step);
-    char device[40];
-
-    if (error.code == 0 || told[i]) {
-        return;
-    }
-    told[i] = true;
-    fprintf(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, ", (unsigned long)now_ms, error.step, instructions[i].text, error.code);
-    if (missing_device(plc, error.step, device, sizeof device)) {
-        fprintf(stderr, "%s does not exist\n", device);
-    } else {
-        fprintf(stderr, "%s\n", meaning(error.code));
-    }
-}
-
+/* ON_ERROR */
 /* Prints the outputs that changed. */
 static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
 {
@@ -219,6 +200,7 @@ int main(int argc, char **argv)
     sigaction(SIGTERM, &action, NULL);
     PROGRAM_init(plc);
     /* LOAD */
+    /* REPORT */
     /* HAL */
     while (!stopped) {
         const uint64_t begin = microseconds();
@@ -227,7 +209,6 @@ int main(int argc, char **argv)
         /* SERVE */
         PROGRAM_scan(plc, now_ms, scan_us);
         print_outputs(plc, now_ms);
-        print_error(plc, now_ms);
         print_stop(plc, now_ms);
         /* SAVE */
         scan_us = (uint32_t)(microseconds() - begin);

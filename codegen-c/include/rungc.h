@@ -37,6 +37,9 @@ typedef struct plc_error {
     uint16_t stop_step; /* step of the loop or the jump that the watchdog found too long */
 } plc_error;
 
+/* What a host may do at each operation error: it gets the program's struct, the PLC's code and the step of the instruction. */
+typedef void plc_on_error(const void *plc, uint16_t code, uint16_t step);
+
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
     int16_t value;   /* current value */

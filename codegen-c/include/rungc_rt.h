@@ -603,6 +603,10 @@ typedef struct rungc_layout {
      */
     size_t error;
     /**
+     * Where the struct holds its `plc_on_error *`; 0 if it has none.
+     */
+    size_t on_error;
+    /**
      * Where the struct holds its private memories.
      */
     size_t states;

@@ -54,7 +54,7 @@ impl Part {
             main: options.main,
             shared,
         };
-        let mut files = own_files(module, unit, &mut recipe.sources);
+        let mut files = own_files(module, unit, options.main, &mut recipe.sources);
         let mut pair = |part: &str, texts: [String; 2]| {
             for (ending, text) in ["h", "c"].into_iter().zip(texts) {
                 let path = format!("{name}_{part}.{ending}");
@@ -117,11 +117,11 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
 }
 
 /// The header and the sources of a program, whose paths join `sources`.
-fn own_files(module: &Module, unit: Unit, sources: &mut Vec<String>) -> Vec<OutFile> {
+fn own_files(module: &Module, unit: Unit, main: bool, sources: &mut Vec<String>) -> Vec<OutFile> {
     let name = &module.name;
     let mut files = vec![OutFile::new(
         format!("{name}.h"),
-        header_file(module, &unit),
+        header_file(module, &unit, main),
     )];
     let several = unit.groups.len() > 1;
     if several {
@@ -169,7 +169,7 @@ fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
     there.map(|(_, kind)| format!("{name}{kind}.h")).collect()
 }
 
-fn header_file(module: &Module, unit: &Unit) -> String {
+fn header_file(module: &Module, unit: &Unit, main: bool) -> String {
     let name = &module.name;
     let guard = format!("{}_H", name.to_ascii_uppercase());
     let include = if unit.runtime {
@@ -186,8 +186,13 @@ fn header_file(module: &Module, unit: &Unit) -> String {
         true => "#define PLC_MANY_TIMERS\n",
         false => "",
     };
+    // Its `main.c` reports errors as they happen.
+    let hook = match main && module.may_fail() {
+        true => "#define PLC_ON_ERROR\n",
+        false => "",
+    };
     format!(
-        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}#include \"{include}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}{hook}#include \"{include}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         banner(module, &format!("{name}.h")),
         header::embedding(module, &Storage::new(module)),

@@ -27,6 +27,13 @@ const CONSTANT_SCAN: &str = "\
 uint32_t NAME_constant_scan_us(const NAME_plc *plc);
 ";
 
+/// What a host that asks for it learns of errors; it costs nothing where none does.
+const ON_ERROR: &str = "\
+#ifdef PLC_ON_ERROR
+    plc_on_error *on_error; /* called at each operation error; NULL: nothing is */
+#endif
+";
+
 /// Heading of a section of the struct.
 fn heading(section: Section) -> &'static str {
     match section {
@@ -51,6 +58,9 @@ pub fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> Str
     );
     devices(&mut out, &mut size, fields);
     private(&mut out, &mut size, module, plan);
+    if module.may_fail() {
+        out.push_str(ON_ERROR);
+    }
     if runtime {
         out.push_str("    const rungc_hal *hal; /* hardware that instructions ask; NULL: nothing fitted */\n");
         size.add(4, 4);

@@ -123,6 +123,31 @@ static void print_overrun(uint32_t scan_us, uint32_t constant_us)
 
 ";
 
+/// What a host of a program that may fail does about its operation errors.
+const PRINT_ERROR: &str = "\
+/* Reports an operation error as it happens, once for each instruction. */
+static void print_error(const void *program, uint16_t code, uint16_t step)
+{
+    static bool told[sizeof instructions / sizeof instructions[0]];
+    const PROGRAM_plc *const plc = program;
+    const size_t i = instruction_at(step);
+    char device[40];
+
+    if (told[i]) {
+        return;
+    }
+    told[i] = true;
+    fprintf(stderr, \"PROGRAM: at %lu ms, step %u: %s: error %u, \", (unsigned long)plc->sys.now_ms, step,
+            instructions[i].text, code);
+    if (missing_device(plc, step, device, sizeof device)) {
+        fprintf(stderr, \"%s does not exist\\n\", device);
+    } else {
+        fprintf(stderr, \"%s\\n\", meaning(code));
+    }
+}
+
+";
+
 /// `main.c` for a program; `servers`: it takes options that open servers.
 pub fn main_file(module: &Module, servers: bool) -> String {
     let fields = Storage::new(module);
@@ -147,6 +172,14 @@ pub fn main_file(module: &Module, servers: bool) -> String {
     let errors = match module.may_fail() {
         true => rungc_models::plc_errors::PLC_ERRORS,
         false => &[],
+    };
+    let (missing, print_error, report) = match module.may_fail() {
+        true => (
+            missing_device(module, &fields),
+            PRINT_ERROR,
+            "    plc->on_error = print_error;\n",
+        ),
+        false => (String::new(), "", ""),
     };
     let errors = errors.iter().map(|error| {
         let title = text::string_literal(error.title);
@@ -186,7 +219,9 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("    /* END */\n", end)
         .replace("        /* SERVE */\n", serve)
         .replace("    /* CONNECTIONS */\n", connections)
-        .replace("/* MISSING */\n", &missing_device(module, &fields))
+        .replace("/* MISSING */\n", &missing)
+        .replace("/* ON_ERROR */\n", print_error)
+        .replace("    /* REPORT */\n", report)
         .replace(
             "/* CLOCK */\n",
             &[

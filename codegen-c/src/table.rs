@@ -86,10 +86,18 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         module.model.error_relay.number()
     ));
     layout.push(format!(".value_error = {}", module.model.value_error));
+    let on_error = match module.may_fail() {
+        true => {
+            format!(
+                "#ifdef PLC_ON_ERROR\n    .on_error = offsetof({name}_plc, on_error),\n#endif\n"
+            )
+        }
+        false => String::new(),
+    };
     // Writing to a String does not fail.
     let _ = write!(
         out,
-        "static const rungc_layout {name}_layout = {{\n    {},\n}};\n\n\
+        "static const rungc_layout {name}_layout = {{\n    {},\n{on_error}}};\n\n\
          rungc_map {name}_map({name}_plc *plc)\n{{\n    \
          const rungc_map map = {{.layout = &{name}_layout, .plc = plc, .hal = plc->hal}};\n    return map;\n}}\n\n",
         layout.join(",\n    ")

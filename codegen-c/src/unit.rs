@@ -150,6 +150,15 @@ pub struct Printer<'a> {
     pub(crate) plan: &'a Plan<'a>,
 }
 
+/// What a fault does for a host that asks for it.
+const CALL_ON_ERROR: &str = "\
+#ifdef PLC_ON_ERROR
+    if (plc->on_error != NULL) {
+        plc->on_error(plc, code, step);
+    }
+#endif
+";
+
 impl Printer<'_> {
     pub(crate) fn name(&self) -> &str {
         &self.module.name
@@ -195,6 +204,7 @@ impl Printer<'_> {
             _ => self.show(&mut lines, "    ", &first),
         }
         self.show(&mut lines, "    ", &each);
+        lines.push_str(CALL_ON_ERROR);
         let name = self.name();
         let _ = write!(
             out,

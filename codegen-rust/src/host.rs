@@ -39,6 +39,15 @@ const USES: [&str; 3] = [
     "std::time::{Duration, Instant}",
 ];
 
+/// What reports operation errors of a program that may fail.
+const ON_ERROR: &str = include_str!("../templates/host_errors.rs");
+
+/// How it is asked to.
+const REPORT: &str = "    plc.on_error = Some(report_error);\n";
+
+/// What it uses.
+const ERROR_USES: [&str; 2] = ["std::collections::BTreeSet", "std::sync::Mutex"];
+
 /// What servers use.
 const SERVERS_USES: [&str; 3] = [
     "rungc_rt::Ports",
@@ -89,7 +98,14 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     let text = usage::lines(module, &host).join("\n") + "\n";
     let names = usage::options(module, &host).into_iter();
     let names: Vec<_> = names.map(|option| format!("{:?}", option.name)).collect();
-    let mut code = HOST.replace("USES;\n", &uses(generator, crate_name, servers));
+    let (report, on_error) = match module.may_fail() {
+        true => (REPORT, ON_ERROR),
+        false => ("", ""),
+    };
+    let mut code = HOST
+        .replace("USES;\n", &uses(generator, crate_name, servers))
+        .replace("    REPORT;\n", report)
+        .replace("ON_ERROR;\n", on_error);
     if module.has_ports() {
         code.push_str(LINES);
     }
@@ -162,7 +178,9 @@ fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
     let all = usual.chain(of_lines).chain(of_servers).chain(of_retain);
     let mut all: BTreeSet<String> = all.map(|name| (*name).to_string()).collect();
     all.insert(format!("{crate_name}::{}", generator.type_name));
-    all.insert("std::collections::BTreeSet".to_string());
+    if module.may_fail() {
+        all.extend(ERROR_USES.map(String::from));
+    }
     all.insert(format!(
         "rungc_rt::{{{clock}, LastError, Plc, Program, Stop, VirtualHal}}"
     ));

@@ -63,6 +63,9 @@ impl Generator<'_> {
                 fn note_error(&mut self, code: u16, step: u32) {
                     self.error.code = code;
                     self.error.step = step as u16;
+                    if let Some(on_error) = self.on_error {
+                        on_error(self, code, step as u16);
+                    }
                 }
             }
         })

@@ -36,7 +36,8 @@ fn main() {
     let start = Instant::now();
     let mut next = start;
     let mut scan_us = 0;
-    let mut reported = Reported::default();
+    let mut stop = Stop::default();
+    REPORT;
     OVERRUN;
     'run: loop {
         let begin = Instant::now();
@@ -61,7 +62,7 @@ fn main() {
                 println!("{seconds:>11.3} s  {name} {state:<3} {comment}");
             }
         }
-        reported.add(&plc, now_ms);
+        report_stop(&plc, now_ms, &mut stop);
         SAVE;
         scan_us = begin.elapsed().as_micros() as u32;
         PERIOD;
@@ -100,35 +101,19 @@ fn meaning(code: u16) -> &'static str {
     known.map_or("operation error", |error| error.1)
 }
 
-/// What has been reported.
-#[derive(Default)]
-struct Reported {
-    /// Steps of the instructions with an operation error.
-    steps: BTreeSet<u16>,
-    stop: Stop,
-}
-
-impl Reported {
-    /// Reports an operation error, once for each instruction, and what stops the program.
-    fn add(&mut self, plc: &TYPE, now_ms: u32) {
-        let LastError { code, step, stop, stop_step } = plc.last_error();
-        if code != 0 && self.steps.insert(step) {
-            let what = missing_device(plc, step).unwrap_or(meaning(code).to_string());
-            eprintln!("at {now_ms} ms, step {step}: {}: error {code}, {what}", instruction(step).0);
+/// Reports what stops the program, once; `before` is what has been reported.
+fn report_stop(plc: &TYPE, now_ms: u32, before: &mut Stop) {
+    let LastError { stop, stop_step, .. } = plc.last_error();
+    match stop {
+        Stop::Program if stop != *before => eprintln!("the program has stopped itself (M8037)"),
+        Stop::Watchdog if stop != *before => {
+            let (code, text) = (Stop::Watchdog as u16, instruction(stop_step).0);
+            let what = meaning(code);
+            eprintln!("at {now_ms} ms, step {stop_step}: {text}: error {code}, {what}; the PLC is in STOP");
         }
-        if stop != self.stop {
-            match stop {
-                Stop::No => {}
-                Stop::Program => eprintln!("the program has stopped itself (M8037)"),
-                Stop::Watchdog => {
-                    let (code, text) = (Stop::Watchdog as u16, instruction(stop_step).0);
-                    let what = meaning(code);
-                    eprintln!("at {now_ms} ms, step {stop_step}: {text}: error {code}, {what}; the PLC is in STOP");
-                }
-            }
-            self.stop = stop;
-        }
+        Stop::No | Stop::Program | Stop::Watchdog => {}
     }
+    *before = stop;
 }
 
 /// The instruction at a step, and its devices with an index.
@@ -137,21 +122,7 @@ fn instruction(step: u16) -> (&'static str, &'static [Indexed]) {
     known.map_or(("", &[]), |known| (known.1, known.2))
 }
 
-/// A device that the instruction at a step has not found, as its index registers are now.
-fn missing_device(plc: &TYPE, step: u16) -> Option<String> {
-    instruction(step).1.iter().find_map(|&(class, name, first, index, register)| {
-        let offset = plc.word(index, register)?;
-        let number = first.checked_add_signed(offset.into());
-        let exists = |&n: &u32| plc.bit(class, n).is_some() || plc.word(class, n).is_some();
-        match (number, class) {
-            (Some(number), _) if exists(&number) => None,
-            (Some(number), Class::X | Class::Y) => Some(format!("{name}{number:03o} does not exist")),
-            (Some(number), _) => Some(format!("{name}{number} does not exist")),
-            (None, _) => Some(format!("{name}{first} with an index of {offset} does not exist")),
-        }
-    })
-}
-
+ON_ERROR;
 /// The lines of standard input, as they come.
 fn commands() -> Receiver<String> {
     // A flood of lines waits until the scans have looked at them.

@@ -123,6 +123,8 @@ pub struct Layout {
     pub sys: usize,
     /// Where the struct holds its `plc_error`; 0 if it has none.
     pub error: usize,
+    /// Where the struct holds its `plc_on_error *`; 0 if it has none.
+    pub on_error: usize,
     /// Where the struct holds its private memories.
     pub states: usize,
     /// How many; slots are numbered from 1.
@@ -235,6 +237,9 @@ pub struct HalTable {
     /// Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
     pub can_is_sending: Option<extern "C" fn(context: *mut c_void) -> bool>,
 }
+
+/// What a host does at an operation error: `plc_on_error`.
+pub(crate) type OnError = extern "C" fn(plc: *const c_void, code: u16, step: u16);
 
 /// A program's devices: its struct, what it looks like, and the hardware.
 #[derive(Clone, Copy, Debug)]

@@ -38,12 +38,17 @@ impl Generator<'_> {
             quote!(#doc pub(crate) #name: #ty)
         });
         let private: Vec<TokenStream> = private.collect();
+        let on_error = self.module.may_fail().then(|| {
+            let doc = self.doc("What a host does at each operation error, given the PLC's code and the step of the instruction.");
+            quote!(#doc pub on_error: Option<fn(&Self, code: u16, step: u16)>,)
+        });
         self.item_of(quote! {
             #doc
             #[derive(Clone, Debug)]
             pub struct #name {
                 #(#fields,)*
                 #(#private,)*
+                #on_error
             }
         })
     }
@@ -157,9 +162,10 @@ impl Generator<'_> {
         let private_values = private.iter().map(|field| &field.initial);
         let preset = self.preset(&quote!(self), false);
         let first = self.preset(&quote!(plc), true);
+        let on_error = self.module.may_fail().then(|| quote!(on_error: None,));
         let doc = self.doc("The PLC as it leaves the factory, switched to RUN.");
         let value = quote! {
-            Self { #(#names: #zeros,)* #(#private_names: #private_values,)* }
+            Self { #(#names: #zeros,)* #(#private_names: #private_values,)* #on_error }
         };
         let new = if preset.is_empty() && first.is_empty() {
             quote!(#doc pub const fn new() -> Self { #value })

@@ -1,7 +1,7 @@
 //! How a [`Map`] finds devices, and what else instructions ask of a program.
 
 use super::hal::Board;
-use super::{Area, Kind, Layout, Map};
+use super::{Area, Kind, Layout, Map, OnError};
 use crate::axis::Axis;
 use crate::comm::codec::Codec;
 use crate::comm::modbus::{self, Profile};
@@ -362,6 +362,20 @@ impl Plc for Map {
             let at = unsafe { self.plc.cast::<u8>().add(offset) };
             let _ = change(at, |error: &mut [u16; 2]| *error = [code, step as u16]);
         }
+        let offset = self.layout().on_error;
+        if offset > 0 {
+            // SAFETY: the struct holds a pointer to such a function there, or NULL.
+            let on_error = unsafe {
+                self.plc
+                    .cast::<u8>()
+                    .add(offset)
+                    .cast::<Option<OnError>>()
+                    .read()
+            };
+            if let Some(on_error) = on_error {
+                on_error(self.plc, code, step as u16);
+            }
+        }
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
@@ -396,12 +410,22 @@ fn is_word(class: Class, number: u32) -> bool {
 mod tests {
     use super::*;
     use crate::capi::Range;
+    use core::ffi::c_void;
+    use core::sync::atomic::{AtomicU32, Ordering};
 
     /// Two areas, of words and of relays.
     #[repr(C)]
     struct Devices {
         m10: [bool; 3],
         d20: [i16; 3],
+        on_error: Option<OnError>,
+    }
+
+    /// The last error that was reported: its code and, above it, its step.
+    static REPORTED: AtomicU32 = AtomicU32::new(0);
+
+    extern "C" fn note(_: *const c_void, code: u16, step: u16) {
+        REPORTED.store(u32::from(code) | u32::from(step) << 16, Ordering::Relaxed);
     }
 
     fn area(class: Class, kind: Kind, first: u32, offset: usize) -> Area {
@@ -442,12 +466,14 @@ mod tests {
             area_count: areas.len(),
             ranges: ranges.as_ptr(),
             range_count: ranges.len(),
+            on_error: core::mem::offset_of!(Devices, on_error),
             // SAFETY: everything else of a layout may be zero: null pointers of no elements, offsets, numbers.
             ..unsafe { core::mem::zeroed() }
         };
         let mut devices = Devices {
             m10: [false, true, false],
             d20: [5, 6, 7],
+            on_error: Some(note),
         };
         let mut map = Map {
             layout: &layout,
@@ -468,5 +494,7 @@ mod tests {
             );
             assert_eq!(map.bit(Class::M, 12), Some(named % 2 == 0));
         }
+        map.note_error(6706, 12);
+        assert_eq!(REPORTED.load(Ordering::Relaxed), 6706 | 12 << 16);
     }
 }
