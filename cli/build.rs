@@ -1,5 +1,5 @@
-//! Asks the linker for compact relocations: they make the executable 4 % smaller. Loading them takes glibc 2.36, so only a build for this very
-//! machine has them, and only if its glibc is that new.
+//! Asks the linker for compact relocations: they make the executable 4 % smaller. Loading them takes glibc 2.36, so
+//! only a build for this very machine has them, and only if its glibc is that new.
 
 use std::env;
 use std::process::Command;

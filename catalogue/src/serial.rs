@@ -57,8 +57,8 @@ fn answer_words(constants: &[Option<i64>]) -> Option<u32> {
     }
 }
 
-/// Devices of ADPRW's data on FX3 (FX3U MODBUS manual §8.3): operand 1 is the function, operand 3 the count, of coils also
-/// where they are packed.
+/// Devices of ADPRW's data on FX3 (FX3U MODBUS manual §8.3): operand 1 is the function, operand 3 the count, of coils
+/// also where they are packed.
 fn adprw_devices(constants: &[Option<i64>]) -> Option<u32> {
     match constant(constants, 1)? {
         0x05..=0x08 | 0x16 => Some(1),

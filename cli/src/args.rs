@@ -77,8 +77,8 @@ pub enum Command {
     Run(RunArgs),
     /// Run a program in real time with the servers and serial lines of `[serve]` in rungc.toml, until Ctrl-C.
     ///
-    /// Options add servers to those of rungc.toml; what they say of a protocol or of a serial port takes precedence. At the end, a table shows the
-    /// connections: frames, errors, and the devices that were written.
+    /// Options add servers to those of rungc.toml; what they say of a protocol or of a serial port takes precedence. At
+    /// the end, a table shows the connections: frames, errors, and the devices that were written.
     Serve(RunArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
@@ -114,8 +114,9 @@ pub enum Command {
 /// A program and how to read it.
 #[derive(Args, Clone, Debug)]
 pub struct Input {
-    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2 project (.gxw) or image of
-    /// program memory; recognised by content, not by name. `-` is standard input. Default: the program of rungc.toml.
+    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2 project (.gxw) or
+    /// image of program memory; recognised by content, not by name. `-` is standard input. Default: the program of
+    /// rungc.toml.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     #[command(flatten)]
@@ -125,9 +126,9 @@ pub struct Input {
 /// Programs and how to read them.
 #[derive(Args, Debug)]
 pub struct Inputs {
-    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw) and images
-    /// of program memory, recognised by content, not by name; folders, for all programs in them and below; `-` is standard
-    /// input. Default: the program of rungc.toml.
+    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw) and
+    /// images of program memory, recognised by content, not by name; folders, for all programs in them and below; `-`
+    /// is standard input. Default: the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     #[command(flatten)]
@@ -141,11 +142,12 @@ pub struct Reading {
     /// `rungc explain h2u-mtq` shows a variant.
     #[arg(long, value_parser = plc, value_name = "MODEL")]
     pub model: Option<Plc>,
-    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or above it.
+    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or
+    /// above it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
-    /// Encoding of texts, such as windows-1252, gbk or shift_jis. Default: the one that a project states, or the most likely
-    /// one.
+    /// Encoding of texts, such as windows-1252, gbk or shift_jis. Default: the one that a project states, or the most
+    /// likely one.
     #[arg(long, value_parser = encoding, value_name = "NAME")]
     pub encoding: Option<&'static Encoding>,
     /// Read the compiled program of a GX Works2 project, not its source.
@@ -177,8 +179,8 @@ impl Reading {
 /// How to report diagnostics.
 #[derive(Args, Clone, Debug)]
 pub struct Reporting {
-    /// Format of diagnostics. Human-readable ones go to standard error, others to standard output, or to standard error if the
-    /// command itself writes to standard output.
+    /// Format of diagnostics. Human-readable ones go to standard error, others to standard output, or to standard error
+    /// if the command itself writes to standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub format: Format,
     /// Treat warnings as errors.
@@ -190,8 +192,8 @@ pub struct Reporting {
     /// Treat warnings with this code or name as errors; may be repeated.
     #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning)]
     pub deny: Vec<&'static str>,
-    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC rejects the
-    /// program, but it can be compiled.
+    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC
+    /// rejects the program, but it can be compiled.
     #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit)]
     pub warn: Vec<&'static str>,
     /// What rungc.toml says about codes; the command line takes precedence.
@@ -230,7 +232,8 @@ pub struct Plan {
     /// Output form.
     #[arg(long, value_enum)]
     pub emit: Option<Emit>,
-    /// Report resource usage on the target, built from C: flash, RAM, stack, steps of the longest scan (docs/src/report.md).
+    /// Report resource usage on the target, built from C: flash, RAM, stack, steps of the longest scan
+    /// (docs/src/report.md).
     #[arg(long)]
     pub report: bool,
     /// Target: `host` or a Rust target triple such as thumbv7em-none-eabihf. Images use the board's target.
@@ -251,8 +254,9 @@ pub struct Plan {
     /// Extra argument for cargo, such as `-Zbuild-std=core`; may be repeated.
     #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
-    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, a
-    /// folder for all outputs, each under its program's name; in c they share headers, the runtime and a Makefile there.
+    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several
+    /// programs, a folder for all outputs, each under its program's name; in c they share headers, the runtime and a
+    /// Makefile there.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Name of the program in the emitted code. Default: derived from the file's name.
@@ -261,15 +265,15 @@ pub struct Plan {
     /// Add a main program for a host that scans in real time.
     #[arg(long)]
     pub main: bool,
-    /// Executables and main programs take --modbus-tcp, --mc and --fx, as `rungc run` does, and store every device of the model. They need
-    /// the runtime library (docs/src/serve.md).
+    /// Executables and main programs take --modbus-tcp, --mc and --fx, as `rungc run` does, and store every device of
+    /// the model. They need the runtime library (docs/src/serve.md).
     #[arg(long)]
     pub servers: bool,
     /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
     #[arg(long)]
     pub device_access: bool,
-    /// Add NAME_retain.h and rungc_retain.h to emitted C: save latched devices to flash and load them (docs/src/retain.md). Emitted Rust has
-    /// `Program::retained` for this.
+    /// Add NAME_retain.h and rungc_retain.h to emitted C: save latched devices to flash and load them
+    /// (docs/src/retain.md). Emitted Rust has `Program::retained` for this.
     #[arg(long)]
     pub retain: bool,
     /// Do not optimise the IR.
@@ -285,37 +289,40 @@ pub struct Plan {
 pub struct RunArgs {
     #[command(flatten)]
     pub input: Input,
-    /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: 1s, or with a server until Ctrl-C.
+    /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: 1s, or with a server
+    /// until Ctrl-C.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
-    /// How long a scan takes, in virtual time; a longer constant scan time of the program is waited for. Default: its constant scan time, or 10ms.
+    /// How long a scan takes, in virtual time; a longer constant scan time of the program is waited for. Default: its
+    /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
-    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by commas.
+    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by
+    /// commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or characters
-    /// (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). Default: what the program
-    /// writes, outputs first, and the inputs that change, up to twelve.
+    /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or
+    /// characters (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). Default:
+    /// what the program writes, outputs first, and the inputs that change, up to twelve.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
-    /// Record inputs, outputs and watched devices as a value change dump for GTKWave and other waveform viewers; overwrites an
-    /// existing file.
+    /// Record inputs, outputs and watched devices as a value change dump for GTKWave and other waveform viewers;
+    /// overwrites an existing file.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
-    /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites an
-    /// existing file.
+    /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites
+    /// an existing file.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Draw what HM's oscilloscope has sampled last (D8030 to D8043) as an SVG, and write a table of the samples beside it (`.csv`);
-    /// overwrites existing files.
+    /// Draw what HM's oscilloscope has sampled last (D8030 to D8043) as an SVG, and write a table of the samples beside
+    /// it (`.csv`); overwrites existing files.
     #[arg(long, value_name = "FILE")]
     pub scope: Option<PathBuf>,
-    /// Keep latched devices in this file from run to run: their values are loaded when the run begins, and saved when it ends, in real time
-    /// also once a second if one has changed. Default: that of rungc.toml.
+    /// Keep latched devices in this file from run to run: their values are loaded when the run begins, and saved when
+    /// it ends, in real time also once a second if one has changed. Default: that of rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub retain: Option<PathBuf>,
     /// Run in real time instead of as fast as possible.
@@ -345,8 +352,8 @@ impl RunArgs {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Servers")]
 pub struct ServeArgs {
-    /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`). Runs in real time. The
-    /// protocol has no password: whoever reaches the address reads and writes every device.
+    /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`).
+    /// Runs in real time. The protocol has no password: whoever reaches the address reads and writes every device.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub modbus_tcp: Vec<SocketAddr>,
     /// Serve all devices by MC protocol (frames 1E and 3E, binary), as --modbus-tcp does.
@@ -355,13 +362,14 @@ pub struct ServeArgs {
     /// Serve all devices by the programming port's protocol, as --modbus-tcp does.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub fx: Vec<SocketAddr>,
-    /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that clients open
-    /// (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket (`COM1=tcp-listen:4001`). Runs in
-    /// real time. The program sets the line's format and protocol. What vanishes is opened again.
+    /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that
+    /// clients open (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket
+    /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. What vanishes is
+    /// opened again.
     #[arg(long, value_name = "PORT=DEVICE")]
     pub serial: Vec<Line>,
-    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap` or `*.pcapng`
-    /// as a capture for Wireshark (docs/src/serve.md).
+    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`
+    /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
     pub trace_frames: Option<PathBuf>,
 }
@@ -425,8 +433,8 @@ pub struct ViewArgs {
     /// Omit the comments of devices, in the terminal.
     #[arg(long)]
     pub no_comments: bool,
-    /// Write a file: a page (.html) of the whole program, or a picture (.svg) of the networks that are drawn. With several programs, a folder for
-    /// their pages.
+    /// Write a file: a page (.html) of the whole program, or a picture (.svg) of the networks that are drawn. With
+    /// several programs, a folder for their pages.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Overwrite an existing file.
@@ -493,7 +501,8 @@ pub struct LearnArgs {
     /// The list (CSV) that the editor exported from the same state of the project.
     #[arg(value_name = "EXPORT")]
     pub export: PathBuf,
-    /// Settings file to write the codes to. Default: the nearest rungc.toml, in the project's folder or above it, else a new one beside it.
+    /// Settings file to write the codes to. Default: the nearest rungc.toml, in the project's folder or above it, else
+    /// a new one beside it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
     /// PLC model. Default: that of the settings, else the CPU type that the project names.

@@ -1,5 +1,6 @@
-//! The rungc command line: arguments, reports and exit codes. What a command does is in the crates that it calls; nothing here may decide
-//! what a program means. Start reading at `args.rs` and `commands/mod.rs`; a command is a file in `commands/`.
+//! The rungc command line: arguments, reports and exit codes. What a command does is in the crates that it calls;
+//! nothing here may decide what a program means. Start reading at `args.rs` and `commands/mod.rs`; a command is a file
+//! in `commands/`.
 #![deny(missing_docs)]
 
 mod args;

@@ -1,4 +1,5 @@
-//! The `rungc` executable. What it does is a library, which the compiler works on while those it calls are still being optimised.
+//! The `rungc` executable. What it does is a library, which the compiler works on while those it calls are still being
+//! optimised.
 
 use std::process::ExitCode;
 

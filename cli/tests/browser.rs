@@ -1,5 +1,6 @@
-//! The page of `rungc view` in headless Chromium, driven by playwright and checked for accessibility by axe. `RUNGC_BROWSER` names a folder with
-//! playwright-core and axe-core; Chromium is Debian's. Without them the test says so and does not run.
+//! The page of `rungc view` in headless Chromium, driven by playwright and checked for accessibility by axe.
+//! `RUNGC_BROWSER` names a folder with playwright-core and axe-core; Chromium is Debian's. Without them the test says
+//! so and does not run.
 
 mod common;
 

@@ -54,7 +54,8 @@ fn check_for_tools() {
     }
 }
 
-/// A limit of the PLC keeps a program from being built, unless it is made a warning; what has no storage stays an error.
+/// A limit of the PLC keeps a program from being built, unless it is made a warning; what has no storage stays an
+/// error.
 #[test]
 fn limits_can_be_warnings() {
     let list = "LD X0\nFMOV K0 D0 K513\nEND\n";

@@ -1,12 +1,13 @@
 //! What the documentation shows is what the command line does.
 //!
-//! A fence with a file name (` ```toml lamp.plctest.toml `) is a file of the page's example. In a fence marked `console`, each line
-//! that begins with `$ rungc` is run in a folder with these files and the example programs, and what follows it is compared with
-//! what the command prints: `...` stands for any lines, times are ignored, and a command without output need only succeed.
+//! A fence with a file name (` ```toml lamp.plctest.toml
+//! `) is a file of the page's example. In a fence marked `console`, each line that begins with `$ rungc` is run in a
+//! folder with these files and the example programs, and what follows it is compared with what the command prints:
+//! `...` stands for any lines, times are ignored, and a command without output need only succeed.
 //!
-//! A fence marked `sh` is run by a shell in the same folder. If its commands begin with `$`, what the last one prints is compared, too, except for
-//! numbers, which depend on the tools. The line before such a fence may say what it needs, `<!-- needs: TOOL … -->`, or why it is not
-//! run, `<!-- not run: REASON -->`.
+//! A fence marked `sh` is run by a shell in the same folder. If its commands begin with `$`, what the last one prints
+//! is compared, too, except for numbers, which depend on the tools. The line before such a fence may say what it needs,
+//! `<!-- needs: TOOL … -->`, or why it is not run, `<!-- not run: REASON -->`.
 
 use std::env;
 use std::ffi::OsString;
@@ -209,7 +210,8 @@ fn script(text: &str) -> (Vec<&str>, &str) {
     (commands, rest)
 }
 
-/// Runs commands in a folder one after the other, as far as they succeed; what the last one prints, and whether all succeed.
+/// Runs commands in a folder one after the other, as far as they succeed; what the last one prints, and whether all
+/// succeed.
 fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
     let mut printed = String::new();
     for command in commands {

@@ -1,5 +1,5 @@
-//! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test says what is missing and
-//! that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+//! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test says
+//! what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 mod tools;
 
@@ -43,7 +43,8 @@ fn traffic_light_in_c() {
     insta::assert_snapshot!("traffic_light", lamps(&output));
 }
 
-/// How often a pin of port D turns on, by what QEMU saw of writes to the register that sets (low half) and resets (high half) pins.
+/// How often a pin of port D turns on, by what QEMU saw of writes to the register that sets (low half) and resets (high
+/// half) pins.
 fn pulses(log: &str, pin: u32) -> usize {
     let writes = log.lines().filter_map(|line| {
         let value =
@@ -90,7 +91,8 @@ fn check_stepper(output: &Output, log: &Path) {
     assert_eq!(pulses(&log, 11), 1000);
 }
 
-/// Builds an example in Rust, in a folder of its own; the image. `None`: there is no Rust for it, and the test is to be left out.
+/// Builds an example in Rust, in a folder of its own; the image. `None`: there is no Rust for it, and the test is to be
+/// left out.
 fn rust_image(example: &str, program: &Path, build: &Path) -> Option<PathBuf> {
     let Some(mut cargo) = cargo(TARGET) else {
         leave_out(&no_rust(TARGET));

@@ -62,7 +62,8 @@ fn has(programs: &[&str]) -> bool {
     }
 }
 
-/// Writes two registers and reads three. On a loaded machine a request may arrive with a pause in it, which cuts the frame.
+/// Writes two registers and reads three. On a loaded machine a request may arrive with a pause in it, which cuts the
+/// frame.
 fn answers(path: &str) {
     let poll = |args: &[&str]| {
         let line = [

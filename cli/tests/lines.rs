@@ -23,7 +23,8 @@ ADD D0 D1 D2
 END
 ";
 
-/// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, which cuts the frame.
+/// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, which
+/// cuts the frame.
 fn ask(port: &SerialPort, request: &[u8], length: usize) -> Vec<u8> {
     for _ in 0..5 {
         port.write_all(request).unwrap();

@@ -1,6 +1,7 @@
-//! Clients and servers that others have written talk to running programs, over TCP and over pseudo-terminals. `.ci/run` installs them:
-//! `RUNGC_PYTHON` names a Python with the packages, `RUNGC_NODE_MODULES` a folder with those for Node. A peer that is not there is skipped
-//! with a message, or missed if one of these variables, or `RUNGC_REQUIRE_PEERS` for packages of the system, is set.
+//! Clients and servers that others have written talk to running programs, over TCP and over pseudo-terminals. `.ci/run`
+//! installs them: `RUNGC_PYTHON` names a Python with the packages, `RUNGC_NODE_MODULES` a folder with those for Node. A
+//! peer that is not there is skipped with a message, or missed if one of these variables, or `RUNGC_REQUIRE_PEERS` for
+//! packages of the system, is set.
 #![cfg(unix)]
 
 mod common;
@@ -287,8 +288,8 @@ fn a_client_written_from_public_documents_uses_the_programming_port() {
     }
 }
 
-/// A master asks a slave of pymodbus, whose answers are wrong in many ways. `addresses` are those of M0, D0 and, where its codes are known,
-/// D8063.
+/// A master asks a slave of pymodbus, whose answers are wrong in many ways. `addresses` are those of M0, D0 and, where
+/// its codes are known, D8063.
 fn asks_a_faulty_slave(model: &str, port: &str, addresses: &[&str], text: &str) {
     let Some(mut client) = python("pymodbus", "modbus_slave.py") else {
         return;

@@ -1,4 +1,5 @@
-//! How findings are shown: places as their reader knows them, bounded drawings, and nothing that a terminal would act on.
+//! How findings are shown: places as their reader knows them, bounded drawings, and nothing that a terminal would act
+//! on.
 
 mod common;
 

@@ -102,7 +102,8 @@ impl Drop for Serving {
     }
 }
 
-/// Asks until there is an answer: on a loaded machine a request on a line may arrive with a pause in it, which cuts the frame.
+/// Asks until there is an answer: on a loaded machine a request on a line may arrive with a pause in it, which cuts the
+/// frame.
 fn ask(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> {
     for _ in 0..5 {
         stream.write_all(request).unwrap();

@@ -1,5 +1,5 @@
-//! Sessions between the vendor's editors and PLCs, which others have recorded and published (`clients/sessions/`), replayed against the
-//! programming port of a running program.
+//! Sessions between the vendor's editors and PLCs, which others have recorded and published (`clients/sessions/`),
+//! replayed against the programming port of a running program.
 
 mod common;
 

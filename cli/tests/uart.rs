@@ -1,5 +1,5 @@
-//! Serial ports of images: Modbus slaves answer mbpoll through the UARTs of emulated microcontrollers, and two microcontrollers talk with
-//! each other.
+//! Serial ports of images: Modbus slaves answer mbpoll through the UARTs of emulated microcontrollers, and two
+//! microcontrollers talk with each other.
 #![cfg(unix)]
 
 mod common;
@@ -253,7 +253,8 @@ fn an_image_in_rust_answers_mbpoll() {
     answers_mbpoll(&M4_IN_RUST);
 }
 
-/// Two microcontrollers on one line: the master, in C, switches Y000 on when it knows what the slave, in Rust, has made of its values.
+/// Two microcontrollers on one line: the master, in C, switches Y000 on when it knows what the slave, in Rust, has made
+/// of its values.
 fn they_talk(master: &str, slave: &str) {
     if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
         return;

@@ -5,7 +5,8 @@
 //! which parts of expressions get a name ([`parts`]) what a loop over stations reads before its first iteration
 //! ([`stations`]), what happens around the program's functions ([`cycle`], [`events`]), what it remembers in addition
 //! to its devices ([`private`]), what comments say ([`comments`]) and which options its main program takes ([`usage`]).
-//! It knows no syntax of any output language: a backend prints what is here, and decides nothing about what a program means.
+//! It knows no syntax of any output language: a backend prints what is here, and decides nothing about what a program
+//! means.
 //!
 //! Start reading at [`plan::Plan`] and [`storage::Storage`].
 

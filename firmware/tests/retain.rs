@@ -1,4 +1,5 @@
-//! The drivers of flash in images in C, on models of the controllers' registers; descriptions of boards that cannot work.
+//! The drivers of flash in images in C, on models of the controllers' registers; descriptions of boards that cannot
+//! work.
 
 use rungc_firmware::board;
 use rungc_firmware::image::{self, Image, Script};

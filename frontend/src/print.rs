@@ -208,7 +208,8 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
     to_csv_with(program, &ExportHead(head))
 }
 
-/// As [`to_csv`], with the head of the export that the program was read from: an export comes out as the editor wrote it.
+/// As [`to_csv`], with the head of the export that the program was read from: an export comes out as the editor wrote
+/// it.
 pub fn to_csv_with(program: &Program, head: &ExportHead) -> Vec<u8> {
     let mut rows = head.0.clone();
     for instr in &program.instrs {

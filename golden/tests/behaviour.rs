@@ -1,4 +1,5 @@
-//! What a comparison of two programs calls the same is the same: random programs, each with a random change, run side by side.
+//! What a comparison of two programs calls the same is the same: random programs, each with a random change, run side
+//! by side.
 
 use rungc_golden::operands::candidates;
 use rungc_golden::random::program;

@@ -1,12 +1,14 @@
 //! Which devices of two modules can have different values, given the same inputs at the same times.
 //!
-//! Each module becomes a sequence of atoms: its statements, with the conditions and loops around them as separate values. An atom is a text,
-//! what it reads and what it writes. Private memory has names made of what is stored in it, not of its number, so that the same statement
-//! has the same text in both modules. The sequences are aligned. What an atom writes that only one module has can differ, and so can what
-//! an atom writes that reads such a thing; everything else is computed by the same statements in the same order from the same values, so it is
-//! the same. The answer is on the safe side: what it calls the same is the same, what it calls different may be the same nevertheless.
+//! Each module becomes a sequence of atoms: its statements, with the conditions and loops around them as separate
+//! values. An atom is a text, what it reads and what it writes. Private memory has names made of what is stored in it,
+//! not of its number, so that the same statement has the same text in both modules. The sequences are aligned. What an
+//! atom writes that only one module has can differ, and so can what an atom writes that reads such a thing; everything
+//! else is computed by the same statements in the same order from the same values, so it is the same. The answer is on
+//! the safe side: what it calls the same is the same, what it calls different may be the same nevertheless.
 //!
-//! Left out are the watchdog, how long a scan takes, and the steps that errors name where the program does not read them.
+//! Left out are the watchdog, how long a scan takes, and the steps that errors name where the program does not read
+//! them.
 
 mod atoms;
 

@@ -107,7 +107,8 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
     }
 }
 
-/// Where the network after one that cannot be drawn may start: at the next contact, label or box on the rail after an output.
+/// Where the network after one that cannot be drawn may start: at the next contact, label or box on the rail after an
+/// output.
 fn end_of_list(instrs: &[Class], start: InstrIndex) -> InstrIndex {
     let mut after_output = instrs[start] == Class::Unknown;
     let mut at = start + 1;
@@ -185,7 +186,8 @@ impl Reader<'_> {
         }
     }
 
-    /// A node: at the rail (where it starts with LD or has no contacts), or within a network (where contacts continue it).
+    /// A node: at the rail (where it starts with LD or has no contacts), or within a network (where contacts continue
+    /// it).
     fn node(&mut self, at_rail: bool) -> Result<Node, Undrawable> {
         if self.depth == DEEPEST {
             return Err(TOO_DEEP);

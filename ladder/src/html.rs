@@ -1,5 +1,5 @@
-//! A page with the ladder of a program: pictures of all networks, a list of them, and where each device is used. One file that needs
-//! nothing else.
+//! A page with the ladder of a program: pictures of all networks, a list of them, and where each device is used. One
+//! file that needs nothing else.
 
 use crate::face::device_of;
 use crate::network::{Ladder, Network};

@@ -1,7 +1,7 @@
 //! Where the parts of a network lie: on a grid of rows and columns, as in the editors.
 //!
-//! Contacts follow each other from the left rail; branches lie below each other; coils and boxes lie at the right rail. What is wider
-//! than the page continues on the rows below.
+//! Contacts follow each other from the left rail; branches lie below each other; coils and boxes lie at the right rail.
+//! What is wider than the page continues on the rows below.
 
 use crate::network::{Branch, Contact, InstrIndex, Item, Node, Output, Part};
 
@@ -41,7 +41,8 @@ pub struct Placed {
     pub cell: Cell,
 }
 
-/// A network on its grid. Boundary `n` is the line to the left of column `n`: 0 is the left rail, the number of columns the right one.
+/// A network on its grid. Boundary `n` is the line to the left of column `n`: 0 is the left rail, the number of columns
+/// the right one.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     /// How many rows.

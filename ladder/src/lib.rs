@@ -1,8 +1,10 @@
 //! The ladder of a program: what its instructions draw, and drawing it.
 //!
-//! [`build::ladder`] turns the instructions into [`Network`]s of series and parallel contacts, branches and outputs; [`list::instructions`] is
-//! its inverse. [`layout::lay_out`] places a network on a grid of rows and columns as the editors do; [`text::draw`] draws the grid in
-//! characters, [`svg::draw`] as a picture, and [`html::page`] makes a page of all pictures. This crate knows neither files nor output languages nor what an instruction does. Start reading at [`Network`].
+//! [`build::ladder`] turns the instructions into [`Network`]s of series and parallel contacts, branches and outputs;
+//! [`list::instructions`] is its inverse. [`layout::lay_out`] places a network on a grid of rows and columns as the
+//! editors do; [`text::draw`] draws the grid in characters, [`svg::draw`] as a picture, and [`html::page`] makes a page
+//! of all pictures. This crate knows neither files nor output languages nor what an instruction does. Start reading at
+//! [`Network`].
 
 pub mod build;
 pub mod compare;

@@ -41,8 +41,8 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// A network as a picture within a page. Its classes are `wire`, `rail`, `name`, `text`, `comment`, `margin`, `area` and `box`;
-    /// what is about a device is a group with the attribute `data-device`.
+    /// A network as a picture within a page. Its classes are `wire`, `rail`, `name`, `text`, `comment`, `margin`,
+    /// `area` and `box`; what is about a device is a group with the attribute `data-device`.
     pub fn network(&self, number: usize, network: &Network) -> Document {
         self.sized(number, network).0
     }

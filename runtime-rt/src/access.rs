@@ -8,7 +8,8 @@ fn is_counter32(class: Class, number: i32) -> bool {
     class == Class::C && number >= FIRST_COUNTER32 as i32
 }
 
-/// What emitted Rust does with indexed devices. It asks whether they exist before; where one does not, a read gives 0 and a write is lost.
+/// What emitted Rust does with indexed devices. It asks whether they exist before; where one does not, a read gives 0
+/// and a write is lost.
 pub trait Access: Plc {
     /// State of a bit device.
     fn bit_at(&self, class: Class, number: i32) -> bool {

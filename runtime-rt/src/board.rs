@@ -1,6 +1,7 @@
 //! A board, described once by four small traits, and the [`Driver`] that does all wiring between it and a program.
 //!
-//! Times are microseconds since the board began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is X010.
+//! Times are microseconds since the board began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is
+//! X010.
 //!
 //! ```
 //! use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt, PulseOutput, Setup, Timebase};
@@ -45,8 +46,8 @@
 //!
 //! # Interrupts
 //!
-//! Edges of inputs and pulses are worth an interrupt. Each has one object in a `static` of the firmware: an [`EdgeQueue`], which needs no
-//! lock, and [`SharedAxes`], protected by the lock that keeps the timer's interrupt out.
+//! Edges of inputs and pulses are worth an interrupt. Each has one object in a `static` of the firmware: an
+//! [`EdgeQueue`], which needs no lock, and [`SharedAxes`], protected by the lock that keeps the timer's interrupt out.
 //!
 //! ```
 //! use rungc_rt::board::{EdgeQueue, InputEdge, SharedAxes, send_pulses};
@@ -78,9 +79,10 @@
 //! }
 //! ```
 //!
-//! An edge of a pulse then is late by no more than the timer's interrupt is, and by one instruction that sends pulses, or by the counting
-//! of all outputs each millisecond: some microseconds, however long a scan takes. An edge of an input waits for the running scan to end,
-//! and for [`Driver::poll`]; none is lost as long as the queue has room for those of a scan.
+//! An edge of a pulse then is late by no more than the timer's interrupt is, and by one instruction that sends pulses,
+//! or by the counting of all outputs each millisecond: some microseconds, however long a scan takes. An edge of an
+//! input waits for the running scan to end, and for [`Driver::poll`]; none is lost as long as the queue has room for
+//! those of a scan.
 
 pub use crate::char_queue::CharQueue;
 pub use crate::edge_queue::EdgeQueue;
@@ -104,15 +106,16 @@ pub struct InputEdge {
     pub level: bool,
 }
 
-/// Inputs of which each edge interrupts the processor. The interrupt notes the edge in an [`EdgeQueue`]; the main loop takes it from there.
+/// Inputs of which each edge interrupts the processor. The interrupt notes the edge in an [`EdgeQueue`]; the main loop
+/// takes it from there.
 pub trait EdgeInterrupt {
     /// The oldest edge that was noted and not taken yet.
     fn next_edge(&mut self) -> Option<InputEdge> {
         None
     }
 
-    /// Whether the edges of this input are noted. Its X then follows them and not [`Hal::input`], so that the phases of an encoder stay
-    /// in order; the first scan alone takes it from the pin.
+    /// Whether the edges of this input are noted. Its X then follows them and not [`Hal::input`], so that the phases of
+    /// an encoder stay in order; the first scan alone takes it from the pin.
     fn notes_edges(&self, input: u32) -> bool {
         let _ = input;
         false
@@ -135,17 +138,19 @@ pub enum Counted {
         a: u32,
         /// The input X of phase B.
         b: u32,
-        /// What the timer showed when last asked, wrapping. Its two lowest bits are the phases: 0 both off, 1 A on, 2 both on, 3 B on.
+        /// What the timer showed when last asked, wrapping. Its two lowest bits are the phases: 0 both off, 1 A on, 2
+        /// both on, 3 B on.
         from: u32,
         /// Quarters since then; those in which B leads are negative.
         count: i32,
     },
 }
 
-/// Inputs that a hardware counter counts, for rates at which an interrupt for each edge is too slow. The program gets them as that many
-/// edges, so its comparisons act at the count; but only as soon as the main loop asks.
+/// Inputs that a hardware counter counts, for rates at which an interrupt for each edge is too slow. The program gets
+/// them as that many edges, so its comparisons act at the count; but only as soon as the main loop asks.
 pub trait CounterInput {
-    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` after the last one.
+    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` after
+    /// the last one.
     fn counted(&mut self, counter: u32) -> Option<Counted> {
         let _ = counter;
         None
@@ -160,11 +165,11 @@ pub trait CounterInput {
 
 /// Pins that pulses are sent on, and a timer that says when.
 ///
-/// A board that has [`Hal::with_pulses`] sends them in the timer's interrupt, by [`send_pulses`], while scans run. Else [`Hal::set_output`]
-/// sets the pins, in [`Driver::on_timer`].
+/// A board that has [`Hal::with_pulses`] sends them in the timer's interrupt, by [`send_pulses`], while scans run. Else
+/// [`Hal::set_output`] sets the pins, in [`Driver::on_timer`].
 pub trait PulseOutput: Hal {
-    /// Arms the timer to fire in this many microseconds: 0 is as soon as it can, `None` not at all. A board without one leaves it as it is: its
-    /// pulses are as exact as [`Driver::poll`] is called often.
+    /// Arms the timer to fire in this many microseconds: 0 is as soon as it can, `None` not at all. A board without one
+    /// leaves it as it is: its pulses are as exact as [`Driver::poll`] is called often.
     fn wake_in(&mut self, us: Option<u32>) {
         let _ = us;
     }
@@ -182,8 +187,8 @@ pub struct Setup {
     pub inputs: u16,
     /// Outputs Y from 0 on that a scan sets with [`Hal::set_output`].
     pub outputs: u16,
-    /// Scan period, start to start, in microseconds, below 2^31; 0: a scan at each [`Driver::poll`]. While the program asks for scans of
-    /// constant length ([`Program::constant_scan_ms`]), that length is the period.
+    /// Scan period, start to start, in microseconds, below 2^31; 0: a scan at each [`Driver::poll`]. While the program
+    /// asks for scans of constant length ([`Program::constant_scan_ms`]), that length is the period.
     pub scan_us: u32,
 }
 
@@ -227,9 +232,9 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.now_ms
     }
 
-    /// Does what is to be done by now. Call it in the main loop, as often as can be and at least once in half an hour: a millisecond, an
-    /// edge or a count is as late as this is. Edges come first, each with the interrupt routine that it requests, then counts and
-    /// milliseconds, then a scan if its time has come, then outputs and pulses.
+    /// Does what is to be done by now. Call it in the main loop, as often as can be and at least once in half an hour:
+    /// a millisecond, an edge or a count is as late as this is. Edges come first, each with the interrupt routine that
+    /// it requests, then counts and milliseconds, then a scan if its time has come, then outputs and pulses.
     pub fn poll(&mut self) {
         let now_us = self.board.now_us();
         if self.millisecond.is_none() {
@@ -267,8 +272,8 @@ impl<P: Program, B: Board> Driver<P, B> {
     }
 
     /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones, on a board without
-    /// [`Hal::with_pulses`]: call it at the time that [`PulseOutput::wake_in`] was given. [`Driver::poll`] does the same at
-    /// its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
+    /// [`Hal::with_pulses`]: call it at the time that [`PulseOutput::wake_in`] was given. [`Driver::poll`] does the same
+    /// at its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
     pub fn on_timer(&mut self) {
         let now_us = self.board.now_us();
         let wait = self.program.pulse_timer(&mut self.board, now_us);
@@ -364,8 +369,8 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.scan_us = self.board.now_us().wrapping_sub(begin);
     }
 
-    /// If the program asks for scans of constant length, the next one begins that long after the beginning of the last, or at once if
-    /// that took longer.
+    /// If the program asks for scans of constant length, the next one begins that long after the beginning of the last,
+    /// or at once if that took longer.
     fn wait_constant_time(&mut self, begin: u32) {
         let Some(ms) = self.program.constant_scan_ms() else {
             return;
@@ -379,7 +384,8 @@ impl<P: Program, B: Board> Driver<P, B> {
         }
     }
 
-    /// Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send pulses.
+    /// Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send
+    /// pulses.
     fn write_outputs(&mut self) {
         for number in 0..self.setup.outputs {
             if self.program.axis(number.into()).is_none() {

@@ -10,8 +10,8 @@ const TIME: u32 = 11;
 /// The times that a slot can tell apart, in microseconds: about two seconds.
 const TIMES: u32 = 1 << (32 - TIME);
 
-/// Characters that one interrupt notes ([`CharQueue::note`]) and one main loop takes ([`CharQueue::take`]). It holds `N - 1` of them in a
-/// word each, and needs no lock. The main loop must take each character within a second.
+/// Characters that one interrupt notes ([`CharQueue::note`]) and one main loop takes ([`CharQueue::take`]). It holds
+/// `N - 1` of them in a word each, and needs no lock. The main loop must take each character within a second.
 ///
 /// ```
 /// use rungc_rt::board::CharQueue;
@@ -48,8 +48,8 @@ impl<const N: usize> CharQueue<N> {
         }
     }
 
-    /// Notes a character, in the interrupt. One that finds no room is lost: `false` says so, and the next one has the fault
-    /// [`CharFault::Overrun`].
+    /// Notes a character, in the interrupt. One that finds no room is lost: `false` says so, and the next one has the
+    /// fault [`CharFault::Overrun`].
     pub fn note(&self, character: Received) -> bool {
         let end = self.end.load(Ordering::Relaxed);
         let next = (end + 1) % N;

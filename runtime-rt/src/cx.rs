@@ -22,7 +22,8 @@ pub struct Cx<'a> {
     pub site: Site,
 }
 
-/// Runs an instruction as emitted Rust does, and reports its fault. The operands come before the PLC so that they may read it.
+/// Runs an instruction as emitted Rust does, and reports its fault. The operands come before the PLC so that they may
+/// read it.
 pub fn call(
     function: fn(&mut Cx) -> Done,
     site: Site,
@@ -109,8 +110,8 @@ impl<'a> Cx<'a> {
         self.site.drive
     }
 
-    /// Keeps the drive in word `word` of the private memory, and returns what was kept there: whether the last scan drove the
-    /// instruction.
+    /// Keeps the drive in word `word` of the private memory, and returns what was kept there: whether the last scan
+    /// drove the instruction.
     pub fn was_driven(&mut self, word: usize) -> bool {
         let drive = self.drive();
         match self.state().0.get_mut(word) {
@@ -129,7 +130,8 @@ impl<'a> Cx<'a> {
         self.plc.state(self.site.slot)
     }
 
-    /// Operand `i` as a signed value: 16 bits, or 32 in the 32-bit form. Groups are zero-extended; a group of full width is signed.
+    /// Operand `i` as a signed value: 16 bits, or 32 in the 32-bit form. Groups are zero-extended; a group of full
+    /// width is signed.
     pub fn read(&self, i: usize) -> Result<i32, Fault> {
         if self.site.wide {
             self.dword(i, 0)
@@ -147,7 +149,8 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Word number `offset` from operand `i`. For a group, element `offset` begins `4 * digits * offset` bits further on.
+    /// Word number `offset` from operand `i`. For a group, element `offset` begins `4 * digits * offset` bits further
+    /// on.
     pub fn word(&self, i: usize, offset: i32) -> Result<i16, Fault> {
         let op = self.op(i)?;
         match op.kind {
@@ -195,8 +198,8 @@ impl<'a> Cx<'a> {
         done.ok_or(Fault::DEVICE)
     }
 
-    /// The 32-bit value whose low word is word number `offset` from operand `i`: the pair (n+1, n), a 32-bit counter, the pair
-    /// (Vn, Zn), or a group of up to 32 bits.
+    /// The 32-bit value whose low word is word number `offset` from operand `i`: the pair (n+1, n), a 32-bit counter,
+    /// the pair (Vn, Zn), or a group of up to 32 bits.
     pub fn dword(&self, i: usize, offset: i32) -> Result<i32, Fault> {
         let op = self.op(i)?;
         match op.kind {
@@ -226,7 +229,8 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Writes the 32-bit value whose low word is word number `offset` from operand `i`. Writes nothing if it does not fit whole.
+    /// Writes the 32-bit value whose low word is word number `offset` from operand `i`. Writes nothing if it does not
+    /// fit whole.
     pub fn set_dword(&mut self, i: usize, offset: i32, value: i32) -> Result<(), Fault> {
         let op = self.op(i)?;
         match op.kind {
@@ -433,8 +437,8 @@ impl<'a> Cx<'a> {
         (0..count).try_for_each(|n| self.elem(i, n).map(drop))
     }
 
-    /// Offset of element `n` of the table at operand `i`: two words an element in the 32-bit form, but for 32-bit counters and
-    /// groups.
+    /// Offset of element `n` of the table at operand `i`: two words an element in the 32-bit form, but for 32-bit
+    /// counters and groups.
     fn elem_offset(&self, i: usize, n: i32) -> Result<i32, Fault> {
         let op = self.op(i)?;
         let pairs = match op.kind {
@@ -448,7 +452,8 @@ impl<'a> Cx<'a> {
         })
     }
 
-    /// Element `n` of the table at operand `i`: a word, or a pair in the 32-bit form. Every element of a constant is the constant.
+    /// Element `n` of the table at operand `i`: a word, or a pair in the 32-bit form. Every element of a constant is
+    /// the constant.
     pub fn elem(&self, i: usize, n: i32) -> Result<i32, Fault> {
         let offset = self.elem_offset(i, n)?;
         if self.site.wide {
@@ -502,7 +507,8 @@ impl<'a> Cx<'a> {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.within(0) == b.within(0))
     }
 
-    /// Whether operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
+    /// Whether operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b` must be
+    /// copied from its end.
     pub fn begins_behind(&self, a: usize, b: usize) -> bool {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b))
             if (a.kind, a.class) == (b.kind, b.class) && b.value > a.value

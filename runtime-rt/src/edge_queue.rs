@@ -3,8 +3,8 @@
 use crate::board::InputEdge;
 use core::sync::atomic::{AtomicU16, AtomicUsize, Ordering};
 
-/// Edges that one interrupt notes ([`EdgeQueue::note`]) and one main loop takes ([`EdgeQueue::take`]). It holds `N - 1` of them, needs no
-/// lock, and no more of the processor than that it loads and stores words.
+/// Edges that one interrupt notes ([`EdgeQueue::note`]) and one main loop takes ([`EdgeQueue::take`]). It holds `N - 1`
+/// of them, needs no lock, and no more of the processor than that it loads and stores words.
 ///
 /// ```
 /// use rungc_rt::board::{EdgeQueue, InputEdge};

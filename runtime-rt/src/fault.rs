@@ -11,7 +11,8 @@ pub struct Fault(pub u16);
 impl Fault {
     /// A device lies outside the model's range (an index or a count led there).
     pub const DEVICE: Fault = Fault(6706);
-    /// An argument lies outside a floating-point function's domain, or its value is not a float; the manuals give the code of [`Fault::DEVICE`].
+    /// An argument lies outside a floating-point function's domain, or its value is not a float; the manuals give the
+    /// code of [`Fault::DEVICE`].
     pub const DOMAIN: Fault = Fault(6706);
     /// A value lies outside what the instruction takes; models show it as [`Plc::value_error`].
     pub const VALUE: Fault = Fault(6707);
@@ -32,7 +33,8 @@ pub enum Stop {
     Watchdog = 6105,
 }
 
-/// The last operation error, and why the PLC stopped, since RUN began; whether the program looks at special devices or not.
+/// The last operation error, and why the PLC stopped, since RUN began; whether the program looks at special devices or
+/// not.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
 pub struct LastError {
@@ -59,9 +61,10 @@ impl LastError {
 /// What an instruction returns.
 pub type Done = Result<(), Fault>;
 
-/// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068 and D8068,
-/// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
-/// The program clears M8067 and M8004 when RUN begins, on FX and L01S in each scan; the latches stay.
+/// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068
+/// and D8068, and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step
+/// (hm-motion-controller §5.7). The program clears M8067 and M8004 when RUN begins, on FX and L01S in each scan; the
+/// latches stay.
 pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let code = match fault {
         Fault::VALUE => plc.value_error(),

@@ -129,14 +129,16 @@ impl Clock {
 
 /// A serial port: characters in with their times, characters out. Times are microseconds since power-on, wrapping.
 ///
-/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two scans.
+/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two
+/// scans.
 pub trait SerialPort {
-    /// The format of characters on the line from now on. It is called before anything else, and again when the format changes.
+    /// The format of characters on the line from now on. It is called before anything else, and again when the format
+    /// changes.
     fn set_format(&mut self, format: LineFormat);
     /// Takes the oldest character that was in by `now_us`.
     fn receive(&mut self, now_us: u32) -> Option<Received>;
-    /// Takes a character to be sent after those before it, at `now_us` if there are none; false if there is no room for it now. On
-    /// a half-duplex line the driver is on from the first of them to the stop bit of the last.
+    /// Takes a character to be sent after those before it, at `now_us` if there are none; false if there is no room for
+    /// it now. On a half-duplex line the driver is on from the first of them to the stop bit of the last.
     fn send(&mut self, byte: u8, now_us: u32) -> bool;
     /// How many characters taken by [`SerialPort::send`] are not out by `now_us`, to the end of their stop bits.
     fn unsent(&mut self, now_us: u32) -> u16;
@@ -156,7 +158,8 @@ pub struct CanFrame {
 
 /// A CAN bus: frames in and out.
 ///
-/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two scans.
+/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two
+/// scans.
 pub trait CanBus {
     /// Takes the oldest frame that has come.
     fn receive(&mut self) -> Option<CanFrame>;
@@ -192,16 +195,19 @@ pub trait Hal {
         let _ = channel;
         None
     }
-    /// Reads the input terminals from X number `first` on now, outside the input refresh (REF); `None` where there is none.
+    /// Reads the input terminals from X number `first` on now, outside the input refresh (REF); `None` where there is
+    /// none.
     fn input(&mut self, number: u16) -> Option<bool> {
         let _ = number;
         None
     }
-    /// Sets an output terminal now, outside the output refresh: REF, and [`crate::Program::pulse_timer`] for the pins of pulse outputs.
+    /// Sets an output terminal now, outside the output refresh: REF, and [`crate::Program::pulse_timer`] for the pins
+    /// of pulse outputs.
     fn set_output(&mut self, number: u16, value: bool) {
         let _ = (number, value);
     }
-    /// The CAN bus. Where there is none, frames go to and come from a serial port as SLCAN writes them ([`crate::comm::CAN_PORT`]).
+    /// The CAN bus. Where there is none, frames go to and come from a serial port as SLCAN writes them
+    /// ([`crate::comm::CAN_PORT`]).
     fn can_bus(&mut self) -> Option<&mut dyn CanBus> {
         None
     }
@@ -210,13 +216,14 @@ pub trait Hal {
         let _ = number;
         None
     }
-    /// Keeps the interrupt from coming that calls [`crate::Program::pulse_timer`], or lets it come again, for the few microseconds in which
-    /// an instruction changes what an output sends. For a host that has no such interrupt there is nothing to do.
+    /// Keeps the interrupt from coming that calls [`crate::Program::pulse_timer`], or lets it come again, for the few
+    /// microseconds in which an instruction changes what an output sends. For a host that has no such interrupt there
+    /// is nothing to do.
     fn hold_pulses(&mut self, hold: bool) {
         let _ = hold;
     }
-    /// Does `work` while the interrupt that sends pulses with separate outputs ([`crate::board::send_pulses`]) is held off, on these: they
-    /// are copied, from and to the program's. A host without such an interrupt has none.
+    /// Does `work` while the interrupt that sends pulses with separate outputs ([`crate::board::send_pulses`]) is held
+    /// off, on these: they are copied, from and to the program's. A host without such an interrupt has none.
     fn with_pulses(&mut self, work: &mut dyn FnMut(&mut [Option<Axis>])) {
         work(&mut []);
     }

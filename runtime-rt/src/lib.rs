@@ -1,11 +1,11 @@
 //! What PLC instructions do at run time.
 //!
-//! `no_std`, no allocation, no panics. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C all call
-//! the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`] (its devices) and
-//! [`Hal`] (its hardware), and its operands through [`Cx`].
+//! `no_std`, no allocation, no panics. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C
+//! all call the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`]
+//! (its devices) and [`Hal`] (its hardware), and its operands through [`Cx`].
 //!
-//! The crate must not know the IR, source formats or other crates: it is built alone, on any target. Start reading at `registry.rs`, which
-//! lists the functions, and at a function of [`fnc`].
+//! The crate must not know the IR, source formats or other crates: it is built alone, on any target. Start reading at
+//! `registry.rs`, which lists the functions, and at a function of [`fnc`].
 #![no_std]
 #![deny(missing_docs)]
 #![deny(unsafe_code)]

@@ -5,28 +5,30 @@ use crate::hal::Hal;
 use crate::plc::Plc;
 use crate::retain::Retained;
 
-/// A program and its devices. The host copies the input terminals to X ([`Plc::set_bit`]), calls [`Program::scan`], and copies
-/// [`Program::output`] to the output terminals.
+/// A program and its devices. The host copies the input terminals to X ([`Plc::set_bit`]), calls [`Program::scan`], and
+/// copies [`Program::output`] to the output terminals.
 pub trait Program: Plc {
-    /// One scan. `now_ms` is the time since power-on (wrapping), `scan_us` how long the last scan took. In STOP only the
-    /// special relays that run from power-on (the clocks) are brought up to date.
+    /// One scan. `now_ms` is the time since power-on (wrapping), `scan_us` how long the last scan took. In STOP only
+    /// the special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
-    /// How many milliseconds a scan is to last at least, from its start to the start of the next one, if the program asks for scans of constant
-    /// length: M8039 and D8039, or D8059 on L01S. A scan that takes longer is followed at once by the next. The `scan_us` of the next
-    /// scan includes the time in which it waited (h1u-h2u-programming §8.9).
+    /// How many milliseconds a scan is to last at least, from its start to the start of the next one, if the program
+    /// asks for scans of constant length: M8039 and D8039, or D8059 on L01S. A scan that takes longer is followed at
+    /// once by the next. The `scan_us` of the next scan includes the time in which it waited (h1u-h2u-programming
+    /// §8.9).
     fn constant_scan_ms(&self) -> Option<u16> {
         None
     }
 
-    /// Input terminal X `number` turns on or off. Only programs react to it that have interrupts, pulse catch, high-speed counters, or
-    /// positioning that looks at inputs; others see their inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
+    /// Input terminal X `number` turns on or off. Only programs react to it that have interrupts, pulse catch,
+    /// high-speed counters, or positioning that looks at inputs; others see their inputs as X shows them to a scan.
+    /// Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
         let _ = (hal, number, level);
     }
 
-    /// Advances time: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
-    /// Pulses that have ended by then are counted.
+    /// Advances time: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as
+    /// those of inputs. Pulses that have ended by then are counted.
     fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {
         let _ = (hal, now_ms);
     }
@@ -36,9 +38,10 @@ pub trait Program: Plc {
         let _ = hal;
     }
 
-    /// Drives the pins of pulse outputs ([`Hal::set_output`]) at `now_us`, microseconds since power-on, wrapping, and returns after how many
-    /// microseconds the next one changes; `None` if none does. Call it then, and after each scan, which may begin a train. An interrupt
-    /// that comes while scans run calls [`crate::board::send_pulses`] instead. Without either pulses are counted, but no pins driven.
+    /// Drives the pins of pulse outputs ([`Hal::set_output`]) at `now_us`, microseconds since power-on, wrapping, and
+    /// returns after how many microseconds the next one changes; `None` if none does. Call it then, and after each
+    /// scan, which may begin a train. An interrupt that comes while scans run calls [`crate::board::send_pulses`]
+    /// instead. Without either pulses are counted, but no pins driven.
     fn pulse_timer(&mut self, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
         let _ = (hal, now_us);
         None
@@ -54,15 +57,15 @@ pub trait Program: Plc {
         crate::pulse_millihertz(self, number)
     }
 
-    /// The RUN/STOP switch, which M8035 and M8036 can override in STOP. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
-    /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters and the
-    /// private memories of instructions included.
-    /// Setting the mode that it is in changes nothing. A program is in RUN at power-on.
+    /// The RUN/STOP switch, which M8035 and M8036 can override in STOP. Going to STOP clears every device that is
+    /// neither latched, special nor an input, unless M8033 is on; going to RUN makes the next scan the first one
+    /// (M8002) and forgets all edges, the coils of timers and counters and the private memories of instructions
+    /// included. Setting the mode that it is in changes nothing. A program is in RUN at power-on.
     fn set_running(&mut self, running: bool);
 
-    /// Power off and on: everything but latched devices takes its power-on value, inputs, special devices, edges, the coils of
-    /// latched timers and counters and private memories included; then RUN. On models with a latch key (HM) latched devices
-    /// are kept only if the key register holds the key.
+    /// Power off and on: everything but latched devices takes its power-on value, inputs, special devices, edges, the
+    /// coils of latched timers and counters and private memories included; then RUN. On models with a latch key (HM)
+    /// latched devices are kept only if the key register holds the key.
     fn power_cycle(&mut self);
 
     /// What the program keeps over power-off, for a host that saves it ([`crate::retain`]).
@@ -75,7 +78,7 @@ pub trait Program: Plc {
         LastError::NONE
     }
 
-    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033. One that sends pulses
-    /// is also on while its pulse is.
+    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033. One
+    /// that sends pulses is also on while its pulse is.
     fn output(&self, number: u32) -> bool;
 }

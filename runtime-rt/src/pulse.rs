@@ -1,8 +1,9 @@
-//! A pulse generator: one pulse output as a pure state machine over time, in integers. Whoever has the time drives it: the
-//! simulator each millisecond, a hardware timer at [`Generator::next_edge`].
+//! A pulse generator: one pulse output as a pure state machine over time, in integers. Whoever has the time drives it:
+//! the simulator each millisecond, a hardware timer at [`Generator::next_edge`].
 //!
-//! A speed is kept as its square, which a steady acceleration changes by the same amount at each pulse (v² = v₀² + 2as). So ramps need no
-//! clock, the way down begins where as many pulses are left as it takes, and a train ends with exactly the pulses that it was given.
+//! A speed is kept as its square, which a steady acceleration changes by the same amount at each pulse (v² = v₀² +
+//! 2as). So ramps need no clock, the way down begins where as many pulses are left as it takes, and a train ends with
+//! exactly the pulses that it was given.
 
 /// What of a pulse has passed is counted in millihertz times microseconds.
 const FULL: u64 = 1_000_000_000;
@@ -121,7 +122,8 @@ impl Generator {
         self.rate = self.square.isqrt() as u32;
     }
 
-    /// Sends pulses of a width and a period without end; a signal that is already sent continues with them. Both are in units of `unit_us`.
+    /// Sends pulses of a width and a period without end; a signal that is already sent continues with them. Both are in
+    /// units of `unit_us`.
     pub fn modulate(&mut self, width: u32, period: u32, unit_us: u32) {
         if !self.modulates {
             *self = Generator {
@@ -212,7 +214,8 @@ impl Generator {
         }
     }
 
-    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; time that goes back stands still.
+    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; time that goes back
+    /// stands still.
     pub fn advance(&mut self, now_us: u32) -> u32 {
         let passed = now_us.wrapping_sub(self.now_us);
         if passed > u32::MAX / 2 {
@@ -242,8 +245,9 @@ impl Generator {
         count
     }
 
-    /// The same for a host that drives a pin: at most one edge of the signal passes, so that the pin has every pulse. A host that comes late
-    /// sends the next edges sooner, but none before its time is half over; what it is later than that, the train is longer.
+    /// The same for a host that drives a pin: at most one edge of the signal passes, so that the pin has every pulse. A
+    /// host that comes late sends the next edges sooner, but none before its time is half over; what it is later than
+    /// that, the train is longer.
     pub fn step(&mut self, now_us: u32) -> u32 {
         if core::mem::take(&mut self.fresh) {
             self.now_us = now_us;

@@ -1,24 +1,24 @@
 //! Pulse outputs that an interrupt drives while a scan runs, and what it shares with the program.
 //!
-//! The program has an [`Axis`] for each of its outputs, and so has the interrupt, which alone lets time pass for its own. Whenever the
-//! program counts pulses, or runs an instruction that sends some, the interrupt waits: the program takes over
-//! what has been sent by then, and leaves what is to be sent. So an edge waits for one such instruction at most, a few microseconds, and
-//! never for a scan; and no pulse is lost or sent twice.
+//! The program has an [`Axis`] for each of its outputs, and so has the interrupt, which alone lets time pass for its
+//! own. Whenever the program counts pulses, or runs an instruction that sends some, the interrupt waits: the program
+//! takes over what has been sent by then, and leaves what is to be sent. So an edge waits for one such instruction at
+//! most, a few microseconds, and never for a scan; and no pulse is lost or sent twice.
 
 use crate::axis::Axis;
 use crate::hal::Hal;
 use crate::plc::Plc;
 
-/// What an interrupt shares with the program: the pulse outputs from Y000 on, as many as emitted programs say with `PULSE_OUTPUTS`. All
-/// are `None` at power-on. It is in a `static` protected by a lock, see [`crate::board`].
+/// What an interrupt shares with the program: the pulse outputs from Y000 on, as many as emitted programs say with
+/// `PULSE_OUTPUTS`. All are `None` at power-on. It is in a `static` protected by a lock, see [`crate::board`].
 pub type SharedAxes<const N: usize> = [Option<Axis>; N];
 
 /// How soon the interrupt comes again while the program has its outputs, in microseconds.
 const RETRY_US: u32 = 5;
 
-/// Drives the pins of pulse outputs whose time has come, in the interrupt of a timer; returns in how many microseconds the next one
-/// changes, for the timer to be armed; `None` if none does. What `set_output` is called for are the outputs that the program sends
-/// pulses on.
+/// Drives the pins of pulse outputs whose time has come, in the interrupt of a timer; returns in how many microseconds
+/// the next one changes, for the timer to be armed; `None` if none does. What `set_output` is called for are the
+/// outputs that the program sends pulses on.
 pub fn send_pulses(
     shared: &mut [Option<Axis>],
     now_us: u32,

@@ -27,8 +27,8 @@ pub struct Needs {
     pub clears: bool,
     /// It waits for the interrupt input of its output.
     pub interrupt: bool,
-    /// It looks at inputs X, and is also called at their edges ([`crate::Site::signal`]): at those of the inputs that it names or that
-    /// belong to its output ([`crate::Wiring::inputs`]).
+    /// It looks at inputs X, and is also called at their edges ([`crate::Site::signal`]): at those of the inputs that
+    /// it names or that belong to its output ([`crate::Wiring::inputs`]).
     pub signals: bool,
     /// It works on the serial port of RS ([`crate::Ports::of_rs`]).
     pub port: bool,

@@ -1,4 +1,5 @@
-//! Special relays and registers: their types, and the names of those that the runtime, the compiler or emitted code touch.
+//! Special relays and registers: their types, and the names of those that the runtime, the compiler or emitted code
+//! touch.
 //!
 //! Every such number is here and nowhere else. The tables of the models say what a number means on which model; they
 //! know many more of them.
@@ -257,7 +258,8 @@ pub const D_ANNUNCIATOR_ON: Register = Register(8049);
 pub const D_INPUT_FILTER: Register = Register(8020);
 /// Comparisons act when a reset input resets the counter, too.
 pub const M_COMPARE_AT_RESET: Relay = Relay(8025);
-/// Number 0 of the relays of counters, of which those of C200 and the following exist: the direction of a counter, or what shows it.
+/// Number 0 of the relays of counters, of which those of C200 and the following exist: the direction of a counter, or
+/// what shows it.
 pub const M_COUNTER_DIRECTION: Relay = Relay(8000);
 /// Values of the built-in analog inputs of L01S, sixteen registers, or of the two potentiometers of FX3G.
 pub const D_ANALOG_INPUTS: Register = Register(8030);

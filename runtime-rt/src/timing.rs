@@ -18,8 +18,8 @@ pub struct TimerKind {
     pub overruns: bool,
     /// Advances by at most one unit a scan, so scans longer than its unit make it slow (10 ms timers of L01S).
     pub stepwise: bool,
-    /// Its coil may be executed more than once in a scan (in a loop, in a routine, in several places), which counts the time of the
-    /// scan only once.
+    /// Its coil may be executed more than once in a scan (in a loop, in a routine, in several places), which counts the
+    /// time of the scan only once.
     pub shared: bool,
 }
 
@@ -31,8 +31,8 @@ pub struct Timer {
     pub value: i16,
     /// Preset taken over at the start of timing or, for a free-running timer, the last one.
     pub preset: i16,
-    /// 0 if its coil was off at the last execution; else the scan ([`Sys::scan`]) in which it was executed or continued, for a shared or
-    /// free-running timer, and 1 for others.
+    /// 0 if its coil was off at the last execution; else the scan ([`Sys::scan`]) in which it was executed or
+    /// continued, for a shared or free-running timer, and 1 for others.
     pub coil: u16,
     /// Time since the last whole unit, in milliseconds.
     pub part_ms: u8,
@@ -63,10 +63,10 @@ impl Timer {
 
     /// Executes the coil; returns the contact.
     ///
-    /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the previous scan is
-    /// added, so that a timer first driven at time t reaches K units in the first scan at t + K units or later. A timer counts the
-    /// pulses of a clock (h1u-h2u-programming §3.5), so a coil that is executed again in the same scan adds nothing: that is what
-    /// [`TimerKind::shared`] is for.
+    /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the
+    /// previous scan is added, so that a timer first driven at time t reaches K units in the first scan at t + K units
+    /// or later. A timer counts the pulses of a clock (h1u-h2u-programming §3.5), so a coil that is executed again in
+    /// the same scan adds nothing: that is what [`TimerKind::shared`] is for.
     #[inline]
     pub fn run(&mut self, kind: TimerKind, drive: bool, preset: i16, sys: &Sys) -> bool {
         if !drive {
@@ -150,8 +150,8 @@ impl Counter16 {
         };
     }
 
-    /// Executes the coil: counts an off-to-on change; returns the contact. A preset of 0 acts as 1; a value written at or above
-    /// the preset closes the contact at the next count and becomes the preset.
+    /// Executes the coil: counts an off-to-on change; returns the contact. A preset of 0 acts as 1; a value written at
+    /// or above the preset closes the contact at the next count and becomes the preset.
     pub fn run(&mut self, drive: bool, preset: i16) -> bool {
         if drive && !self.coil && !self.done {
             let preset = preset.max(1);
@@ -193,8 +193,8 @@ impl Counter32 {
         };
     }
 
-    /// Executes the coil: counts an off-to-on change in the direction of its special relay, wrapping; returns the contact, which
-    /// closes when the value reaches the preset upwards and opens when it leaves it downwards.
+    /// Executes the coil: counts an off-to-on change in the direction of its special relay, wrapping; returns the
+    /// contact, which closes when the value reaches the preset upwards and opens when it leaves it downwards.
     pub fn run(&mut self, drive: bool, down: bool, preset: i32) -> bool {
         if drive && !self.coil {
             self.count(down, preset);
@@ -203,8 +203,8 @@ impl Counter32 {
         self.done
     }
 
-    /// Counts once, up or down, wrapping. The contact closes when the value reaches the preset upwards and opens when it leaves it
-    /// downwards.
+    /// Counts once, up or down, wrapping. The contact closes when the value reaches the preset upwards and opens when
+    /// it leaves it downwards.
     pub fn count(&mut self, down: bool, preset: i32) {
         let before = self.value;
         self.value = before.wrapping_add(if down { -1 } else { 1 });

@@ -44,7 +44,8 @@ impl Queue {
     }
 }
 
-/// A line without allocation. What the PLC sends has the times that its bits take, from the moment at which it is handed over.
+/// A line without allocation. What the PLC sends has the times that its bits take, from the moment at which it is
+/// handed over.
 #[derive(Clone, Debug)]
 pub struct VirtualLine {
     format: LineFormat,

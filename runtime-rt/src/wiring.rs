@@ -62,7 +62,8 @@ pub struct Interrupt {
     pub input: u32,
     /// Relay with which the register counts.
     pub chooses: Option<Relay>,
-    /// That register: a hexadecimal digit for each output, that of Y000 the lowest. 0 to 7 stand for X000 to X007, 8 for the relay.
+    /// That register: a hexadecimal digit for each output, that of Y000 the lowest. 0 to 7 stand for X000 to X007, 8
+    /// for the relay.
     pub register: Option<Register>,
     /// Relay that gives the signal in an input's place.
     pub relay: Option<Relay>,
@@ -173,8 +174,8 @@ const D8145: Ramps = Ramps {
     down: Register(8148),
 };
 
-/// H1U and H2U, whose second stop relays are those beside DSZR's (h1u-h2u-programming §8.4 to §8.9). Y003 and Y004 are those of the MTQ
-/// and MTP types, Y005 to Y007 those of MTP.
+/// H1U and H2U, whose second stop relays are those beside DSZR's (h1u-h2u-programming §8.4 to §8.9). Y003 and Y004 are
+/// those of the MTQ and MTP types, Y005 to Y007 those of MTP.
 const INOVANCE: [Wiring; 8] = [
     inovance(0, 8140, d(8136), 8145, 8147),
     inovance(1, 8142, d(8136), 8146, 8148),
@@ -387,8 +388,8 @@ const fn fx2n(output: u16) -> Wiring {
 
 const FX2N: [Wiring; 2] = [fx2n(0), fx2n(1)];
 
-/// FX1S and FX1N: as FX2N, and with M8140 ZRN clears the counter of the amplifier by Y002 for Y000, by Y003 for Y001 (FX1S/FX1N/FX2N
-/// programming manual II §5.16).
+/// FX1S and FX1N: as FX2N, and with M8140 ZRN clears the counter of the amplifier by Y002 for Y000, by Y003 for Y001
+/// (FX1S/FX1N/FX2N programming manual II §5.16).
 const fn fx1(output: u16) -> Wiring {
     Wiring {
         zrn_clear: Some(Clear {
@@ -576,8 +577,8 @@ impl Wiring {
     /// Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
     pub const FAST_INPUTS: u32 = 8;
 
-    /// The inputs X, in addition to those that it names, that an instruction reads, `chosen` telling whether a register may choose the
-    /// interrupt input.
+    /// The inputs X, in addition to those that it names, that an instruction reads, `chosen` telling whether a register
+    /// may choose the interrupt input.
     pub fn inputs(&self, looks: Looks, chosen: bool) -> Range<u32> {
         match (self.axis, looks.interrupt, chosen) {
             (Some(_), ..) => 0..AXIS_INPUTS,
@@ -615,8 +616,8 @@ impl Wiring {
     }
 }
 
-/// The registers of an axis, those in which outputs are counted, and those that bind axes: how many outputs are in use limits the
-/// speed of each.
+/// The registers of an axis, those in which outputs are counted, and those that bind axes: how many outputs are in use
+/// limits the speed of each.
 fn of_axes(first: Register) -> impl Iterator<Item = Register> {
     let own = first.run::<{ place::COUNT as usize }>();
     let counted = place::PULSES.run::<{ 2 * place::OUTPUTS as usize }>();

@@ -151,8 +151,8 @@ pub const fn negate(value: f32) -> f32 {
     f32::from_bits(value.to_bits() ^ 0x8000_0000)
 }
 
-/// A rounded result as floating point instructions store it: the largest float of its sign where it is too large, the smallest normal one
-/// where it is too small but not exactly 0.
+/// A rounded result as floating point instructions store it: the largest float of its sign where it is too large, the
+/// smallest normal one where it is too small but not exactly 0.
 fn stored(rounded: f32, is_zero: bool) -> f32 {
     if rounded.is_infinite() {
         f32::MAX.copysign(rounded)

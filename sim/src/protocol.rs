@@ -1,7 +1,8 @@
 //! What a test asks of an engine, and the text form in which it asks executables.
 //!
-//! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`, `none` (no
-//! such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or a value was asked for.
+//! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`,
+//! `none` (no such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or
+//! a value was asked for.
 
 use crate::target::Channel;
 use rungc_rt::comm::Received;
@@ -13,8 +14,8 @@ use std::fmt;
 pub enum Request {
     /// Program number `.0` of the batch, freshly powered on, with hardware that has nothing set.
     Case(usize),
-    /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with separate hardware. The first PLC is that of
-    /// [`Request::Case`].
+    /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with separate hardware. The
+    /// first PLC is that of [`Request::Case`].
     Join(usize),
     /// What follows is for this PLC of the case, 0 for the first.
     Plc(usize),
@@ -37,7 +38,8 @@ pub enum Request {
         /// Duration of the scan before, in microseconds.
         scan_us: u32,
     },
-    /// Asks how many milliseconds a scan is to last at least; 0 if the program does not ask for scans of constant length.
+    /// Asks how many milliseconds a scan is to last at least; 0 if the program does not ask for scans of constant
+    /// length.
     ConstantScan,
     /// An input terminal turns on or off.
     Edge(u32, bool),
@@ -53,11 +55,11 @@ pub enum Request {
     Frequency(u32),
     /// A character comes to a serial port; it was in at its time, after those before it.
     Receive(u8, Received),
-    /// Takes the oldest character that a serial port has sent by a time, in microseconds since power-on: the time at which it was out,
-    /// shifted left by 8, plus the character. There is none: [`Answer::Missing`].
+    /// Takes the oldest character that a serial port has sent by a time, in microseconds since power-on: the time at
+    /// which it was out, shifted left by 8, plus the character. There is none: [`Answer::Missing`].
     Sent(u8, u32),
-    /// Asks for the format of characters on the line of a serial port: bits per second, 8 bits of data bits, 4 of parity (none, odd, even), 4 of stop
-    /// bits.
+    /// Asks for the format of characters on the line of a serial port: bits per second, 8 bits of data bits, 4 of
+    /// parity (none, odd, even), 4 of stop bits.
     Line(u8),
     /// The RUN/STOP switch.
     Run(bool),

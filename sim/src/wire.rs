@@ -39,8 +39,8 @@ pub enum Signal {
 }
 
 impl Signal {
-    /// Its changes, in order. The first one comes an eighth of a period after the step's first scan, so that none falls together with a
-    /// scan of a slower signal.
+    /// Its changes, in order. The first one comes an eighth of a period after the step's first scan, so that none falls
+    /// together with a scan of a slower signal.
     fn changes(self) -> Vec<Change> {
         let at = |hz: f64, cycle: u32, part: f64| {
             let periods = f64::from(cycle) + part + 0.125;

@@ -143,7 +143,8 @@ fn mistakes_have_their_place() {
     );
 }
 
-/// Bounds of indexes belong to a project's program; the error about a test file with bounds says that, not that the key is unknown.
+/// Bounds of indexes belong to a project's program; the error about a test file with bounds says that, not that the key
+/// is unknown.
 #[test]
 fn bounds_of_indexes_are_refused_in_test_files() {
     let folder = folder("a.il", LIST, None);

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Positions of elements that two sequences have in common, in order in both: as many as a good alignment finds.
 ///
-/// Elements that only one of them has are left out first, so that long sequences with little in common take no longer than others.
+/// Elements that only one of them has are left out first, so that long sequences with little in common take no longer
+/// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
     let in_old: BTreeSet<&T> = old.iter().collect();
     let mut numbers: BTreeMap<&T, usize> = BTreeMap::new();

@@ -9,8 +9,8 @@ use std::path::PathBuf;
 /// Arguments of `diff`.
 #[derive(Args, Debug)]
 pub struct DiffArgs {
-    /// The old program and the new one, of any kind that `check` reads; `-` is standard input. With seven or nine arguments, those with which Git
-    /// calls a diff driver (docs/src/diff.md).
+    /// The old program and the new one, of any kind that `check` reads; `-` is standard input. With seven or nine
+    /// arguments, those with which Git calls a diff driver (docs/src/diff.md).
     #[arg(value_name = "FILE", required = true, num_args = 2..=9)]
     pub files: Vec<PathBuf>,
     /// Compare what the programs do: say which devices can have different values. The exit code is about that alone.

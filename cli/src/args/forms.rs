@@ -27,8 +27,8 @@ pub struct ConvertArgs {
 /// Arguments of `read`.
 #[derive(Args, Debug)]
 pub struct ReadArgs {
-    /// The serial port of this machine that the PLC's programming port is connected to (`/dev/ttyUSB0`, `COM3`), or a serial
-    /// device server (`tcp:HOST:PORT`).
+    /// The serial port of this machine that the PLC's programming port is connected to (`/dev/ttyUSB0`, `COM3`), or a
+    /// serial device server (`tcp:HOST:PORT`).
     #[arg(long, value_parser = plc, value_name = "PORT")]
     pub port: LineEnd,
     /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.

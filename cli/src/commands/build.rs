@@ -547,8 +547,8 @@ fn at(path: &Path, error: std::io::Error) -> Failure {
     Failure::Because(format!("{}: {error}", path.display()))
 }
 
-/// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with `force`) they
-/// take their outputs when all of them are written.
+/// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with
+/// `force`) they take their outputs when all of them are written.
 fn write_folder(
     folder: &Path,
     files: &[OutFile<Vec<u8>>],

@@ -11,7 +11,8 @@ use rungc_syntax::{Diagnostic, Severity};
 /// A fix may uncover another one; no line needs more rounds than this.
 const ROUNDS: usize = 8;
 
-/// Changes the file of a program, as a whole or not at all, and reports the changes. The check reports what cannot be read.
+/// Changes the file of a program, as a whole or not at all, and reports the changes. The check reports what cannot be
+/// read.
 pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
     let path = subject.file.display();
     if subject.is_stdin() {

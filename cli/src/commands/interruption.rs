@@ -1,5 +1,5 @@
-//! A command that is interrupted (Ctrl-C, or the system's request to end) ends well: what it was writing is whole or not there, and
-//! the exit code says that it was cut short.
+//! A command that is interrupted (Ctrl-C, or the system's request to end) ends well: what it was writing is whole or
+//! not there, and the exit code says that it was cut short.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,8 +19,8 @@ pub fn note() {
     install(None);
 }
 
-/// As [`note`], for commands that wait for others, such as compilers: these are interrupted as well. What takes longer than it may
-/// is ended.
+/// As [`note`], for commands that wait for others, such as compilers: these are interrupted as well. What takes longer
+/// than it may is ended.
 pub fn note_for_a_while() {
     install(Some(GRACE));
 }

@@ -279,8 +279,8 @@ fn write_whole(
     file.persist()
 }
 
-/// A file that appears whole or not at all: it is written under another name and renamed when complete. If it is dropped before, nothing
-/// has happened.
+/// A file that appears whole or not at all: it is written under another name and renamed when complete. If it is
+/// dropped before, nothing has happened.
 pub struct AtomicFile {
     file: NamedTempFile,
     path: PathBuf,
@@ -353,8 +353,8 @@ pub fn parent_dir(path: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-/// What files made of a program are called: its name in any script, without what no file system takes. A name in ASCII is that of
-/// the module.
+/// What files made of a program are called: its name in any script, without what no file system takes. A name in ASCII
+/// is that of the module.
 pub fn file_name(stem: &str, module: &str) -> String {
     if stem.is_ascii() {
         return module.to_string();

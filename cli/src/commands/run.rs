@@ -241,9 +241,9 @@ fn real_path(path: &Path) -> PathBuf {
     })
 }
 
-/// What changes in a run, as far as a line holds it: the outputs that the program drives, the inputs that are set or that the
-/// machine drives, then the states, timers, counters, registers and relays that the program writes. Special devices are shown only
-/// when asked for.
+/// What changes in a run, as far as a line holds it: the outputs that the program drives, the inputs that are set or
+/// that the machine drives, then the states, timers, counters, registers and relays that the program writes. Special
+/// devices are shown only when asked for.
 fn default_watch(
     program: &Program,
     module: &Module,

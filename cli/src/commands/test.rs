@@ -124,8 +124,8 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     Ok(())
 }
 
-/// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a cache a
-/// temporary one.
+/// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a
+/// cache a temporary one.
 enum BuildFolder {
     Kept(Slot),
     Temporary(tempfile::TempDir),
@@ -213,7 +213,8 @@ fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure>
     Ok(())
 }
 
-/// Adds the test files in a folder and below; hidden folders, folders called `target` and links to folders are left out.
+/// Adds the test files in a folder and below; hidden folders, folders called `target` and links to folders are left
+/// out.
 fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
     let is_left_out = |entry: &DirEntry| {
         let name = entry.file_name().to_string_lossy();

@@ -23,8 +23,8 @@ pub struct Place {
 pub struct Together(BTreeMap<PathBuf, (Place, Vec<Recipe>)>);
 
 impl Together {
-    /// The recipes of a folder, to which that of one more program is added. Fails where its Makefile cannot be written, or
-    /// where another program there has another target.
+    /// The recipes of a folder, to which that of one more program is added. Fails where its Makefile cannot be written,
+    /// or where another program there has another target.
     pub fn at(&mut self, place: Place) -> Result<&mut Vec<Recipe>, Failure> {
         vacant(&place.folder.join("Makefile"), place.force)?;
         let target = place.target;

@@ -7,15 +7,16 @@ use rungc_models::{Model, ModelId};
 use rungc_syntax::{Operands, codes};
 use std::collections::{BTreeMap, HashMap};
 
-/// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a program.
+/// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a
+/// program.
 const MAX_CODES: usize = 32;
 /// The number of uses of a code that are compared.
 const MAX_USES: usize = 16;
 /// The number of instructions that are named.
 const MAX_NAMED: usize = 12;
 
-/// Completes the errors about codes that are not known by the instructions that would fit on the program's model, which is `chosen`
-/// or the one that the project names.
+/// Completes the errors about codes that are not known by the instructions that would fit on the program's model, which
+/// is `chosen` or the one that the project names.
 pub fn suggest(read: &mut Read, chosen: Option<ModelId>) {
     let options = CompileOptions {
         model: chosen,

@@ -1,8 +1,10 @@
-//! Human-readable diagnostics, drawn by ariadne: the message, the lines that it is about with their labels, and what to do.
+//! Human-readable diagnostics, drawn by ariadne: the message, the lines that it is about with their labels, and what to
+//! do.
 //!
-//! The library draws whole lines of whole files, numbered from 1. It is given a source made of the marked lines alone, each cut to a
-//! window, so that a diagnostic takes little time and a few lines of a terminal however long the program and its lines are and however
-//! many places the diagnostic names. The numbers of the lines, or the steps, are then written into the margin.
+//! The library draws whole lines of whole files, numbered from 1. It is given a source made of the marked lines alone,
+//! each cut to a window, so that a diagnostic takes little time and a few lines of a terminal however long the program
+//! and its lines are and however many places the diagnostic names. The numbers of the lines, or the steps, are then
+//! written into the margin.
 
 use super::Findings;
 use super::location::{Location, instr_at};
@@ -174,8 +176,8 @@ fn excerpt<'a>(rows: &[Row<'a>]) -> (String, Vec<(Range<usize>, &'a Mark<'a>)>) 
     (lines.join(GAP), labels)
 }
 
-/// The drawing of an [`excerpt`] with the numbers of its rows in the margin, which the library numbers 1, 3, 5, …, and no line or
-/// column of the excerpt in its head; and without spaces at the ends of lines.
+/// The drawing of an [`excerpt`] with the numbers of its rows in the margin, which the library numbers 1, 3, 5, …, and
+/// no line or column of the excerpt in its head; and without spaces at the ends of lines.
 fn numbered(drawn: &str, rows: &[Row]) -> String {
     let mut lines = drawn.lines();
     let mut text = String::with_capacity(drawn.len() + 64);

@@ -163,8 +163,8 @@ fn joined_labels(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// How severe a finding is under the options of the command line, which win, and the rules of the project; `None` leaves it out.
-/// Errors and notes stay what they are, but for notes that are left out.
+/// How severe a finding is under the options of the command line, which win, and the rules of the project; `None`
+/// leaves it out. Errors and notes stay what they are, but for notes that are left out.
 fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
     let (options, rules) = (reporting, &reporting.rules);
     match d.severity {
@@ -204,8 +204,8 @@ pub struct Totals {
 }
 
 impl<'a> Reporter<'a> {
-    /// Nothing reported yet. JSON and SARIF go to standard output, or to standard error if standard output carries what the
-    /// command makes.
+    /// Nothing reported yet. JSON and SARIF go to standard output, or to standard error if standard output carries what
+    /// the command makes.
     pub fn new(reporting: &'a Reporting, cx: Context, many: bool) -> Self {
         Reporter {
             reporting,

@@ -189,7 +189,8 @@ fn logical(location: &Location) -> Option<Value> {
     })
 }
 
-/// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or none.
+/// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or
+/// none.
 fn uri(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);

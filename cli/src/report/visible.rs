@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// Whether a terminal would act on a character instead of showing it: control characters of both sets, those that change the
-/// direction of the text, and those that break lines where no line feed is.
+/// Whether a terminal would act on a character instead of showing it: control characters of both sets, those that
+/// change the direction of the text, and those that break lines where no line feed is.
 fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c,
@@ -27,8 +27,8 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// A JSON document in which the same characters are written as JSON escapes them. They occur only in strings; the line feeds
-/// between the tokens stay.
+/// A JSON document in which the same characters are written as JSON escapes them. They occur only in strings; the line
+/// feeds between the tokens stay.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
     replaced(document, |c, out| match c {
         '\n' => out.push(c),

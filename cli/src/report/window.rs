@@ -24,8 +24,8 @@ pub struct Window<'t> {
 }
 
 impl<'t> Window<'t> {
-    /// The part of the line around a byte of the source, however long the line is. `listing`: lines begin with the number of the
-    /// step, which is left out.
+    /// The part of the line around a byte of the source, however long the line is. `listing`: lines begin with the
+    /// number of the step, which is left out.
     pub fn around(source: &'t str, at: usize, listing: bool) -> Self {
         let at = floor(source, at);
         let breaks = |&(_, c): &(usize, char)| c == '\n';
@@ -78,7 +78,8 @@ impl<'t> Window<'t> {
         (self.start..=self.start + self.text.len()).contains(&at)
     }
 
-    /// The character of what is drawn, from 0, that stands for a byte of the source; what lies outside is drawn at the edge.
+    /// The character of what is drawn, from 0, that stands for a byte of the source; what lies outside is drawn at the
+    /// edge.
     pub fn column(&self, at: usize) -> usize {
         let within = at.saturating_sub(self.start).min(self.text.len());
         let before = &self.text[..floor(self.text, within)];

@@ -23,8 +23,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// Runs `p.il` of this folder. Servers are named by their options, such as `--modbus-tcp`, each at a free port; lines as `COM1`, each at a
-    /// pseudo-terminal.
+    /// Runs `p.il` of this folder. Servers are named by their options, such as `--modbus-tcp`, each at a free port;
+    /// lines as `COM1`, each at a pseudo-terminal.
     pub fn new(folder: &Path, model: &str, servers: &[&str], lines: &[&str]) -> Run {
         let terminals: Vec<_> = lines.iter().map(|line| format!("{line}=pty")).collect();
         let mut args = Vec::new();

@@ -1,5 +1,5 @@
-//! Moves that inputs steer: how many pulses they differ from their formula, and how far they go once an input has changed.
-//! Pulses are sent edge by edge, as a board's timer sends them, and an input changes at the very pulse.
+//! Moves that inputs steer: how many pulses they differ from their formula, and how far they go once an input has
+//! changed. Pulses are sent edge by edge, as a board's timer sends them, and an input changes at the very pulse.
 
 use rungc_golden::module;
 use rungc_interp::Machine;

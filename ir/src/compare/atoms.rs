@@ -17,8 +17,8 @@ type Run = (DeviceClass, u32, u32);
 /// No model has special devices from 10000 on.
 const LAST_SPECIAL: u32 = 9999;
 
-/// Special devices that an instruction of the runtime may read or write: all but those that the scan alone maintains, M8000 to M8003 and
-/// M8011 to M8014.
+/// Special devices that an instruction of the runtime may read or write: all but those that the scan alone maintains,
+/// M8000 to M8003 and M8011 to M8014.
 const SPECIAL: [Run; 3] = [
     (DeviceClass::M, 8004, 8010),
     (DeviceClass::M, 8015, LAST_SPECIAL),

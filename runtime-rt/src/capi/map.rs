@@ -29,7 +29,8 @@ fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
     if first.is_null() {
         return &[];
     }
-    // SAFETY: a Layout's pointers are valid for their counts and as long as the program runs, and nothing writes to them.
+    // SAFETY: a Layout's pointers are valid for their counts and as long as the program runs, and nothing writes to
+    // them.
     unsafe { core::slice::from_raw_parts(first, count) }
 }
 
@@ -179,7 +180,8 @@ impl Map {
 
 /// Reads an element of the program's struct.
 fn read<T: Copy>(at: *mut u8) -> T {
-    // SAFETY: `find` gives a pointer to an element of the kind that the caller reads, aligned as the C compiler placed it.
+    // SAFETY: `find` gives a pointer to an element of the kind that the caller reads, aligned as the C compiler placed
+    // it.
     unsafe { at.cast::<T>().read() }
 }
 
@@ -307,7 +309,8 @@ impl Plc for Map {
         if layout.codecs.is_null() {
             return &[];
         }
-        // SAFETY: a layout names codecs of the library, of which none is NULL and which are there as long as the program runs.
+        // SAFETY: a layout names codecs of the library, of which none is NULL and which are there as long as the
+        // program runs.
         unsafe { core::slice::from_raw_parts(layout.codecs.cast(), layout.codec_count) }
     }
 

@@ -1,11 +1,13 @@
 //! The CAN card of H1U and H2U: frames of the program's own, by CANTX and CANRX (h1u-h2u-programming §4.3.9).
 //!
-//! Frames go by the hardware's [`CanBus`](crate::CanBus). Where there is none, the card is a serial port, [`CAN_PORT`], whose other end speaks
-//! SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
-//! return ends them. Its bit rate and whether the bus is open are the adapter's.
+//! Frames go by the hardware's [`CanBus`](crate::CanBus). Where there is none, the card is a serial port, [`CAN_PORT`],
+//! whose other end speaks SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a tty): `tiiildd…` and
+//! `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a
+//! carriage return ends them. Its bit rate and whether the bus is open are the adapter's.
 //!
-//! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does not name is lost. D8299
-//! is the time after which the next one waits; where it is 0, it is [`TURN_US`]. The card's relays and registers show what happens.
+//! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does
+//! not name is lost. D8299 is the time after which the next one waits; where it is 0, it is [`TURN_US`]. The card's
+//! relays and registers show what happens.
 
 use super::port::Session;
 use super::{Cut, Frame, Protocol, hex_digits};
@@ -20,8 +22,8 @@ pub const CAN_PORT: u8 = 4;
 /// After this many microseconds without its frame, an instruction lets the next one wait, if D8299 is 0.
 pub const TURN_US: u32 = 100_000;
 
-/// Special devices of the card (h1u-h2u-programming §8.1): CANRX waits; a frame could not be sent; CANRX has received; CANTX sends; CANRX has
-/// waited in vain.
+/// Special devices of the card (h1u-h2u-programming §8.1): CANRX waits; a frame could not be sent; CANRX has received;
+/// CANTX sends; CANRX has waited in vain.
 pub(crate) const M_WAITS: Relay = Relay(8292);
 pub(crate) const M_SEND_FAILED: Relay = Relay(8293);
 pub(crate) const M_RECEIVED: Relay = Relay(8294);
@@ -110,8 +112,8 @@ impl CanFrame {
 
 /// The CAN card as a port.
 impl Session<'_> {
-    /// Takes the frames of a CAN bus, and shows whether there is a card, and whether it still sends. True if there is a bus: then there is
-    /// no line.
+    /// Takes the frames of a CAN bus, and shows whether there is a card, and whether it still sends. True if there is a
+    /// bus: then there is no line.
     pub(super) fn advance_can(&mut self) -> bool {
         let mut sends = false;
         let mut is_there = false;
@@ -214,8 +216,8 @@ impl CanTurn {
         self.owner != 0 && !self.released && !self.come
     }
 
-    /// The scan reaches a driven instruction that waits for this identifier; returns its frame if one has come. It lets others wait after
-    /// `turn_us` without one.
+    /// The scan reaches a driven instruction that waits for this identifier; returns its frame if one has come. It lets
+    /// others wait after `turn_us` without one.
     pub fn visit(&mut self, owner: u32, id: u32, now_us: u32, turn_us: u32) -> Option<CanFrame> {
         let expired = now_us.wrapping_sub(self.since_us) >= turn_us;
         let frame = if self.owner == owner && self.id == id {

@@ -1,13 +1,13 @@
-//! Computer link: a computer asks PLCs by station number, in text (h1u-h2u-programming §5.6); the BD protocol of L01S is the same
-//! (l01s-programming §8.2), and HM has a part of it (hm-motion-controller §6.3).
+//! Computer link: a computer asks PLCs by station number, in text (h1u-h2u-programming §5.6); the BD protocol of L01S
+//! is the same (l01s-programming §8.2), and HM has a part of it (hm-motion-controller §6.3).
 //!
-//! A request is `ENQ station PC command wait contents [sum] [CR LF]`. Formats differ by the terminator alone: format 4 ends with CR LF, format 1
-//! by the length that its command has. The low byte of the sum of all characters after the control character follows as two digits where the
-//! format word says so; ACK and NAK carry none.
+//! A request is `ENQ station PC command wait contents [sum] [CR LF]`. Formats differ by the terminator alone: format 4
+//! ends with CR LF, format 1 by the length that its command has. The low byte of the sum of all characters after the
+//! control character follows as two digits where the format word says so; ACK and NAK carry none.
 //!
-//! Where the manuals are silent, FX decides: the lowest device of a word of bits is bit 0, contacts of timers and counters are `TS` and `CS`
-//! with three digits (`T` and `C` with four are taken as well), `BR` with count 00 reads 256 points, a frame for another station is not
-//! answered even if it is wrong.
+//! Where the manuals are silent, FX decides: the lowest device of a word of bits is bit 0, contacts of timers and
+//! counters are `TS` and `CS` with three digits (`T` and `C` with four are taken as well), `BR` with count 00 reads 256
+//! points, a frame for another station is not answered even if it is wrong.
 
 mod device;
 pub mod master;

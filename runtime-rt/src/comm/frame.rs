@@ -1,6 +1,7 @@
 //! A frame that is being made, and the digits and sums that protocols share.
 
-/// Characters of a frame in a buffer that somebody else owns. What does not fit is lost, and the frame says so ([`Frame::overflows`]).
+/// Characters of a frame in a buffer that somebody else owns. What does not fit is lost, and the frame says so
+/// ([`Frame::overflows`]).
 #[derive(Debug)]
 pub struct Frame<'a> {
     bytes: &'a mut [u8],

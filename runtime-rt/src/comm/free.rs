@@ -1,4 +1,5 @@
-//! Protocols of the program's own: RS, RS2 (h1u-h2u-programming §5.6, l01s-programming §9), USEND and URCV (hm-motion-controller §6.5).
+//! Protocols of the program's own: RS, RS2 (h1u-h2u-programming §5.6, l01s-programming §9), USEND and URCV
+//! (hm-motion-controller §6.5).
 
 mod rs;
 

@@ -1,11 +1,14 @@
-//! The programming port of the FX family, which is also its HMI monitor: device read, write and force, RUN and STOP, monitor lists.
+//! The programming port of the FX family, which is also its HMI monitor: device read, write and force, RUN and STOP,
+//! monitor lists.
 //!
-//! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). This code follows
-//! published recordings between GX Works2 and PLCs and from published drivers. Program memory is read where the PLC has one (a simulated PLC
-//! does, a compiled program does not); commands that would change it are rejected with NAK.
+//! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). This code
+//! follows published recordings between GX Works2 and PLCs and from published drivers. Program memory is read where the
+//! PLC has one (a simulated PLC does, a compiled program does not); commands that would change it are rejected with
+//! NAK.
 //!
-//! The line is 9600 bit/s, 7 data bits, even parity, 1 stop bit. A request is `STX command fields ETX sum`, in hexadecimal digits of upper
-//! case; the sum is the low byte of all characters after STX up to and with ETX. A lone ENQ asks whether somebody is there.
+//! The line is 9600 bit/s, 7 data bits, even parity, 1 stop bit. A request is `STX command fields ETX sum`, in
+//! hexadecimal digits of upper case; the sum is the low byte of all characters after STX up to and with ETX. A lone ENQ
+//! asks whether somebody is there.
 
 mod monitor;
 mod space;
@@ -62,8 +65,8 @@ const M_FORCE_STOP: u32 = special::M_FORCED_STOP.number();
 pub struct Settings {
     /// Where the extended commands find devices.
     pub space: Space,
-    /// Whether M8035 to M8037 switch RUN and STOP, and D8101 shows what D8001 shows, as on FX. HM uses these devices otherwise
-    /// (hm-motion-controller §4.4).
+    /// Whether M8035 to M8037 switch RUN and STOP, and D8101 shows what D8001 shows, as on FX. HM uses these devices
+    /// otherwise (hm-motion-controller §4.4).
     pub fx_relays: bool,
 }
 
@@ -79,7 +82,8 @@ pub fn cut(received: &[u8]) -> Cut {
     }
 }
 
-/// Answers a request. A rejected one is answered by NAK; commands for program memory that is not served are rejected without a fault.
+/// Answers a request. A rejected one is answered by NAK; commands for program memory that is not served are rejected
+/// without a fault.
 ///
 /// # Errors
 /// What is wrong with a request that no PLC would take.

@@ -1,10 +1,13 @@
-//! Links that PLCs keep up by themselves: parallel link, N:N link and enhanced N:N link, and the polling of a computer link's master.
+//! Links that PLCs keep up by themselves: parallel link, N:N link and enhanced N:N link, and the polling of a computer
+//! link's master.
 //!
-//! The manuals print no frame of the links between PLCs (h1u-h2u-programming §5.3 to §5.5); those here are our own, so PLCs understand each
-//! other that run programs of rungc. What programs see (areas, registers, relays, times) is as the manuals say.
+//! The manuals print no frame of the links between PLCs (h1u-h2u-programming §5.3 to §5.5); those here are our own, so
+//! PLCs understand each other that run programs of rungc. What programs see (areas, registers, relays, times) is as the
+//! manuals say.
 //!
-//! A frame is `STX text ETX sum`, in characters of seven bits: the text starts with a letter that gives its kind, numbers are hexadecimal digits of
-//! upper case, a word has four, and the sum is the low byte of all characters after STX up to and with ETX, in two digits.
+//! A frame is `STX text ETX sum`, in characters of seven bits: the text starts with a letter that gives its kind,
+//! numbers are hexadecimal digits of upper case, a word has four, and the sum is the low byte of all characters after
+//! STX up to and with ETX, in two digits.
 //!
 //! | text | sent by | meaning |
 //! |---|---|---|
@@ -13,8 +16,9 @@
 //! | `D` station slaves mode words | each station of an N:N link | its block: words of bits, then words of D |
 //! | `P` station slaves mode faults | master of an N:N link | asks this station for its block; four digits of faults say which stations are missing, station 0 in bit 0 |
 //!
-//! Station and slaves have one digit each; the mode of an N:N link is `0`, `1` or `2`, that of an enhanced one `E`. The master of an N:N link begins each round
-//! with its own block, then asks one slave after the other. Every station takes the blocks of all others. In STOP a PLC neither asks nor answers.
+//! Station and slaves have one digit each; the mode of an N:N link is `0`, `1` or `2`, that of an enhanced one `E`. The
+//! master of an N:N link begins each round with its own block, then asks one slave after the other. Every station takes
+//! the blocks of all others. In STOP a PLC neither asks nor answers.
 
 mod nn;
 mod parallel;
@@ -140,7 +144,8 @@ impl Link {
         }
     }
 
-    /// Called while nothing is being sent or received, as often as the port is looked after: makes the frame that is to be sent now, if one is.
+    /// Called while nothing is being sent or received, as often as the port is looked after: makes the frame that is to
+    /// be sent now, if one is.
     ///
     /// # Errors
     /// The partner has not been heard in time.

@@ -4,8 +4,9 @@ use crate::plc::{Class, Plc};
 
 /// The devices of a PLC as its partners on a line see them.
 ///
-/// Numbers are device numbers: X010 is 8. `None` stands for a device that the model does not have or that this PLC does not serve; the
-/// codec rejects the frame as its protocol says. A class that has no state (D) or no 16-bit value (M, C200 and up) gives `None` as well.
+/// Numbers are device numbers: X010 is 8. `None` stands for a device that the model does not have or that this PLC does
+/// not serve; the codec rejects the frame as its protocol says. A class that has no state (D) or no 16-bit value (M,
+/// C200 and up) gives `None` as well.
 pub trait Map {
     /// State of a bit device; for T and C the contact.
     fn bit(&self, class: Class, number: u32) -> Option<bool>;
@@ -46,8 +47,8 @@ pub trait Map {
     }
 }
 
-/// A running program as its ports serve it: all devices that it stores. An emitted program stores those that it names; the interpreter, and
-/// programs compiled with `observe_all`, store all.
+/// A running program as its ports serve it: all devices that it stores. An emitted program stores those that it names;
+/// the interpreter, and programs compiled with `observe_all`, store all.
 pub struct Served<'a> {
     plc: &'a mut dyn Plc,
     type_code: u16,

@@ -1,9 +1,9 @@
-//! MC protocol in binary, as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do). This is what SCADA packages, Node-RED
-//! and libraries speak over TCP; none of our manuals has it. It follows the public descriptions of both frames, and after what
-//! the libraries pymcprotocol and mcprotocol send.
+//! MC protocol in binary, as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do). This is what
+//! SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the public
+//! descriptions of both frames, and after what the libraries pymcprotocol and mcprotocol send.
 //!
-//! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The protocol has no
-//! authentication.
+//! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The
+//! protocol has no authentication.
 
 mod device;
 mod frame_1e;

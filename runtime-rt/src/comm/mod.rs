@@ -8,25 +8,29 @@
 //!                      and gaps    machine └─ master codecs ─ Map
 //! ```
 //!
-//! A port is advanced when a scan begins and ends and at ticks, never inside a scan; so what a codec writes reaches the devices between
-//! two scans. Nothing here allocates, blocks or panics, and the work of one call is bounded by the longest frame.
+//! A port is advanced when a scan begins and ends and at ticks, never inside a scan; so what a codec writes reaches the
+//! devices between two scans. Nothing here allocates, blocks or panics, and the work of one call is bounded by the
+//! longest frame.
 //!
 //! # The contract of codecs
 //!
-//! A codec is a pure function on bytes and devices: it knows no port, no time and no special device but those that its protocol defines.
+//! A codec is a pure function on bytes and devices: it knows no port, no time and no special device but those that its
+//! protocol defines.
 //!
-//! * **Framing**: `fn cut(received: &[u8]) -> Cut` says after each character whether the characters so far are a whole frame ([`Cut`]).
-//!   Protocols whose frames end by silence (Modbus RTU) have none: the port waits for 3.5 characters of silence.
-//! * **Slaves** answer: `fn answer(settings: &Settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault>`. `request` is one
-//!   frame as [`Cut`] or the silence ended it. The reply is what `reply` holds; an empty one is silence. `Err` says what the port notes in
-//!   the PLC's error register (D8063 and similar registers); the reply is sent all the same. A codec checks a request whole before it writes the first
-//!   device, and writes nothing where it rejects.
-//! * **Masters** ask: `fn request(job, map: &dyn Map, frame: &mut Frame) -> Result<(), LineFault>` makes the request of a job, and
-//!   `fn accept(job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault>` takes the answer; retries, time-outs and whose turn it is are
-//!   the port's.
+//! * **Framing**: `fn cut(received: &[u8]) -> Cut` says after each character whether the characters so far are a whole
+//!   frame ([`Cut`]). Protocols whose frames end by silence (Modbus RTU) have none: the port waits for 3.5 characters
+//!   of silence.
+//! * **Slaves** answer: `fn answer(settings: &Settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) ->
+//!   Result<(), LineFault>`. `request` is one frame as [`Cut`] or the silence ended it. The reply is what `reply`
+//!   holds; an empty one is silence. `Err` says what the port notes in the PLC's error register (D8063 and similar
+//!   registers); the reply is sent all the same. A codec checks a request whole before it writes the first device, and
+//!   writes nothing where it rejects.
+//! * **Masters** ask: `fn request(job, map: &dyn Map, frame: &mut Frame) -> Result<(), LineFault>` makes the request of
+//!   a job, and `fn accept(job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault>` takes the answer; retries,
+//!   time-outs and whose turn it is are the port's.
 //!
-//! Settings (station, format, what the model serves) are plain values that the port makes of the program's registers for each frame
-//! (`slaves.rs`); so a change of the station number in RUN is live.
+//! Settings (station, format, what the model serves) are plain values that the port makes of the program's registers
+//! for each frame (`slaves.rs`); so a change of the station number in RUN is live.
 //!
 //! # Files
 //!
@@ -100,8 +104,8 @@ pub enum Cut {
     Drop,
 }
 
-/// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1: 63x0 to 63x9 of
-/// Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
+/// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1:
+/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineFault {
     /// The station number is out of range (63x0).

@@ -18,10 +18,12 @@ use crate::special::Relay;
 /// Characters of the longest frame: Modbus ASCII has 513, computer link fewer.
 pub const FRAME: usize = 528;
 
-/// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line §2.5.2.1).
+/// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line
+/// §2.5.2.1).
 const GIVEN_UP_US: u32 = 1_000_000;
 
-/// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off must not hold up the others.
+/// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off
+/// must not hold up the others.
 const LINK_GIVEN_UP_US: u32 = 50_000;
 
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
@@ -96,8 +98,8 @@ impl Status {
     }
 }
 
-/// A serial port in a program's memory, with room for a frame of `LENGTH` characters and for what its protocols keep: [`Memory`] or
-/// [`NoMemory`]. All zero is one that has not been set up.
+/// A serial port in a program's memory, with room for a frame of `LENGTH` characters and for what its protocols keep:
+/// [`Memory`] or [`NoMemory`]. All zero is one that has not been set up.
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub struct Port<const LENGTH: usize = FRAME, K = Memory> {
@@ -192,8 +194,9 @@ pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
     now_us.wrapping_sub(at_us) as i32 >= 0
 }
 
-/// Brings all ports to `now_us`, microseconds since power-on, wrapping: when a scan begins, when it ends, and at ticks. Takes the characters
-/// that have come, answers, sends, and shows in special devices what has happened. Returns RUN or STOP if a partner has asked for it.
+/// Brings all ports to `now_us`, microseconds since power-on, wrapping: when a scan begins, when it ends, and at ticks.
+/// Takes the characters that have come, answers, sends, and shows in special devices what has happened. Returns RUN or
+/// STOP if a partner has asked for it.
 pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool> {
     let mut request = None;
     let mut index = 0;

@@ -169,7 +169,15 @@ proptest! {
     /// Whatever comes, with whatever faults and gaps, a port neither panics nor writes where its protocol may not.
     #[test]
     fn no_characters_do_harm(
-        family in prop::sample::select(std::vec![Ports::Inovance, Ports::L01s, Ports::Hm, Ports::Fx, Ports::Fx3, Ports::Fx3g, Ports::Board3u]),
+        family in prop::sample::select(std::vec![
+            Ports::Inovance,
+            Ports::L01s,
+            Ports::Hm,
+            Ports::Fx,
+            Ports::Fx3,
+            Ports::Fx3g,
+            Ports::Board3u,
+        ]),
         protocol in 0..0x90i32,
         format: i16,
         marks: [u8; 2],

@@ -1,10 +1,11 @@
 //! QLink: two functions that a Modbus RTU slave of H1U and H2U has beside its own (h1u-h2u-programming §5.7.3, §5.7.5).
 //!
-//! Function 60h names scattered bits and registers under a number and reads them, 61h reads what a number stands for. Two blocks are kept; a
-//! third takes the place of the older one. They are lost at power-off, and when the port's protocol changes.
+//! Function 60h names scattered bits and registers under a number and reads them, 61h reads what a number stands for.
+//! Two blocks are kept; a third takes the place of the older one. They are lost at power-off, and when the port's
+//! protocol changes.
 //!
-//! The manual says that errors have the codes 1 to 4, not which: an undefined block and an address without a device are 2, everything
-//! else is 3.
+//! The manual says that errors have the codes 1 to 4, not which: an undefined block and an address without a device are
+//! 2, everything else is 3.
 
 use super::memory::{Memory, SIZE};
 use super::modbus::{self, Place, Profile, crc16};

@@ -139,7 +139,8 @@ pub enum Choice {
     L01sPort3,
     /// UINIT (HM).
     Uinit,
-    /// The format word: computer link by bit 14, else RS; before it, N:N links by D8176 and D8177, parallel links by M8070 and M8071 (FX).
+    /// The format word: computer link by bit 14, else RS; before it, N:N links by D8176 and D8177, parallel links by
+    /// M8070 and M8071 (FX).
     Format,
     /// The registers of RS2 and ADPRW (FX3).
     Channel,
@@ -204,7 +205,8 @@ pub struct PortWiring {
     pub modbus_errors: u16,
     /// It has one pair of wires whatever the format word says.
     pub one_pair: bool,
-    /// The special devices that the port has instead where these name a format: those of RS2 and ADPRW rather than RS (FX3).
+    /// The special devices that the port has instead where these name a format: those of RS2 and ADPRW rather than RS
+    /// (FX3).
     pub instead: Option<&'static PortWiring>,
 }
 
@@ -410,7 +412,8 @@ impl PortWiring {
         instead.unwrap_or(self)
     }
 
-    /// The register of the own station number: that of computer links is another one than that of Modbus on channel 2 of FX3.
+    /// The register of the own station number: that of computer links is another one than that of Modbus on channel 2
+    /// of FX3.
     pub(crate) fn station_of(&self, protocol: Protocol) -> Option<Register> {
         match (self.choice, protocol) {
             (Choice::Channel, Protocol::ComputerLink) => self.protocol,
@@ -451,7 +454,8 @@ impl PortWiring {
         (self.rules.line)(self, plc, uinit, free)
     }
 
-    /// The line of a link between PLCs. The rate of the format word replaces the usual one where it is not 0 (h1u-h2u-communication §3.4).
+    /// The line of a link between PLCs. The rate of the format word replaces the usual one where it is not 0
+    /// (h1u-h2u-communication §3.4).
     pub(super) fn linked(&self, plc: &dyn Plc, protocol: Protocol) -> LineFormat {
         let word = value(plc, self.format);
         let rate = match protocol {
@@ -474,8 +478,8 @@ impl PortWiring {
         }
     }
 
-    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards and FX3 count milliseconds here, but tens of them for
-    /// RS and RS2; on FX3, 0 is 3 s.
+    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards and FX3 count milliseconds
+    /// here, but tens of them for RS and RS2; on FX3, 0 is 3 s.
     pub(crate) fn answer_time_out_us(&self, plc: &dyn Plc) -> u32 {
         match (self.choice, value(plc, self.time_out)) {
             (Choice::Channel, 0) => 3_000_000,

@@ -1,8 +1,8 @@
-//! Motion of one axis by pulses, of HM: hm-motion-controller §8.3.3 and §8.3.7 to §8.3.12. An instruction names an axis, whose fifty
-//! registers (§8.2.3) say to which output it is bound, and all but what the operands say.
+//! Motion of one axis by pulses, of HM: hm-motion-controller §8.3.3 and §8.3.7 to §8.3.12. An instruction names an
+//! axis, whose fifty registers (§8.2.3) say to which output it is bound, and all but what the operands say.
 //!
-//! An instruction's memory: words 0 and 1 see `axis_registers`; word 2 keeps the number of pulses, word 3 whether the interrupt of DDVIT
-//! has come.
+//! An instruction's memory: words 0 and 1 see `axis_registers`; word 2 keeps the number of pulses, word 3 whether the
+//! interrupt of DDVIT has come.
 
 use super::axis_registers::{Registers, error, event, motion, state};
 use crate::axis::set_long;
@@ -74,7 +74,8 @@ pub fn axis_plsr(cx: &mut Cx) -> Done {
     })
 }
 
-/// PSOUT D1 D2: moves axis D1 by D2 pulses, at its highest speed with its ramps, which here are straight. It stops at once with its drive.
+/// PSOUT D1 D2: moves axis D1 by D2 pulses, at its highest speed with its ramps, which here are straight. It stops at
+/// once with its drive.
 pub fn axis_psout(cx: &mut Cx) -> Done {
     drive(cx, 0, |cx, _| Ok(Order::new(Kind::Highest, 0, cx.read(1)?)))
 }

@@ -1,18 +1,20 @@
 //! CAM of HM (hm-motion-controller §8.4.2): an axis that follows a master along a curve while it is engaged.
 //!
-//! A cycle begins where the cam engages: there the master's phase is 0. It ends at the master's range, or earlier where the cam disengages.
-//! The next cycle, or the travel before it, is measured from that place, so that no increment of the master is lost.
+//! A cycle begins where the cam engages: there the master's phase is 0. It ends at the master's range, or earlier where
+//! the cam disengages. The next cycle, or the travel before it, is measured from that place, so that no increment of
+//! the master is lost.
 //!
 //! The manual leaves open, and this module chooses:
 //! - A master that runs backwards takes the axis back along the curve, at most to the start of the cycle.
-//! - The travel before a later cycle begins where the cycle before it ended: a disengage phase and a cycle offset together make the length of
-//!   the material, as the manual's advice on cutting to length says.
+//! - The travel before a later cycle begins where the cycle before it ended: a disengage phase and a cycle offset
+//!   together make the length of the material, as the manual's advice on cutting to length says.
 //! - The auxiliary axis (+28 to +30) adds its own travel, times its gear, to the phase, as the phase compensation does.
-//! - The state (+24) is shown while the instruction runs, and stays when its drive goes off, so that a program can resume from it.
+//! - The state (+24) is shown while the instruction runs, and stays when its drive goes off, so that a program can
+//!   resume from it.
 //! - Output bits hold their state until the phase reaches the first row of the event table.
 //!
-//! Memory: words 0 and 1 see `axis_registers`, words 2 and 5 `axis_follow`; word 3 the master's value at phase 0, word 4 the flags and the rest
-//! of the auxiliary gear, words 6 and 7 the phase compensation and the auxiliary axis before.
+//! Memory: words 0 and 1 see `axis_registers`, words 2 and 5 `axis_follow`; word 3 the master's value at phase 0, word
+//! 4 the flags and the rest of the auxiliary gear, words 6 and 7 the phase compensation and the auxiliary axis before.
 
 use super::axis_follow::{PENDING, PLACE, go_to, hand_over, long, word};
 use super::axis_registers::{Registers, motion};
@@ -75,8 +77,8 @@ const BY_PHASE: i16 = 2;
 /// How many cycles may end in one scan; a master that has moved on further is caught up with in the next scans.
 const MOST_CYCLES: u32 = 16;
 
-/// CAM D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, and engages and disengages as the block D5
-/// says. It stops at once with its drive.
+/// CAM D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, and engages and
+/// disengages as the block D5 says. It stops at once with its drive.
 pub fn axis_cam(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin, &go_on)
 }
@@ -189,7 +191,8 @@ fn offset(cx: &mut Cx) -> Result<i32, Fault> {
     cx.dword(BLOCK, place).map(|offset| offset.max(0))
 }
 
-/// Whether only what is added to the phase ends the travel before a cycle: then the cycle begins with phase 0, whatever is left over.
+/// Whether only what is added to the phase ends the travel before a cycle: then the cycle begins with phase 0, whatever
+/// is left over.
 fn enters_by(cx: &mut Cx, added: i32) -> Result<bool, Fault> {
     let mode = cx.word(BLOCK, at::ENGAGE_MODE)?;
     let waits = !has(cx, flag::ENGAGED) && mode & BY_PHASE != 0;
@@ -331,7 +334,8 @@ fn phase(cx: &mut Cx) -> Result<i32, Fault> {
     Ok(cx.dword(MASTER, 0)?.wrapping_sub(cx.state().0[ZERO]))
 }
 
-/// Whether one of the inputs that a word of the block names is there; a second word says which of them are there when they are off.
+/// Whether one of the inputs that a word of the block names is there; a second word says which of them are there when
+/// they are off.
 fn sees(cx: &Cx, axis: Registers, inputs: i32, polarity: i32) -> Result<bool, Fault> {
     let inputs = cx.word(BLOCK, inputs)? as u16;
     let polarity = cx.word(BLOCK, polarity)? as u16;

@@ -1,10 +1,10 @@
-//! Axes that follow a master of HM: GEAR and PTOUT (hm-motion-controller §8.4.1, §8.3.5). Each scan hands over as many pulses as the master
-//! has moved on, which are spread over the time of a scan.
+//! Axes that follow a master of HM: GEAR and PTOUT (hm-motion-controller §8.4.1, §8.3.5). Each scan hands over as many
+//! pulses as the master has moved on, which are spread over the time of a scan.
 //!
 //! IPL adds pulses (§8.3.6).
 //!
-//! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master, or the pulses of IPL, before, word 4 the rest of a division
-//! or the place in the table, word 5 the position in the table.
+//! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master, or the pulses
+//! of IPL, before, word 4 the rest of a division or the place in the table, word 5 the position in the table.
 
 use super::axis_registers::{Registers, error, motion, state};
 use super::output::held;
@@ -23,7 +23,8 @@ const MASTER: usize = 3;
 const REST: usize = 4;
 pub(super) const PLACE: usize = 5;
 
-/// GEAR D1 D2 D3 D4 D5: axis D1 follows register D2, a count (D3 = 0) or what it has moved on (1), by D4 / D5. It stops at once with its drive.
+/// GEAR D1 D2 D3 D4 D5: axis D1 follows register D2, a count (D3 = 0) or what it has moved on (1), by D4 / D5. It stops
+/// at once with its drive.
 pub fn axis_gear(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin_gear, &gear)
 }
@@ -38,7 +39,8 @@ pub(super) fn long(cx: &Cx, number: u32) -> Result<i32, Fault> {
     Ok(pair(word(cx, number)?, word(cx, number + 1)?))
 }
 
-/// What the master has counted: that of an axis or input whose increment is named is its position, so that no increment is lost.
+/// What the master has counted: that of an axis or input whose increment is named is its position, so that no increment
+/// is lost.
 fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
     if let Some(position) = position_of_increment(cx) {
         return long(cx, position.number());
@@ -82,8 +84,8 @@ fn gear(cx: &mut Cx, axis: Registers) -> Done {
     hand_over(cx, axis, whole.div_euclid(bottom) as i32)
 }
 
-/// PTOUT D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, once (D5 = 0) or again and again. It
-/// stops at once with its drive.
+/// PTOUT D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, once (D5 = 0) or
+/// again and again. It stops at once with its drive.
 pub fn axis_ptout(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin_table, &table)
 }
@@ -129,7 +131,8 @@ fn table(cx: &mut Cx, axis: Registers) -> Done {
     Ok(())
 }
 
-/// The pulses to the place in the table where the master has moved by this much of its range, between two of its points.
+/// The pulses to the place in the table where the master has moved by this much of its range, between two of its
+/// points.
 pub(super) fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> {
     let point = |cx: &Cx, n: i64| -> Result<i64, Fault> {
         let offset = i32::try_from(2 + 2 * n).map_err(|_| Fault::DEVICE)?;
@@ -147,8 +150,8 @@ pub(super) fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i
     Ok(place.wrapping_sub(before))
 }
 
-/// Hands pulses over to the axis. Those in the other direction wait until it rests. More than its output could send in the time of a scan
-/// are an error.
+/// Hands pulses over to the axis. Those in the other direction wait until it rests. More than its output could send in
+/// the time of a scan are an error.
 pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
     let wanted = u64::from(pulses.unsigned_abs()) * 1_000_000 / cx.dt_ms().max(1) as u64;
     if wanted > axis.most(cx) {
@@ -175,8 +178,9 @@ pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
     axis.start(cx, train, reverse)
 }
 
-/// IPL D1 D2: inserts D2 pulses into what axis D1 sends, in the next millisecond, each time it is executed with its drive on. Its highest
-/// speed does not limit them, and it may be running. Without a pause of one execution before it, a change of direction is lost.
+/// IPL D1 D2: inserts D2 pulses into what axis D1 sends, in the next millisecond, each time it is executed with its
+/// drive on. Its highest speed does not limit them, and it may be running. Without a pause of one execution before it,
+/// a change of direction is lost.
 pub fn axis_ipl(cx: &mut Cx) -> Done {
     held(cx, insert)
 }

@@ -1,7 +1,7 @@
 //! HOME of HM: hm-motion-controller §8.3.1.
 //!
-//! Its memory: words 0 and 1 see `axis_registers`; word 2 the stage, word 3 the zero signals that are still to come, word 4 whether the zero
-//! signal was there, word 5 whether it has turned round at the limit.
+//! Its memory: words 0 and 1 see `axis_registers`; word 2 the stage, word 3 the zero signals that are still to come,
+//! word 4 whether the zero signal was there, word 5 whether it has turned round at the limit.
 
 use super::axis_registers::{Registers, error, event, motion, state};
 use crate::axis_place as at;
@@ -43,8 +43,9 @@ struct Signals {
     only_zero: bool,
 }
 
-/// HOME D: runs axis D back until its DOG, creeps over it, and stops after as many pulses and zero signals as its registers say; from the
-/// DOG or the left limit it first runs forward. Without a DOG it creeps until a zero signal. It stops at once with its drive.
+/// HOME D: runs axis D back until its DOG, creeps over it, and stops after as many pulses and zero signals as its
+/// registers say; from the DOG or the left limit it first runs forward. Without a DOG it creeps until a zero signal. It
+/// stops at once with its drive.
 pub fn axis_home(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin, &go_on)
 }
@@ -82,8 +83,9 @@ fn begin(cx: &mut Cx, axis: Registers) -> Done {
     run(cx, axis, first, signals.only_zero)
 }
 
-/// What is wrong with the speeds of a return. The manual says when each code is checked and not against what: an axis that starts faster than
-/// it is to return is above its speed, one that returns slower than it is to creep is below it, and one that stands still never arrives.
+/// What is wrong with the speeds of a return. The manual says when each code is checked and not against what: an axis
+/// that starts faster than it is to return is above its speed, one that returns slower than it is to creep is below it,
+/// and one that stands still never arrives.
 fn wrong_speed(cx: &Cx, axis: Registers) -> Option<i16> {
     let [first, back, creep] = [at::FIRST, at::RETURN, at::CREEP].map(|at| axis.speed(cx, at));
     // Without a DOG it creeps from the beginning.

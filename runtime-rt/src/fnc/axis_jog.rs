@@ -21,8 +21,8 @@ const PAUSES: i32 = 1;
 /// It continues without end.
 const GOES_ON: i32 = 2;
 
-/// JOG D1 D2 D3 D4 D5: while an input of mask D4 (forward) or D5 (reverse, which prevails) is on, jogs axis D1 by D2 pulses and, if it is
-/// still on half a second later, continues at D3. It stops at once with its drive.
+/// JOG D1 D2 D3 D4 D5: while an input of mask D4 (forward) or D5 (reverse, which prevails) is on, jogs axis D1 by D2
+/// pulses and, if it is still on half a second later, continues at D3. It stops at once with its drive.
 pub fn axis_jog(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin, &go_on)
 }

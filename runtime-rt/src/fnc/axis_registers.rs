@@ -1,4 +1,5 @@
-//! What HM's motion instructions have in common: the registers of an axis (hm-motion-controller §8.2.3), its signals, and who has it.
+//! What HM's motion instructions have in common: the registers of an axis (hm-motion-controller §8.2.3), its signals,
+//! and who has it.
 //!
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is.
 
@@ -32,7 +33,8 @@ pub(super) mod error {
     pub const FIRST_TOO_FAST: i16 = 7;
 }
 
-/// Bits of the register of events: for each signal whether it is looked at, and whether it is on where its input is off.
+/// Bits of the register of events: for each signal whether it is looked at, and whether it is on where its input is
+/// off.
 pub(super) mod event {
     pub const DOG: (u8, u8) = (0, 4);
     pub const ZERO: (u8, u8) = (1, 5);
@@ -70,8 +72,8 @@ const ENDED: i32 = 2;
 /// What an instruction does in a scan in which it is driven and has the axis.
 type Step<'a> = &'a dyn Fn(&mut Cx, Registers) -> Done;
 
-/// Runs a motion: `begin` once the axis of operand `i` is free, `go_on` in the scans after that. When its drive goes off it comes down, or
-/// stops at once.
+/// Runs a motion: `begin` once the axis of operand `i` is free, `go_on` in the scans after that. When its drive goes
+/// off it comes down, or stops at once.
 pub(super) fn motion(
     cx: &mut Cx,
     i: usize,
@@ -171,7 +173,8 @@ impl Registers {
         acceleration.max(1) * 2_000_000_000_000 / (unit * unit)
     }
 
-    /// A train of `total` pulses at a speed in millihertz, at most the highest, with ramps from `first` on, of the highest acceleration.
+    /// A train of `total` pulses at a speed in millihertz, at most the highest, with ramps from `first` on, of the
+    /// highest acceleration.
     pub fn train(self, cx: &Cx, speed: u64, first: u64, total: u32) -> Train {
         let slope = self.slope(cx);
         Train {
@@ -299,7 +302,8 @@ impl Registers {
         Ok(())
     }
 
-    /// Shows that its outputs, for pulses and for the direction, are no longer the ladder's (hm-motion-controller §5.4.56, §5.7.2).
+    /// Shows that its outputs, for pulses and for the direction, are no longer the ladder's (hm-motion-controller
+    /// §5.4.56, §5.7.2).
     fn show_use(self, cx: &mut Cx) {
         let output = self.word(cx, at::OUTPUT);
         if !(0..PULSE_OUTPUTS).contains(&output) {

@@ -1,4 +1,5 @@
-//! Blocks of words, tables, bytes and nibbles: FNC 140–149 and 184–211 of the FX3 programming manual, l01s-programming §4.2.
+//! Blocks of words, tables, bytes and nibbles: FNC 140–149 and 184–211 of the FX3 programming manual, l01s-programming
+//! §4.2.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -91,7 +92,8 @@ pub fn wsum(cx: &mut Cx) -> Done {
     }
 }
 
-/// Runs `step` for 0..n in the order that keeps an overlapping destination after the source from overwriting what is still to be read.
+/// Runs `step` for 0..n in the order that keeps an overlapping destination after the source from overwriting what is
+/// still to be read.
 fn in_order(
     cx: &mut Cx,
     n: i32,
@@ -166,7 +168,8 @@ pub fn rnd(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Number of entries of the table whose head is operand 1, and position n (from 1) from operand 2, at most `limit` past the count.
+/// Number of entries of the table whose head is operand 1, and position n (from 1) from operand 2, at most `limit` past
+/// the count.
 fn table_position(cx: &Cx, past: i32) -> Result<(i32, i32), Fault> {
     let count = i32::from(cx.word(1, 0)?);
     let n = i32::from(cx.word(2, 0)?);
@@ -177,7 +180,8 @@ fn table_position(cx: &Cx, past: i32) -> Result<(i32, i32), Fault> {
     }
 }
 
-/// FDEL S D n (FNC 210): takes entry n out of the table at D (its first word counts the entries) into S; the later ones close up.
+/// FDEL S D n (FNC 210): takes entry n out of the table at D (its first word counts the entries) into S; the later ones
+/// close up.
 pub fn fdel(cx: &mut Cx) -> Done {
     let (count, n) = table_position(cx, 0)?;
     cx.check_words(1, count + 1)?;
@@ -244,8 +248,8 @@ fn batch(count: i32) -> Result<i32, Fault> {
     }
 }
 
-/// DUTY n1 n2 D (FNC 186): D (M8330–M8334) is on for n1 scans and off for n2 in turn, from the drive's off-to-on change on, even
-/// after the drive goes off. The scan count is in D8330–D8334.
+/// DUTY n1 n2 D (FNC 186): D (M8330–M8334) is on for n1 scans and off for n2 in turn, from the drive's off-to-on change
+/// on, even after the drive goes off. The scan count is in D8330–D8334.
 pub fn duty(cx: &mut Cx) -> Done {
     let (on, off) = (i32::from(cx.word(0, 0)?), i32::from(cx.word(1, 0)?));
     let drive = cx.drive();

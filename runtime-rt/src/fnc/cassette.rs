@@ -1,5 +1,6 @@
-//! Extension file registers: FNC 290–292, 294 and 295 of the FX3 programming manual. ER keeps a second value for each R, in a
-//! memory cassette on the PLC. The compiler passes the ER devices with the numbers of S after the operands that the program names.
+//! Extension file registers: FNC 290–292, 294 and 295 of the FX3 programming manual. ER keeps a second value for each
+//! R, in a memory cassette on the PLC. The compiler passes the ER devices with the numbers of S after the operands that
+//! the program names.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -33,7 +34,8 @@ pub fn rwer(cx: &mut Cx) -> Done {
     copy(cx, 0, 2, 0, n)
 }
 
-/// SAVER S n D (FNC 291): writes the sector that begins at S to ER, n words in each scan; D counts them. M8029 is on when it is whole.
+/// SAVER S n D (FNC 291): writes the sector that begins at S to ER, n words in each scan; D counts them. M8029 is on
+/// when it is whole.
 pub fn saver(cx: &mut Cx) -> Done {
     let begins = cx.drive() && !cx.was_driven(0);
     if !cx.drive() {

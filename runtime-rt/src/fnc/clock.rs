@@ -173,7 +173,8 @@ fn moment(words: [i16; 7], short: bool) -> Option<Clock> {
     clock.is_valid().then_some(clock)
 }
 
-/// Sets the clock from the seven words at S; M8019 signals that they are not a valid moment, and the clock is unchanged.
+/// Sets the clock from the seven words at S; M8019 signals that they are not a valid moment, and the clock is
+/// unchanged.
 fn write_clock(cx: &mut Cx, short: bool) -> Done {
     let mut words = [0; 7];
     for (offset, word) in (0..).zip(&mut words) {
@@ -203,8 +204,9 @@ pub fn twr_short(cx: &mut Cx) -> Done {
     write_clock(cx, true)
 }
 
-/// Keeps D8013–D8019 up to date at the start of each scan, shows in M8018 whether there is a clock, and obeys the clock's relays: M8015 stops it, and its fall sets it from the
-/// registers; M8016 holds the registers; the rise of M8017 rounds to a minute.
+/// Keeps D8013–D8019 up to date at the start of each scan, shows in M8018 whether there is a clock, and obeys the
+/// clock's relays: M8015 stops it, and its fall sets it from the registers; M8016 holds the registers; the rise of
+/// M8017 rounds to a minute.
 ///
 /// Memory: M8015 and M8017 of the last scan; the moment at which the clock was stopped.
 fn refresh(cx: &mut Cx, short: bool) -> Done {
@@ -289,8 +291,9 @@ pub fn clock_refresh_short(cx: &mut Cx) -> Done {
     refresh(cx, true)
 }
 
-/// HOUR S D1 D2 (FNC 169): counts the time driven in D1 (hours; a pair in the 32-bit form) and the word after it (seconds of the hour);
-/// D2 is on from S hours on. Stops at the most that D1 holds. Memory: milliseconds of the second; whether the last scan drove it.
+/// HOUR S D1 D2 (FNC 169): counts the time driven in D1 (hours; a pair in the 32-bit form) and the word after it
+/// (seconds of the hour); D2 is on from S hours on. Stops at the most that D1 holds. Memory: milliseconds of the
+/// second; whether the last scan drove it.
 pub fn hour(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     if !cx.drive() {

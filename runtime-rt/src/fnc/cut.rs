@@ -1,5 +1,5 @@
-//! Cam tables of flying and rotary cuts of HM (hm-motion-controller §8.4.3, §8.4.4): the slave waits, catches up with the master, goes
-//! with it while it cuts, and comes to rest; or goes back.
+//! Cam tables of flying and rotary cuts of HM (hm-motion-controller §8.4.3, §8.4.4): the slave waits, catches up with
+//! the master, goes with it while it cuts, and comes to rest; or goes back.
 
 use super::table::{Maker, make};
 use crate::cx::Cx;
@@ -46,14 +46,14 @@ fn root(square: f64) -> f64 {
     guess
 }
 
-/// How far a speed that begins with `from` gets in the part `part` of a time in which it changes by a polynomial of the fourth degree for
-/// the way: over the whole of it it gets 1, and the acceleration begins and ends with 0.
+/// How far a speed that begins with `from` gets in the part `part` of a time in which it changes by a polynomial of the
+/// fourth degree for the way: over the whole of it it gets 1, and the acceleration begins and ends with 0.
 fn catching_up(from: f64, part: f64) -> f64 {
     from * part + (1.0 - from) * (2.0 - part) * part * part * part
 }
 
-/// The highest speed of the master at which a slave keeps to its own limits: `speed` and `acceleration` are what it does for each pulse
-/// of the master, and for its square.
+/// The highest speed of the master at which a slave keeps to its own limits: `speed` and `acceleration` are what it
+/// does for each pulse of the master, and for its square.
 fn limit(units: Units, limits: [f64; 2], speed: f64, acceleration: f64) -> f64 {
     let [highest, hardest] = [limits[0] * units.speed, limits[1] * units.acceleration];
     let by_speed = if speed > 0.0 {

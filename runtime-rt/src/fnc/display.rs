@@ -26,9 +26,9 @@ fn shown(cx: &Cx, i: usize, offset: i32) -> Result<u32, Fault> {
     }
 }
 
-/// One of the twelve scans of a display's refresh: a digit's data, lowest first, on four outputs from operand `i` on (second group: from
-/// the eighth on), and in the second of its three scans its strobe, on the four outputs between. `mode` is SEGL's n modulo 4: from 2 on
-/// data is inverted; odd ones invert the strobes against the data.
+/// One of the twelve scans of a display's refresh: a digit's data, lowest first, on four outputs from operand `i` on
+/// (second group: from the eighth on), and in the second of its three scans its strobe, on the four outputs between.
+/// `mode` is SEGL's n modulo 4: from 2 on data is inverted; odd ones invert the strobes against the data.
 fn refresh(cx: &mut Cx, i: usize, scan: i32, mode: i32, groups: &[u32]) -> Done {
     let digit = scan / 3;
     let strobe = if scan % 3 == 1 { 1u32 << digit } else { 0 };
@@ -41,8 +41,8 @@ fn refresh(cx: &mut Cx, i: usize, scan: i32, mode: i32, groups: &[u32]) -> Done 
     cx.set_bits(i, 4, 4, if invert_strobe { !strobe } else { strobe })
 }
 
-/// SEGL S D n (FNC 74): shows S, for n from 4 on also S+1, on displays of four digits; a refresh takes 12 scans, and M8029 is on in the
-/// last. Memory: the scan; whether the last scan drove it.
+/// SEGL S D n (FNC 74): shows S, for n from 4 on also S+1, on displays of four digits; a refresh takes 12 scans, and
+/// M8029 is on in the last. Memory: the scan; whether the last scan drove it.
 pub fn segl(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(1);
     let n = cx.count(2, 0..=7)?;
@@ -73,8 +73,9 @@ pub fn segl(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// ARWS S D1 D2 n (FNC 75): edits the four digits of D1 with the keys S (down), S+1 (up), S+2 (to the lower digit), S+3 (to the higher),
-/// first the thousands, and shows it at D2 as SEGL does. Memory: the scan; the digit; the keys of the last scan; whether it was driven.
+/// ARWS S D1 D2 n (FNC 75): edits the four digits of D1 with the keys S (down), S+1 (up), S+2 (to the lower digit), S+3
+/// (to the higher), first the thousands, and shows it at D2 as SEGL does. Memory: the scan; the digit; the keys of the
+/// last scan; whether it was driven.
 pub fn arws(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(3);
     if !cx.drive() {
@@ -116,7 +117,8 @@ pub fn arws(cx: &mut Cx) -> Done {
     refresh(cx, 2, scan, mode, &[bcd])
 }
 
-/// ASC S D (FNC 76): the first eight characters of the text, filled with spaces, go to four words from D on; with M8161 to eight.
+/// ASC S D (FNC 76): the first eight characters of the text, filled with spaces, go to four words from D on; with M8161
+/// to eight.
 pub fn asc(cx: &mut Cx) -> Done {
     let byte_mode = cx.special(M_BYTE_MODE);
     let index = match cx.ops.first() {
@@ -136,9 +138,9 @@ pub fn asc(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// PR S D (FNC 77): sends the characters of S, two a word, on the outputs D…D+7, three scans each, with a strobe on the ninth output in
-/// the middle one and the tenth on as long as it works. Eight characters, or with M8027 up to a 0, at most 16; then M8029 signals the end.
-/// Memory: scans since it began; whether the last scan drove it.
+/// PR S D (FNC 77): sends the characters of S, two a word, on the outputs D…D+7, three scans each, with a strobe on the
+/// ninth output in the middle one and the tenth on as long as it works. Eight characters, or with M8027 up to a 0, at
+/// most 16; then M8029 signals the end. Memory: scans since it began; whether the last scan drove it.
 pub fn pr(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(1);
     if !cx.drive() {

@@ -1,13 +1,15 @@
 //! Floating point: FNC 49, 110–137 and 438–440, h1u-h2u-programming §4.3.10, hm-motion-controller §5.4.
 //!
-//! Values are IEEE singles. A source that is not a number is an operation error, and so is a function's argument outside its domain.
+//! Values are IEEE singles. A source that is not a number is an operation error, and so is a function's argument
+//! outside its domain.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::special::{M_BORROW, M_CARRY, M_ZERO};
 use core::cmp::Ordering;
 
-/// Degrees per radian, and its inverse. The worked examples of DEG end in whole degrees only if it is one multiplication of singles.
+/// Degrees per radian, and its inverse. The worked examples of DEG end in whole degrees only if it is one
+/// multiplication of singles.
 const DEGREES: f32 = 57.295_78;
 const RADIANS: f32 = 0.017_453_292;
 
@@ -145,7 +147,8 @@ fn write_result(cx: &mut Cx, i: usize, exact: f64) -> Done {
     Ok(())
 }
 
-/// Both operands as doubles: a double is wide enough that rounding its result to a single gives the single's correctly rounded one.
+/// Both operands as doubles: a double is wide enough that rounding its result to a single gives the single's correctly
+/// rounded one.
 fn pair(cx: &Cx) -> Result<(f64, f64), Fault> {
     Ok((number(cx, 0)?.into(), number(cx, 1)?.into()))
 }
@@ -260,8 +263,8 @@ pub fn eneg(cx: &mut Cx) -> Done {
     cx.set_dword(0, 0, bits ^ i32::MIN)
 }
 
-/// INT S D (FNC 129): the integer part; M8020 for 0, M8021 for a dropped fraction, M8022 for a value that D cannot hold (its low bits are
-/// stored).
+/// INT S D (FNC 129): the integer part; M8020 for 0, M8021 for a dropped fraction, M8022 for a value that D cannot hold
+/// (its low bits are stored).
 pub fn int(cx: &mut Cx) -> Done {
     let value = number(cx, 0)?;
     let whole = libm::truncf(value);
@@ -542,7 +545,12 @@ mod tests {
         #[test]
         fn arithmetic_is_that_of_singles(a: f32, b: f32) {
             prop_assume!(a.is_finite() && b.is_finite());
-            for (function, expected) in [(RtFn::Eadd, a + b), (RtFn::Esub, a - b), (RtFn::Emul, a * b), (RtFn::Ediv, a / b)] {
+            for (function, expected) in [
+                (RtFn::Eadd, a + b),
+                (RtFn::Esub, a - b),
+                (RtFn::Emul, a * b),
+                (RtFn::Ediv, a / b),
+            ] {
                 if expected.is_normal() && b != 0.0 {
                     prop_assert_eq!(binary(function, a, b), (expected, "000".into()));
                 }

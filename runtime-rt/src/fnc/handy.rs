@@ -1,4 +1,5 @@
-//! Handy instructions: FNC 61–69 and 149, h1u-h2u-programming §4.3.7. What its lost figures showed is as in the FX family.
+//! Handy instructions: FNC 61–69 and 149, h1u-h2u-programming §4.3.7. What its lost figures showed is as in the FX
+//! family.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -8,8 +9,8 @@ use crate::special::{
     M_TRANSFER_OFF, M_TRANSFER_START,
 };
 
-/// SER S1 S2 D n (FNC 61): searches n elements from S1 on for S2; D… take how many are equal, the first and the last of them, the smallest
-/// and the largest element, by their places from 0; of equal ones the last.
+/// SER S1 S2 D n (FNC 61): searches n elements from S1 on for S2; D… take how many are equal, the first and the last of
+/// them, the smallest and the largest element, by their places from 0; of equal ones the last.
 pub fn ser(cx: &mut Cx) -> Done {
     let n = cx.count(3, 1..=if cx.wide() { 128 } else { 256 })?;
     let wanted = cx.read(1)?;
@@ -35,8 +36,8 @@ pub fn ser(cx: &mut Cx) -> Done {
         .try_for_each(|(k, value)| cx.set_elem(2, k, value))
 }
 
-/// ABSD S1 S2 D n (FNC 62): bit i of the n from D on is on while counter S2 lies from element 2i of the table S1 up to, but without,
-/// element 2i+1; a first one above the second spans the counter's turn.
+/// ABSD S1 S2 D n (FNC 62): bit i of the n from D on is on while counter S2 lies from element 2i of the table S1 up to,
+/// but without, element 2i+1; a first one above the second spans the counter's turn.
 pub fn absd(cx: &mut Cx) -> Done {
     let n = cx.count(3, 1..=64)?;
     let value = cx.read(1)?;
@@ -54,9 +55,9 @@ pub fn absd(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// INCD S1 S2 D n (FNC 63): one of the n bits from D on is on, in turn: when counter S2 reaches the step's element of S1 it is reset and
-/// S2+1, the step, advances; M8029 signals that the last step is over. Without drive the counters and bits are cleared. Memory: whether the
-/// last scan drove it.
+/// INCD S1 S2 D n (FNC 63): one of the n bits from D on is on, in turn: when counter S2 reaches the step's element of
+/// S1 it is reset and S2+1, the step, advances; M8029 signals that the last step is over. Without drive the counters
+/// and bits are cleared. Memory: whether the last scan drove it.
 pub fn incd(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(0);
     if !cx.drive() && !driven {
@@ -86,8 +87,8 @@ pub fn incd(cx: &mut Cx) -> Done {
     (0..n).try_for_each(|bit| cx.set_bit(2, bit, bit == step))
 }
 
-/// TTMR D n (FNC 64): D takes how long the drive is on, in seconds times 10ⁿ, and keeps it; D+1 shows it in 100 ms meanwhile. Memory:
-/// milliseconds; whether the last scan drove it.
+/// TTMR D n (FNC 64): D takes how long the drive is on, in seconds times 10ⁿ, and keeps it; D+1 shows it in 100 ms
+/// meanwhile. Memory: milliseconds; whether the last scan drove it.
 pub fn ttmr(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     let driven = cx.was_driven(1);
@@ -108,10 +109,12 @@ pub fn ttmr(cx: &mut Cx) -> Done {
     cx.set_word(0, 1, shown(100))
 }
 
-/// STMR S m D (FNC 65): four bits follow the drive with delays of m times 100 ms, which timer S shows: D goes off later; D+1 is on for the
-/// time after the drive goes off; D+2 is on for the time after it comes on; D+3 comes on later and goes off later.
+/// STMR S m D (FNC 65): four bits follow the drive with delays of m times 100 ms, which timer S shows: D goes off
+/// later; D+1 is on for the time after the drive goes off; D+2 is on for the time after it comes on; D+3 comes on later
+/// and goes off later.
 ///
-/// Memory: milliseconds since the drive changed; 1 after it came on, 2 after it went off, 0 long after; D+3 when it went off.
+/// Memory: milliseconds since the drive changed; 1 after it came on, 2 after it went off, 0 long after; D+3 when it
+/// went off.
 pub fn stmr(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     let [ms, phase, late, ..] = cx.state().0;
@@ -157,8 +160,8 @@ pub fn alt(cx: &mut Cx) -> Done {
     cx.set_bit(0, 0, !on)
 }
 
-/// RAMP S1 S2 D n (FNC 67): D goes from S1 to S2 in n scans, D+1 counts them, M8029 signals the end; then it restarts, or with M8026 D
-/// stays. Memory: whether the last scan drove it.
+/// RAMP S1 S2 D n (FNC 67): D goes from S1 to S2 in n scans, D+1 counts them, M8029 signals the end; then it restarts,
+/// or with M8026 D stays. Memory: whether the last scan drove it.
 pub fn ramp(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(0);
     if !cx.drive() {
@@ -189,9 +192,10 @@ pub fn ramp(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// ROTC S m1 m2 D (FNC 68): turns a table with m1 places so that piece S+2 comes to window S+1 the shorter way, slowly over the last m2
-/// places. D and D+1 are the two phases of its encoder (one place each cycle), D+2 signals place 0; S is its position. D+3 to D+7: fast
-/// forward, slow forward, stop, slow reverse, fast reverse. Memory: phase A of the last scan; whether that scan drove it.
+/// ROTC S m1 m2 D (FNC 68): turns a table with m1 places so that piece S+2 comes to window S+1 the shorter way, slowly
+/// over the last m2 places. D and D+1 are the two phases of its encoder (one place each cycle), D+2 signals place 0; S
+/// is its position. D+3 to D+7: fast forward, slow forward, stop, slow reverse, fast reverse. Memory: phase A of the
+/// last scan; whether that scan drove it.
 pub fn rotc(cx: &mut Cx) -> Done {
     let places = cx.count(1, 2..=32_767)?;
     let slow = cx.count(2, 0..=places)?;
@@ -254,8 +258,8 @@ pub fn sort2(cx: &mut Cx) -> Done {
     )
 }
 
-/// Copies a table from S to D and sorts it there, one row a scan; equal rows keep their order; M8029 signals the end. Memory: how many rows
-/// are sorted, plus one; the drive must go off before it sorts again.
+/// Copies a table from S to D and sorts it there, one row a scan; equal rows keep their order; M8029 signals the end.
+/// Memory: how many rows are sorted, plus one; the drive must go off before it sorts again.
 fn sort_table(cx: &mut Cx, place: Place, descending: bool) -> Done {
     if !cx.drive() {
         if cx.state().0[0] != 0 {
@@ -321,9 +325,10 @@ const MODES: [Mode; 5] = [
     Mode::Continuous,
 ];
 
-/// IST S D1 D2 (FNC 60), as in the FX family: S to S+4 select manual, origin return, step, one cycle, continuous; S+5 starts origin
-/// return, S+6 automatic running, S+7 stops it. Choosing a mode activates S0, S1 or S2 and (unless M8045) ends the states D1 to D2 and
-/// what they switched on. M8040 forbids transfers, M8041 allows the first, M8042 signals a start, M8047 turns the monitor of states on.
+/// IST S D1 D2 (FNC 60), as in the FX family: S to S+4 select manual, origin return, step, one cycle, continuous; S+5
+/// starts origin return, S+6 automatic running, S+7 stops it. Choosing a mode activates S0, S1 or S2 and (unless M8045)
+/// ends the states D1 to D2 and what they switched on. M8040 forbids transfers, M8041 allows the first, M8042 signals a
+/// start, M8047 turns the monitor of states on.
 ///
 /// Memory: the mode plus one; the start and stop buttons of the last scan.
 pub fn ist(cx: &mut Cx) -> Done {

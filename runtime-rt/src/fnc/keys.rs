@@ -1,4 +1,5 @@
-//! Keys and switches: FNC 52 and 70–72, h1u-h2u-programming §4.3.6 and §4.3.8. What its lost figures showed is as in the FX family.
+//! Keys and switches: FNC 52 and 70–72, h1u-h2u-programming §4.3.6 and §4.3.8. What its lost figures showed is as in
+//! the FX family.
 
 use crate::cx::Cx;
 use crate::fault::Done;
@@ -16,8 +17,8 @@ fn append(cx: &mut Cx, i: usize, digit: i32) -> Done {
     cx.write(i, number as i32)
 }
 
-/// Finds the key that counts: the one held before while it is held, else the lowest that was not pressed before. Words 0 and 1 of the
-/// memory keep the key plus one, and what was pressed. Returns the key held and whether it is new.
+/// Finds the key that counts: the one held before while it is held, else the lowest that was not pressed before. Words
+/// 0 and 1 of the memory keep the key plus one, and what was pressed. Returns the key held and whether it is new.
 fn key_of(cx: &mut Cx, pressed: u32) -> Option<(i32, bool)> {
     let state = cx.state();
     let before = state.0[1] as u32;
@@ -36,8 +37,8 @@ fn key_of(cx: &mut Cx, pressed: u32) -> Option<(i32, bool)> {
     key.map(|key| (key, true))
 }
 
-/// TKY S D1 D2 (FNC 70): S…S+9 are the keys 0 to 9. A newly pressed one is appended to D1; D2…D2+9 show the key that counts, D2+10
-/// that one is pressed. Memory: see `key_of`; whether the last scan drove it.
+/// TKY S D1 D2 (FNC 70): S…S+9 are the keys 0 to 9. A newly pressed one is appended to D1; D2…D2+9 show the key that
+/// counts, D2+10 that one is pressed. Memory: see `key_of`; whether the last scan drove it.
 pub fn tky(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(2);
     if !cx.drive() {
@@ -59,9 +60,10 @@ pub fn tky(cx: &mut Cx) -> Done {
     cx.set_bit(2, 10, pressed != 0)
 }
 
-/// HKY S D1 D2 D3 (FNC 71): scans 16 keys, those of row r in column c being number 4c+r, by the outputs D1…D1+3 (two scans each) and the
-/// inputs S…S+3. 0 to 9 are appended to D2; A to F switch D3…D3+5 on, until another one does; D3+6 and D3+7 signal that one of A to F, or
-/// of 0 to 9, is pressed. With M8167 all are hexadecimal digits. M8029 signals that all keys have been read.
+/// HKY S D1 D2 D3 (FNC 71): scans 16 keys, those of row r in column c being number 4c+r, by the outputs D1…D1+3 (two
+/// scans each) and the inputs S…S+3. 0 to 9 are appended to D2; A to F switch D3…D3+5 on, until another one does; D3+6
+/// and D3+7 signal that one of A to F, or of 0 to 9, is pressed. With M8167 all are hexadecimal digits. M8029 signals
+/// that all keys have been read.
 ///
 /// Memory: see `key_of`; the scan of the eight; the keys read so far; whether the last scan drove it.
 pub fn hky(cx: &mut Cx) -> Done {
@@ -112,8 +114,9 @@ fn take_hexadecimal_key(cx: &mut Cx, pressed: u32) -> Done {
     cx.set_bit(3, 7, pressed & 0x3ff != 0)
 }
 
-/// DSW S D1 D2 n (FNC 72): reads n groups of four decimal switches. The outputs D1…D1+3 select a digit for 100 ms each, ones first; its
-/// bits come in at S…S+3, those of the second group at S+4…S+7. The numbers go to D2 and D2+1, and M8029 is on for a scan.
+/// DSW S D1 D2 n (FNC 72): reads n groups of four decimal switches. The outputs D1…D1+3 select a digit for 100 ms each,
+/// ones first; its bits come in at S…S+3, those of the second group at S+4…S+7. The numbers go to D2 and D2+1, and
+/// M8029 is on for a scan.
 ///
 /// Memory: the digit; milliseconds of it; the numbers so far; whether the last scan drove it.
 pub fn dsw(cx: &mut Cx) -> Done {
@@ -157,8 +160,9 @@ pub fn dsw(cx: &mut Cx) -> Done {
     cx.set_bits(1, 0, 4, 1 << next.0)
 }
 
-/// MTR S D1 D2 n (FNC 52): reads n columns of eight switches. The outputs D1… select a column for 20 ms each; the inputs S…S+7 go to the
-/// bits from D2 on, each column ten devices (of Y: eight) after the one before. M8029 is on for a scan once all are read.
+/// MTR S D1 D2 n (FNC 52): reads n columns of eight switches. The outputs D1… select a column for 20 ms each; the
+/// inputs S…S+7 go to the bits from D2 on, each column ten devices (of Y: eight) after the one before. M8029 is on for
+/// a scan once all are read.
 ///
 /// Memory: the column; milliseconds of it; whether the last scan drove it.
 pub fn mtr(cx: &mut Cx) -> Done {

@@ -1,7 +1,8 @@
-//! Modbus masters: MODBUS, MODBUS2 and RS of H1U and H2U (h1u-h2u-programming §5.7.1), RD3A, WR3A and ADPRW of L01S (l01s-programming
-//! §8.1), MRDC to MWRDS of HM (hm-motion-controller §6.4.3), IVRD and IVWR of compatible boards.
+//! Modbus masters: MODBUS, MODBUS2 and RS of H1U and H2U (h1u-h2u-programming §5.7.1), RD3A, WR3A and ADPRW of L01S
+//! (l01s-programming §8.1), MRDC to MWRDS of HM (hm-motion-controller §6.4.3), IVRD and IVWR of compatible boards.
 //!
-//! All hand a [`Job`] to the port when their turn comes, and learn in a later scan how the exchange has ended ([`Exchange`]).
+//! All hand a [`Job`] to the port when their turn comes, and learn in a later scan how the exchange has ended
+//! ([`Exchange`]).
 //!
 //! [`Exchange`]: crate::comm::modbus::Exchange
 
@@ -203,8 +204,8 @@ fn adprw_job(cx: &Cx) -> Result<Job, Fault> {
     })
 }
 
-/// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program resets it or
-/// the next one is executed.
+/// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program
+/// resets it or the next one is executed.
 pub fn adprw(cx: &mut Cx) -> Done {
     /// Which port: 0 for port 2, 1 for port 3.
     const D_PORT: Register = Register(8397);
@@ -279,7 +280,8 @@ fn master(cx: &mut Cx) -> Option<u8> {
     Some(other.unwrap_or(first))
 }
 
-/// The port that a register names: 0 for port 2, 1 for port 3. Another value is an error of an instruction that is driven.
+/// The port that a register names: 0 for port 2, 1 for port 3. Another value is an error of an instruction that is
+/// driven.
 fn l01s_port(cx: &Cx, named: i16) -> Result<Option<u8>, Fault> {
     match cx.plc.ports().named(named.into()) {
         None if cx.drive() => Err(Fault::VALUE),
@@ -297,7 +299,8 @@ pub fn rd3a_modbus(cx: &mut Cx) -> Done {
     l01s(cx, |cx| l01s_job(cx, READ))
 }
 
-/// WR3A m1 m2 S (FNC 177) of L01S: writes as many registers as S says from the registers after it; the port precedes it.
+/// WR3A m1 m2 S (FNC 177) of L01S: writes as many registers as S says from the registers after it; the port precedes
+/// it.
 pub fn wr3a_modbus(cx: &mut Cx) -> Done {
     l01s(cx, |cx| {
         let function = match cx.word(2, 0)? {

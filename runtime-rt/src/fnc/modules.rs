@@ -131,7 +131,8 @@ pub fn from_host(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// TO m1 m2 S n (FNC 79): n words, or pairs, from S on go to module m1 from address m2 on; with M8164 the count is D8164.
+/// TO m1 m2 S n (FNC 79): n words, or pairs, from S on go to module m1 from address m2 on; with M8164 the count is
+/// D8164.
 pub fn to(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     let n = transfer_count(cx)?;
@@ -152,7 +153,8 @@ pub fn to(cx: &mut Cx) -> Done {
 /// How many built-in analog outputs L01S has.
 const ANALOG_OUTPUT_CHANNELS: i32 = 8;
 
-/// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050 …).
+/// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050
+/// …).
 pub fn to_host(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     if unit != 0 || cx.hal().read_bfm(unit, address).is_some() {
@@ -171,7 +173,8 @@ pub fn to_host(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Buffer memory of FX0N-3A, FX2N-2AD and FX2N-2DA: converted value, the four high bits of the one of FX2N-2AD, value to convert, control.
+/// Buffer memory of FX0N-3A, FX2N-2AD and FX2N-2DA: converted value, the four high bits of the one of FX2N-2AD, value
+/// to convert, control.
 const INPUT_VALUE: u16 = 0;
 const INPUT_HIGH: u16 = 1;
 const OUTPUT_VALUE: u16 = 16;
@@ -179,7 +182,8 @@ const CONTROL: u16 = 17;
 /// Channel 1 of the modules of twelve bits.
 const TWELVE_BITS: i32 = 21;
 
-/// RD3A m1 m2 D (FNC 176): an analog input of the module at position m1 goes to D: m2 is 1 or 2 of an FX0N-3A, 21 or 22 of an FX2N-2AD.
+/// RD3A m1 m2 D (FNC 176): an analog input of the module at position m1 goes to D: m2 is 1 or 2 of an FX0N-3A, 21 or 22
+/// of an FX2N-2AD.
 pub fn rd3a(cx: &mut Cx) -> Done {
     let unit = place(cx, 0)?;
     let (first, twelve_bits) = match cx.count(1, 1..=TWELVE_BITS + 1)? {
@@ -199,8 +203,8 @@ pub fn rd3a(cx: &mut Cx) -> Done {
     cx.set_word(2, 0, value)
 }
 
-/// WR3A m1 m2 S (FNC 177): S goes to an analog output of the module at position m1: with m2 = 1 S, 0 to 255, to that of an FX0N-3A,
-/// with 21 or 22 S, 0 to 4095, to one of an FX2N-2DA.
+/// WR3A m1 m2 S (FNC 177): S goes to an analog output of the module at position m1: with m2 = 1 S, 0 to 255, to that of
+/// an FX0N-3A, with 21 or 22 S, 0 to 4095, to one of an FX2N-2DA.
 pub fn wr3a(cx: &mut Cx) -> Done {
     let unit = place(cx, 0)?;
     // The fall of a control bit starts the conversion.

@@ -1,4 +1,5 @@
-//! Moves and conversions between binary and BCD: FNC 12–19 and 147, h1u-h2u-programming §4.3.2, hm-motion-controller §5.4.
+//! Moves and conversions between binary and BCD: FNC 12–19 and 147, h1u-h2u-programming §4.3.2, hm-motion-controller
+//! §5.4.
 
 use super::digits::{from_bcd, from_nibbles, to_bcd};
 use crate::cx::Cx;
@@ -10,8 +11,8 @@ fn bcd_limit(cx: &Cx) -> i32 {
     if cx.wide() { 99_999_999 } else { 9999 }
 }
 
-/// SMOV S m1 m2 D n (FNC 13): m2 digits of S downwards from digit m1 replace those of D downwards from digit n; digits count from 1 at
-/// the low end. Decimal digits of the values, or with M8168 their groups of four bits.
+/// SMOV S m1 m2 D n (FNC 13): m2 digits of S downwards from digit m1 replace those of D downwards from digit n; digits
+/// count from 1 at the low end. Decimal digits of the values, or with M8168 their groups of four bits.
 pub fn smov(cx: &mut Cx) -> Done {
     let (m1, m2) = (cx.count(1, 1..=4)?, cx.count(2, 1..=4)?);
     let n = cx.count(4, 1..=4)?;

@@ -1,8 +1,8 @@
 //! What the instructions for pulse outputs have in common: when one of them begins, and who has the output.
 //!
-//! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it begins anew, word 3
-//! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, negative until a scan has seen it on, and
-//! since when that is on.
+//! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it
+//! begins anew, word 3 whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one,
+//! negative until a scan has seen it on, and since when that is on.
 
 use crate::axis::{self, Axis, any_is_on, long, set_relays};
 use crate::cx::Cx;
@@ -95,7 +95,8 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    /// A train of `total` pulses at `hz`, at most the highest speed; a speed that ramps cannot begin with is raised, if the model does so.
+    /// A train of `total` pulses at `hz`, at most the highest speed; a speed that ramps cannot begin with is raised, if
+    /// the model does so.
     pub fn train(&self, hz: u32, total: u32, reverse: bool) -> Train {
         let train = self.train_as_told(hz.max(LOWEST_HZ), reverse);
         let lowest = train.up / 4;
@@ -168,8 +169,8 @@ impl Output {
         1000 * hz.min(cx.plc.pulses().highest_hz())
     }
 
-    /// What the instruction has to do in this scan. An output that another instruction uses is taken only while the relay for that is on.
-    /// It is done when its train is.
+    /// What the instruction has to do in this scan. An output that another instruction uses is taken only while the
+    /// relay for that is on. It is done when its train is.
     pub fn turn(self, cx: &mut Cx) -> Result<Turn, Fault> {
         let turn = self.turn_resting(cx)?;
         let axis = *self.axis(cx)?;
@@ -246,7 +247,8 @@ impl Output {
         any_is_on(cx.plc, &[self.wiring.limits[usize::from(reverse)]])
     }
 
-    /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit switch forbids it.
+    /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit
+    /// switch forbids it.
     pub fn start(self, cx: &mut Cx, train: Train, counter: Option<Register>) -> Done {
         if self.is_at_limit(cx, train.reverse) {
             return self.fail(cx);
@@ -267,7 +269,8 @@ impl Output {
         Ok(())
     }
 
-    /// Shows in the special relays how far the instruction is. One whose drive is off has nothing to show but that it has gone off.
+    /// Shows in the special relays how far the instruction is. One whose drive is off has nothing to show but that it
+    /// has gone off.
     pub fn show(self, cx: &mut Cx) -> Done {
         let (slot, drive) = (cx.site.slot, cx.drive());
         let axis = self.axis(cx)?;
@@ -354,7 +357,8 @@ impl Output {
         }
     }
 
-    /// Speeds of DSZR. Those that contradict each other are an error, others are held in their limits (h1u-h2u-programming §4.3.11).
+    /// Speeds of DSZR. Those that contradict each other are an error, others are held in their limits
+    /// (h1u-h2u-programming §4.3.11).
     pub fn home_speeds(self, cx: &Cx) -> Result<HomeSpeeds, Fault> {
         let home = self.wiring.home.ok_or(Fault::DEVICE)?;
         let most = cx.plc.pulses().highest_hz() as i32;

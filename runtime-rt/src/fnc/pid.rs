@@ -1,7 +1,7 @@
 //! PID control: FNC 88, h1u-h2u-programming §4.3.9, hm-motion-controller §5.4.57. L01S: see [`super::pid_thermal`].
 //!
-//! S1 target, S2 measured value, S3 parameters and work area, D output. The formulas give the change of the output, so control begins
-//! without a jump from whatever D holds.
+//! S1 target, S2 measured value, S3 parameters and work area, D output. The formulas give the change of the output, so
+//! control begins without a jump from whatever D holds.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -95,7 +95,8 @@ pub fn pid(cx: &mut Cx) -> Done {
     control(cx)
 }
 
-/// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is rejected with 6750.
+/// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is
+/// rejected with 6750.
 pub fn pid_tuning(cx: &mut Cx) -> Done {
     let action = cx.word(OPERAND_S3, at::ACT)?;
     if action & act::TUNE_LIMIT_CYCLE != 0 {
@@ -108,8 +109,8 @@ pub fn pid_tuning(cx: &mut Cx) -> Done {
     }
 }
 
-/// Adds the time since the last scan; returns whether a sample is due. A sampling time not above the scan time is error 6740, and each
-/// scan is a sample then.
+/// Adds the time since the last scan; returns whether a sample is due. A sampling time not above the scan time is error
+/// 6740, and each scan is a sample then.
 fn sample_due(cx: &mut Cx, ts: u32, error: &mut Option<Fault>) -> Result<Option<f32>, Fault> {
     let dt = cx.plc.sys().dt_ms;
     if dt > 0 && ts <= dt {
@@ -168,8 +169,8 @@ fn control(cx: &mut Cx) -> Done {
     error.map_or(Ok(()), Err)
 }
 
-/// The deviation whose sign ACT chooses. The prose calls heating forward, the formulas and the examples of errors measure forward
-/// as measured − target: the formulas are taken.
+/// The deviation whose sign ACT chooses. The prose calls heating forward, the formulas and the examples of errors
+/// measure forward as measured − target: the formulas are taken.
 fn deviation(s: &Settings, target: f32, pv: f32) -> f32 {
     if s.act & act::REVERSE != 0 {
         target - pv
@@ -229,7 +230,8 @@ fn store(cx: &mut Cx, pv: f32, pv1: f32, derivative: f32, deviation: f32, mv: f3
     cx.set_float(OPERAND_S3, at::MV, mv)
 }
 
-/// Alarm bits: 0 and 1 for the measured value rising or falling by more than its limit in a sample, 2 and 3 for the output.
+/// Alarm bits: 0 and 1 for the measured value rising or falling by more than its limit in a sample, 2 and 3 for the
+/// output.
 fn alarms(cx: &mut Cx, s: &Settings, measured: f32, mv: f32) -> Done {
     let mut bits = 0;
     let over = |cx: &Cx, change: f32, rise, fall| -> Result<i16, Fault> {
@@ -273,9 +275,9 @@ mod tuning_at {
 /// Least distance from the target at which tuning may begin.
 const TUNE_MIN_DISTANCE: f32 = 150.0;
 
-/// Auto-tuning by step response: D stays at the step that the program has put there. When the measured value has gone a third of the
-/// way to the target, the steepest slope R and the dead time L give Kp = 1.2 / (R L) of the step, Ti = 2 L, Td = L / 2; ACT bit 4
-/// goes off and control begins.
+/// Auto-tuning by step response: D stays at the step that the program has put there. When the measured value has gone a
+/// third of the way to the target, the steepest slope R and the dead time L give Kp = 1.2 / (R L) of the step, Ti = 2
+/// L, Td = L / 2; ACT bit 4 goes off and control begins.
 fn tune(cx: &mut Cx) -> Done {
     let ts = cx.word(OPERAND_S3, at::TS)?;
     if ts <= 0 {
@@ -353,8 +355,8 @@ mod hm_at {
     pub const ALARMS: i32 = 24;
 }
 
-/// PID S1 S2 S3 D of HM: one computation per execution; the program calls it once per sampling time. Times are in milliseconds,
-/// direction 1 (the recommended one) raises the output while the measured value is below the target.
+/// PID S1 S2 S3 D of HM: one computation per execution; the program calls it once per sampling time. Times are in
+/// milliseconds, direction 1 (the recommended one) raises the output while the measured value is below the target.
 pub fn pid_hm(cx: &mut Cx) -> Done {
     let s = settings(cx, 1.0, 1.0, i16::MAX)?;
     cx.check_words(OPERAND_S3, hm_at::ALARMS + 1)?;

@@ -1,5 +1,6 @@
-//! PID of L01S, made for temperatures: l01s-programming §4.3.1. Learns its gains from an oscillation around the target and controls in
-//! bands. The manual names the parameters and what each band does, but prints no formula: the classic ones are taken.
+//! PID of L01S, made for temperatures: l01s-programming §4.3.1. Learns its gains from an oscillation around the target
+//! and controls in bands. The manual names the parameters and what each band does, but prints no formula: the classic
+//! ones are taken.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -50,8 +51,8 @@ mod state {
 /// ACT: the table calls bit 3 the learning bit, the list of steps writes 16 (bit 4); both are taken.
 const LEARN: i16 = 1 << 3 | 1 << 4;
 
-/// What the instruction keeps in its private memory: time since the last sample, the period's start, sum of the integral, filtered
-/// value and last deviation.
+/// What the instruction keeps in its private memory: time since the last sample, the period's start, sum of the
+/// integral, filtered value and last deviation.
 mod memory {
     pub const ELAPSED: usize = 0;
     pub const PERIOD: usize = 1;
@@ -71,7 +72,8 @@ fn keep(cx: &mut Cx, i: usize, value: f32) {
     }
 }
 
-/// PID S1 S2 S3 D: every S3 milliseconds one step of learning (ACT 16) or control (ACT 0); D is the heating power 0 to S3+28.
+/// PID S1 S2 S3 D: every S3 milliseconds one step of learning (ACT 16) or control (ACT 0); D is the heating power 0 to
+/// S3+28.
 pub fn pid_thermal(cx: &mut Cx) -> Done {
     cx.check_words(S3, at::END)?;
     let ts = cx.word(S3, at::TS)?;
@@ -113,8 +115,8 @@ fn full_power(cx: &Cx) -> Result<f32, Fault> {
     Ok(f32::from(if power > 0 { power } else { i16::MAX }))
 }
 
-/// Heats below the target and not above it, and watches the oscillation: when two waves after the first have the same amplitude
-/// (within S3+31), the gains follow from it (Ziegler and Nichols).
+/// Heats below the target and not above it, and watches the oscillation: when two waves after the first have the same
+/// amplitude (within S3+31), the gains follow from it (Ziegler and Nichols).
 fn learn(cx: &mut Cx, target: f32, measured: f32, ts: f32) -> Done {
     if cx.word(S3, at::STATE)? != state::LEARNING {
         begin_learning(cx, measured)?;
@@ -192,8 +194,9 @@ fn finish_learning(cx: &mut Cx, amplitude: f32, period_ms: f32) -> Done {
     cx.set_word(S3, at::STATE, 0)
 }
 
-/// One step of control. Outside the large band only the proportional part acts, held down by S3+29 %; between the bands the output
-/// is held down by S3+27 %; the integral works inside the large band, the derivative inside the fine one. A band of 0 is not used.
+/// One step of control. Outside the large band only the proportional part acts, held down by S3+29 %; between the bands
+/// the output is held down by S3+27 %; the integral works inside the large band, the derivative inside the fine one. A
+/// band of 0 is not used.
 fn control(cx: &mut Cx, target: f32, measured: f32, ts: f32) -> Done {
     let deviation = target - measured;
     if cx.word(S3, at::STATE)? != state::CONTROLLING {

@@ -1,5 +1,5 @@
-//! Positioning: FNC 150, 151, 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions are counted in the registers
-//! of the output; forward counts up.
+//! Positioning: FNC 150, 151, 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions
+//! are counted in the registers of the output; forward counts up.
 
 use super::output::{Output, Turn, held, unsigned};
 use crate::axis::set_long;
@@ -11,8 +11,8 @@ use crate::special::Relay;
 /// Word of the memory with the position in which a move began.
 const BEGAN: usize = 4;
 
-/// DRVI S1 S2 D1 D2 (FNC 158): moves by S1 pulses at S2 Hz with ramps; pulses on D1, D2 on if forward. It comes down when its drive goes off.
-/// While the relay for that is on, S1 may change until it comes down.
+/// DRVI S1 S2 D1 D2 (FNC 158): moves by S1 pulses at S2 Hz with ramps; pulses on D1, D2 on if forward. It comes down
+/// when its drive goes off. While the relay for that is on, S1 may change until it comes down.
 pub fn drvi(cx: &mut Cx) -> Done {
     held(cx, |cx| move_by(cx, |cx, _, _| cx.read(0)))
 }
@@ -66,7 +66,8 @@ const SIGNAL_WAS_ON: usize = 5;
 const PULSES: usize = 6;
 const INTERRUPTED: usize = 7;
 
-/// DVIT S1 S2 D1 D2 (FNC 151): runs at S2 Hz with ramps, D2 on if S1 is positive, forward. At the rising edge of its interrupt signal it continues by
+/// DVIT S1 S2 D1 D2 (FNC 151): runs at S2 Hz with ramps, D2 on if S1 is positive, forward. At the rising edge of its
+/// interrupt signal it continues by
 /// |S1| pulses, coming down to them; if they are too few for that, at once at a speed from which it can. It comes down when its drive goes
 /// off.
 pub fn dvit(cx: &mut Cx) -> Done {
@@ -107,8 +108,8 @@ fn do_dvit(cx: &mut Cx) -> Done {
     output.show(cx)
 }
 
-/// PLSV S D1 D2 (FNC 157): sends pulses of |S| Hz on D1 as long as it is driven; D2 is on if S is positive, forward. S may change at any
-/// time: at once, or with ramps where the model has a relay for that and it is on.
+/// PLSV S D1 D2 (FNC 157): sends pulses of |S| Hz on D1 as long as it is driven; D2 is on if S is positive, forward. S
+/// may change at any time: at once, or with ramps where the model has a relay for that and it is on.
 pub fn plsv(cx: &mut Cx) -> Done {
     held(cx, do_plsv)
 }
@@ -158,8 +159,8 @@ fn begin_plsv(cx: &mut Cx, output: Output) -> Done {
 /// Word of the memory with the stage of a return.
 const STAGE: usize = 4;
 
-/// ZRN S1 S2 S3 D (FNC 156): runs back at S1 Hz until S3 is on, then at S2 Hz until it is off: there it stops at once, the position is 0,
-/// and a clear signal is given if the relay for that is on.
+/// ZRN S1 S2 S3 D (FNC 156): runs back at S1 Hz until S3 is on, then at S2 Hz until it is off: there it stops at once,
+/// the position is 0, and a clear signal is given if the relay for that is on.
 pub fn zrn(cx: &mut Cx) -> Done {
     held(cx, do_zrn)
 }
@@ -229,9 +230,10 @@ mod stage {
 /// Word of the memory with whether the zero signal was on.
 const ZERO_WAS_ON: usize = 5;
 
-/// DSZR S1 S2 D1 D2 (FNC 150): returns to the origin at the speeds of special registers. It runs in the direction of the return until the
-/// DOG S1 is on, creeps until S1 is off and then to the next rise of the zero signal S2, where it stops at once. Begun over the DOG or
-/// past it, at the limit, it first runs back until the DOG is left. With S1 = S2 the fall of the DOG is the origin.
+/// DSZR S1 S2 D1 D2 (FNC 150): returns to the origin at the speeds of special registers. It runs in the direction of
+/// the return until the DOG S1 is on, creeps until S1 is off and then to the next rise of the zero signal S2, where it
+/// stops at once. Begun over the DOG or past it, at the limit, it first runs back until the DOG is left. With S1 = S2
+/// the fall of the DOG is the origin.
 pub fn dszr(cx: &mut Cx) -> Done {
     held(cx, do_dszr)
 }

@@ -1,13 +1,13 @@
-//! Pulses without a position: FNC 57 to 59 (h1u-h2u-programming §4.3.6, §8.7; l01s-programming §7.2, §7.3). What an instruction asks
-//! of an output continues between scans; see [`crate::Axis`].
+//! Pulses without a position: FNC 57 to 59 (h1u-h2u-programming §4.3.6, §8.7; l01s-programming §7.2, §7.3). What an
+//! instruction asks of an output continues between scans; see [`crate::Axis`].
 
 use super::output::{LOWEST_HZ, Output, RAMP_MS, Turn, held, unsigned};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::pulse::Train;
 
-/// PLSY S1 S2 D (FNC 57): sends S2 pulses of S1 Hz on D, or with S2 = 0 pulses without end, and stops at once with its drive. S1 may
-/// change at any time, S2 while the relay for that is on.
+/// PLSY S1 S2 D (FNC 57): sends S2 pulses of S1 Hz on D, or with S2 = 0 pulses without end, and stops at once with its
+/// drive. S1 may change at any time, S2 while the relay for that is on.
 pub fn plsy(cx: &mut Cx) -> Done {
     held(cx, do_plsy)
 }
@@ -36,9 +36,9 @@ fn do_plsy(cx: &mut Cx) -> Done {
     output.show(cx)
 }
 
-/// PLSR S1 S2 S3 D (FNC 59): sends S2 pulses on D, in S3 ms up to S1 Hz and in as many down, and comes down when its drive goes off. The
-/// ramps begin and end with √(S1 / 2·S3). While the relay for that is on, S2 may change until it comes down, and the way down has a time of
-/// its own.
+/// PLSR S1 S2 S3 D (FNC 59): sends S2 pulses on D, in S3 ms up to S1 Hz and in as many down, and comes down when its
+/// drive goes off. The ramps begin and end with √(S1 / 2·S3). While the relay for that is on, S2 may change until it
+/// comes down, and the way down has a time of its own.
 pub fn plsr(cx: &mut Cx) -> Done {
     held(cx, do_plsr)
 }
@@ -76,8 +76,8 @@ fn do_plsr(cx: &mut Cx) -> Done {
     output.show(cx)
 }
 
-/// PWM S1 S2 D (FNC 58): sends pulses of width S1 and period S2 on D, in milliseconds or in the unit that special devices say, as long as it
-/// is driven. Both may change at any time.
+/// PWM S1 S2 D (FNC 58): sends pulses of width S1 and period S2 on D, in milliseconds or in the unit that special
+/// devices say, as long as it is driven. Both may change at any time.
 pub fn pwm(cx: &mut Cx) -> Done {
     held(cx, do_pwm)
 }

@@ -54,7 +54,8 @@ pub fn rcl(cx: &mut Cx) -> Done {
     rotate_through_carry(cx, false)
 }
 
-/// SFR D n (FNC 213): shifts D right, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a negative one is an error.
+/// SFR D n (FNC 213): shifts D right, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a
+/// negative one is an error.
 pub fn sfr(cx: &mut Cx) -> Done {
     let n = cx.count(1, 0..=i16::MAX.into())? % 16;
     let value = u64::from(cx.word(0, 0)? as u16) << 1;
@@ -64,7 +65,8 @@ pub fn sfr(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// SFL D n (FNC 214): shifts D left, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a negative one is an error.
+/// SFL D n (FNC 214): shifts D left, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a
+/// negative one is an error.
 pub fn sfl(cx: &mut Cx) -> Done {
     let n = cx.count(1, 0..=i16::MAX.into())? % 16;
     let shifted = u32::from(cx.word(0, 0)? as u16) << n;
@@ -153,7 +155,8 @@ fn entries(cx: &Cx, i: usize, words: i32) -> Result<i32, Fault> {
     }
 }
 
-/// SFWR S D n (FNC 38): appends S to the queue D+1…D+n-1, whose length is D. A full queue stays, and the carry flag is on.
+/// SFWR S D n (FNC 38): appends S to the queue D+1…D+n-1, whose length is D. A full queue stays, and the carry flag is
+/// on.
 pub fn sfwr(cx: &mut Cx) -> Done {
     let n = cx.count(2, 2..=2048)?;
     let held = entries(cx, 1, n)?;
@@ -167,8 +170,8 @@ pub fn sfwr(cx: &mut Cx) -> Done {
     cx.set_word(1, held + 1, value)
 }
 
-/// SFRD S D n (FNC 39): takes the oldest entry S+1 to D; S+2…S+n-1 move down, the last word stays. An empty queue gives nothing, and the
-/// zero flag is on.
+/// SFRD S D n (FNC 39): takes the oldest entry S+1 to D; S+2…S+n-1 move down, the last word stays. An empty queue gives
+/// nothing, and the zero flag is on.
 pub fn sfrd(cx: &mut Cx) -> Done {
     let n = cx.count(2, 2..=2048)?;
     let held = entries(cx, 0, n)?;
@@ -221,7 +224,8 @@ pub fn sfrd_hm(cx: &mut Cx) -> Done {
     take_first(cx, held, held)
 }
 
-/// POP S D n (FNC 212): takes the newest entry S+pointer to D. An empty stack gives nothing; the zero flag is on when it is empty afterwards.
+/// POP S D n (FNC 212): takes the newest entry S+pointer to D. An empty stack gives nothing; the zero flag is on when
+/// it is empty afterwards.
 pub fn pop(cx: &mut Cx) -> Done {
     let n = cx.count(2, 2..=512)?;
     let held = entries(cx, 0, n)?;

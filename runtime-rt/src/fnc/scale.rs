@@ -48,8 +48,9 @@ pub fn zone(cx: &mut Cx) -> Done {
 /// Where the coordinates of point `i` (from 0) of `count` are in the table, as elements after its head.
 type Place = fn(i: i32, count: i32) -> (i32, i32);
 
-/// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points. It is searched from
-/// its beginning, so that only x that fall before S1 is reached are an error; of points that share an x the second counts.
+/// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points.
+/// It is searched from its beginning, so that only x that fall before S1 is reached are an error; of points that share
+/// an x the second counts.
 fn interpolate(cx: &mut Cx, place: Place) -> Done {
     let x = cx.read(0)?;
     let count = cx.elem(1, 0)?;

@@ -33,8 +33,8 @@ struct Recording {
     channels: [[i32; 2]; 2],
 }
 
-/// Advances to the time in operand 0, in milliseconds. Memory: the time of the last call and tenths of milliseconds since the
-/// last sample; then the [`Recording`].
+/// Advances to the time in operand 0, in milliseconds. Memory: the time of the last call and tenths of milliseconds
+/// since the last sample; then the [`Recording`].
 pub fn oscilloscope(cx: &mut Cx) -> Done {
     let now = cx.read(0)?;
     let passed = now.wrapping_sub(cx.state().0[0]);

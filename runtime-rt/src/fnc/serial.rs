@@ -1,5 +1,6 @@
-//! Characters and check codes for serial data: FNC 81–84 and 188, h1u-h2u-programming §4.3.9, hm-motion-controller §5.4; the instructions of
-//! free protocols: RS, RS2, UINIT, USEND, URCV, which leave what they want in the [`Port`](crate::Port).
+//! Characters and check codes for serial data: FNC 81–84 and 188, h1u-h2u-programming §4.3.9, hm-motion-controller
+//! §5.4; the instructions of free protocols: RS, RS2, UINIT, USEND, URCV, which leave what they want in the
+//! [`Port`](crate::Port).
 
 use super::digits::{hex_digit, hex_value};
 use crate::comm::modbus::{CRC_START, crc_step};
@@ -67,7 +68,8 @@ fn write_digits(cx: &mut Cx, byte_mode: bool) -> Done {
     Ok(())
 }
 
-/// ASCI S D n (FNC 82): the lowest n hexadecimal digits of S as characters, the highest first; two a word, or one with M8161.
+/// ASCI S D n (FNC 82): the lowest n hexadecimal digits of S as characters, the highest first; two a word, or one with
+/// M8161.
 pub fn asci(cx: &mut Cx) -> Done {
     let byte_mode = cx.special(M_BYTE_MODE);
     write_digits(cx, byte_mode)
@@ -95,7 +97,8 @@ fn read_digits(cx: &mut Cx, byte_mode: bool, value: fn(u8) -> Option<u16>) -> Do
     Ok(())
 }
 
-/// HEX S D n (FNC 83): the hexadecimal digits that n characters are; two a word, or one with M8161. Another character is an error.
+/// HEX S D n (FNC 83): the hexadecimal digits that n characters are; two a word, or one with M8161. Another character
+/// is an error.
 pub fn hex(cx: &mut Cx) -> Done {
     let byte_mode = cx.special(M_BYTE_MODE);
     read_digits(cx, byte_mode, hex_value)
@@ -123,8 +126,8 @@ pub fn ccd(cx: &mut Cx) -> Done {
     cx.set_word(1, 1, parity.into())
 }
 
-/// CRC S D n (FNC 188): the CRC-16 (polynomial HA001, first value HFFFF) of n bytes, two a word, goes to D; with M8161 one a word, and the
-/// two bytes of the result to D and D+1.
+/// CRC S D n (FNC 188): the CRC-16 (polynomial HA001, first value HFFFF) of n bytes, two a word, goes to D; with M8161
+/// one a word, and the two bytes of the result to D and D+1.
 pub fn crc(cx: &mut Cx) -> Done {
     let byte_mode = cx.special(M_BYTE_MODE);
     let n = cx.count(2, 1..=256)?;
@@ -139,8 +142,8 @@ pub fn crc(cx: &mut Cx) -> Done {
     cx.set_word(1, 1, (crc >> 8) as i16)
 }
 
-/// RS S m D n (FNC 80): sends m bytes from S on at the program's request and receives n to D, on the port of RS. Where that is a Modbus
-/// master, RS is MODBUS (h1u-h2u-programming §5.7.1).
+/// RS S m D n (FNC 80): sends m bytes from S on at the program's request and receives n to D, on the port of RS. Where
+/// that is a Modbus master, RS is MODBUS (h1u-h2u-programming §5.7.1).
 pub fn rs(cx: &mut Cx) -> Done {
     let number = cx.plc.ports().of_rs();
     let port = cx.plc.port(number);
@@ -161,7 +164,8 @@ pub fn rs2(cx: &mut Cx) -> Done {
 /// The longest transfer in bytes: 256 on H1U and H2U; FX takes up to 4096.
 const LONGEST: i32 = 4096;
 
-/// Whether a word always contains two characters: RS2 of FX3 has no mode of eight bits (FX data communication manual, part F, §8.2.3).
+/// Whether a word always contains two characters: RS2 of FX3 has no mode of eight bits (FX data communication manual,
+/// part F, §8.2.3).
 fn packs(cx: &Cx, number: u8) -> bool {
     let wiring = cx.plc.ports().get(number);
     wiring.is_some_and(|wiring| wiring.chosen(cx.plc).envelope.is_some()) && cx.plc.ports().is_fx3()
@@ -212,7 +216,8 @@ fn transfer(cx: &mut Cx, number: u8) -> Done {
     Ok(())
 }
 
-/// UINIT S1 S2 D1 D2 (hm-motion-controller §6.2): starts port D2 with protocol S1 and format S2; D1 is the first register of its work area.
+/// UINIT S1 S2 D1 D2 (hm-motion-controller §6.2): starts port D2 with protocol S1 and format S2; D1 is the first
+/// register of its work area.
 pub fn uinit(cx: &mut Cx) -> Done {
     let [protocol, format, area] = [cx.word(0, 0)?, cx.word(1, 0)?, cx.word(2, 0)?];
     let number = cx.named_port(3)?;

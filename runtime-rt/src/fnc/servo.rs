@@ -1,4 +1,5 @@
-//! Reading a servo amplifier: FNC 155 (h1u-h2u-programming §4.3.11; its lost figures are those of the amplifiers' makers).
+//! Reading a servo amplifier: FNC 155 (h1u-h2u-programming §4.3.11; its lost figures are those of the amplifiers'
+//! makers).
 
 use crate::cx::Cx;
 use crate::fault::Done;
@@ -29,9 +30,10 @@ const POSITION: usize = 3;
 const SUM: usize = 4;
 const RECEIVED: usize = 5;
 
-/// ABS S D1 D2 (FNC 155): reads the absolute position of a servo into the pair D2, two bits at a time, the lowest first. With its drive it
-/// switches the servo on and asks for the transfer; for each pair of bits it makes a request, which the amplifier answers by going unready.
-/// M8029 is on once all is read; if the sum is wrong it reads anew. It breaks off with its drive.
+/// ABS S D1 D2 (FNC 155): reads the absolute position of a servo into the pair D2, two bits at a time, the lowest
+/// first. With its drive it switches the servo on and asks for the transfer; for each pair of bits it makes a request,
+/// which the amplifier answers by going unready. M8029 is on once all is read; if the sum is wrong it reads anew. It
+/// breaks off with its drive.
 pub fn abs(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(0);
     if !cx.drive() {

@@ -1,5 +1,6 @@
-//! What the scan does for special registers in addition to the program: the running time and error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
-//! analog inputs of L01S (l01s-programming §5.1) and potentiometers of FX3G.
+//! What the scan does for special registers in addition to the program: the running time and error log of H1U/H2U
+//! (h1u-h2u-programming §8.2.2) and the built-in analog inputs of L01S (l01s-programming §5.1) and potentiometers of
+//! FX3G.
 
 use crate::cx::Cx;
 use crate::fault::Done;
@@ -12,8 +13,9 @@ use crate::word::{pair, words};
 /// How many errors the log holds.
 const ENTRIES: u32 = 10;
 
-/// The running time and the error log, once a scan after the program. A new code of an operation error is added, the oldest of ten making
-/// place; one that is there only takes the new time. Memory: code and step logged last; milliseconds of the second.
+/// The running time and the error log, once a scan after the program. A new code of an operation error is added, the
+/// oldest of ten making place; one that is there only takes the new time. Memory: code and step logged last;
+/// milliseconds of the second.
 pub fn error_log(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     let ms = cx.state().0[2].saturating_add(dt);

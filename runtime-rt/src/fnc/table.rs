@@ -1,5 +1,5 @@
-//! Point tables of HM, whatever they are made by: a count, then positions, both 32 bits (hm-motion-controller §8.3.4). Operand 0
-//! is where the parameters are, operand 1 the table.
+//! Point tables of HM, whatever they are made by: a count, then positions, both 32 bits (hm-motion-controller §8.3.4).
+//! Operand 0 is where the parameters are, operand 1 the table.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};

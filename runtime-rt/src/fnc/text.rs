@@ -147,7 +147,8 @@ pub fn midr(cx: &mut Cx) -> Done {
     write(cx, 1, n, |cx, k| char_at(cx, 0, start + k))
 }
 
-/// MIDW S1 D S2 (FNC 207): the first S2+1 characters of S1 (−1: all) replace those of D from number S2 (from 1) on, as far as D goes.
+/// MIDW S1 D S2 (FNC 207): the first S2+1 characters of S1 (−1: all) replace those of D from number S2 (from 1) on, as
+/// far as D goes.
 pub fn midw(cx: &mut Cx) -> Done {
     let (count, target) = (length(cx, 0)?, length(cx, 1)?);
     let (start, n) = middle(cx, |_| count)?;
@@ -237,7 +238,8 @@ fn check_format(total: i32, fraction: i32, limits: (i32, i32)) -> Done {
     }
 }
 
-/// STR S1 S2 D (FNC 200): the integer S2 as S1 characters: a sign (space or −), spaces, and digits with S1+1 of them after a point.
+/// STR S1 S2 D (FNC 200): the integer S2 as S1 characters: a sign (space or −), spaces, and digits with S1+1 of them
+/// after a point.
 pub fn str(cx: &mut Cx) -> Done {
     let (total, fraction) = (i32::from(cx.word(0, 0)?), i32::from(cx.word(0, 1)?));
     check_format(total, fraction, decimal_limits(cx))?;
@@ -266,7 +268,8 @@ pub fn str(cx: &mut Cx) -> Done {
     write_buffer(cx, 2, &text)
 }
 
-/// VAL S D1 D2 (FNC 201): a number in characters as an integer in D2, its number of characters in D1, of those after the point in D1+1.
+/// VAL S D1 D2 (FNC 201): a number in characters as an integer in D2, its number of characters in D1, of those after
+/// the point in D1+1.
 pub fn val(cx: &mut Cx) -> Done {
     let limits = decimal_limits(cx);
     let total = length(cx, 0)?;
@@ -341,8 +344,8 @@ pub fn dabin(cx: &mut Cx) -> Done {
     }
 }
 
-/// BINDA S D (FNC 261): an integer as a sign (space or −) and 5 (32-bit: 10) digits, leading zeros as spaces. M8091 off ends the
-/// string with 0; on, the 16-bit form ends without, the 32-bit form with a space.
+/// BINDA S D (FNC 261): an integer as a sign (space or −) and 5 (32-bit: 10) digits, leading zeros as spaces. M8091 off
+/// ends the string with 0; on, the 16-bit form ends without, the 32-bit form with a space.
 pub fn binda(cx: &mut Cx) -> Done {
     let value = cx.read(0)?;
     let digits = decimal_digits(cx);
@@ -368,8 +371,8 @@ pub fn binda(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// ESTR S1 S2 D (FNC 116): the float S1 as S2+1 characters, S2+2 of them after the point: a sign, spaces and digits if S2 is 0,
-/// a sign, spaces, mantissa and `E±nn` if it is 1.
+/// ESTR S1 S2 D (FNC 116): the float S1 as S2+1 characters, S2+2 of them after the point: a sign, spaces and digits if
+/// S2 is 0, a sign, spaces, mantissa and `E±nn` if it is 1.
 pub fn estr(cx: &mut Cx) -> Done {
     let value = cx.float(0, 0)?;
     let (mode, total, fraction) = (

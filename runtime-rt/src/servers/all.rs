@@ -51,7 +51,8 @@ impl Servers {
         Ok(address)
     }
 
-    /// Carries out and answers what clients have asked since the last call; returns RUN or STOP if one has asked for it.
+    /// Carries out and answers what clients have asked since the last call; returns RUN or STOP if one has asked for
+    /// it.
     pub fn poll(&mut self, plc: &mut dyn Plc) -> Option<bool> {
         let mut request = None;
         for (n, Open { server, .. }) in self.servers.iter_mut().enumerate() {

@@ -65,8 +65,8 @@ impl Server {
         self.service
     }
 
-    /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the address
-    /// of each client.
+    /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the
+    /// address of each client.
     pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, Exchange)> {
         // A listener that fails (too many open files) is asked again after the next scan.
         while let Ok((stream, peer)) = self.listener.accept() {

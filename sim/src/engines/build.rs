@@ -58,8 +58,8 @@ pub enum BuildError {
     },
 }
 
-/// Makes an engine for these programs. Sources and objects go to `folder`, which may be used again: what has not changed is not
-/// built again.
+/// Makes an engine for these programs. Sources and objects go to `folder`, which may be used again: what has not
+/// changed is not built again.
 pub fn build<'m>(
     kind: EngineKind,
     modules: &'m [Module],

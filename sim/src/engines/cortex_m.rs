@@ -1,4 +1,5 @@
-//! Batches on microcontrollers that QEMU simulates: emitted code with nothing under it but a start-up file and a C library.
+//! Batches on microcontrollers that QEMU simulates: emitted code with nothing under it but a start-up file and a C
+//! library.
 //!
 //! Standard input and output go through semihosting, so the protocol is that of executables on the host.
 
@@ -42,7 +43,8 @@ impl Board {
     }
 }
 
-/// What every image is linked with, beside the batch: the start-up file of the example for a board, and what QEMU's machine has.
+/// What every image is linked with, beside the batch: the start-up file of the example for a board, and what QEMU's
+/// machine has.
 const SUPPORT: [(&str, &str); 3] = [
     (
         "startup.c",
@@ -84,7 +86,8 @@ pub fn no_rust(target: &str) -> String {
     format!("Rust for {target} (rustup target add {target})")
 }
 
-/// A cargo that can build for a target without operating system: rustup's with the target, or a distribution's with the sources of `core`.
+/// A cargo that can build for a target without operating system: rustup's with the target, or a distribution's with the
+/// sources of `core`.
 pub fn cargo(target: &str) -> Option<Command> {
     let libraries = Command::new("rustc")
         .args(["--print", "target-libdir", "--target", target])

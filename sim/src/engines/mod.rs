@@ -17,8 +17,8 @@ pub trait Engine {
     /// Its name on the command line: `interp`, `c`, `rust`.
     fn name(&self) -> &str;
 
-    /// Does or answers what is asked. Requests that ask for no value may be answered [`Answer::Ok`] before they are carried out;
-    /// what went wrong is then the answer to the next one that does.
+    /// Does or answers what is asked. Requests that ask for no value may be answered [`Answer::Ok`] before they are
+    /// carried out; what went wrong is then the answer to the next one that does.
     fn ask(&mut self, request: Request) -> Result<Answer, EngineError>;
 
     /// The answers to many requests that ask for values.

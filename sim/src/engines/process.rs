@@ -8,7 +8,8 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How long an answer may take. All scans of a case are answered within this time, which a loop in the program would exceed.
+/// How long an answer may take. All scans of a case are answered within this time, which a loop in the program would
+/// exceed.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A batch executable. It is started at the first request and again after it was killed or has crashed.

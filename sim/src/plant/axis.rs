@@ -105,8 +105,8 @@ impl Axis {
         self.position / self.per_unit
     }
 
-    /// Its speed in units a second, negative when it goes back. `hz` gives the pulses that an output sends per second, negative in
-    /// reverse, `is_on` whether an output is on.
+    /// Its speed in units a second, negative when it goes back. `hz` gives the pulses that an output sends per second,
+    /// negative in reverse, `is_on` whether an output is on.
     pub fn speed(&self, hz: impl Fn(u32) -> f64, is_on: impl Fn(u32) -> bool) -> f64 {
         let speed = match self.drive {
             Drive::Pulses {

@@ -2,8 +2,8 @@
 
 use super::Moment;
 
-/// Sections of the way where an input is on. They alternate with sections where it is off; all are numbered in order, so an axis that moves
-/// from one number to another passes those between.
+/// Sections of the way where an input is on. They alternate with sections where it is off; all are numbered in order,
+/// so an axis that moves from one number to another passes those between.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Marks {
     /// From here to there, both included.

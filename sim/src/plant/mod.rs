@@ -1,8 +1,10 @@
-//! The machine around a PLC: axes with their switches, encoders and sensors, cylinders, inputs that follow outputs, and processes.
+//! The machine around a PLC: axes with their switches, encoders and sensors, cylinders, inputs that follow outputs, and
+//! processes.
 //!
-//! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
-//! it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a millisecond an axis moves evenly, and each
-//! switch and each encoder line changes when the axis passes the position where it does.
+//! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a
+//! millisecond at a time: it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a
+//! millisecond an axis moves evenly, and each switch and each encoder line changes when the axis passes the position
+//! where it does.
 
 mod axis;
 mod delay;

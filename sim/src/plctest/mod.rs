@@ -1,6 +1,7 @@
 //! PLC test files (`*.plctest.toml`): cases that run a program and compare devices, or that a program must not compile.
 //!
-//! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an [`Engine`](crate::engines::Engine).
+//! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an
+//! [`Engine`](crate::engines::Engine).
 
 mod format;
 mod lines;

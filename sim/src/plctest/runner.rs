@@ -360,7 +360,8 @@ impl Running<'_> {
         self.check(step)
     }
 
-    /// A scan of all PLCs; how many milliseconds it lasts. They scan together, so the longest constant scan time holds for all.
+    /// A scan of all PLCs; how many milliseconds it lasts. They scan together, so the longest constant scan time holds
+    /// for all.
     fn scan(&mut self, scan_ms: u32) -> Result<u32, Failure> {
         let scan_us = scan_ms.max(self.constant_ms).saturating_mul(1000);
         self.constant_ms = 0;

@@ -38,8 +38,8 @@ pub struct Suite {
 }
 
 impl Suite {
-    /// Compiles the programs of all cases; those that do not compile are a matter of their cases. Errors with the codes `warn` that can
-    /// be eased are none.
+    /// Compiles the programs of all cases; those that do not compile are a matter of their cases. Errors with the codes
+    /// `warn` that can be eased are none.
     pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let mut modules = Vec::new();
         let mut build = |case: &Case| {

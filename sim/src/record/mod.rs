@@ -1,4 +1,5 @@
-//! The results of a run: the values of devices as they are read ([`Reading`]), and recordings of them over time ([`Vcd`]).
+//! The results of a run: the values of devices as they are read ([`Reading`]), and recordings of them over time
+//! ([`Vcd`]).
 
 pub mod plot;
 mod reading;

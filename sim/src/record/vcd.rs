@@ -65,7 +65,8 @@ pub struct Vcd<W: Write> {
 }
 
 impl<W: Write> Vcd<W> {
-    /// Begins a recording of a program's signals, each with what it holds at time 0 unless a change at that time is still to come.
+    /// Begins a recording of a program's signals, each with what it holds at time 0 unless a change at that time is
+    /// still to come.
     pub fn begin(out: W, program: &str, signals: Vec<(Signal, Reading)>) -> io::Result<Self> {
         let mut writer = Writer::new(out);
         writer.version(concat!("rungc ", env!("CARGO_PKG_VERSION")))?;

@@ -1,6 +1,8 @@
-//! What frames say, in human-readable form: function, address, count, exception, and the devices that a request is about.
+//! What frames say, in human-readable form: function, address, count, exception, and the devices that a request is
+//! about.
 //!
-//! What a request reads and writes is not decoded a second time: the codec that answers it carries it out on a [`Probe`].
+//! What a request reads and writes is not decoded a second time: the codec that answers it carries it out on a
+//! [`Probe`].
 
 mod modbus;
 #[cfg(test)]

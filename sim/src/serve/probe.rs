@@ -1,4 +1,5 @@
-//! What a request is about: the devices that a codec reads and writes when it carries the request out on a PLC that has all of them.
+//! What a request is about: the devices that a codec reads and writes when it carries the request out on a PLC that has
+//! all of them.
 
 use rungc_rt::Class;
 use rungc_rt::comm::Map;

@@ -1,7 +1,7 @@
 //! Frames as a capture for Wireshark (pcapng, draft-ietf-opsawg-pcapng).
 //!
-//! Frames over TCP stand in packets of IP without the packets that open and close connections; frames of serial ports under the link type of
-//! RTAC devices (LINKTYPE_RTAC_SERIAL), which has a direction.
+//! Frames over TCP stand in packets of IP without the packets that open and close connections; frames of serial ports
+//! under the link type of RTAC devices (LINKTYPE_RTAC_SERIAL), which has a direction.
 
 use super::watch::Way;
 use etherparse::{IpNumber, Ipv4Header, Ipv6FlowLabel, Ipv6Header, TcpHeader};

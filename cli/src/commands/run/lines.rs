@@ -1,7 +1,7 @@
 //! `rungc run --serial COM1=/dev/ttyUSB0`: serial ports of this machine as those of the PLC, in real time.
 //!
-//! A thread for each port notes when characters come in. The run is late by at most one scan, so that they reach the program's ports at
-//! their own times, and the end of a frame is where the line was silent.
+//! A thread for each port notes when characters come in. The run is late by at most one scan, so that they reach the
+//! program's ports at their own times, and the end of a frame is where the line was silent.
 
 mod frames;
 pub mod wire;
@@ -23,8 +23,8 @@ use wire::{Chunk, Event, Wire};
 /// Characters that wait for a line that does not take them; more are lost, as on an open wire.
 const UNSENT: usize = 4096;
 
-/// How far ahead of their times characters are handed over: a frame goes out as a whole, because pauses between its parts would tear it. The
-/// other end sends them one after the other.
+/// How far ahead of their times characters are handed over: a frame goes out as a whole, because pauses between its
+/// parts would tear it. The other end sends them one after the other.
 const AHEAD_US: u32 = 1 << 30;
 
 /// The serial lines of a run.
@@ -68,7 +68,8 @@ impl Lines {
         lines.collect::<Result<_, _>>().map(Lines)
     }
 
-    /// What has come in since the last call reaches the ports, at its times but not before `from_ms`; the run began at `begin`.
+    /// What has come in since the last call reaches the ports, at its times but not before `from_ms`; the run began at
+    /// `begin`.
     pub fn receive(
         &mut self,
         hal: &mut VirtualHal,

@@ -103,7 +103,8 @@ fn machine_signals(seen: Seen) -> Vec<(Signal, Reading)> {
     axes.chain(processes).collect()
 }
 
-/// The inputs and outputs that the program uses, the pulses that it sends, and the watched devices, each once, by class.
+/// The inputs and outputs that the program uses, the pulses that it sends, and the watched devices, each once, by
+/// class.
 fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
     let terminals = [DeviceClass::X, DeviceClass::Y].into_iter();
     let terminals = terminals.flat_map(|class| used(module, class).map(move |n| (class, n)));

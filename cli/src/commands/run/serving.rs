@@ -48,7 +48,8 @@ impl Servers {
         Ok(Servers { servers, type_code })
     }
 
-    /// Carries out and answers what clients have asked since the last scan; `at_us` is the time since the run began, in microseconds.
+    /// Carries out and answers what clients have asked since the last scan; `at_us` is the time since the run began, in
+    /// microseconds.
     pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) {
         if self.servers.is_empty() {
             return;

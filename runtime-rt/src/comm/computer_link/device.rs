@@ -22,8 +22,8 @@ pub(super) enum Device {
 }
 
 impl Device {
-    /// Reads a name: `X0040` and `Y0001` in octal digits, `M0903`, `S0100`, `D0500`, `R0500`, current values `TN000` and `CN100`, contacts `TS000`,
-    /// `CS000`, `T0000`, `C0000`.
+    /// Reads a name: `X0040` and `Y0001` in octal digits, `M0903`, `S0100`, `D0500`, `R0500`, current values `TN000`
+    /// and `CN100`, contacts `TS000`, `CS000`, `T0000`, `C0000`.
     pub(super) fn parse(name: &[u8]) -> Option<Device> {
         let &[letter, second, ref short @ ..] = name else {
             return None;

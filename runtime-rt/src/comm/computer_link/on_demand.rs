@@ -15,7 +15,8 @@ const MOST: u32 = 64;
 pub struct Devices {
     /// Register with the number of the first D; the next one holds how many are sent (D8127, D8128).
     pub first_register: Register,
-    /// Relay that is on while the frame is sent; the next one reports a range error, the one after it chooses 8-bit data (M8127 to M8129).
+    /// Relay that is on while the frame is sent; the next one reports a range error, the one after it chooses 8-bit
+    /// data (M8127 to M8129).
     pub first_relay: Relay,
 }
 
@@ -29,11 +30,11 @@ impl Devices {
     }
 }
 
-/// Makes the frame that the program asks for by a count other than 0: `STX station FE data ETX [sum] [CR LF]`. Empty if it asks for none, or
-/// for registers that are not there.
+/// Makes the frame that the program asks for by a count other than 0: `STX station FE data ETX [sum] [CR LF]`. Empty if
+/// it asks for none, or for registers that are not there.
 ///
-/// The count is set back to 0, so that a frame is sent once for each time that the program writes it. (The manual's example program does that
-/// itself.)
+/// The count is set back to 0, so that a frame is sent once for each time that the program writes it. (The manual's
+/// example program does that itself.)
 pub fn request(settings: Settings, devices: Devices, map: &mut dyn Map, frame: &mut Frame) {
     frame.clear();
     let (register, relay) = (devices.first_register, devices.first_relay);

@@ -5,8 +5,8 @@ use crate::comm::Memory;
 /// Bytes before the first address: number of words, a mark, number of bits.
 const HEAD: u32 = 4;
 
-/// A list, at addresses 1400h to 178Fh: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of bits; then follow the
-/// byte addresses of the words and the numbers of the bits, the low byte of each first.
+/// A list, at addresses 1400h to 178Fh: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of
+/// bits; then follow the byte addresses of the words and the numbers of the bits, the low byte of each first.
 pub(super) struct MonitorList<'a>(pub(super) &'a mut Memory);
 
 impl MonitorList<'_> {

@@ -1,4 +1,5 @@
-//! N:N link and enhanced N:N link: up to 8 or 16 PLCs that show each other their blocks (h1u-h2u-programming §5.4, §5.5).
+//! N:N link and enhanced N:N link: up to 8 or 16 PLCs that show each other their blocks (h1u-h2u-programming §5.4,
+//! §5.5).
 
 use super::{Block, Link, set_relay, set_value, text, value};
 use crate::comm::{Frame, LineFault, Map, hex_digits};

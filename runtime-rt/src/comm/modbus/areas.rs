@@ -92,8 +92,8 @@ pub(in crate::comm) fn place(areas: &[Area], address: u16) -> Option<Place> {
     areas.iter().find_map(|area| area.place(address))
 }
 
-/// Shows the content of the `count` addresses starting at `first`, with its index; `None` as soon as there is none, or none that may be
-/// written, or `show` gives `None`.
+/// Shows the content of the `count` addresses starting at `first`, with its index; `None` as soon as there is none, or
+/// none that may be written, or `show` gives `None`.
 pub(super) fn visit(
     areas: &[Area],
     first: u16,
@@ -268,8 +268,8 @@ pub static L01S: Profile = Profile {
     counters_by_06: true,
 };
 
-/// FX3 with its Modbus adapter, and the boards that are compatible with it: the addresses of L01S with all of FX3's devices (public
-/// knowledge of FX3U).
+/// FX3 with its Modbus adapter, and the boards that are compatible with it: the addresses of L01S with all of FX3's
+/// devices (public knowledge of FX3U).
 pub static FX3U: Profile = Profile {
     name: "fx3u",
     coils: &[
@@ -302,8 +302,8 @@ pub static FX3U: Profile = Profile {
     counters_by_06: true,
 };
 
-/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils and contacts of timers
-/// and counters are one here.
+/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils and
+/// contacts of timers and counters are one here.
 const HM_BITS: &[Area] = &[
     bits(0x0000, 256, Class::X, 0).read_only(),
     bits(0x0100, 256, Class::Y, 0),

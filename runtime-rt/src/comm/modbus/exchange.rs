@@ -1,9 +1,9 @@
 //! One exchange of a master after the other, and whose turn it is.
 //!
-//! An instruction of the program that is driven while the port is free hands over its job ([`Exchange::begin`]). The port sends the request
-//! between scans and takes the answer. When the scan reaches that instruction again, driven or not, it learns how the exchange ended, and the
-//! next driven one has its turn: the search continues right after it and around (h1u-h2u-programming §5.7.1). So each has its turn, without
-//! a queue.
+//! An instruction of the program that is driven while the port is free hands over its job ([`Exchange::begin`]). The
+//! port sends the request between scans and takes the answer. When the scan reaches that instruction again, driven or
+//! not, it learns how the exchange ended, and the next driven one has its turn: the search continues right after it and
+//! around (h1u-h2u-programming §5.7.1). So each has its turn, without a queue.
 
 use super::adu::Framing;
 use super::master::{Buffer, Job, accept};
@@ -111,8 +111,9 @@ impl Exchange {
         }
     }
 
-    /// The instruction whose turn it is hands over its job. The answer may take `time_out_us` from when the request is out; without one
-    /// the request is sent `retries` times again. After a broadcast, which has no answer, the port waits so long.
+    /// The instruction whose turn it is hands over its job. The answer may take `time_out_us` from when the request is
+    /// out; without one the request is sent `retries` times again. After a broadcast, which has no answer, the port
+    /// waits so long.
     pub fn begin(&mut self, owner: u32, job: Job, time_out_us: u32, retries: u8) {
         *self = Exchange {
             job,
@@ -236,7 +237,8 @@ mod tests {
         }
     }
 
-    /// The scan passes instructions 1 to 3, of which these are driven; returns what each finds. One whose turn it is begins.
+    /// The scan passes instructions 1 to 3, of which these are driven; returns what each finds. One whose turn it is
+    /// begins.
     fn scan(exchange: &mut Exchange, driven: [bool; 3]) -> [Visit; 3] {
         [1, 2, 3].map(|owner| {
             let visit = exchange.visit(owner, driven[owner as usize - 1]);

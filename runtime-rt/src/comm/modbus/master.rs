@@ -291,8 +291,8 @@ fn expect_data(body: Body, bytes: u16) -> Result<(), LineFault> {
     }
 }
 
-/// Whether an answer repeats the address of a write and, of 0F and 10, the quantity. What 05 and 06 write is not looked at again: slaves
-/// are known that answer with what they made of it.
+/// Whether an answer repeats the address of a write and, of 0F and 10, the quantity. What 05 and 06 write is not looked
+/// at again: slaves are known that answer with what they made of it.
 fn confirms(job: &Job, body: Body) -> Result<(), LineFault> {
     let several = [WRITE_COILS, WRITE_REGISTERS].contains(&job.function);
     match (body.len(), body.word(2), body.word(4)) {

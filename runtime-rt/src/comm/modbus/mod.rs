@@ -1,11 +1,12 @@
 //! Modbus: slaves and masters over RTU and ASCII lines, slaves over TCP.
 //!
-//! What the manuals leave to the public standard, to which they refer, follows "MODBUS application protocol" 1.1b3 and "MODBUS over serial
-//! line" 1.02. Choices where both are silent:
+//! What the manuals leave to the public standard, to which they refer, follows "MODBUS application protocol" 1.1b3 and
+//! "MODBUS over serial line" 1.02. Choices where both are silent:
 //!
 //! * The low word of a 32-bit counter comes first, as that of a pair of registers does.
 //! * A broadcast (station 0) is carried out if it writes, and never answered.
-//! * What a frame may not write (inputs; on H1U and H2U C200 and up by function 06) is rejected as an address, exception 02.
+//! * What a frame may not write (inputs; on H1U and H2U C200 and up by function 06) is rejected as an address,
+//!   exception 02.
 //! * A request whose length does not fit its function is rejected with exception 03.
 //! * A TCP server answers to the units 0, 1 and 255; another unit is a path that is not there, exception 0A.
 //!

@@ -16,7 +16,8 @@ pub const LONGEST: usize = 260;
 /// The units that mean the PLC itself rather than a device connected to it.
 const UNITS: [u8; 3] = [0, 1, 255];
 
-/// Whether the characters so far are a frame. After [`Cut::Drop`] the connection is of no use: nothing says where a frame begins.
+/// Whether the characters so far are a frame. After [`Cut::Drop`] the connection is of no use: nothing says where a
+/// frame begins.
 pub fn cut(received: &[u8]) -> Cut {
     let word = |at: usize| match received.get(at..at + 2) {
         Some(&[high, low]) => Some(u16::from_be_bytes([high, low])),

@@ -124,7 +124,8 @@ impl PortWiring {
         }
     }
 
-    /// A channel of FX3 (FX3U MODBUS manual §6.1, D8401): bit 0 Modbus, bit 4 slave, bit 8 ASCII. Channel 1 precedes channel 2.
+    /// A channel of FX3 (FX3U MODBUS manual §6.1, D8401): bit 0 Modbus, bit 4 slave, bit 8 ASCII. Channel 1 precedes
+    /// channel 2.
     pub(super) fn channel(&self, plc: &dyn Plc) -> Protocol {
         let [mode, format] = [self.protocol, self.format].map(|register| value(plc, register));
         let taken = self.number != 1 && D_CHANNEL_1.value(plc) & 1 != 0;

@@ -135,7 +135,8 @@ const fn fx(choice: Choice) -> [PortWiring; 2] {
     ]
 }
 
-/// Registers of what RS2 puts around data, of a port with this format word (FX data communication manual, part F, §8.2.5).
+/// Registers of what RS2 puts around data, of a port with this format word (FX data communication manual, part F,
+/// §8.2.5).
 const fn envelope(format: u16) -> Envelope {
     Envelope {
         headers: Register(format + 10),

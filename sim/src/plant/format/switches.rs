@@ -149,7 +149,8 @@ impl Reader<'_> {
         })
     }
 
-    /// The two lines of an encoder: A leads when the axis goes forward, and a whole number of cycles ends with both off.
+    /// The two lines of an encoder: A leads when the axis goes forward, and a whole number of cycles ends with both
+    /// off.
     fn encoder(&mut self, raw: &RawEncoder, scale: Scale, fastest: f64) -> [Option<Switch>; 2] {
         let inputs = [self.input(&raw.a), self.input(&raw.b)];
         let cycles = match &raw.cycles_per_unit {

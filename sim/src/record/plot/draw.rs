@@ -20,7 +20,8 @@ const LANE: f64 = 24.0;
 /// Below everything, for the time.
 const FOOT: f64 = 46.0;
 
-/// Colours that are distinguishable with any kind of colour vision (Okabe and Ito), and dashes that distinguish them without colour.
+/// Colours that are distinguishable with any kind of colour vision (Okabe and Ito), and dashes that distinguish them
+/// without colour.
 const STROKES: [(&str, &str); 6] = [
     ("#0072b2", "none"),
     ("#d55e00", "7 3"),

@@ -1,7 +1,7 @@
 //! Diagrams of a run: positions, speeds and values over time, as an SVG that needs nothing beside it.
 //!
-//! Curves are thinned out while they are collected, to what a column of the diagram can show: its first, least, greatest and last
-//! value. So a run of any length takes the same space, and no peak is lost.
+//! Curves are thinned out while they are collected, to what a column of the diagram can show: its first, least,
+//! greatest and last value. So a run of any length takes the same space, and no peak is lost.
 
 mod curve;
 mod draw;
@@ -65,8 +65,8 @@ impl Plot {
         self.curves.is_empty()
     }
 
-    /// A new curve in the panel with this title, which comes below the others if it is new, too. Position and speed are derived from
-    /// 0, other values from where they are.
+    /// A new curve in the panel with this title, which comes below the others if it is new, too. Position and speed are
+    /// derived from 0, other values from where they are.
     pub fn curve(&mut self, panel: &str, name: &str, shape: Shape) -> CurveId {
         let id = self.add(shape);
         let curve = (name.to_string(), id);

@@ -130,7 +130,8 @@ fn open(framing: Framing, frame: &[u8]) -> Result<Vec<u8>, LineFault> {
     }
 }
 
-/// A request or an answer from the station on. `to` is what its first byte is called; `request` is what an answer answers.
+/// A request or an answer from the station on. `to` is what its first byte is called; `request` is what an answer
+/// answers.
 fn message(to: &str, asks: bool, body: &[u8], request: Option<&[u8]>) -> Decoded {
     let [station, function, data @ ..] = body else {
         return wrong(LineFault::Length);

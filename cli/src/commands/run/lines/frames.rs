@@ -1,5 +1,5 @@
-//! Characters on a line as frames, for the log and the table of connections. What the PLC takes for a frame is its own affair: this is what
-//! somebody sees who listens on the wire.
+//! Characters on a line as frames, for the log and the table of connections. What the PLC takes for a frame is its own
+//! affair: this is what somebody sees who listens on the wire.
 
 use rungc_rt::comm::{Cut, LineFormat, Protocol, fx_port, modbus};
 use rungc_sim::serve::Direction;

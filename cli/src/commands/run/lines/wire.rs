@@ -1,5 +1,5 @@
-//! The end of a line on this machine: a serial port, a pseudo-terminal, or a TCP connection. A thread for each keeps it open: what vanishes
-//! is opened again.
+//! The end of a line on this machine: a serial port, a pseudo-terminal, or a TCP connection. A thread for each keeps it
+//! open: what vanishes is opened again.
 
 use rungc_project::serve::LineEnd;
 use rungc_rt::comm::{LineFormat, Parity};
@@ -145,7 +145,8 @@ impl Source {
         }
     }
 
-    /// A client that has connected: the latest is the other end, because the one before it may be dead without having said so.
+    /// A client that has connected: the latest is the other end, because the one before it may be dead without having
+    /// said so.
     fn newcomer(&self) -> Option<Wire> {
         match self {
             Source::Clients(listener) => listener
