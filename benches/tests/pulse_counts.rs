@@ -1,5 +1,5 @@
-//! Pulse outputs do not get slower on a microcontroller. Without the tools the test says what is missing and that it did
-//! not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+//! Pulse outputs do not get slower on a microcontroller. Without the tools the test says what is missing and that it
+//! did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 use rungc_benches::problem::Problem;
 use rungc_benches::pulse_counts;

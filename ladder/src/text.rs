@@ -52,7 +52,8 @@ pub fn draw_marked(
     out
 }
 
-/// Draws networks of different programs so that they can be compared line by line: without numbers and steps, in columns of one width.
+/// Draws networks of different programs so that they can be compared line by line: without numbers and steps, in
+/// columns of one width.
 pub fn draw_alike(networks: &[(&Resolved, &Network)], style: Style) -> Vec<String> {
     let networks: Vec<_> = networks
         .iter()

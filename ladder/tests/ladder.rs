@@ -270,7 +270,8 @@ proptest! {
     }
 }
 
-/// Networks as drawings, read back: how many give their own list. All others give one of the same meaning, which reads back as itself.
+/// Networks as drawings, read back: how many give their own list. All others give one of the same meaning, which reads
+/// back as itself.
 fn read_back(program: &Program, name: &str, width: usize) -> usize {
     let style = Style {
         width,

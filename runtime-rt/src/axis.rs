@@ -150,7 +150,8 @@ pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[Option<Relay>], on: bool) 
     }
 }
 
-/// Counts the pulses that have ended by `now_us`, in microseconds since power-on, wrapping, on all outputs. Pulses end when the PLC goes to STOP, and while a stop relay is on.
+/// Counts the pulses that have ended by `now_us`, in microseconds since power-on, wrapping, on all outputs. Pulses end
+/// when the PLC goes to STOP, and while a stop relay is on.
 pub fn advance(plc: &mut dyn Plc, now_us: u32) {
     let Sys {
         running,
@@ -232,7 +233,8 @@ fn bit_of(output: u16) -> u64 {
     1u64.checked_shl(output.into()).unwrap_or(0)
 }
 
-/// Drives the pins of all pulse outputs; see [`crate::Program::pulse_timer`]. It touches nothing of the PLC but [`Plc::axis`].
+/// Drives the pins of all pulse outputs; see [`crate::Program::pulse_timer`]. It touches nothing of the PLC but
+/// [`Plc::axis`].
 pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
     let outputs = plc.pulses().outputs().len() as u16;
     let mut next = None;

@@ -272,8 +272,8 @@ impl<P: Program, B: Board> Driver<P, B> {
     }
 
     /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones, on a board without
-    /// [`Hal::with_pulses`]: call it at the time that [`PulseOutput::wake_in`] was given. [`Driver::poll`] does the same
-    /// at its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
+    /// [`Hal::with_pulses`]: call it at the time that [`PulseOutput::wake_in`] was given. [`Driver::poll`] does the
+    /// same at its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
     pub fn on_timer(&mut self) {
         let now_us = self.board.now_us();
         let wait = self.program.pulse_timer(&mut self.board, now_us);

@@ -86,8 +86,8 @@ impl Inert {
 }
 
 impl Used {
-    /// Whether the program misses what the device does. One below the special devices (HM's axes and modules) that the program writes
-    /// is an ordinary register.
+    /// Whether the program misses what the device does. One below the special devices (HM's axes and modules) that the
+    /// program writes is an ordinary register.
     fn is_missed(&self, device: Device) -> bool {
         let is_written = self.places.iter().any(|(_, written)| *written);
         let is_read = self.places.iter().any(|(_, written)| !written);

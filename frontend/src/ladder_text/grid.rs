@@ -170,7 +170,8 @@ impl Block {
         };
         let firsts: Vec<Option<usize>> = self.rows.iter().map(|row| rail_of(row)).collect();
         let usual = firsts.iter().flatten().min().copied().unwrap_or(0);
-        // A number or label before a rail may push it to the right; a row without anything before its first wire has no rail but the usual one.
+        // A number or label before a rail may push it to the right; a row without anything before its first wire has no
+        // rail but the usual one.
         let rails: Vec<usize> = firsts
             .iter()
             .zip(&self.rows)

@@ -10,8 +10,8 @@ use rungc_syntax::{Instr, Program};
 /// Characters on a line.
 const WIDTH: usize = 100;
 
-/// The program as drawn ladder. A network whose drawing does not say all that its list says, such as blocks that ANB joins without need, stays a
-/// list.
+/// The program as drawn ladder. A network whose drawing does not say all that its list says, such as blocks that ANB
+/// joins without need, stays a list.
 pub fn to_ladder(program: &Program, options: &CompileOptions) -> String {
     let (resolved, _) = resolve(program, model(program, options));
     let ladder = build::ladder(&resolved);
