@@ -115,7 +115,7 @@ impl Code {
         self.take(mark);
     }
 
-    /// Takes off what was added after a mark, as a line of its own.
+    /// Takes off what was added after a mark, as a separate line.
     pub fn take(&mut self, from: Mark) -> Code {
         let kept = self.breaks.partition_point(|place| place.mark < from.len);
         let taken = self.breaks.split_off(kept).into_iter().map(|place| Break {

@@ -108,7 +108,7 @@ impl Lowerer<'_> {
     }
 
     /// Runs an advanced interrupt's routine from its start, or continues it. An earlier request for that is forgotten
-    /// at its begin.
+    /// at its start.
     pub(super) fn serve_process(&mut self, what: &What) {
         let What::Process {
             function,

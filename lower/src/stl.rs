@@ -115,7 +115,7 @@ impl Lowerer<'_> {
     }
 
     /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has
-    /// one of its own): the first decides.
+    /// its own one): the first decides.
     fn leave_if_marked(&mut self, state: u32) {
         if !self.steps.begun.insert(state) || !self.steps.left.contains(&state) {
             return;

@@ -1,4 +1,4 @@
-//! What ports of a kind do that others do not, as functions: a program links those of its own ports.
+//! What ports of a kind do that others do not, as functions: a program links only those of the ports it has.
 
 use super::{
     Choice, D_CARD, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, M_PORT_2_MODBUS, M_PORT_2_SET_UP,
