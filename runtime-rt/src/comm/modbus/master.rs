@@ -211,9 +211,9 @@ pub fn request(
             frame.push_be16(count);
             frame.push(count.div_ceil(8) as u8);
             let mut bits = Bits::new();
-            coils
-                .try_for_each(|coil| Some(bits.push(coil?, frame)))
-                .ok_or(LineFault::Address)?;
+            for coil in coils {
+                bits.push(coil.ok_or(LineFault::Address)?, frame);
+            }
             bits.finish(frame);
         }
         WRITE_REGISTERS => {
