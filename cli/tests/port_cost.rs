@@ -1,6 +1,6 @@
-//! How many instructions of a Cortex-M4 the longest call takes that brings a program's serial ports up to date, as the book's page on boards
-//! states it. Without the tools the test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a
-//! failure.
+//! How many instructions of a Cortex-M4 the longest call takes that brings a program's serial ports up to date, as the
+//! book's page on boards states it. Without the tools the test says what is missing and that it did not run; with
+//! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 mod common;
 mod tools;

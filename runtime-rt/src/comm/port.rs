@@ -223,7 +223,8 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
     request
 }
 
-/// A separate function says that the two do not overlap: else it is done by `memmove`, which is larger than all else here.
+/// A separate function says that the two do not overlap: else it is done by `memmove`, which is larger than all else
+/// here.
 #[inline(never)]
 fn keep(place: &mut Status, status: &Status) {
     *place = *status;

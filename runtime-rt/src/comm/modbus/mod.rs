@@ -61,7 +61,8 @@ pub struct Profile {
     pub limits: Limits,
     /// Whether 05 takes any value but 0 for on, rather than FF00h alone.
     pub any_value_is_on: bool,
-    /// Bytes of the shortest request as an RTU frame, which H1U and H2U say is one of five (h1u-h2u-programming §8.1, 63x1).
+    /// Bytes of the shortest request as an RTU frame, which H1U and H2U say is one of five (h1u-h2u-programming §8.1,
+    /// 63x1).
     pub shortest: usize,
     /// Whether 06 writes half of a 32-bit counter.
     pub counters_by_06: bool,
