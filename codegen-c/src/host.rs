@@ -152,26 +152,13 @@ static void print_error(const void *program, uint16_t code, uint16_t step)
 pub fn main_file(module: &Module, servers: bool) -> String {
     let fields = Storage::new(module);
     let name = &module.name;
-    let mut inputs = String::new();
-    for (number, statements) in inputs_of(module, &fields) {
-        let _ = writeln!(
-            inputs,
-            "    case {number}:\n{statements}        return true;"
-        );
-    }
-    let wait = if module.takes_time() {
-        WAIT_WITH_TIME
-    } else {
-        "sleep_until(next);"
+    let wait = match module.takes_time() {
+        true => WAIT_WITH_TIME,
+        false => "sleep_until(next);",
     };
-    let interrupts = if rungc_emit::events::interrupts(module).is_some() {
-        "            PROGRAM_take_interrupts(plc);\n"
-    } else {
-        ""
-    };
-    let errors = match module.may_fail() {
-        true => rungc_models::plc_errors::PLC_ERRORS,
-        false => &[],
+    let interrupts = match rungc_emit::events::interrupts(module) {
+        Some(_) => "            PROGRAM_take_interrupts(plc);\n",
+        None => "",
     };
     let (missing, print_error, report) = match module.may_fail() {
         true => (
@@ -181,11 +168,6 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         ),
         false => (String::new(), "", ""),
     };
-    let errors = errors.iter().map(|error| {
-        let title = text::string_literal(error.title);
-        format!("    case {}u:\n        return {title};\n", error.code)
-    });
-    let errors: String = errors.collect();
     let (period, overrun) = match rungc_emit::cycle::constant_scan(module, &fields) {
         Some(_) => (CONSTANT_PERIOD, OVERRUN),
         None => (PERIOD, ""),
@@ -241,11 +223,34 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("PROGRAM", name)
         // Texts of the program come last: they may contain any word.
         .replace("        /* OPTIONS */\n", &options(module, &host))
-        .replace("    /* ERRORS */\n", &errors)
-        .replace("    /* INPUTS */\n", &inputs)
+        .replace("    /* ERRORS */\n", &errors(module))
+        .replace("    /* INPUTS */\n", &inputs(module, &fields))
         .replace("    /* USAGE */\n", &usage(module, &host))
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
         .replace("    /* OUTPUTS */\n", &outputs(module, &fields))
+}
+
+/// The cases of what is typed that set an input.
+fn inputs(module: &Module, fields: &Storage) -> String {
+    let inputs = inputs_of(module, fields).into_iter();
+    inputs
+        .map(|(number, statements)| {
+            format!("    case {number}:\n{statements}        return true;\n")
+        })
+        .collect()
+}
+
+/// The cases of the errors that the program can raise, with their titles.
+fn errors(module: &Module) -> String {
+    let errors = match module.may_fail() {
+        true => rungc_models::plc_errors::PLC_ERRORS,
+        false => &[],
+    };
+    let errors = errors.iter().map(|error| {
+        let title = text::string_literal(error.title);
+        format!("    case {}u:\n        return {title};\n", error.code)
+    });
+    errors.collect()
 }
 
 /// The rows of the outputs that a run shows.

@@ -8,10 +8,11 @@ use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
 use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw};
-use rungc_ladder::{Network, build, html};
+use rungc_ladder::{Ladder, Network, build, html};
 use rungc_lower::compile;
 use rungc_syntax::{Device, OperandKind, Span};
 use std::fmt::Write;
+use std::path::Path;
 use terminal_size::{Width, terminal_size};
 
 /// Characters on a line where nothing says how many there are.
@@ -83,21 +84,8 @@ fn view(
                 }
                 false => path.clone(),
             };
-            let ending = path.extension().and_then(|ending| ending.to_str());
-            let picture = match ending {
-                Some("html") => html::page(&title(subject, &read), &resolved, &ladder),
-                Some("svg") => Painter::new(&resolved, &networks, PICTURE_WIDTH)
-                    .sheet(&networks)
-                    .to_string(),
-                Some("pdf") => {
-                    let why = "-o: PDF is not written; write a page (.html) and print it from a browser, which saves it as PDF";
-                    return Err(Failure::Because(why.to_string()));
-                }
-                _ => {
-                    let why = "-o: name a file that ends in .html or .svg";
-                    return Err(Failure::Because(why.to_string()));
-                }
-            };
+            let heading = title(subject, &read);
+            let picture = picture(&path, &heading, &resolved, (&ladder, &networks))?;
             write_file(&path, picture.as_bytes(), args.force)?;
         }
         None => {
@@ -114,6 +102,28 @@ fn view(
     } else {
         Outcome::Success
     })
+}
+
+/// What a path asks for by its ending: a page of all networks, or a picture of those that are chosen.
+fn picture(
+    path: &Path,
+    title: &str,
+    resolved: &Resolved,
+    (ladder, networks): (&Ladder, &[(usize, &Network)]),
+) -> std::result::Result<String, Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let why = match ending {
+        Some("html") => return Ok(html::page(title, resolved, ladder)),
+        Some("svg") => {
+            let painter = Painter::new(resolved, networks, PICTURE_WIDTH);
+            return Ok(painter.sheet(networks).to_string());
+        }
+        Some("pdf") => {
+            "-o: PDF is not written; write a page (.html) and print it from a browser, which saves it as PDF"
+        }
+        _ => "-o: name a file that ends in .html or .svg",
+    };
+    Err(Failure::Because(why.to_string()))
 }
 
 /// What a page is headed: the project's title, or the name of its file.
