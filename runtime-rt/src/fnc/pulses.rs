@@ -38,7 +38,7 @@ fn do_plsy(cx: &mut Cx) -> Done {
 
 /// PLSR S1 S2 S3 D (FNC 59): sends S2 pulses on D, in S3 ms up to S1 Hz and in as many down, and comes down when its
 /// drive goes off. The ramps begin and end with √(S1 / 2·S3). While the relay for that is on, S2 may change until it
-/// comes down, and the way down has a time of its own.
+/// comes down, and the way down has its own time.
 pub fn plsr(cx: &mut Cx) -> Done {
     held(cx, do_plsr)
 }
