@@ -8,7 +8,7 @@ use common::{folder, rungc, text};
 #[test]
 fn programs_never_shadow_headers_of_the_system() {
     let program = b"LD X000\nOUT Y000\nEND\n";
-    for name in ["time", "string", "stdint", "rungc_rt", "rungc_board"] {
+    for name in ["time", "string", "stdint", "rungc_rt", "rungc_board", "plc"] {
         let file = format!("{name}.il");
         let folder = folder(&[(&file, program)]);
         let output = rungc(folder.path(), &["build", &file, "--emit", "c", "-o", "out"]);

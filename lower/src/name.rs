@@ -89,8 +89,8 @@ fn short_hash(name: &str) -> u16 {
 }
 
 /// Names that emitted files must not have, without their endings, in order: headers of C99 and POSIX, which other
-/// sources would find instead of the system's, and the files beside a program's own.
-const TAKEN: [&str; 71] = [
+/// sources would find instead of the system's, the files beside a program's own, and the prefix of what `rungc.h` has.
+const TAKEN: [&str; 72] = [
     "aio",
     "assert",
     "complex",
@@ -124,6 +124,7 @@ const TAKEN: [&str; 71] = [
     "ndbm",
     "netdb",
     "nl_types",
+    "plc",
     "poll",
     "pthread",
     "pwd",
@@ -177,7 +178,8 @@ mod tests {
             ("MAIN.wpg", "plc_main"),
             ("3 axes.gxw", "plc3_axes"),
             ("time.il", "plc_time"),
-            ("", "plc"),
+            ("PLC.gxw", "plc_plc"),
+            ("", "plc_plc"),
         ] {
             assert_eq!(module_name(source), name);
         }

@@ -11,7 +11,7 @@ pub fn line(port: &Setup) -> String {
 }
 
 /// What the ports of an emitted program serve, as a line; `None` if none of them serves devices, or if the form of
-/// output has no ports of its own.
+/// output has no ports.
 pub fn served(ports: &[Setup], emit: Option<Emit>, subject: &Subject) -> Option<String> {
     let emits = emit.is_some_and(|emit| emit != Emit::Ir);
     if !emits || !ports.iter().any(Setup::serves) {
