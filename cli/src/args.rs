@@ -135,17 +135,13 @@ pub struct Inputs {
     pub reading: Reading,
 }
 
-/// How to read programs, and how to report what is found.
+/// What the files are.
 #[derive(Args, Clone, Debug, Default)]
-pub struct Reading {
+pub struct FileKind {
     /// PLC model. Default: that of rungc.toml, else the CPU type that the file names, else fx3u.
     /// `rungc explain h2u-mtq` shows a variant.
     #[arg(long, value_parser = plc, value_name = "MODEL")]
     pub model: Option<Plc>,
-    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or
-    /// above it.
-    #[arg(long, value_name = "FILE")]
-    pub project: Option<PathBuf>,
     /// Encoding of texts, such as windows-1252, gbk or shift_jis. Default: the one that a project states, or the most
     /// likely one.
     #[arg(long, value_parser = encoding, value_name = "NAME")]
@@ -159,6 +155,17 @@ pub struct Reading {
     /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`.
     #[arg(long, value_parser = forms::names, value_name = "FILE")]
     pub names: Option<Names>,
+}
+
+/// How to read programs, and how to report what is found.
+#[derive(Args, Clone, Debug, Default)]
+pub struct Reading {
+    #[command(flatten)]
+    pub kind: FileKind,
+    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or
+    /// above it.
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
     #[command(flatten)]
     pub reporting: Reporting,
 }
@@ -167,10 +174,10 @@ impl Reading {
     /// The options for the readers.
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
-            encoding: self.encoding,
-            compiled: self.compiled,
-            image: self.from == Some(ReadFrom::Image),
-            names: self.names.clone().unwrap_or_default().0,
+            encoding: self.kind.encoding,
+            compiled: self.kind.compiled,
+            image: self.kind.from == Some(ReadFrom::Image),
+            names: self.kind.names.clone().unwrap_or_default().0,
             ..ReadOptions::default()
         }
     }

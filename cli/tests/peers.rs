@@ -108,15 +108,23 @@ fn node(package: &str, script: &str) -> Option<Command> {
     there(package, "RUNGC_NODE_MODULES", require).then_some(run)
 }
 
+/// Runs a client, where there is one, against a server of a running program: the option that opens it, and its name.
+fn by_tcp(client: Option<Command>, list: &str, model: &str, [option, server]: [&str; 2]) {
+    let Some(mut client) = client else { return };
+    let folder = program(list);
+    let run = Run::new(folder.path(), model, &[option], &[]);
+    client.arg(run.port(server).to_string());
+    succeeds(client);
+}
+
 #[test]
 fn pymodbus_reads_and_writes_over_tcp() {
-    let Some(mut client) = python("pymodbus", "modbus_tcp.py") else {
-        return;
-    };
-    let folder = program(SUM);
-    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
-    client.arg(run.port("Modbus TCP").to_string());
-    succeeds(client);
+    by_tcp(
+        python("pymodbus", "modbus_tcp.py"),
+        SUM,
+        "h2u",
+        ["--modbus-tcp", "Modbus TCP"],
+    );
 }
 
 #[test]
@@ -210,13 +218,12 @@ fn mbpoll_reads_and_writes_everything() {
 
 #[test]
 fn pymcprotocol_reads_and_writes() {
-    let Some(mut client) = python("pymcprotocol", "mc.py") else {
-        return;
-    };
-    let folder = program(SUM);
-    let run = Run::new(folder.path(), "h2u", &["--mc"], &[]);
-    client.arg(run.port("MC protocol").to_string());
-    succeeds(client);
+    by_tcp(
+        python("pymcprotocol", "mc.py"),
+        SUM,
+        "h2u",
+        ["--mc", "MC protocol"],
+    );
 }
 
 #[test]
@@ -234,35 +241,32 @@ fn mcprotocol_reads_and_writes_in_both_frames() {
 
 #[test]
 fn node_fxplc_reads_and_writes() {
-    let Some(mut client) = node("node-fxplc", "fxplc.js") else {
-        return;
-    };
-    let folder = program(PROGRAMMING_PORT);
-    let run = Run::new(folder.path(), "fx3u", &["--fx"], &[]);
-    client.arg(run.port("programming port").to_string());
-    succeeds(client);
+    by_tcp(
+        node("node-fxplc", "fxplc.js"),
+        PROGRAMMING_PORT,
+        "fx3u",
+        ["--fx", "programming port"],
+    );
 }
 
 #[test]
 fn node_red_reads_and_writes_by_a_flow() {
-    let Some(mut client) = node("node-red-contrib-modbus/package.json", "nodered.js") else {
-        return;
-    };
-    let folder = program(SUM);
-    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
-    client.arg(run.port("Modbus TCP").to_string());
-    succeeds(client);
+    by_tcp(
+        node("node-red-contrib-modbus/package.json", "nodered.js"),
+        SUM,
+        "h2u",
+        ["--modbus-tcp", "Modbus TCP"],
+    );
 }
 
 #[test]
 fn umodbus_reads_and_writes_over_tcp() {
-    let Some(mut client) = python("umodbus", "umodbus_tcp.py") else {
-        return;
-    };
-    let folder = program(SUM);
-    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
-    client.arg(run.port("Modbus TCP").to_string());
-    succeeds(client);
+    by_tcp(
+        python("umodbus", "umodbus_tcp.py"),
+        SUM,
+        "h2u",
+        ["--modbus-tcp", "Modbus TCP"],
+    );
 }
 
 #[test]

@@ -1,9 +1,7 @@
 //! Arguments of `diff`.
 
-use super::forms::names;
-use super::{Names, Plc, ReadFrom, Reading, Reporting, encoding, plc};
+use super::{FileKind, Reading, Reporting};
 use clap::{Args, ValueEnum};
-use rungc_frontend::Encoding;
 use std::path::PathBuf;
 
 /// Arguments of `diff`.
@@ -25,33 +23,16 @@ pub struct DiffArgs {
     /// Characters on a line of ladder. Default: the width of the terminal, or 120; 100 with `--format md`.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
-    /// PLC model of both programs. Default: as for `check`.
-    #[arg(long, value_parser = plc, value_name = "MODEL")]
-    pub model: Option<Plc>,
-    /// Encoding of texts. Default: as for `check`.
-    #[arg(long, value_parser = encoding, value_name = "NAME")]
-    pub encoding: Option<&'static Encoding>,
-    /// Read the compiled program of a GX Works2 project, not its source.
-    #[arg(long)]
-    pub compiled: bool,
-    /// What both files are, where their content does not show it.
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    pub from: Option<ReadFrom>,
-    /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`.
-    #[arg(long, value_parser = names, value_name = "FILE")]
-    pub names: Option<Names>,
+    #[command(flatten)]
+    pub kind: FileKind,
 }
 
 impl DiffArgs {
     /// How to read both programs.
     pub fn reading(&self) -> Reading {
         Reading {
-            model: self.model,
+            kind: self.kind.clone(),
             project: None,
-            encoding: self.encoding,
-            compiled: self.compiled,
-            from: self.from,
-            names: self.names.clone(),
             reporting: Reporting::default(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
-use crate::args::{Input, LearnArgs, Plc, Reading, Reporting};
+use crate::args::{FileKind, Input, LearnArgs, Plc, Reading, Reporting};
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::Basic;
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
@@ -65,11 +65,15 @@ fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failur
             options: ReadOptions::default(),
         });
     }
-    let reading = Reading {
+    let kind = FileKind {
         model: args.model.map(|model| Plc {
             model,
             variant: None,
         }),
+        ..FileKind::default()
+    };
+    let reading = Reading {
+        kind,
         project: args.project.clone(),
         ..Reading::default()
     };

@@ -109,7 +109,7 @@ impl Projects<'_> {
                 variant: project.variant,
             })
         };
-        let plc = self.reading.model;
+        let plc = self.reading.kind.model;
         let plc = plc.or_else(|| project.as_ref().and_then(of_project));
         Ok(Subject {
             file,
