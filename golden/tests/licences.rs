@@ -57,7 +57,6 @@ struct Exception {
 
 #[derive(Deserialize)]
 struct Bans {
-    #[serde(default)]
     skip: Vec<Named>,
     #[serde(rename = "skip-tree")]
     skip_tree: Vec<Named>,
