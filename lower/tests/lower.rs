@@ -323,7 +323,7 @@ fn short_blocks_are_inline() {
     assert!(calls("LD X0\nBMOV D0Z0 D10 K2\nEND\n"));
     assert!(calls("LD X0\nBMOV D0 D10 D2\nEND\n"));
     assert!(calls("LD X0\nZRST M8000 M8100\nEND\n"));
-    assert!(calls("LD X0\nDFMOV K1 D0 K9\nEND\n"));
+    assert!(!calls("LD X0\nDFMOV K1 D0 K9\nEND\n"));
     assert!(calls("LD X0\nZRST T0 T64\nEND\n"));
     // Devices that enter a shift one by one enter again where they overlap.
     assert!(calls("LD X0\nSFTL M0 M1 K20 K17\nEND\n"));
