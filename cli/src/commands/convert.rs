@@ -3,9 +3,7 @@
 mod ladder;
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{
-    Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
-};
+use super::{Context, Outcome, Result, conclude, counted, read, say, stem, tell, write_file};
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::{Read, image, print};
@@ -48,20 +46,9 @@ fn convert(
             "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them, and `--to comments` writes them"
         ));
     }
-    match &args.output {
-        Some(folder) if reporter.many() => {
-            let name = format!("{}.{}", stem(subject, &read), args.to.ending());
-            write_file(
-                &outputs.claim(folder.join(name), subject)?,
-                &bytes,
-                args.force,
-            )?;
-        }
-        None if reporter.many() => {
-            let why = "-o: several programs need a folder; name one";
-            return Err(Failure::Because(why.to_string()));
-        }
-        Some(path) => write_file(path, &bytes, args.force)?,
+    let name = || format!("{}.{}", stem(subject, &read), args.to.ending());
+    match outputs.place(args.output.as_deref(), reporter.many(), name, subject)? {
+        Some(path) => write_file(&path, &bytes, args.force)?,
         None if args.to.is_text() && io::stdout().is_terminal() => {
             say(&String::from_utf8_lossy(&bytes))?;
         }

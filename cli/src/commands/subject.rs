@@ -334,4 +334,23 @@ impl OutputPaths {
             ))),
         }
     }
+
+    /// Where the output of one of `many` programs goes: a file called `name` in the folder `output`; of a program
+    /// alone, the file `output`, or `None` for standard output.
+    pub fn place(
+        &mut self,
+        output: Option<&Path>,
+        many: bool,
+        name: impl FnOnce() -> String,
+        subject: &Subject,
+    ) -> std::result::Result<Option<PathBuf>, Failure> {
+        match output {
+            Some(folder) if many => self.claim(folder.join(name()), subject).map(Some),
+            None if many => {
+                let why = "-o: several programs need a folder; name one";
+                Err(Failure::Because(why.to_string()))
+            }
+            output => Ok(output.map(Path::to_owned)),
+        }
+    }
 }

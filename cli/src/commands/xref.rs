@@ -55,25 +55,18 @@ fn xref(
         XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
         XrefTo::Json => (table.json()?, "json"),
     };
-    match &args.output {
-        Some(folder) if reporter.many() => {
-            let name = format!("{}.{ending}", stem(subject, &read));
-            let path = outputs.claim(folder.join(name), subject)?;
-            write_file(&path, &bytes, args.force)?;
+    if args.output.is_none() && args.to == XrefTo::Text {
+        let heading = match reporter.many() {
+            true => format!("; {name}\n"),
+            false => String::new(),
+        };
+        say(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
+    } else {
+        let file = || format!("{}.{ending}", stem(subject, &read));
+        match outputs.place(args.output.as_deref(), reporter.many(), file, subject)? {
+            Some(path) => write_file(&path, &bytes, args.force)?,
+            None => io::stdout().write_all(&bytes)?,
         }
-        Some(path) => write_file(path, &bytes, args.force)?,
-        None if args.to == XrefTo::Text => {
-            let heading = match reporter.many() {
-                true => format!("; {name}\n"),
-                false => String::new(),
-            };
-            say(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
-        }
-        None if reporter.many() => {
-            let why = "-o: several programs need a folder; name one";
-            return Err(Failure::Because(why.to_string()));
-        }
-        None => io::stdout().write_all(&bytes)?,
     }
     Ok(match findings.failed() {
         true => Outcome::Failed,
