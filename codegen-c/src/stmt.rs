@@ -6,7 +6,7 @@ use crate::page::Page;
 use crate::writer::{Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
-use rungc_ir::node::{Edge, ExprId, LabelId, Stmt, TableId, TempId};
+use rungc_ir::node::{Edge, ExprId, LabelId, SetEntry, Stmt, TableId, TempId};
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
@@ -106,7 +106,11 @@ impl Writer<'_, '_> {
             Stmt::Edge(edge) => self.edge(&mut code, edge),
             Stmt::SetFlag(flag, on) => self.set(&mut code, &module.flags[*flag].name, *on),
             Stmt::SetCell(cell, value) => self.set(&mut code, &module.cells[*cell].name, *value),
-            Stmt::SetEntry(table, index, value) => {
+            Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
                 self.set_entry(&mut code, *table, *index, *value);
             }
             Stmt::Write(access, value) => self.write(&mut code, access, *value),
@@ -162,7 +166,7 @@ impl Writer<'_, '_> {
             }
             // Written as nodes.
             Stmt::Network(_)
-            | Stmt::If { .. }
+            | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
             | Stmt::Parts(_) => {}

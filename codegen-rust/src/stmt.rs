@@ -10,7 +10,7 @@ use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
-use rungc_ir::node::{Block, Edge, Expr, ExprId, LabelId, Place, Stmt};
+use rungc_ir::node::{Block, Edge, Expr, ExprId, LabelId, Place, SetEntry, Stmt};
 use rungc_rt::EdgeKind;
 use rungc_syntax::text::one_line;
 use std::rc::Rc;
@@ -99,7 +99,11 @@ impl Generator<'_> {
                 let (cell, value) = (self.cell(*cell), self.expr(*value));
                 quote!(plc.#cell = #value;)
             }
-            Stmt::SetEntry(table, index, value) => {
+            Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
                 let (table, index) = (self.table(*table), self.expr(*index));
                 let value = self.expr(*value);
                 quote!(plc.#table[#index as usize] = #value;)
@@ -133,7 +137,7 @@ impl Generator<'_> {
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
             // Written as nodes.
             Stmt::Network(_)
-            | Stmt::If { .. }
+            | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
             | Stmt::Parts(_) => TokenStream::new(),

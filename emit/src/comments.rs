@@ -38,10 +38,10 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
         | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::TimerAt(_)
         | Stmt::Counter16At(_)
-        | Stmt::If { .. }
+        | Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)

@@ -61,7 +61,7 @@ pub fn edges_only_note(module: &Module) -> bool {
     let mut only = true;
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {
-            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If { .. });
+            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If(_));
         });
     }
     only

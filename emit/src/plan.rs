@@ -3,7 +3,7 @@
 use crate::measure::Sizes;
 use crate::temps::{self, Temp};
 use rungc_ir::Module;
-use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt, TempId};
+use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Stmt, TempId};
 use rungc_ir::walk::{called_functions, calls_runtime, for_exprs};
 use smallvec::SmallVec;
 use std::collections::{BTreeSet, HashMap};
@@ -388,11 +388,11 @@ impl<'m> Builder<'m> {
             closed.nodes
         };
         let node = match stmt {
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => Node::If {
+            }) => Node::If {
                 cond: *cond,
                 then: inner(then),
                 otherwise: inner(otherwise),
@@ -423,7 +423,7 @@ impl<'m> Builder<'m> {
             | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Write(..)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)

@@ -3,8 +3,8 @@
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, Block, Call, Count, Counter32Coil, Edge, EdgeId, ExprId, Fetch,
-    IndexedCoil, LabelId, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
+    Access, AccessKind, Arg, Block, Branch, Call, Count, Counter32Coil, Edge, EdgeId, ExprId,
+    Fetch, IndexedCoil, LabelId, Part, Place, Repeat, Send, SetEntry, Stmt, TempId, TimerCoil,
 };
 use rungc_models::runs::rt_class;
 use rungc_rt::{
@@ -58,7 +58,11 @@ impl<'m> Machine<'m> {
             Stmt::Edge(edge) => self.edge(edge),
             &Stmt::SetFlag(flag, value) => self.flags[flag] = self.on(value),
             &Stmt::SetCell(cell, value) => self.cells[cell] = int(self.eval(value)),
-            &Stmt::SetEntry(table, index, value) => {
+            &Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
                 let index = int(self.eval(index));
                 self.tables[table][index as usize] = int(self.eval(value));
             }
@@ -84,11 +88,11 @@ impl<'m> Machine<'m> {
                 }
             }
             Stmt::Block(block) => self.block(block),
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => {
+            }) => {
                 let body = if self.on(*cond) { then } else { otherwise };
                 return self.run(body, hal);
             }

@@ -5,9 +5,9 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Access, AccessKind, Arg, BinOp, Block, Body, Call, CellId, Count, Counter16Coil, Counter32Coil,
-    Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module, Part, Place,
-    Repeat, Send, Stmt, SysValue, TableId, TimerCoil,
+    Access, AccessKind, Arg, BinOp, Block, Body, Branch, Call, CellId, Count, Counter16Coil,
+    Counter32Coil, Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module,
+    Part, Place, Repeat, Send, SetEntry, Stmt, SysValue, TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use std::fmt::Write as _;
@@ -110,9 +110,11 @@ impl Out<'_> {
             Stmt::Edge(edge) => self.edge(edge),
             Stmt::SetFlag(flag, value) => self.assignment(self.flag(*flag), *value),
             Stmt::SetCell(cell, value) => self.assignment(self.cell(*cell), *value),
-            Stmt::SetEntry(table, index, value) => {
-                self.assignment(self.entry(*table, *index), *value)
-            }
+            Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => self.assignment(self.entry(*table, *index), *value),
             Stmt::Write(access, value) => self.assignment(self.access(access), *value),
             Stmt::Timer(coil) => self.timer(coil),
             Stmt::TimerAt(coil) => self.coil_at("timer", coil),
@@ -125,11 +127,11 @@ impl Out<'_> {
             Stmt::Count(count) => self.count(count),
             Stmt::Reset(place) => format!("reset {}", self.place(place)),
             Stmt::Block(block) => self.run(block),
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => return self.branches(*cond, then, otherwise),
+            }) => return self.branches(*cond, then, otherwise),
             Stmt::For { count, body } => {
                 return self.block(&format!("for {}", self.expr(*count)), body);
             }

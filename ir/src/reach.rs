@@ -145,8 +145,8 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
         | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
-        | Stmt::If { .. }
+        | Stmt::SetEntry(_)
+        | Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)

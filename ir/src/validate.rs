@@ -1,8 +1,8 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Arg, BinOp, Block, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId, Module,
-    Place, Stmt, SysValue, TempId, Ty,
+    Arg, BinOp, Block, Body, Branch, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId,
+    Module, Place, SetEntry, Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
@@ -167,9 +167,9 @@ impl Checker<'_> {
                 self.assign(*temp);
                 Ok(true)
             }
-            Stmt::If {
+            Stmt::If(Branch {
                 then, otherwise, ..
-            } => self.branches(then, otherwise),
+            }) => self.branches(then, otherwise),
             Stmt::For { body, .. } => {
                 self.body(body)?;
                 Ok(true)
@@ -205,7 +205,7 @@ impl Checker<'_> {
             Stmt::Network(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Write(..)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)
@@ -394,7 +394,7 @@ impl Checker<'_> {
                 is(coil.drive, Ty::Bit) && is(coil.down, Ty::Bit) && is(coil.preset, Ty::I32)
             }
             Stmt::Count(count) => is(count.down, Ty::Bit) && is(count.preset, Ty::I32),
-            Stmt::If { cond, .. } => is(cond, Ty::Bit),
+            Stmt::If(Branch { cond, .. }) => is(cond, Ty::Bit),
             Stmt::For { count, .. } => is(count, Ty::I16),
             Stmt::Repeat(ref repeat) => repeat.count > 1 && temp_is(repeat.iteration, Ty::I32),
             Stmt::Call(ref call) => {
@@ -410,9 +410,11 @@ impl Checker<'_> {
                 is(send.value, if send.wide { Ty::I32 } else { Ty::I16 }) && self.arg(&send.to)
             }
             Stmt::SetCell(cell, value) => module.cells.get(cell).is_some() && is(value, Ty::I32),
-            Stmt::SetEntry(table, index, value) => {
-                module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32)
-            }
+            Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32),
             Stmt::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
             Stmt::Block(ref block) => self.block(block),
             Stmt::Reset(_)

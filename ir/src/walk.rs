@@ -1,8 +1,9 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
 use crate::node::{
-    Access, Arg, Block, Body, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch,
-    FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
+    Access, Arg, Block, Body, Branch, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr,
+    ExprId, Fetch, FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry, Stmt,
+    TempId, TimerCoil,
 };
 
 /// The expressions that an expression evaluates.
@@ -75,7 +76,7 @@ macro_rules! for_exprs {
                     f(value);
                 }
                 Stmt::Let(_, value) | Stmt::SetFlag(_, value) | Stmt::SetCell(_, value) => f(value),
-                Stmt::SetEntry(_, index, value) => {
+                Stmt::SetEntry(SetEntry { index, value, .. }) => {
                     f(index);
                     f(value);
                 }
@@ -104,7 +105,7 @@ macro_rules! for_exprs {
                 }
                 Stmt::Reset(place) => place.index.$iter().for_each(f),
                 Stmt::Block(Block::Fill { value, .. }) => f(value),
-                Stmt::If { cond, .. } => f(cond),
+                Stmt::If(Branch { cond, .. }) => f(cond),
                 Stmt::For { count, .. } => f(count),
                 Stmt::Call(Call { args, drive, .. }) => {
                     for arg in args {
@@ -167,14 +168,14 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
         | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::Timer(_)
         | Stmt::TimerGoesOn { .. }
         | Stmt::Counter16(_)
         | Stmt::Counter32(_)
         | Stmt::Count(_)
         | Stmt::Block(_)
-        | Stmt::If { .. }
+        | Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)
@@ -197,7 +198,7 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
         Stmt::Network(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::Write(..)
         | Stmt::Timer(_)
         | Stmt::TimerAt(_)
@@ -208,7 +209,7 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
         | Stmt::Count(_)
         | Stmt::Reset(_)
         | Stmt::Block(_)
-        | Stmt::If { .. }
+        | Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)
@@ -242,7 +243,7 @@ pub fn fault_step(stmt: &Stmt) -> Option<u32> {
         | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::Write(..)
         | Stmt::Timer(_)
         | Stmt::TimerAt(_)
@@ -253,7 +254,7 @@ pub fn fault_step(stmt: &Stmt) -> Option<u32> {
         | Stmt::Count(_)
         | Stmt::Reset(_)
         | Stmt::Block(_)
-        | Stmt::If { .. }
+        | Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)
@@ -271,7 +272,7 @@ macro_rules! bodies {
         $(#[$doc])*
         pub fn $name(stmt: &$($mutable)? Stmt) -> impl Iterator<Item = &$($mutable)? Body> {
             let (own, parts): ([Option<&$($mutable)? Body>; 2], &$($mutable)? [Part]) = match stmt {
-                Stmt::If { then, otherwise, .. } => ([Some(then), Some(otherwise)], &$($mutable)? []),
+                Stmt::If(Branch { then, otherwise, .. }) => ([Some(then), Some(otherwise)], &$($mutable)? []),
                 Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => {
                     ([Some(body), None], &$($mutable)? [])
                 }
@@ -281,7 +282,7 @@ macro_rules! bodies {
                 | Stmt::Edge(_)
                 | Stmt::SetFlag(..)
                 | Stmt::SetCell(..)
-                | Stmt::SetEntry(..)
+                | Stmt::SetEntry(_)
                 | Stmt::Write(..)
                 | Stmt::Timer(_)
                 | Stmt::TimerAt(_)

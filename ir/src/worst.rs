@@ -4,7 +4,9 @@
 //! read of a device). Of two branches the longer one counts, a loop counts as often as it runs, a call with all that it
 //! calls.
 
-use crate::node::{Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt};
+use crate::node::{
+    Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
+};
 use crate::walk::{for_exprs, operands, statements};
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
@@ -179,9 +181,9 @@ impl<'m> Finder<'m> {
         };
         match stmt {
             Stmt::Network(number) => self.network(*number),
-            Stmt::If {
+            Stmt::If(Branch {
                 then, otherwise, ..
-            } => {
+            }) => {
                 let then = self.body(then);
                 cost.plus(then.max(self.body(otherwise)))
             }
@@ -220,7 +222,7 @@ impl<'m> Finder<'m> {
             | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Write(..)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::operand::{Guards, Target};
 use rungc_catalogue::ArithOp;
-use rungc_ir::node::{BinOp, Expr, ExprId, Stmt};
+use rungc_ir::node::{BinOp, Branch, Expr, ExprId, Stmt};
 use rungc_rt::CmpOp;
 use rungc_rt::special::{
     D_RING_COUNTER, M_BORROW, M_CARRY, M_LARGE_QUOTIENT, M_ZERO, M_ZERO_PRODUCT, Relay,
@@ -359,11 +359,11 @@ impl Lowerer<'_> {
                     });
                 }
             });
-            this.emit(Stmt::If {
+            this.emit(Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            });
+            }));
         });
     }
 
@@ -382,11 +382,11 @@ impl Lowerer<'_> {
                 this.store(quotient, end);
             })
         });
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
         self.store(remainder, zero);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::parts::Item;
-use rungc_ir::node::{Body, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{Body, Branch, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::operands;
 use rungc_rt::EdgeKind;
 
@@ -126,11 +126,11 @@ impl Lowerer<'_> {
             Some(false) => {}
             None => {
                 let then = self.body(make);
-                self.emit(Stmt::If {
+                self.emit(Stmt::If(Branch {
                     cond,
                     then,
                     otherwise: Vec::new(),
-                });
+                }));
             }
         }
     }

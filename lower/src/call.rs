@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::operand::fixed;
 use rungc_analysis::resolve::Resolution;
 use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
-use rungc_ir::node::{Arg, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{Arg, Branch, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
@@ -129,15 +129,15 @@ impl Lowerer<'_> {
         let driven = self.settled(driven);
         let off = self.not(drive);
         let ends = self.and(off, mine);
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond: driven,
             then: vec![Stmt::SetCell(runs, own)],
-            otherwise: vec![Stmt::If {
+            otherwise: vec![Stmt::If(Branch {
                 cond: ends,
                 then: vec![Stmt::SetCell(runs, none)],
                 otherwise: Vec::new(),
-            }],
-        });
+            })],
+        }));
         driven
     }
 

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Access, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Stmt, TimerCoil,
+    Access, Branch, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Stmt, TimerCoil,
 };
 use rungc_models::high_speed;
 use rungc_models::runs::FIRST_COUNTER32;
@@ -71,11 +71,11 @@ impl Lowerer<'_> {
                 })
             };
             let cond = this.add(Expr::Read(Access::bit(fast.relay)));
-            this.emit(Stmt::If {
+            this.emit(Stmt::If(Branch {
                 cond,
                 then: vec![timer(fast.unit_ms)],
                 otherwise: vec![timer(kind.unit_ms)],
-            });
+            }));
         });
     }
 

@@ -4,7 +4,8 @@ use super::Lowerer;
 use super::high_speed::{Action, Compare, Counted};
 use super::operand::{BitTarget, Guards};
 use rungc_ir::node::{
-    Access, AccessKind, BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, Table, TableId, Ty,
+    Access, AccessKind, BinOp, Branch, CellId, Expr, ExprId, FlagId, Place, SetEntry, Stmt, Table,
+    TableId, Ty,
 };
 use rungc_models::high_speed::TableMode;
 use rungc_rt::{CmpOp, Register};
@@ -114,11 +115,11 @@ impl Lowerer<'_> {
             );
         });
         let otherwise = self.body(|this| this.stop_table(&table));
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond: drive,
             then,
             otherwise,
-        });
+        }));
         if table.begins.is_some() {
             self.high_speed.tables.push(table);
         }
@@ -282,7 +283,11 @@ impl Lowerer<'_> {
 
     fn take_row(&mut self, table: &Rows, at: ExprId, first: Place) {
         let count = self.add(Expr::Read(Access::pair(first)));
-        self.emit(Stmt::SetEntry(table.counts, at, count));
+        self.emit(Stmt::SetEntry(SetEntry {
+            table: table.counts,
+            index: at,
+            value: count,
+        }));
         let said = Place {
             number: first.number + 2,
             ..first
@@ -293,7 +298,11 @@ impl Lowerer<'_> {
         } else {
             self.add(Expr::Read(Access::pair(said)))
         };
-        self.emit(Stmt::SetEntry(table.words, at, word));
+        self.emit(Stmt::SetEntry(SetEntry {
+            table: table.words,
+            index: at,
+            value: word,
+        }));
     }
 
     /// The row that waits, at a count.

@@ -3,7 +3,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, OperandKind};
 
@@ -46,11 +46,11 @@ impl Lowerer<'_> {
         let drive = self.drive();
         let then = self.body(|this| this.measure(input, window));
         let otherwise = self.body(|this| this.set_flag_to(window.on, false));
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond: drive,
             then,
             otherwise,
-        });
+        }));
     }
 
     fn window(&mut self) -> Window {
@@ -112,11 +112,11 @@ impl Lowerer<'_> {
             let count = this.add(Expr::Cell(window.count));
             let then = vec![Stmt::SetCell(window.last, count)];
             let otherwise = vec![Stmt::SetCell(window.last, zero)];
-            this.emit(Stmt::If {
+            this.emit(Stmt::If(Branch {
                 cond: single,
                 then,
                 otherwise,
-            });
+            }));
             this.emit(Stmt::SetCell(window.count, zero));
             let time = this.add(Expr::Bin(BinOp::Mul, windows, length));
             let next = this.add(Expr::Bin(BinOp::Add, began, time));
@@ -172,11 +172,11 @@ impl Lowerer<'_> {
             this.store_number(target, value);
         });
         let otherwise = self.body(windows);
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
     }
 
     /// Ten times the pulses a minute: the quotient and the rest by themselves, so that nothing overflows.

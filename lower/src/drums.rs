@@ -4,7 +4,9 @@ use super::Lowerer;
 use super::blocks::{bits, register};
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, AccessKind, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{
+    Access, AccessKind, BinOp, Branch, CellId, Expr, ExprId, Place, Stmt, SysValue,
+};
 use rungc_rt::special::M_COMPLETE;
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{Device, DeviceClass, Instr};
@@ -157,11 +159,11 @@ impl Lowerer<'_> {
                 }
             });
         });
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond: drive,
             then,
             otherwise,
-        });
+        }));
         let driven = self.add(Expr::BitToInt(drive));
         let driven = self.add(Expr::Widen(driven));
         self.emit(Stmt::SetCell(matrix.driven, driven));

@@ -3,8 +3,8 @@
 use super::Lowerer;
 use super::operand::fixed;
 use rungc_ir::node::{
-    Access, BinOp, Body, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt,
-    SysValue,
+    Access, BinOp, Body, Branch, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind,
+    Stmt, SysValue,
 };
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass::X;
@@ -136,11 +136,11 @@ impl Lowerer<'_> {
         }
         for ((input, rises), then) in bodies {
             let cond = self.add(Expr::Sys(SysValue::Running));
-            let body = vec![Stmt::If {
+            let body = vec![Stmt::If(Branch {
                 cond,
                 then,
                 otherwise: Vec::new(),
-            }];
+            })];
             let kind = if rises {
                 EdgeKind::Rising
             } else {

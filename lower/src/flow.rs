@@ -5,7 +5,7 @@ use super::parts::{Item, Jump, structure};
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
-use rungc_ir::node::{BinOp, Body, CellId, Expr, ExprId, FunctionKind, Stmt, TempId};
+use rungc_ir::node::{BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Stmt, TempId};
 use rungc_rt::CmpOp;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -457,11 +457,11 @@ impl Lowerer<'_> {
                     .rposition(|item| !matches!(item, Item::Label(_)));
                 let labels = items.split_off(tail.map_or(0, |tail| tail + 1));
                 let (then, escapes) = structure(items);
-                let stmt = Stmt::If {
+                let stmt = Stmt::If(Branch {
                     cond,
                     then,
                     otherwise: Vec::new(),
-                };
+                });
                 self.push_nested(stmt, escapes);
                 self.out.extend(labels);
             }
@@ -625,11 +625,11 @@ impl Lowerer<'_> {
             let deeper = self.add(Expr::Bin(BinOp::Add, now, one));
             let back = self.add(Expr::Bin(BinOp::Sub, now, one));
             let then = vec![Stmt::SetCell(open, deeper), call, Stmt::SetCell(open, back)];
-            self.emit(Stmt::If {
+            self.emit(Stmt::If(Branch {
                 cond,
                 then,
                 otherwise: vec![too_deep],
-            });
+            }));
         } else {
             self.emit(call);
         }

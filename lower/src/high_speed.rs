@@ -4,7 +4,9 @@ use super::Lowerer;
 use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Lower};
-use rungc_ir::node::{Access, BinOp, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue};
+use rungc_ir::node::{
+    Access, BinOp, Branch, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue,
+};
 use rungc_models::high_speed::{self, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
@@ -138,11 +140,11 @@ impl Lowerer<'_> {
             code: TOO_MANY_COMPARISONS,
             step,
         }];
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
     }
 
     fn change_driven(&mut self, driven: CellId, op: BinOp) {
@@ -249,11 +251,11 @@ impl Lowerer<'_> {
             Some(true) => then.into_iter().for_each(|stmt| self.emit(stmt)),
             Some(false) | None => {
                 let otherwise = self.body(|this| this.disarm(armed));
-                self.emit(Stmt::If {
+                self.emit(Stmt::If(Branch {
                     cond: drive,
                     then,
                     otherwise,
-                });
+                }));
             }
         }
         self.high_speed.compares.push(compare);

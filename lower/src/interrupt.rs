@@ -4,7 +4,8 @@ use super::Lowerer;
 use super::advanced::Section;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Access, BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
+    Access, BinOp, Body, Branch, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt,
+    SysValue, Ty,
 };
 use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source};
 use rungc_rt::special::D_SCOPE_STATE;
@@ -335,11 +336,11 @@ impl Lowerer<'_> {
                     this.store_requests(stored, &flags);
                 }
             });
-            this.emit(Stmt::If {
+            this.emit(Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            });
+            }));
         });
         self.module.functions[function as usize].body = body;
     }

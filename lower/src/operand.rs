@@ -3,7 +3,8 @@
 use super::Lowerer;
 use super::call::extents;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, BinOp, CellId, Expr, ExprId, Fetch, Place, Send, Stmt, SysValue, Ty,
+    Access, AccessKind, Arg, BinOp, Branch, CellId, Expr, ExprId, Fetch, Place, Send, Stmt,
+    SysValue, Ty,
 };
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::CmpOp;
@@ -77,11 +78,11 @@ impl Lowerer<'_> {
         let (code, step) = (OUT_OF_RANGE, self.step());
         let otherwise =
             self.body(|this| this.when(drive, |this| this.emit(Stmt::Fault { code, step })));
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
     }
 
     /// As [`Lowerer::guarded`]; `instead` emits what else is done on a fault.
@@ -108,22 +109,22 @@ impl Lowerer<'_> {
                 });
                 instead(this);
             });
-            this.emit(Stmt::If {
+            this.emit(Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            });
+            }));
         };
         let Some(cond) = all(self, fetched) else {
             return make(self);
         };
         let then = self.body(make);
         let otherwise = self.body(&instead);
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
     }
 
     /// Value of an index register as an `I32`.

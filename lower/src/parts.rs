@@ -1,7 +1,7 @@
 //! Jumps become structured statements where they nest, and parts with labels where they do not.
 
 use super::advanced::FIRST_PLACE;
-use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt};
+use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Stmt};
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -41,11 +41,11 @@ impl Item {
         match self {
             Item::Code(stmt) | Item::Nested(stmt, _) => Some(stmt),
             Item::Label(_) => None,
-            Item::Jump(jump) => Some(Stmt::If {
+            Item::Jump(jump) => Some(Stmt::If(Branch {
                 cond: jump.cond,
                 then: vec![Stmt::Goto(LabelId(jump.target))],
                 otherwise: Vec::new(),
-            }),
+            })),
         }
     }
 }
@@ -176,11 +176,11 @@ fn nest(run: Vec<(usize, Item)>, labels: &FxHashMap<u32, usize>, body: &mut Body
             }),
             Item::Label(label) => {
                 while let Some(skipped) = open.pop_if(|skipped| skipped.target == label) {
-                    let stmt = Stmt::If {
+                    let stmt = Stmt::If(Branch {
                         cond: skipped.stay,
                         then: skipped.body,
                         otherwise: Vec::new(),
-                    };
+                    });
                     innermost(&mut open, body).push(stmt);
                 }
             }

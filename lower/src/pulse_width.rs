@@ -1,7 +1,7 @@
 //! Widths and periods of pulses, as exactly as a host reports the time: to a millisecond.
 
 use super::Lowerer;
-use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, FlagId, Stmt};
+use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt};
 use rungc_models::high_speed::Meter;
 use rungc_rt::{EdgeKind, Relay};
 
@@ -40,11 +40,11 @@ impl Lowerer<'_> {
                     let then = this.body(|this| this.measure_edge(&measured, kind));
                     let otherwise = this.body(|this| this.set_flag_to(measured.known, false));
                     let cond = this.all_on(meter.measures);
-                    this.emit(Stmt::If {
+                    this.emit(Stmt::If(Branch {
                         cond,
                         then,
                         otherwise,
-                    });
+                    }));
                 });
             }
         }

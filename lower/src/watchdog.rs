@@ -7,7 +7,7 @@ use super::basic_of;
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Body, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt, SysValue,
+    Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt, SysValue,
 };
 use rungc_ir::walk::{bodies_mut, statements};
 use rungc_ir::worst::lengths;
@@ -100,18 +100,18 @@ impl Watcher<'_> {
                     out.push(stmt);
                     self.lengths.get(number as usize).copied().unwrap_or(0)
                 }
-                Stmt::If {
+                Stmt::If(Branch {
                     cond,
                     then,
                     otherwise,
-                } => {
+                }) => {
                     let (then, first) = self.body(then);
                     let (otherwise, second) = self.body(otherwise);
-                    out.push(Stmt::If {
+                    out.push(Stmt::If(Branch {
                         cond,
                         then,
                         otherwise,
-                    });
+                    }));
                     first.max(second)
                 }
                 Stmt::For { count, body } => self.repeated(count, body, &mut out),
@@ -136,7 +136,7 @@ impl Watcher<'_> {
                 | Stmt::Edge(_)
                 | Stmt::SetFlag(..)
                 | Stmt::SetCell(..)
-                | Stmt::SetEntry(..)
+                | Stmt::SetEntry(_)
                 | Stmt::Write(..)
                 | Stmt::Timer(_)
                 | Stmt::TimerAt(_)
@@ -268,10 +268,10 @@ impl Watcher<'_> {
     fn leave_if_stopped(&mut self) -> Stmt {
         let running = self.module.add(Expr::Sys(SysValue::Running));
         let cond = self.module.add(Expr::Not(running));
-        Stmt::If {
+        Stmt::If(Branch {
             cond,
             then: vec![Stmt::Return],
             otherwise: Vec::new(),
-        }
+        })
     }
 }

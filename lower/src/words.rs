@@ -4,7 +4,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, BinOp, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
+use rungc_ir::node::{Access, BinOp, Branch, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
 use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
@@ -111,11 +111,11 @@ impl Lowerer<'_> {
     pub(super) fn checked(&mut self, cond: ExprId, code: u16, make: impl FnOnce(&mut Self)) {
         let then = self.body(make);
         let step = self.step();
-        self.emit(Stmt::If {
+        self.emit(Stmt::If(Branch {
             cond,
             then,
             otherwise: vec![Stmt::Fault { code, step }],
-        });
+        }));
     }
 
     fn change_value(&mut self, op: UnOp) {

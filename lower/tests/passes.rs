@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;
-use rungc_ir::node::{Access, Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::node::{Access, Branch, Expr, ExprId, LabelId, Place, Stmt, TempId};
 use rungc_ir::validate::validate;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
@@ -142,11 +142,11 @@ fn temporaries_need_a_value() {
     let error = with(|module| {
         module.temps.push(rungc_ir::node::Ty::Bit);
         let temp = module.add(Expr::Temp(TempId(0)));
-        Stmt::If {
+        Stmt::If(Branch {
             cond: temp,
             then: Vec::new(),
             otherwise: Vec::new(),
-        }
+        })
     });
     assert!(error.is_err_and(|e| e.contains("not assigned")));
 }
@@ -158,18 +158,18 @@ fn a_value_from_one_branch_is_not_enough() {
             module.temps.push(rungc_ir::node::Ty::Bit);
             let on = module.add(Expr::Bit(true));
             let assign = vec![Stmt::Let(TempId(0), on)];
-            let branch = Stmt::If {
+            let branch = Stmt::If(Branch {
                 cond: on,
                 then: assign.clone(),
                 otherwise: if otherwise { assign } else { Vec::new() },
-            };
+            });
             module.functions[1].body.insert(0, branch);
             let temp = module.add(Expr::Temp(TempId(0)));
-            module.functions[1].body.push(Stmt::If {
+            module.functions[1].body.push(Stmt::If(Branch {
                 cond: temp,
                 then: Vec::new(),
                 otherwise: Vec::new(),
-            });
+            }));
             Stmt::Network(0)
         })
     };

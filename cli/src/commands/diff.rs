@@ -5,7 +5,7 @@ mod json;
 mod text;
 
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, say, tell, unread, write_file};
+use super::{Context, Failure, Outcome, Result, counted, read_as_written, say, tell, write_file};
 use crate::args::{DiffArgs, DiffFormat, Input};
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::{Resolved, resolve};
@@ -62,10 +62,7 @@ impl Side {
         };
         let subject = subject::one(&input, cx)?;
         let mut reporter = Reporter::new(&subject.reporting, cx, true);
-        let read = match subject::source(&subject) {
-            Ok(read) => read,
-            Err(error) => return Err(unread(&error, &subject, &mut reporter)?),
-        };
+        let read = read_as_written(&subject, &mut reporter)?;
         if read.diagnostics.has_errors() || !read.program.is_complete() {
             let diagnostics = read.diagnostics.clone();
             let findings = Findings::new(&named, &read.program, diagnostics, &subject.reporting);

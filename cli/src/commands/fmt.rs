@@ -2,9 +2,11 @@
 
 use super::in_place::InPlace;
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, conclude, counted, say, tell, unread};
+use super::{
+    Context, Failure, Outcome, Result, conclude, counted, found_reading, read_as_written, say, tell,
+};
 use crate::args::FmtArgs;
-use crate::report::{Findings, Reporter};
+use crate::report::Reporter;
 use rungc_frontend::print::{LaidOut, lay_out};
 use rungc_syntax::SourceKind;
 use std::fmt::Write;
@@ -18,10 +20,7 @@ pub fn run(args: &FmtArgs, cx: Context) -> Result {
 
 fn format(args: &FmtArgs, subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
     let path = subject.file.display();
-    let read = match subject::source(subject) {
-        Ok(read) => read,
-        Err(error) => return Err(unread(&error, subject, reporter)?),
-    };
+    let read = read_as_written(subject, reporter)?;
     let program = &read.program;
     if program.kind != SourceKind::Il {
         if reporter.many() {
@@ -33,12 +32,7 @@ fn format(args: &FmtArgs, subject: &Subject, reporter: &mut Reporter, cx: Contex
         );
         return Err(Failure::Because(why));
     }
-    let findings = Findings::new(
-        &subject.file,
-        program,
-        read.diagnostics.clone(),
-        &subject.reporting,
-    );
+    let findings = found_reading(subject, &read);
     if findings.failed() {
         return conclude(&findings, reporter, cx, String::new);
     }

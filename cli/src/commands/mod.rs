@@ -49,6 +49,16 @@ pub enum Outcome {
     Interrupted,
 }
 
+impl Outcome {
+    /// By whether a program can be compiled.
+    pub fn of(findings: &Findings) -> Self {
+        match findings.failed() {
+            true => Outcome::Failed,
+            false => Outcome::Success,
+        }
+    }
+}
+
 /// Why a command could not do its work.
 #[derive(Debug)]
 pub enum Failure {
@@ -120,12 +130,20 @@ impl Context {
     }
 }
 
-/// Reads a program, and gives it what its settings say of it. That it cannot be read is an object too, for tools.
+/// Reads a program as its author wrote it. That it cannot be read is an object too, for tools.
+pub fn read_as_written(
+    subject: &Subject,
+    reporter: &mut Reporter,
+) -> std::result::Result<Read, Failure> {
+    match subject::source(subject) {
+        Ok(read) => Ok(read),
+        Err(error) => Err(unread(&error, subject, reporter)?),
+    }
+}
+
+/// Reads a program, and gives it what its settings say of it.
 pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
-    let mut read = match subject::source(subject) {
-        Ok(read) => read,
-        Err(error) => return Err(unread(&error, subject, reporter)?),
-    };
+    let mut read = read_as_written(subject, reporter)?;
     unproven::suggest(&mut read, subject.model);
     if let Some(project) = &subject.project {
         let options = CompileOptions {
@@ -188,6 +206,17 @@ pub fn grouped(n: usize) -> String {
     text
 }
 
+/// What reading a program found.
+pub fn found_reading<'a>(subject: &'a Subject, read: &'a Read) -> Findings<'a> {
+    let diagnostics = read.diagnostics.clone();
+    Findings::new(
+        &subject.file,
+        &read.program,
+        diagnostics,
+        &subject.reporting,
+    )
+}
+
 /// What reading and compiling a program found.
 pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
@@ -220,11 +249,7 @@ pub fn conclude(
             false => format!("{}: {}", done(), counts(&findings.totals())),
         });
     }
-    Ok(if findings.failed() {
-        Outcome::Failed
-    } else {
-        Outcome::Success
-    })
+    Ok(Outcome::of(findings))
 }
 
 /// `0 errors, 1 warning`, and the notes if there are any.

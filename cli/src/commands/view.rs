@@ -1,9 +1,11 @@
 //! `rungc view`.
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{Context, Failure, Outcome, Result, say, stem, unread, write_file};
+use super::{
+    Context, Failure, Outcome, Result, found_reading, read_as_written, say, stem, write_file,
+};
 use crate::args::ViewArgs;
-use crate::report::{Findings, Reporter};
+use crate::report::Reporter;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
 use rungc_ladder::svg::Painter;
@@ -42,16 +44,8 @@ fn view(
     outputs: &mut OutputPaths,
 ) -> Result {
     // As its author drew it: without what the settings add.
-    let read = match subject::source(subject) {
-        Ok(read) => read,
-        Err(error) => return Err(unread(&error, subject, reporter)?),
-    };
-    let findings = Findings::new(
-        &subject.file,
-        &read.program,
-        read.diagnostics.clone(),
-        &subject.reporting,
-    );
+    let read = read_as_written(subject, reporter)?;
+    let findings = found_reading(subject, &read);
     reporter.add(&findings)?;
     let options = subject.options();
     let model = compile::model(&read.program, &options);
@@ -97,11 +91,7 @@ fn view(
             say(&page)?;
         }
     }
-    Ok(if findings.failed() {
-        Outcome::Failed
-    } else {
-        Outcome::Success
-    })
+    Ok(Outcome::of(&findings))
 }
 
 /// What a path asks for by its ending: a page of all networks, or a picture of those that are chosen.

@@ -4,9 +4,11 @@ mod html;
 mod table;
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{Context, Failure, Outcome, Result, say, stem, unread, write_file};
+use super::{
+    Context, Failure, Outcome, Result, found_reading, read_as_written, say, stem, write_file,
+};
 use crate::args::{XrefArgs, XrefTo};
-use crate::report::{Findings, Reporter};
+use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
@@ -28,17 +30,9 @@ fn xref(
     outputs: &mut OutputPaths,
 ) -> Result {
     // What its author wrote: without what the settings add.
-    let read = match subject::source(subject) {
-        Ok(read) => read,
-        Err(error) => return Err(unread(&error, subject, reporter)?),
-    };
+    let read = read_as_written(subject, reporter)?;
     let program = &read.program;
-    let findings = Findings::new(
-        &subject.file,
-        program,
-        read.diagnostics.clone(),
-        &subject.reporting,
-    );
+    let findings = found_reading(subject, &read);
     reporter.add(&findings)?;
     let model = compile::model(program, &subject.options());
     let (resolved, _) = resolve(program, model);
@@ -68,8 +62,5 @@ fn xref(
             None => io::stdout().write_all(&bytes)?,
         }
     }
-    Ok(match findings.failed() {
-        true => Outcome::Failed,
-        false => Outcome::Success,
-    })
+    Ok(Outcome::of(&findings))
 }

@@ -142,11 +142,11 @@ impl Builder {
         let outer = std::mem::take(&mut self.body);
         then(self);
         let then = std::mem::replace(&mut self.body, outer);
-        self.body.push(Stmt::If {
+        self.body.push(Stmt::If(Branch {
             cond,
             then,
             otherwise: Vec::new(),
-        });
+        }));
     }
 
     pub fn rising(&mut self, input: ExprId, then: impl FnOnce(&mut Self)) {

@@ -166,17 +166,17 @@ pub fn motor() -> Module {
             input: x2,
             out: rising,
         }),
-        Stmt::If {
+        Stmt::If(Branch {
             cond: is_rising,
             then: vec![Stmt::Write(Access::word(place(D, 0)), sum)],
             otherwise: Vec::new(),
-        },
+        }),
         b.network(19, None),
-        Stmt::If {
+        Stmt::If(Branch {
             cond: full,
             then: vec![Stmt::Write(Access::bit(place(Y, 1)), on)],
             otherwise: Vec::new(),
-        },
+        }),
     ];
     b.main(body)
 }

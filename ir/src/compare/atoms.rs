@@ -1,8 +1,8 @@
 //! The statements of a module as atoms: texts, and what each reads and writes.
 
 use crate::node::{
-    Arg, Body, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId, FunctionKind, Module, Send,
-    Stmt, TableId, TempId,
+    Arg, Body, Branch, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId, FunctionKind,
+    Module, Send, SetEntry, Stmt, TableId, TempId,
 };
 use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::{for_exprs_mut, operands, operands_mut};
@@ -145,11 +145,11 @@ impl Reader<'_> {
     fn stmt(&mut self, stmt: &Stmt, context: u32) {
         match stmt {
             Stmt::Network(_) | Stmt::Watch { .. } => {}
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => {
+            }) => {
                 let [then_context, else_context] = self.header("if", Some(*cond), context);
                 self.body(then, then_context);
                 self.body(otherwise, else_context);
@@ -189,7 +189,7 @@ impl Reader<'_> {
             | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Write(..)
             | Stmt::Block(_)
             | Stmt::Timer(_)
@@ -374,7 +374,7 @@ impl Reader<'_> {
         } else if let Stmt::SetCell(cell, _) = plain {
             names.push(self.cell(std::mem::replace(cell, CellId(0))));
             writes.names.extend(&names);
-        } else if let Stmt::SetEntry(table, ..) = plain {
+        } else if let Stmt::SetEntry(SetEntry { table, .. }) = plain {
             names.push(self.table(std::mem::replace(table, TableId(0))));
             writes.names.extend(&names);
         } else if let Stmt::Fault { step, .. } = plain {

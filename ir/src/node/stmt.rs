@@ -236,7 +236,29 @@ impl Block {
     }
 }
 
-/// A statement. What has three fields or more, except for branches, is a separate struct.
+/// A value for the entry of a table.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SetEntry {
+    /// Table.
+    pub table: TableId,
+    /// Which entry (`I32`, as for [`Expr::Entry`](super::Expr::Entry)).
+    pub index: ExprId,
+    /// What it becomes (`I32`).
+    pub value: ExprId,
+}
+
+/// Two bodies, one of which is executed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Branch {
+    /// Which one (`Bit`).
+    pub cond: ExprId,
+    /// If on.
+    pub then: Body,
+    /// If off.
+    pub otherwise: Body,
+}
+
+/// A statement. What has three fields or more is a separate struct.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Stmt {
     /// Here begins the code of a network (rung); no effect.
@@ -249,8 +271,8 @@ pub enum Stmt {
     SetFlag(FlagId, ExprId),
     /// Writes a cell (`I32`).
     SetCell(CellId, ExprId),
-    /// Writes the entry of a table at the index (`I32`, as for [`Expr::Entry`](super::Expr::Entry)) (`I32`).
-    SetEntry(TableId, ExprId, ExprId),
+    /// Writes the entry of a table.
+    SetEntry(SetEntry),
     /// Writes a value of the access's type.
     Write(Access, ExprId),
     /// Copies or fills a run of devices.
@@ -279,14 +301,7 @@ pub enum Stmt {
     /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
     Reset(Place),
     /// Executes one branch.
-    If {
-        /// `Bit`.
-        cond: ExprId,
-        /// If on.
-        then: Body,
-        /// If off.
-        otherwise: Body,
-    },
+    If(Branch),
     /// Executes the body `count` times (`I16`; at most 0 means once), the count being evaluated once.
     For {
         /// How often.

@@ -119,7 +119,7 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         Stmt::Counter16(Counter16Coil { number, .. })
         | Stmt::Counter32(Counter32Coil { number, .. })
         | Stmt::Count(Count { number, .. }) => Writes::Run(DeviceClass::C, number, number),
-        Stmt::If { .. }
+        Stmt::If(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::Parts(_)
@@ -134,7 +134,7 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         | Stmt::Stop
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::Clear { .. } => Writes::All,
     }
 }

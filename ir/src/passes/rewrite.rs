@@ -3,7 +3,7 @@
 use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
-use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId};
+use crate::node::{Body, Branch, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId};
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec};
@@ -121,11 +121,11 @@ impl Rewriter<'_> {
                 }
                 assign(now, out);
             }
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => self.branch(cond, then, otherwise, out),
+            }) => self.branch(cond, then, otherwise, out),
             Stmt::For { count, body } => {
                 let count = self.expr(count);
                 self.settle(out);
@@ -154,7 +154,7 @@ impl Rewriter<'_> {
             | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Write(..)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)
@@ -222,21 +222,21 @@ impl Rewriter<'_> {
                 None => return,
             };
         }
-        out.push(Stmt::If {
+        out.push(Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        });
+        }));
     }
 
     /// Appends a branch to the one before it, if that has the same condition, a temporary's; else gives it back.
     fn joined(&self, cond: ExprId, then: Body, out: &mut Body) -> Option<Body> {
         match out.last_mut() {
-            Some(Stmt::If {
+            Some(Stmt::If(Branch {
                 cond: before,
                 then: first,
                 otherwise,
-            }) if otherwise.is_empty()
+            })) if otherwise.is_empty()
                 && self
                     .arena
                     .temp(cond)
@@ -309,9 +309,9 @@ fn assign(assignments: Vec<(TempId, ExprId)>, out: &mut Body) {
 fn ends(body: &Body) -> bool {
     match body.last() {
         Some(Stmt::Return | Stmt::Goto(_)) => true,
-        Some(Stmt::If {
+        Some(Stmt::If(Branch {
             then, otherwise, ..
-        }) => ends(then) && ends(otherwise),
+        })) => ends(then) && ends(otherwise),
         _ => false,
     }
 }

@@ -4,8 +4,8 @@ use super::eval::Eval;
 use super::interval::Interval;
 use super::state::{Known, Mask, State, join};
 use crate::node::{
-    Access, AccessKind, Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt,
-    TempId, Ty,
+    Access, AccessKind, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place,
+    Stmt, TempId, Ty,
 };
 use crate::reach::{self, of_access};
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
@@ -287,7 +287,7 @@ impl<'m> Walk<'m> {
         let mut at = 0;
         while let Some(stmt) = body.get(at) {
             let before = state?;
-            if let Stmt::If { cond, .. } = *stmt
+            if let Stmt::If(Branch { cond, .. }) = *stmt
                 && self.is_due(stmt)
             {
                 let together = self.with_one_condition(cond, &body[at..]);
@@ -317,7 +317,7 @@ impl<'m> Walk<'m> {
         };
         let same = |stmt: &&Stmt| {
             let is_it = |cond: ExprId| *self.eval.module.expr(cond) == Expr::Temp(temp);
-            !self.is_due(stmt) || matches!(**stmt, Stmt::If { cond, .. } if is_it(cond))
+            !self.is_due(stmt) || matches!(**stmt, Stmt::If(Branch { cond, .. }) if is_it(cond))
         };
         let mut count = 0;
         for stmt in body.iter().take_while(same) {
@@ -341,9 +341,9 @@ impl<'m> Walk<'m> {
         let mut ends = [true, false].map(|on| {
             let mut state = self.eval.when(state.clone(), cond, on);
             for stmt in group {
-                if let Stmt::If {
+                if let Stmt::If(Branch {
                     then, otherwise, ..
-                } = stmt
+                }) = stmt
                     && self.is_due(stmt)
                 {
                     state = self.body(if on { then } else { otherwise }, state);
@@ -368,7 +368,7 @@ impl<'m> Walk<'m> {
                 let value = self.eval.value(&state, value);
                 self.write(&mut state, access, value);
             }
-            Stmt::If { .. } => return Some(state),
+            Stmt::If(_) => return Some(state),
             Stmt::For { count, ref body } => return self.repeat(count, body, state),
             Stmt::CallSub(n) => return self.call(n as usize, state),
             Stmt::Return => {
@@ -391,7 +391,7 @@ impl<'m> Walk<'m> {
             | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)
             | Stmt::TimerGoesOn { .. }

@@ -63,22 +63,46 @@ impl Controller {
     }
 }
 
-/// The address of a slot's byte.
-fn address(slots: &[Range<u32>; 2], slot: usize, offset: u32) -> Result<u32, FlashFailed> {
-    let range = slots.get(slot).ok_or(FlashFailed)?;
-    Ok(range.start + offset)
+/// Memory at addresses of a microcontroller. All kinds are read alike; erasing and writing is each one's own.
+trait Mapped {
+    type Bus: Registers;
+    fn registers(&mut self) -> &mut Self::Bus;
+    fn slots(&self) -> &[Range<u32>; 2];
+    /// Makes all bytes of a slot 0xFF.
+    fn erase_range(&mut self, slot: Range<u32>) -> Result<(), FlashFailed>;
+    /// Writes erased bytes from an address on.
+    fn program_at(&mut self, from: u32, bytes: &[u8]) -> Result<(), FlashFailed>;
+
+    /// The addresses of a slot.
+    fn slot(&self, slot: usize) -> Result<Range<u32>, FlashFailed> {
+        self.slots().get(slot).cloned().ok_or(FlashFailed)
+    }
 }
 
-/// Bytes of the shorter slot.
-fn slot_len(slots: &[Range<u32>; 2]) -> u32 {
-    let [a, b] = slots;
-    (a.end - a.start).min(b.end - b.start)
-}
+impl<M: Mapped> Flash for M {
+    /// Bytes of the shorter slot.
+    fn slot_len(&self) -> u32 {
+        let [a, b] = self.slots();
+        (a.end - a.start).min(b.end - b.start)
+    }
 
-fn read<R: Registers>(registers: &mut R, from: u32, bytes: &mut [u8]) {
-    for (at, byte) in (from..).zip(bytes) {
-        let word = registers.read(at & !3).to_le_bytes();
-        *byte = word.get(at as usize & 3).copied().unwrap_or_default();
+    fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
+        let from = self.slot(slot)?.start + offset;
+        for (at, byte) in (from..).zip(bytes) {
+            let word = self.registers().read(at & !3).to_le_bytes();
+            *byte = word.get(at as usize & 3).copied().unwrap_or_default();
+        }
+        Ok(())
+    }
+
+    fn erase(&mut self, slot: usize) -> Result<(), FlashFailed> {
+        let range = self.slot(slot)?;
+        self.erase_range(range)
+    }
+
+    fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
+        let from = self.slot(slot)?.start + offset;
+        self.program_at(from, bytes)
     }
 }
 
@@ -91,27 +115,25 @@ pub struct Ram<R> {
     pub slots: [Range<u32>; 2],
 }
 
-impl<R: Registers> Flash for Ram<R> {
-    fn slot_len(&self) -> u32 {
-        slot_len(&self.slots)
+impl<R: Registers> Mapped for Ram<R> {
+    type Bus = R;
+
+    fn registers(&mut self) -> &mut R {
+        &mut self.registers
     }
 
-    fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
-        read(&mut self.registers, from, bytes);
-        Ok(())
+    fn slots(&self) -> &[Range<u32>; 2] {
+        &self.slots
     }
 
-    fn erase(&mut self, slot: usize) -> Result<(), FlashFailed> {
-        let range = self.slots.get(slot).ok_or(FlashFailed)?.clone();
-        for at in range.step_by(4) {
+    fn erase_range(&mut self, slot: Range<u32>) -> Result<(), FlashFailed> {
+        for at in slot.step_by(4) {
             self.registers.write(at, u32::MAX);
         }
         Ok(())
     }
 
-    fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
+    fn program_at(&mut self, from: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
         for (at, word) in (from..).step_by(4).zip(bytes.as_chunks().0) {
             self.registers.write(at, u32::from_le_bytes(*word));
         }
@@ -167,20 +189,19 @@ pub fn f4_sectors(range: &Range<u32>) -> Option<Range<u32>> {
     (bank < 2 && !sectors.is_empty()).then_some(sectors)
 }
 
-impl<R: Registers> Flash for Stm32f4<R> {
-    fn slot_len(&self) -> u32 {
-        slot_len(&self.slots)
+impl<R: Registers> Mapped for Stm32f4<R> {
+    type Bus = R;
+
+    fn registers(&mut self) -> &mut R {
+        &mut self.registers
     }
 
-    fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
-        read(&mut self.registers, from, bytes);
-        Ok(())
+    fn slots(&self) -> &[Range<u32>; 2] {
+        &self.slots
     }
 
-    fn erase(&mut self, slot: usize) -> Result<(), FlashFailed> {
-        let range = self.slots.get(slot).ok_or(FlashFailed)?;
-        let sectors = f4_sectors(range).ok_or(FlashFailed)?;
+    fn erase_range(&mut self, slot: Range<u32>) -> Result<(), FlashFailed> {
+        let sectors = f4_sectors(&slot).ok_or(FlashFailed)?;
         F4.unlocked(&mut self.registers, |registers| {
             for sector in sectors {
                 let erase = F4_BY_WORDS | 1 << 1 | sector << 3; // SER, SNB
@@ -200,8 +221,7 @@ impl<R: Registers> Flash for Stm32f4<R> {
         Ok(())
     }
 
-    fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
+    fn program_at(&mut self, from: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
         F4.unlocked(&mut self.registers, |registers| {
             registers.write(F4.control, F4_BY_WORDS | 1); // PG
             for (at, word) in (from..).step_by(4).zip(bytes.as_chunks().0) {
@@ -237,22 +257,21 @@ const F1: Controller = Controller {
 /// The address of the page to erase.
 const F1_ADDRESS: u32 = 0x4002_2014;
 
-impl<R: Registers> Flash for Stm32f1<R> {
-    fn slot_len(&self) -> u32 {
-        slot_len(&self.slots)
+impl<R: Registers> Mapped for Stm32f1<R> {
+    type Bus = R;
+
+    fn registers(&mut self) -> &mut R {
+        &mut self.registers
     }
 
-    fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
-        read(&mut self.registers, from, bytes);
-        Ok(())
+    fn slots(&self) -> &[Range<u32>; 2] {
+        &self.slots
     }
 
-    fn erase(&mut self, slot: usize) -> Result<(), FlashFailed> {
-        let range = self.slots.get(slot).ok_or(FlashFailed)?.clone();
+    fn erase_range(&mut self, slot: Range<u32>) -> Result<(), FlashFailed> {
         let step = self.page.max(1) as usize;
         F1.unlocked(&mut self.registers, |registers| {
-            for page in range.step_by(step) {
+            for page in slot.step_by(step) {
                 registers.write(F1.control, 1 << 1); // PER
                 registers.write(F1_ADDRESS, page);
                 registers.write(F1.control, 1 << 1 | 1 << 6); // STRT
@@ -262,8 +281,7 @@ impl<R: Registers> Flash for Stm32f1<R> {
         })
     }
 
-    fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
-        let from = address(&self.slots, slot, offset)?;
+    fn program_at(&mut self, from: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
         F1.unlocked(&mut self.registers, |registers| {
             registers.write(F1.control, 1); // PG
             for (at, half) in (from..).step_by(2).zip(bytes.as_chunks().0) {

@@ -1,19 +1,19 @@
 //! Making the body of a loop of its first iteration.
 
 use crate::node::{
-    Access, AccessKind, Body, Counter16Coil, Edge, Expr, ExprId, IndexedCoil, Module, Place, Stmt,
-    TempId, TimerCoil, Ty,
+    Access, AccessKind, Body, Branch, Counter16Coil, Edge, Expr, ExprId, IndexedCoil, Module,
+    Place, Stmt, TempId, TimerCoil, Ty,
 };
 use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
 
 /// The drive of a statement that only sets and resets bits, and what it does to each.
 fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
-    let Stmt::If {
+    let Stmt::If(Branch {
         cond,
         then,
         otherwise,
-    } = stmt
+    }) = stmt
     else {
         return None;
     };
@@ -88,20 +88,20 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
             Stmt::Timer(coil) => self.timer(*coil),
             Stmt::Counter16(coil) => self.counter16(*coil),
             Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => Stmt::If {
+            }) => Stmt::If(Branch {
                 cond: self.expr(*cond),
                 then: self.body(then),
                 otherwise: self.body(otherwise),
-            },
+            }),
             // Those without anything of an iteration, and those that no shape admits.
             other @ (Stmt::Network(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
+            | Stmt::SetEntry(_)
             | Stmt::TimerAt(_)
             | Stmt::TimerGoesOn { .. }
             | Stmt::Counter16At(_)

@@ -1,6 +1,6 @@
 //! Comparing two iterations, statement by statement.
 
-use crate::node::{Access, Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{Access, Branch, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
@@ -84,16 +84,16 @@ impl<'m> Pair<'m> {
             }
             (&Stmt::Reset(place), &Stmt::Reset(with)) => self.place(place, with),
             (
-                Stmt::If {
+                Stmt::If(Branch {
                     cond,
                     then,
                     otherwise,
-                },
-                Stmt::If {
+                }),
+                Stmt::If(Branch {
                     cond: other_cond,
                     then: other_then,
                     otherwise: other_otherwise,
-                },
+                }),
             ) => {
                 self.expr(*cond, *other_cond)?;
                 self.body(then, other_then)?;

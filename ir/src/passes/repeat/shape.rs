@@ -1,7 +1,7 @@
 //! What statements have in common that differ in their devices only, as a number to compare them by.
 
 use crate::node::{
-    Access, AccessKind, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt, TimerCoil,
+    Access, AccessKind, Branch, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt, TimerCoil,
 };
 use crate::walk::operands;
 use rungc_models::runs::is_counter32;
@@ -48,11 +48,11 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
             add_expr(module, *preset, hasher, size)?;
         }
         Stmt::Reset(place) => add_place(*place, hasher)?,
-        Stmt::If {
+        Stmt::If(Branch {
             cond,
             then,
             otherwise,
-        } => {
+        }) => {
             add_expr(module, *cond, hasher, size)?;
             for body in [then, otherwise] {
                 body.len().hash(hasher);
@@ -63,7 +63,7 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
         }
         Stmt::SetFlag(..)
         | Stmt::SetCell(..)
-        | Stmt::SetEntry(..)
+        | Stmt::SetEntry(_)
         | Stmt::TimerAt(_)
         | Stmt::TimerGoesOn { .. }
         | Stmt::Counter16At(_)
