@@ -375,6 +375,10 @@ pub struct ServeArgs {
     /// opened again.
     #[arg(long, value_name = "PORT=DEVICE")]
     pub serial: Vec<Line>,
+    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an adapter that speaks
+    /// SLCAN, with the bit rate in kbit/s (500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
+    #[arg(long, value_parser = Line::can, value_name = "BUS")]
+    pub can: Option<Line>,
     /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`
     /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
@@ -387,7 +391,12 @@ impl ServeArgs {
         !(self.modbus_tcp.is_empty()
             && self.mc.is_empty()
             && self.fx.is_empty()
-            && self.serial.is_empty())
+            && self.lines().next().is_none())
+    }
+
+    /// The lines of all ports: serial ports, and the CAN card.
+    pub fn lines(&self) -> impl Iterator<Item = &Line> {
+        self.serial.iter().chain(&self.can)
     }
 }
 

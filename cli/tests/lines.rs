@@ -181,3 +181,73 @@ fn lines_that_cannot_be_opened() {
         "{message}"
     );
 }
+
+#[test]
+fn a_client_on_a_pseudo_terminal_is_a_can_bus() {
+    const BUS: &str = "LD M8000\nCANRX H0 H200 D0 K2\nLD M8012\nCANTX H0 H201 D0 K2\nEND\n";
+    let folder = folder(&[("p.il", BUS.as_bytes())]);
+    let run = Run::new(folder.path(), "h2u", &[], &["CAN"]);
+    let mut port = SerialPort::open(run.line("CAN"), 9600).unwrap();
+    port.set_read_timeout(Duration::from_secs(4)).unwrap();
+    // What the PLC sent before it received waits in the terminal.
+    for _ in 0..1000 {
+        // What a client asks of an adapter is not a frame.
+        port.write_all(b"S6\rO\rt20021234\r").unwrap();
+        let mut frame = [0; 10];
+        port.read_exact(&mut frame).unwrap();
+        match &frame {
+            b"t20121234\r" => return,
+            other => assert_eq!(text(other), "t20120000\r"),
+        }
+    }
+    panic!("the frame has not come");
+}
+
+#[test]
+fn an_adapter_is_opened_at_its_rate() {
+    let gateway = TcpListener::bind("127.0.0.1:0").unwrap();
+    let bus = format!("slcan:tcp:{},250", gateway.local_addr().unwrap());
+    let folder = folder(&[("p.il", b"LD M8012\nCANTX H0 H200 D0 K1\nEND\n")]);
+    let _run = Run::start(folder.path(), "h2u", &["--can", &bus]);
+    let mut adapter = accepted(&gateway);
+    adapter
+        .set_read_timeout(Some(Duration::from_secs(20)))
+        .unwrap();
+    let mut first = [0; 18];
+    adapter.read_exact(&mut first).unwrap();
+    assert_eq!(text(&first), "\r\r\rC\rS5\rO\rt200100\r");
+}
+
+#[test]
+fn buses_that_cannot_be_opened() {
+    let folder = folder(&[("p.il", b"LD M8012\nCANTX H0 H200 D0 K1\nEND\n")]);
+    let fails = |model: &str, bus: &str| {
+        let args = ["run", "p.il", "--model", model, "--can", bus];
+        let output = rungc(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(2));
+        text(&output.stderr).to_string()
+    };
+    let message = fails("h2u", "nocan9");
+    assert!(message.contains("--can: cannot open nocan9"), "{message}");
+    let message = fails("h2u", "slcan:no-such-tty");
+    assert!(
+        message.contains("--can: cannot open no-such-tty"),
+        "{message}"
+    );
+    let message = fails("h2u", "slcan:/dev/ttyACM0,300");
+    assert!(message.contains("a rate is one of 10, 20, 50"), "{message}");
+    let message = fails("h2u", "/dev/ttyACM0");
+    assert!(message.contains("`slcan:/dev/ttyACM0`"), "{message}");
+}
+
+#[test]
+fn only_some_models_have_a_can_card() {
+    let folder = folder(&[("p.il", b"LD M8000\nOUT Y000\nEND\n")]);
+    let args = ["run", "p.il", "--model", "fx3u", "--can", "can0"];
+    let output = rungc(folder.path(), &args);
+    let message = text(&output.stderr);
+    assert!(
+        message.contains("has no port CAN; its ports are"),
+        "{message}"
+    );
+}

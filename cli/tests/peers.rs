@@ -51,6 +51,19 @@ OUT S10
 END
 ";
 
+/// Answers frames of two forms on CAN with what they carry plus 1, and sends one every 100 ms.
+const BUS: &str = "\
+LD M8000
+CANRX H0 H123 D100 K2
+CANRX H2ABC HDEF1 D110 K8
+ADD D100 K1 D200
+DADD D110 K1 D210
+LD M8012
+CANTX H0 H321 D200 K2
+CANTX H3FFF HFFFF D210 K4
+END
+";
+
 fn program(text: &str) -> TempDir {
     folder(&[("p.il", text.as_bytes())])
 }
@@ -267,6 +280,17 @@ fn umodbus_reads_and_writes_over_tcp() {
         "h2u",
         ["--modbus-tcp", "Modbus TCP"],
     );
+}
+
+#[test]
+fn python_can_exchanges_frames_over_slcan() {
+    let Some(mut client) = python("can", "can_bus.py") else {
+        return;
+    };
+    let folder = program(BUS);
+    let run = Run::new(folder.path(), "h2u", &[], &["CAN"]);
+    client.arg(run.line("CAN"));
+    succeeds(client);
 }
 
 #[test]

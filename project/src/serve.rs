@@ -2,6 +2,7 @@
 
 use crate::{Error, Project, Range};
 use rungc_models::Model;
+use rungc_rt::comm::CAN_PORT;
 use rungc_syntax::{DeviceClass, Span, codes};
 use std::fmt;
 use std::net::SocketAddr;
@@ -53,6 +54,43 @@ pub enum LineEnd {
     Tcp(String),
     /// A TCP socket of this machine, whose client is the other end.
     TcpListen(SocketAddr),
+    /// The CAN interface of this machine that has this name (SocketCAN).
+    CanInterface(String),
+    /// An adapter that speaks SLCAN at the end of a line.
+    CanAdapter(Box<LineEnd>, CanRate),
+}
+
+/// A bit rate of CAN that SLCAN has a command for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct CanRate(usize);
+
+impl CanRate {
+    /// The rates in kbit/s; the place of each is the number of its command.
+    const ALL: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+    /// That of the CAN card with its switch 7 off (h1u-h2u-programming §5.9.2): 500 kbit/s.
+    const USUAL: Self = CanRate(6);
+
+    /// The rate in kbit/s, from its digits.
+    fn parse(text: &str) -> Option<Self> {
+        let rate = text.parse().ok()?;
+        Self::ALL
+            .iter()
+            .position(|&known| known == rate)
+            .map(CanRate)
+    }
+
+    /// What opens the channel of an adapter at this rate. It is closed first: an open one refuses a rate. Carriage
+    /// returns before that end what the adapter may hold of an earlier line.
+    fn opening(self) -> String {
+        format!("\r\r\rC\rS{}\rO\r", self.0)
+    }
+}
+
+impl fmt::Display for CanRate {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        Self::ALL.get(self.0).unwrap_or(&0).fmt(f)
+    }
 }
 
 impl LineEnd {
@@ -81,6 +119,38 @@ impl LineEnd {
             path => Ok(LineEnd::Path(path.into())),
         }
     }
+
+    /// Reads what the CAN card is connected to: `can0`, or `slcan:/dev/ttyACM0`, where the rest is the end of a line and may
+    /// have a rate in kbit/s after it: `slcan:/dev/ttyACM0,250`.
+    ///
+    /// # Errors
+    /// How it is to be written.
+    pub fn parse_can(text: &str) -> Result<Self, String> {
+        let Some(adapter) = text.strip_prefix("slcan:") else {
+            let fits = (1..=LONGEST_INTERFACE).contains(&text.len())
+                && !text.contains(|c: char| c == '/' || c.is_whitespace());
+            return match fits {
+                true => Ok(LineEnd::CanInterface(text.to_string())),
+                false => Err("a bus is a CAN interface of this machine (`can0`), or an adapter: `slcan:/dev/ttyACM0`".into()),
+            };
+        };
+        let (end, rate) = match adapter.rsplit_once(',') {
+            Some((end, rate)) => (end, CanRate::parse(rate).ok_or_else(rates)?),
+            None => (adapter, CanRate::USUAL),
+        };
+        Ok(LineEnd::CanAdapter(Box::new(LineEnd::parse(end)?), rate))
+    }
+
+    /// What the end is sent when it is open. A client of ours is not an adapter: it is the bus.
+    pub fn opening(&self) -> String {
+        match self {
+            LineEnd::CanAdapter(end, rate) => match **end {
+                LineEnd::Path(_) | LineEnd::Tcp(_) => rate.opening(),
+                _ => String::new(),
+            },
+            _ => String::new(),
+        }
+    }
 }
 
 impl fmt::Display for LineEnd {
@@ -90,6 +160,8 @@ impl fmt::Display for LineEnd {
             LineEnd::Pty => f.write_str("a pseudo-terminal"),
             LineEnd::Tcp(peer) => write!(f, "tcp:{peer}"),
             LineEnd::TcpListen(address) => write!(f, "tcp-listen:{address}"),
+            LineEnd::CanInterface(name) => f.write_str(name),
+            LineEnd::CanAdapter(end, rate) => write!(f, "{end}, SLCAN at {rate} kbit/s"),
         }
     }
 }
@@ -108,9 +180,57 @@ impl FromStr for Line {
     }
 }
 
-/// The number of a port from its name, `COM1`.
+impl Line {
+    /// The CAN card, connected to `can0` or `slcan:/dev/ttyACM0`.
+    ///
+    /// # Errors
+    /// How it is to be written.
+    pub fn can(text: &str) -> Result<Self, String> {
+        let end = LineEnd::parse_can(text)?;
+        Ok(Line {
+            port: CAN_PORT,
+            end,
+        })
+    }
+
+    /// What reports call the port: `COM1`, `CAN`.
+    pub fn name(&self) -> String {
+        port_name(self.port)
+    }
+
+    /// What is wrong with the line on a model, and what helps: the model does not have the port.
+    pub fn missing(&self, model: &Model) -> Option<(String, String)> {
+        if model.ports.get(self.port).is_some() {
+            return None;
+        }
+        let message = format!("{} has no port {}", model.title, self.name());
+        let known = model.ports.all().iter();
+        let known: Vec<_> = known.map(|port| port_name(port.number)).collect();
+        Some((message, format!("its ports are {}", known.join(", "))))
+    }
+}
+
+/// What reports call a port: `COM1`, `CAN`.
+fn port_name(number: u8) -> String {
+    match number {
+        CAN_PORT => "CAN".to_string(),
+        number => format!("COM{number}"),
+    }
+}
+
+/// The longest name of an interface on Linux (`IFNAMSIZ`, without the zero after it).
+const LONGEST_INTERFACE: usize = 15;
+
+/// The rates that an adapter can be given.
+fn rates() -> String {
+    let rates = CanRate::ALL.map(|rate| rate.to_string());
+    format!("a rate is one of {} (kbit/s)", rates.join(", "))
+}
+
+/// The number of a serial port from its name, `COM1`.
 pub(crate) fn port(name: &str) -> Option<u8> {
-    name.strip_prefix("COM")?.parse().ok()
+    let number = name.strip_prefix("COM")?.parse().ok();
+    number.filter(|&number| number != CAN_PORT)
 }
 
 /// Reads the address of a server: `127.0.0.1:5020`, or `5020`, a port of this machine alone.
@@ -142,12 +262,8 @@ impl Project {
     /// What `[serve]` names that the model does not have is a mistake.
     pub(crate) fn check_served(&self, model: &Model) -> Result<(), Error> {
         for SerialLine { line, span } in &self.serve.serial {
-            if model.ports.get(line.port).is_none() {
-                let message = format!("{} has no port COM{}", model.title, line.port);
-                let known = model.ports.all().iter();
-                let known: Vec<_> = known.map(|port| format!("COM{}", port.number)).collect();
+            if let Some((message, help)) = line.missing(model) {
                 let why = codes::PROJECT_VALUE.at(*span, message);
-                let help = format!("its ports are {}", known.join(", "));
                 return Err(self.mistake(why.help(help)));
             }
         }
@@ -186,6 +302,31 @@ mod tests {
             "COM1=tcp-listen:plc",
         ] {
             assert!(line(wrong).is_err(), "{wrong}");
+        }
+        // The CAN card is not a serial port.
+        assert!(line("COM4=pty").is_err());
+    }
+
+    #[test]
+    fn buses_of_the_can_card() {
+        let bus = |text: &str| Line::can(text).map(|line| line.end.to_string());
+        assert_eq!(bus("can0").unwrap(), "can0");
+        let adapter = "/dev/ttyACM0, SLCAN at 500 kbit/s";
+        assert_eq!(bus("slcan:/dev/ttyACM0").unwrap(), adapter);
+        let slow = "tcp:gateway:3333, SLCAN at 125 kbit/s";
+        assert_eq!(bus("slcan:tcp:gateway:3333,125").unwrap(), slow);
+        let LineEnd::CanAdapter(_, rate) = Line::can("slcan:pty,125").unwrap().end else {
+            panic!("an adapter");
+        };
+        assert_eq!(rate.opening(), "\r\r\rC\rS4\rO\r");
+        for wrong in [
+            "",
+            "/dev/ttyACM0",
+            "an interface of long name",
+            "slcan:",
+            "slcan:pty,300",
+        ] {
+            assert!(bus(wrong).is_err(), "{wrong}");
         }
     }
 }

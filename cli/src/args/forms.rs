@@ -56,10 +56,8 @@ pub struct ReadArgs {
 /// Where a PLC is.
 fn plc(text: &str) -> Result<LineEnd, String> {
     match LineEnd::parse(text)? {
-        LineEnd::Pty | LineEnd::TcpListen(_) => {
-            Err("a PLC is at a serial port or at `tcp:HOST:PORT`".to_string())
-        }
-        end => Ok(end),
+        end @ (LineEnd::Path(_) | LineEnd::Tcp(_)) => Ok(end),
+        _ => Err("a PLC is at a serial port or at `tcp:HOST:PORT`".to_string()),
     }
 }
 

@@ -92,7 +92,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         observe: used.chain(wired).chain(sampled).collect(),
         // Clients may ask for any device.
         observe_all: args.serve.any(),
-        ports: args.serve.serial.iter().map(|serial| serial.port).collect(),
+        ports: args.serve.lines().map(|line| line.port).collect(),
         ..subject.options()
     };
     let compiled = compile(&read.program, &options);

@@ -21,7 +21,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         };
         let why = format!(
             "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, or use \
-             --modbus-tcp, --mc, --fx or --serial"
+             --modbus-tcp, --mc, --fx, --serial or --can"
         );
         return Err(Failure::Because(why));
     }
@@ -40,12 +40,13 @@ impl ServeArgs {
             own => own.to_vec(),
         };
         let usual = settings.serial.iter().map(|SerialLine { line, .. }| line);
-        let usual = usual.filter(|line| self.serial.iter().all(|own| own.port != line.port));
+        let usual = usual.filter(|line| self.lines().all(|own| own.port != line.port));
         ServeArgs {
             modbus_tcp: given(&self.modbus_tcp, &settings.modbus_tcp),
             mc: given(&self.mc, &settings.mc),
             fx: given(&self.fx, &settings.fx),
             serial: self.serial.iter().chain(usual).cloned().collect(),
+            can: self.can.clone(),
             trace_frames: self.trace_frames.clone(),
         }
     }

@@ -24,9 +24,10 @@ pub struct Run {
 
 impl Run {
     /// Runs `p.il` of this folder. Servers are named by their options, such as `--modbus-tcp`, each at a free port;
-    /// lines as `COM1`, each at a pseudo-terminal.
+    /// lines as `COM1`, each at a pseudo-terminal, and `CAN` at one that speaks SLCAN.
     pub fn new(folder: &Path, model: &str, servers: &[&str], lines: &[&str]) -> Run {
-        let terminals: Vec<_> = lines.iter().map(|line| format!("{line}=pty")).collect();
+        let (buses, ports): (Vec<&str>, Vec<&str>) = lines.iter().partition(|line| **line == "CAN");
+        let terminals: Vec<_> = ports.iter().map(|line| format!("{line}=pty")).collect();
         let mut args = Vec::new();
         for server in servers {
             args.extend([server, "0"]);
@@ -34,6 +35,7 @@ impl Run {
         for terminal in &terminals {
             args.extend(["--serial", terminal]);
         }
+        args.extend(buses.iter().flat_map(|_| ["--can", "slcan:pty"]));
         let mut run = Run::start(folder, model, &args);
         while run.open.len() < servers.len() + lines.len() {
             let line = run.said.recv_timeout(PATIENCE);

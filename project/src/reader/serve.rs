@@ -12,12 +12,15 @@ pub(super) const ADDRESSES: [&str; 3] = ["modbus-tcp", "mc", "fx"];
 /// Key of the table of serial lines.
 pub(super) const SERIAL: &str = "serial";
 
+/// Key of what the CAN card is connected to.
+const CAN: &str = "can";
+
 impl Reader {
     pub(super) fn serve(&mut self, table: &DeTable<'_>, project: &mut Project) {
         let classes = SERVED.iter().map(|class| class.prefix());
         let keys: Vec<_> = ADDRESSES
             .into_iter()
-            .chain([SERIAL])
+            .chain([SERIAL, CAN])
             .chain(classes)
             .collect();
         self.known("serve", table, &keys);
@@ -27,6 +30,18 @@ impl Reader {
         project.serve.fx = fx;
         if let Some(value) = table.get(SERIAL) {
             self.lines(value, project);
+        }
+        if let Some(named) = self.get(table, CAN) {
+            match Line::can(&named.text) {
+                Ok(line) => project.serve.serial.push(SerialLine {
+                    line,
+                    span: named.span,
+                }),
+                Err(why) => {
+                    let message = format!("`{}` is not a CAN bus", named.text);
+                    self.wrong(named.span, message, &why);
+                }
+            }
         }
         for class in SERVED {
             project.serve.devices.extend(self.ranges(table, class));

@@ -13,7 +13,7 @@ use rungc_rt::Ports;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
 use rungc_rt::comm::modbus::Framing;
 use rungc_rt::comm::service::Speaks;
-use rungc_rt::comm::{Frame, LineFault, Memory, Protocol, fx_port, mc};
+use rungc_rt::comm::{CanFrame, Frame, LineFault, Memory, Protocol, fx_port, mc};
 use std::fmt::Write;
 
 /// Control characters of protocols in text, with their names.
@@ -99,6 +99,7 @@ impl Decoder {
                 Protocol::MasterAscii => modbus::master(Framing::Ascii, !asks, bytes, before),
                 Protocol::ProgrammingPort => self.programming_port(asks, bytes),
                 Protocol::ComputerLink if asks => self.computer_link(bytes),
+                Protocol::Can => can(bytes),
                 _ => plain(bytes),
             },
         }
@@ -221,6 +222,24 @@ fn plain(bytes: &[u8]) -> Decoded {
     Decoded {
         text: characters(bytes),
         error,
+        ..Decoded::default()
+    }
+}
+
+/// A frame on CAN as candump shows it, identifier and data: `200#1234`; an adapter's commands and answers as text.
+fn can(bytes: &[u8]) -> Decoded {
+    let Some(frame) = CanFrame::parse(bytes) else {
+        return plain(bytes);
+    };
+    let mut text = match frame.id & CanFrame::EXTENDED {
+        0 => format!("{:03X}#", frame.id),
+        _ => format!("{:08X}#", frame.id & !CanFrame::EXTENDED),
+    };
+    for byte in frame.data.iter().take(frame.len.into()) {
+        let _ = write!(text, "{byte:02X}");
+    }
+    Decoded {
+        text,
         ..Decoded::default()
     }
 }

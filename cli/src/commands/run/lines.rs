@@ -3,6 +3,8 @@
 //! A thread for each port notes when characters come in. The run is late by at most one scan, so that they reach the
 //! program's ports at their own times, and the end of a frame is where the line was silent.
 
+#[cfg(target_os = "linux")]
+mod can;
 mod frames;
 pub mod wire;
 
@@ -12,7 +14,7 @@ use frames::{Frames, Whole};
 use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_project::serve;
-use rungc_rt::comm::{LineFormat, Protocol, Received};
+use rungc_rt::comm::{CAN_PORT, LineFormat, Protocol, Received};
 use rungc_rt::{Plc, VirtualHal};
 use rungc_sim::serve::{Direction, Place, Seen, Speech};
 use std::io::ErrorKind;
@@ -34,8 +36,11 @@ pub struct Lines(Vec<Line>);
 /// A port of the PLC, and the port of this machine that it is.
 struct Line {
     number: u8,
-    /// What the other end is called.
+    /// What the port is called, and what the other end is.
+    port: String,
     name: String,
+    /// What the other end is sent when it is open.
+    opening: String,
     events: Receiver<Event>,
     /// The other end, while it is open.
     wire: Option<Wire>,
@@ -59,8 +64,12 @@ impl Lines {
     ///
     /// # Errors
     /// A port that the model does not have, and one that cannot be opened.
-    pub fn open(lines: &[serve::Line], model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
-        let lines = lines.iter().map(|line| {
+    pub fn open<'a>(
+        lines: impl Iterator<Item = &'a serve::Line>,
+        model: &Model,
+        watch: &mut Watch,
+    ) -> Result<Self, Failure> {
+        let lines = lines.map(|line| {
             let line = Line::open(line, model)?;
             watch.open(&line.place, Speech::Serial(line.protocol));
             Ok(line)
@@ -115,28 +124,28 @@ impl Lines {
 
 impl Line {
     fn open(line: &serve::Line, model: &Model) -> Result<Line, Failure> {
-        let number = line.port;
-        if model.ports.get(number).is_none() {
-            let known = model.ports.all().iter();
-            let known: Vec<_> = known.map(|port| format!("COM{}", port.number)).collect();
-            let message = format!(
-                "--serial: {} has no port COM{number}; its ports are {}",
-                model.title,
-                known.join(", ")
-            );
-            return Err(Failure::Because(message));
+        let port = line.name();
+        let option = if line.port == CAN_PORT {
+            "--can"
+        } else {
+            "--serial"
+        };
+        if let Some((message, help)) = line.missing(model) {
+            return Err(Failure::Because(format!("{option}: {message}; {help}")));
         }
         let (name, events) = wire::keep(&line.end).map_err(|error| {
-            Failure::Because(format!("--serial: cannot open {}: {error}", line.end))
+            Failure::Because(format!("{option}: cannot open {}: {error}", line.end))
         })?;
-        tell(&format!("rungc: COM{number} at {name}"));
+        tell(&format!("rungc: {port} at {name}"));
         let place = Place {
-            port: format!("COM{number}"),
+            port: port.clone(),
             peer: name.clone(),
         };
         Ok(Line {
-            number,
+            number: line.port,
+            port,
             name,
+            opening: line.end.opening(),
             events,
             wire: None,
             lost: false,
@@ -158,14 +167,14 @@ impl Line {
         begin: Instant,
         from_ms: u64,
     ) -> Vec<Whole> {
-        let Line { number, name, .. } = self;
+        let Line { port, name, .. } = self;
         match event {
             Event::Up(wire) => {
                 if std::mem::take(&mut self.lost) {
-                    tell(&format!("rungc: COM{number}: {name} is back"));
+                    tell(&format!("rungc: {port}: {name} is back"));
                 }
                 self.wire = Some(wire);
-                self.unsent.clear();
+                self.unsent = self.opening.clone().into_bytes();
                 self.format = LineFormat::new();
             }
             Event::Down(error) => {
@@ -178,7 +187,7 @@ impl Line {
                     None => "is not there",
                 };
                 tell(&format!(
-                    "rungc: COM{number}: {name} {what} ({why}); waiting for it"
+                    "rungc: {port}: {name} {what} ({why}); waiting for it"
                 ));
                 self.wire = None;
                 self.lost = true;
@@ -225,8 +234,8 @@ impl Line {
         self.format = format;
         if let Err(error) = wire.set_format(format) {
             tell(&format!(
-                "rungc: COM{}: the line cannot be set to {} bit/s, {} data bits: {error}",
-                self.number, format.bits_per_second, format.data_bits
+                "rungc: {}: the line cannot be set to {} bit/s, {} data bits: {error}",
+                self.port, format.bits_per_second, format.data_bits
             ));
         }
     }

@@ -28,6 +28,14 @@ fn line(speech: Speech, direction: Direction, bytes: &[u8], before: Option<&[u8]
 }
 
 #[test]
+fn frames_on_can_are_shown_as_candump_does() {
+    let shown = |bytes| line(Speech::Serial(Protocol::Can), Direction::In, bytes, None);
+    assert_eq!(shown(b"t20021234\r"), "CAN In: 200#1234");
+    assert_eq!(shown(b"T000002001FF\r"), "CAN In: 00000200#FF");
+    assert_eq!(shown(b"S6\r"), "CAN In: S6<CR>");
+}
+
+#[test]
 fn frames_as_they_are_shown() {
     use Direction::{In, Out};
     use Protocol::{ComputerLink, MasterRtu, ModbusAscii, ModbusRtu, NnMaster};

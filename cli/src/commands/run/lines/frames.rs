@@ -91,6 +91,11 @@ impl Frames {
         let cut = match protocol {
             Protocol::ProgrammingPort => fx_port::cut,
             Protocol::ModbusAscii => modbus::cut_ascii,
+            // Frames of both ways follow each other without a pause.
+            Protocol::Can => {
+                let ends = self.characters.ends_with(b"\r");
+                return Some(if ends { Cut::Whole } else { Cut::More });
+            }
             _ => return None,
         };
         self.incoming.then(|| cut(&self.characters))
@@ -117,6 +122,17 @@ mod tests {
         assert_eq!(frames.end(13_000, line), None);
         let whole = frames.end(16_000, line).unwrap();
         assert_eq!((whole.direction, whole.at_us), (Direction::Out, 12_000));
+    }
+
+    #[test]
+    fn frames_on_can_follow_each_other() {
+        let line = (Protocol::Can, LineFormat::new());
+        let mut frames = Frames::default();
+        let whole = b"t2000\rt2011FF\r"
+            .iter()
+            .flat_map(|&byte| frames.push(Direction::Out, 0, byte, line));
+        let whole: Vec<_> = whole.flatten().map(|whole| whole.bytes).collect();
+        assert_eq!(whole, [b"t2000\r".to_vec(), b"t2011FF\r".to_vec()]);
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! The end of a line on this machine: a serial port, a pseudo-terminal, or a TCP connection. A thread for each keeps it
 //! open: what vanishes is opened again.
 
+#[cfg(target_os = "linux")]
+use super::can::Interface;
 use rungc_project::serve::LineEnd;
 use rungc_rt::comm::{LineFormat, Parity};
 use serial2::{CharSize, SerialPort, Settings, StopBits};
@@ -32,6 +34,9 @@ pub enum Wire {
     Serial(SerialPort),
     /// A connection.
     Tcp(TcpStream),
+    /// A CAN interface.
+    #[cfg(target_os = "linux")]
+    Can(Interface),
 }
 
 /// What a thread has noticed.
@@ -68,10 +73,11 @@ enum Source {
 /// What the system says of an end of this machine. Another machine that does not answer is asked again.
 pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
     let (name, source, wire) = match end {
-        LineEnd::Path(_) => {
+        LineEnd::Path(_) | LineEnd::CanInterface(_) => {
             let wire = open(end)?;
             (end.to_string(), Source::Known(end.clone()), Some(wire))
         }
+        LineEnd::CanAdapter(end, _) => return keep(end),
         LineEnd::Tcp(_) => (end.to_string(), Source::Known(end.clone()), None),
         LineEnd::TcpListen(address) => {
             let listener = TcpListener::bind(address)?;
@@ -183,8 +189,23 @@ pub fn open(end: &LineEnd) -> io::Result<Wire> {
             }
             Err(last)
         }
-        LineEnd::Pty | LineEnd::TcpListen(_) => Err(ErrorKind::Unsupported.into()),
+        LineEnd::CanInterface(name) => interface(name),
+        LineEnd::Pty | LineEnd::TcpListen(_) | LineEnd::CanAdapter(..) => {
+            Err(ErrorKind::Unsupported.into())
+        }
     }
+}
+
+#[cfg(target_os = "linux")]
+fn interface(name: &str) -> io::Result<Wire> {
+    Interface::open(name, PATIENCE, WRITE_WAIT).map(Wire::Can)
+}
+
+/// There is no SocketCAN here.
+#[cfg(not(target_os = "linux"))]
+fn interface(_name: &str) -> io::Result<Wire> {
+    let why = "CAN interfaces (SocketCAN) exist on Linux alone; an adapter is written `slcan:PORT`";
+    Err(io::Error::new(ErrorKind::Unsupported, why))
 }
 
 fn prepared(mut port: SerialPort) -> io::Result<Wire> {
@@ -208,6 +229,8 @@ impl Wire {
         Ok(match self {
             Wire::Serial(port) => Wire::Serial(port.try_clone()?),
             Wire::Tcp(stream) => Wire::Tcp(stream.try_clone()?),
+            #[cfg(target_os = "linux")]
+            Wire::Can(interface) => Wire::Can(interface.try_clone()?),
         })
     }
 
@@ -219,6 +242,8 @@ impl Wire {
         match self {
             Wire::Serial(port) => port.read(buffer),
             Wire::Tcp(stream) => stream.read(buffer),
+            #[cfg(target_os = "linux")]
+            Wire::Can(interface) => interface.read(buffer),
         }
     }
 
@@ -227,6 +252,8 @@ impl Wire {
         let written = match self {
             Wire::Serial(port) => port.write(bytes),
             Wire::Tcp(stream) => stream.write(bytes),
+            #[cfg(target_os = "linux")]
+            Wire::Can(interface) => interface.write(bytes),
         };
         match written {
             Err(error) if is_patience(&error) => Ok(0),
