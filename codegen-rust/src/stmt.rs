@@ -145,9 +145,11 @@ impl Generator<'_> {
     }
 
     fn fault(&mut self, code: u16, step: u32) -> TokenStream {
-        let (report, fault) = (self.rt("report"), self.rt("Fault"));
-        let (code, step) = (Literal::u16_unsuffixed(code), Literal::u32_unsuffixed(step));
-        quote!(#report(plc, #fault(#code), #step);)
+        let (code, step) = (
+            Literal::u16_unsuffixed(code),
+            Literal::u16_unsuffixed(step as u16),
+        );
+        quote!(plc.fault(#code, #step);)
     }
 
     fn watch(&mut self, steps: u32, at: u32) -> TokenStream {

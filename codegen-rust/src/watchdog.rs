@@ -3,8 +3,8 @@
 use crate::generate::Generator;
 use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
-use rungc_emit::cycle::{self, Budget};
+use quote::{ToTokens, quote};
+use rungc_emit::cycle::{self, Budget, Shown, Shows};
 use rungc_ir::Module;
 use rungc_ir::node::STEPS_PER_MS;
 use rungc_syntax::DeviceClass;
@@ -33,7 +33,8 @@ impl Generator<'_> {
 
     /// What stops a scan that does not end.
     pub fn watchdog(&mut self) -> TokenStream {
-        let [trip, stop] = ["trip_watchdog", "Stop"].map(|name| self.rt(name));
+        let stop = self.rt("Stop");
+        let shows = self.show(&cycle::watchdog_shows(self.module.model, &self.storage));
         let doc = self.doc(
             "Counts the steps that a loop or a jump back repeats. After too many in one scan the PLC stops, as its watchdog would have it.",
         );
@@ -49,11 +50,57 @@ impl Generator<'_> {
                     self.sys.running = false;
                     self.error.stop = #stop::Watchdog;
                     self.error.stop_step = step;
-                    #trip(self);
+                    #(#shows)*
                 }
                 true
             }
         }
+    }
+
+    /// The method that reports an operation error which the program finds itself (see the runtime's `report`), as far as
+    /// the program looks at it.
+    pub fn fault_method(&mut self) -> TokenStream {
+        let [first, each] = cycle::fault_shows(self.module.model, &self.storage);
+        let shown = self.show(&first);
+        let first = match first.first() {
+            Some(&(class, number, Shown::On)) => {
+                let relay = self.storage.bit(&quote!(self), class, number);
+                quote!(if !#relay { #(#shown)* })
+            }
+            _ => quote!(#(#shown)*),
+        };
+        let each = self.show(&each);
+        let plc = self.rt("Plc");
+        let doc = self.doc(
+            "An operation error: the instruction is skipped, the error shown in the special devices that the program looks at.",
+        );
+        quote! {
+            #doc
+            pub(crate) fn fault(&mut self, code: u16, step: u16) {
+                #first
+                #(#each)*
+                #plc::note_error(self, code, step.into());
+            }
+        }
+    }
+
+    /// The statements by which special devices show an error.
+    fn show(&self, shows: &[Shows]) -> Vec<TokenStream> {
+        let plc = quote!(self);
+        let statement = |&(class, number, shown): &Shows| {
+            let value = match shown {
+                Shown::On => {
+                    let relay = self.storage.bit(&plc, class, number)?;
+                    return Some(quote!(#relay = true;));
+                }
+                Shown::Word(value) => Literal::i16_unsuffixed(value).into_token_stream(),
+                Shown::Code => quote!(code as i16),
+                Shown::Step => quote!(step as i16),
+            };
+            let register = self.storage.word(&plc, class, number)?;
+            Some(quote!(#register = #value;))
+        };
+        shows.iter().filter_map(statement).collect()
     }
 
     /// The method of `Plc` that keeps an operation error for the host.

@@ -179,10 +179,11 @@ impl Generator<'_> {
         });
         let clear_general = self.clear(false);
         let lost = cycle::latches(self.module, &self.storage) != Latches::Kept;
-        let clear_latched =
-            (Asked::of(&self.plan).clears_latched || lost).then(|| self.clear(true));
+        let asked = Asked::of(&self.plan);
+        let clear_latched = (asked.clears_latched || lost).then(|| self.clear(true));
         let forget = self.forget();
         let watchdog = self.module.has_watchdog().then(|| self.watchdog());
+        let fault = asked.faults.then(|| self.fault_method());
         let count_pulses = self.count_pulses();
         let advance_ports = self.advance_ports();
         let pulse_outputs = self.pulse_outputs();
@@ -197,6 +198,7 @@ impl Generator<'_> {
                 #count_pulses
                 #advance_ports
                 #watchdog
+                #fault
             }
             impl Default for #name {
                 fn default() -> Self { Self::new() }
