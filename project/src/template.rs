@@ -79,7 +79,6 @@ deny = []
 # mc = "127.0.0.1:5001"
 # fx = "127.0.0.1:5556"
 # serial = {{ COM1 = "/dev/ttyUSB0" }}
-# can = "can0"
 # D = "D0-D511"
 "#,
         models = models.join(", ")
