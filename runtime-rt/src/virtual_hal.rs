@@ -1,14 +1,14 @@
 //! Hardware for tests, simulation and `rungc run`: everything is memory, and time is virtual.
 
 use crate::hal::{Clock, Hal, SerialPort};
-use crate::modules::{Kind, Module, Quantity, Signal};
+use crate::modules::{BOARD, Kind, Module, Quantity, Signal};
 use crate::virtual_line::VirtualLine;
 
 /// Words of buffer memory that all modules together may hold.
 const BFM_WORDS: usize = 1024;
 
-/// Special modules that may be fitted.
-const MODULES: usize = 8;
+/// Special modules that may be fitted, and the analog board.
+const MODULES: usize = 8 + 1;
 
 /// Built-in analog inputs.
 const ANALOG_CHANNELS: usize = 16;
@@ -108,9 +108,12 @@ impl VirtualHal {
         }
     }
 
-    /// Fits a special module with this number; `None` if there is one already, or if there are 8.
+    /// Fits a special module with this number, or the board; `None` if there is one already, or if there are 8 modules.
     pub fn fit(&mut self, unit: u16, kind: &'static Kind) -> Option<()> {
-        if self.has_unit(unit) || self.module(unit).is_some() {
+        let others = self.modules.iter().flatten();
+        let modules = others.filter(|(own, _)| *own != BOARD).count();
+        let is_full = unit != BOARD && modules == MODULES - 1;
+        if is_full || self.has_unit(unit) || self.module(unit).is_some() {
             return None;
         }
         let place = self.modules.iter_mut().find(|place| place.is_none())?;

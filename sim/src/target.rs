@@ -1,18 +1,35 @@
 //! Names in `set`, `init` and `expect`: `M0`, `D0.i32`, `K4M0`, `T0.value`, `Y000.pulses`.
 
-use rungc_rt::modules::Quantity;
+use rungc_rt::modules::{BOARD, Quantity};
 use rungc_syntax::DeviceClass;
 use std::fmt;
 
-/// A channel of a special module: `0:CH1.mA`.
+/// A channel of a special module, `0:CH1.mA`, or one of its terminals, `101:X5`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Channel {
     /// The module's number.
     pub unit: u16,
-    /// The channel's, from 1.
+    /// The channel's, from 1; a terminal's, with 1 for X0 and Y0.
     pub number: u8,
-    /// In what it is measured.
+    /// In what it is measured, or which terminals are meant.
     pub quantity: Quantity,
+}
+
+/// How names and settings call the analog board in the main unit.
+pub const BOARD_NAME: &str = "board";
+
+/// The letters of terminals.
+const TERMINALS: [(&str, Quantity); 2] = [
+    ("X", Quantity::InputTerminal),
+    ("Y", Quantity::OutputTerminal),
+];
+
+/// The number of a module as names and test files have it.
+pub fn unit(name: &str) -> Option<u16> {
+    match name.eq_ignore_ascii_case(BOARD_NAME) {
+        true => Some(BOARD),
+        false => name.parse().ok(),
+    }
 }
 
 /// The units of channels as names end in them, and the quantities.
@@ -26,12 +43,16 @@ impl Channel {
     /// Reads a name, if it begins like that of a channel; the error says what is wrong with it.
     fn parse(name: &str) -> Option<Result<Channel, String>> {
         let (unit, channel) = name.split_once(':')?;
-        let unit = unit.parse().ok()?;
+        let unit = self::unit(unit)?;
         let wrong = || {
-            format!("`{name}`: write a channel of a module as `0:CH1.V`, `0:CH1.mA` or `0:CH1.C`")
+            format!(
+                "`{name}`: write a channel of a module as `0:CH1.V`, `0:CH1.mA` or `0:CH1.C`, and a terminal as `101:X5`"
+            )
         };
         let channel = || {
-            let (channel, view) = channel.split_once('.')?;
+            let Some((channel, view)) = channel.split_once('.') else {
+                return Channel::terminal(unit, channel);
+            };
             let letters = channel.get(..2)?;
             let number = channel.get(2..)?.parse().ok()?;
             let named = UNITS
@@ -47,15 +68,33 @@ impl Channel {
         };
         Some(channel().ok_or_else(wrong))
     }
+
+    /// A terminal by its letter and its octal number.
+    fn terminal(unit: u16, name: &str) -> Option<Channel> {
+        let (letter, number) = name.split_at_checked(1)?;
+        let mut known = TERMINALS.iter();
+        let (_, quantity) = known.find(|(own, _)| own.eq_ignore_ascii_case(letter))?;
+        let number = u8::from_str_radix(number, 8).ok()?;
+        Some(Channel {
+            unit,
+            number: number.checked_add(1)?,
+            quantity: *quantity,
+        })
+    }
 }
 
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = UNITS
-            .iter()
-            .find(|(_, quantity)| *quantity == self.quantity);
-        let unit = unit.map_or("", |(unit, _)| unit);
-        write!(f, "{}:CH{}.{unit}", self.unit, self.number)
+        match self.unit {
+            BOARD => write!(f, "{BOARD_NAME}:")?,
+            unit => write!(f, "{unit}:")?,
+        }
+        let named = |(_, quantity): &&(&str, Quantity)| *quantity == self.quantity;
+        if let Some((letter, _)) = TERMINALS.iter().find(named) {
+            return write!(f, "{letter}{:o}", self.number.saturating_sub(1));
+        }
+        let unit = UNITS.iter().find(named).map_or("", |(unit, _)| unit);
+        write!(f, "CH{}.{unit}", self.number)
     }
 }
 
@@ -232,7 +271,7 @@ impl fmt::Display for Target {
 #[cfg(test)]
 mod tests {
     use super::{Channel, Target};
-    use rungc_rt::modules::Quantity;
+    use rungc_rt::modules::{BOARD, Quantity};
     use rungc_syntax::DeviceClass::{C, D, M, X, Y};
 
     #[test]
@@ -250,6 +289,22 @@ mod tests {
                     unit: 101,
                     number: 4,
                     quantity: Quantity::Milliamperes,
+                }),
+            ),
+            (
+                "board:CH1.V",
+                Target::Channel(Channel {
+                    unit: BOARD,
+                    number: 1,
+                    quantity: Quantity::Volts,
+                }),
+            ),
+            (
+                "101:X17",
+                Target::Channel(Channel {
+                    unit: 101,
+                    number: 16,
+                    quantity: Quantity::InputTerminal,
                 }),
             ),
             ("Y000", Target::Bit(Y, 0)),
@@ -290,6 +345,8 @@ mod tests {
             "D0/",
             "0:CH1",
             "0:CH0.V",
+            "0:X8",
+            "0:Z1",
             "0:CH1.A",
             "0:D1.V",
         ] {

@@ -19,12 +19,30 @@ pub fn modules() -> String {
         ranges(&mut page, "inputs", kind.input_ranges, 1..=kind.inputs);
         let outputs = kind.inputs + 1..=kind.inputs + kind.outputs;
         ranges(&mut page, "outputs", kind.output_ranges, outputs);
+        points(&mut page, kind);
+        if kind.bfms.is_empty() {
+            page.push('\n');
+            continue;
+        }
         page += "\n\n| BFM | channel | meaning | default | access |\n|--:|---|---|--:|---|\n";
         for bfm in kind.bfms {
             row(&mut page, kind, bfm);
         }
     }
     page
+}
+
+/// The terminals.
+fn points(page: &mut String, kind: &Kind) {
+    let [inputs, outputs] = kind.points;
+    let named = [(inputs, 'X'), (outputs, 'Y')];
+    let named = named.into_iter().filter(|(count, _)| *count > 0);
+    let named: Vec<_> = named
+        .map(|(count, letter)| format!("{letter}0 to {letter}{:o}", count - 1))
+        .collect();
+    if !named.is_empty() {
+        let _ = write!(page, "\n\nTerminals: {}.", named.join(", "));
+    }
 }
 
 /// The ranges of the channels.
@@ -46,9 +64,15 @@ fn ranges(
         page,
         "\n\n{channels} are {what}:\n\n| digit | 0 stands for | gain | held in |\n|--:|--:|--:|--:|\n"
     );
-    let rows = ranges.iter().enumerate().map(|(digit, range)| match range {
+    // Where each channel has a word of its own, its types need not follow each other.
+    let sparse = ranges.len() > 8 || ranges.iter().take(5).all(Option::is_none);
+    let shown = ranges.iter().enumerate();
+    let shown = shown.filter(|(_, range)| range.is_some() || !sparse);
+    let rows = shown.map(|(digit, range)| match range {
         None => format!("| {digit} | off | | |"),
         Some(range) => {
+            // The second terminal of an input has the same types as the first.
+            let digit = digit % 16;
             let analog = |thousandths: i32| {
                 let unit = range.quantity.unit();
                 format!("{} {unit}", f64::from(thousandths) / 1000.0)
@@ -71,9 +95,13 @@ fn ranges(
 /// A row of buffer memory.
 fn row(page: &mut String, kind: &Kind, bfm: &Bfm) {
     let last = bfm.first + u16::from(bfm.count) - 1;
-    let numbers = match last == bfm.first {
-        true => bfm.first.to_string(),
-        false => format!("{} – {last}", bfm.first),
+    let numbers = match (bfm.stride, last == bfm.first) {
+        (_, true) => bfm.first.to_string(),
+        (1, false) => format!("{} – {last}", bfm.first),
+        _ => {
+            let all: Vec<_> = bfm.numbers().map(|number| number.to_string()).collect();
+            all.join(", ")
+        }
     };
     let channels = kind.channels(bfm).map_or(String::new(), |(first, each)| {
         let last = first + bfm.count / each;

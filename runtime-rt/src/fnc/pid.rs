@@ -273,7 +273,31 @@ mod tuning_at {
 }
 
 /// Least distance from the target at which tuning may begin.
-const TUNE_MIN_DISTANCE: f32 = 150.0;
+pub(crate) const TUNE_MIN_DISTANCE: f32 = 150.0;
+
+/// Gains that a step response gives: of its steepest slope R (per millisecond) and its dead time L, Kp = 1.2 / (R L) of
+/// the step, Ti = 2 L, Td = L / 2.
+pub(crate) struct Tuned {
+    pub(crate) kp: f32,
+    pub(crate) ti_ms: f32,
+    pub(crate) td_ms: f32,
+}
+
+impl Tuned {
+    pub(crate) fn new(step: f32, slope: f32, delay_ms: f32) -> Self {
+        let delay_ms = delay_ms.max(1.0);
+        Tuned {
+            kp: 1.2 / (slope * delay_ms) * step,
+            ti_ms: 2.0 * delay_ms,
+            td_ms: 0.5 * delay_ms,
+        }
+    }
+}
+
+/// A setting that a word of the work area can hold.
+pub(crate) fn setting(value: f32) -> i16 {
+    libm::roundf(value).clamp(1.0, 32767.0) as i16
+}
 
 /// Auto-tuning by step response: D stays at the step that the program has put there. When the measured value has gone a
 /// third of the way to the target, the steepest slope R and the dead time L give Kp = 1.2 / (R L) of the step, Ti = 2
@@ -325,16 +349,11 @@ fn tune(cx: &mut Cx) -> Done {
 fn finish_tuning(cx: &mut Cx) -> Done {
     let step = libm::fabsf(f32::from(cx.word(OPERAND_D, 0)?));
     let slope = cx.float(OPERAND_S3, tuning_at::SLOPE)?;
-    let delay = cx.float(OPERAND_S3, tuning_at::DELAY)?.max(1.0);
-    let setting = |value: f32| libm::roundf(value).clamp(1.0, 32767.0) as i16;
+    let tuned = Tuned::new(step, slope, cx.float(OPERAND_S3, tuning_at::DELAY)?);
     let action = cx.word(OPERAND_S3, at::ACT)?;
-    cx.set_word(
-        OPERAND_S3,
-        at::KP,
-        setting(1.2 / (slope * delay) * step * 100.0),
-    )?;
-    cx.set_word(OPERAND_S3, at::TI, setting(2.0 * delay / 100.0))?;
-    cx.set_word(OPERAND_S3, at::TD, setting(0.5 * delay / 10.0))?;
+    cx.set_word(OPERAND_S3, at::KP, setting(tuned.kp * 100.0))?;
+    cx.set_word(OPERAND_S3, at::TI, setting(tuned.ti_ms / 100.0))?;
+    cx.set_word(OPERAND_S3, at::TD, setting(tuned.td_ms / 10.0))?;
     cx.set_word(OPERAND_S3, at::ACT, action & !act::TUNE)?;
     cx.set_word(OPERAND_S3, at::STARTED, 0)
 }

@@ -5,15 +5,25 @@
 //! virtual hardware of tests and simulation fits such modules, and a host whose converters are to look like a module
 //! to the program can do the same.
 //!
-//! Sources: h1u-h2u-programming §6.3 to §6.6, and the user's guides of FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA,
+//! Sources: h1u-h2u-programming §6.2 to §6.7, hm-motion-controller §7, l01s-programming §9, and the user's guides of FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA,
 //! FX0N-3A, FX2N-4AD-PT, FX2N-4AD-TC and the analog control edition of FX3U.
 
+mod board;
+mod curves;
 mod meaning;
+mod points;
+mod positioner;
+mod roles;
 mod tables;
+mod thermostat;
 mod unit;
 
+pub use roles::{AxisWord, Role, Term};
 pub use tables::KINDS;
 pub use unit::Module;
+
+/// The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
+pub const BOARD: u16 = 200;
 
 /// What a channel measures or puts out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,11 +35,21 @@ pub enum Quantity {
     Milliamperes = 1,
     /// Degrees Celsius.
     Celsius = 2,
+    /// An input terminal: 1 if it is on. Its channels count the X of the module, the first being X0.
+    InputTerminal = 3,
+    /// An output terminal: 1 if it is on. Its channels count the Y of the module, the first being Y0.
+    OutputTerminal = 4,
 }
 
 impl Quantity {
     /// All of them, by their numbers.
-    pub const ALL: [Quantity; 3] = [Quantity::Volts, Quantity::Milliamperes, Quantity::Celsius];
+    pub const ALL: [Quantity; 5] = [
+        Quantity::Volts,
+        Quantity::Milliamperes,
+        Quantity::Celsius,
+        Quantity::InputTerminal,
+        Quantity::OutputTerminal,
+    ];
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
@@ -37,6 +57,7 @@ impl Quantity {
             Quantity::Volts => "V",
             Quantity::Milliamperes => "mA",
             Quantity::Celsius => "°C",
+            Quantity::InputTerminal | Quantity::OutputTerminal => "",
         }
     }
 
@@ -66,7 +87,7 @@ impl Signal {
     /// let through, a voltage input that gets a current sees more than it can measure. `None`: no such signal reaches
     /// it.
     pub fn seen_as(self, quantity: Quantity) -> Option<i32> {
-        use Quantity::{Celsius, Milliamperes, Volts};
+        use Quantity::{Milliamperes, Volts};
         match (self.quantity, quantity) {
             (from, to) if from == to => Some(self.millionths),
             (Volts, Milliamperes) => Some(self.millionths.saturating_mul(MILLIAMPERES_PER_VOLT)),
@@ -74,8 +95,7 @@ impl Signal {
                 0 => 0,
                 sign => sign * i32::MAX,
             }),
-            (Celsius, _) | (_, Celsius) => None,
-            (Volts | Milliamperes, _) => None,
+            _ => None,
         }
     }
 }
@@ -165,96 +185,15 @@ pub enum Access {
     Kept,
 }
 
-/// What a word of buffer memory is for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Role {
-    /// The ranges of the inputs, a hexadecimal digit each, the lowest that of the first.
-    InputRanges,
-    /// How many samples make a mean.
-    Samples,
-    /// The mean of the last samples.
-    Mean,
-    /// The last sample.
-    Present,
-    /// The mean in tenths of a degree Fahrenheit.
-    MeanFahrenheit,
-    /// The last sample in tenths of a degree Fahrenheit.
-    PresentFahrenheit,
-    /// How long a conversion takes.
-    Rate,
-    /// 1 restores what the inputs were set to at the factory.
-    InputReset,
-    /// Whether ranges, offset and gain of the inputs may be changed.
-    InputLock,
-    /// Bits that give the offset or the gain to channels, two for each.
-    InputTakeOver,
-    /// Offset for the channels that take it over.
-    InputOffset,
-    /// Gain for the channels that take it over.
-    InputGain,
-    /// Bits that give offset and gain to channels, one for each.
-    InputTakeOverBoth,
-    /// Offset of a channel, once it takes it over.
-    InputOffsets,
-    /// Gain of a channel, once it takes it over.
-    InputGains,
-    /// Added to what a channel measures.
-    Addition,
-    /// The least value measured since the last reset.
-    LeastPeak,
-    /// The greatest value measured since the last reset.
-    GreatestPeak,
-    /// Bits that set the peaks of channels to the present value, one for each.
-    PeakReset,
-    /// Channels that have measured too little or too much, two bits for each; stays until 0 is written.
-    RangeLatch,
-    /// What is wrong with the inputs.
-    InputError,
-    /// The ranges of the outputs, a hexadecimal digit each.
-    OutputRanges,
-    /// What an output puts out.
-    Output,
-    /// What the outputs do in STOP, a hexadecimal digit each: 0 they hold, 1 they go to their offset.
-    StopModes,
-    /// Hexadecimal digits that give offset or gain to two channels.
-    OutputTakeOver,
-    /// Offset and gain of the outputs by turns, once they take them over.
-    OutputCurves,
-    /// Bits that give offset and gain to outputs, one for each.
-    OutputTakeOverBoth,
-    /// Offset of an output, once it takes it over.
-    OutputOffsets,
-    /// Gain of an output, once it takes it over.
-    OutputGains,
-    /// 1 restores what the outputs were set to at the factory.
-    OutputReset,
-    /// Whether ranges, offset and gain of the outputs may be changed.
-    OutputLock,
-    /// What is wrong with the outputs.
-    OutputError,
-    /// The version of the module's software.
-    Version,
-    /// Which module it is.
-    Identification,
-    /// A setting that the simulated module keeps and does not act on.
-    Setting,
-    /// The low byte of what was measured last.
-    LowByte,
-    /// The high bits of what was measured last.
-    HighBits,
-    /// What is to be put out.
-    Data,
-    /// Bits that choose a channel and start conversions.
-    Control,
-}
-
-/// Words of buffer memory that follow each other and have one role, mostly one for each channel.
+/// Words of buffer memory at equal distances that have one role, mostly one for each channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bfm {
     /// The number of the first.
     pub first: u16,
     /// How many there are.
     pub count: u8,
+    /// How far apart their numbers are.
+    pub stride: u16,
     /// What they are for.
     pub role: Role,
     /// What a program may do with them.
@@ -266,8 +205,15 @@ pub struct Bfm {
 impl Bfm {
     /// Which of its words has this number.
     pub fn word(&self, number: u16) -> Option<usize> {
-        let at = usize::from(number.checked_sub(self.first)?);
-        (at < usize::from(self.count)).then_some(at)
+        let at = number.checked_sub(self.first)?;
+        let word = usize::from(at / self.stride);
+        (at % self.stride == 0 && word < usize::from(self.count)).then_some(word)
+    }
+
+    /// The numbers of its words.
+    pub fn numbers(&self) -> impl Iterator<Item = u16> + use<> {
+        let (first, stride) = (self.first, self.stride);
+        (0..u16::from(self.count)).map(move |word| first + word * stride)
     }
 }
 
@@ -285,8 +231,49 @@ pub enum Start {
     Fx2n2da,
 }
 
+/// Which PLCs a kind of module belongs to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// FROM and TO reach it, on any model that has them.
+    Bus,
+    /// It is on the CAN bus of H1U and H2U: its number is 100 and its station.
+    Remote,
+    /// The slot of the main unit of H1U and H2U.
+    Slot,
+    /// The bus of HM, whose modules have registers and no buffer memory.
+    Hm,
+    /// The bus of L01S.
+    L01s,
+}
+
+/// What a module does besides converting.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Duty {
+    /// Nothing.
+    None,
+    /// It controls temperatures. Its outputs are 0 to these with a relay and with a digital output.
+    Thermostat {
+        /// Full output of a relay.
+        relay: i16,
+        /// Full digital output.
+        digital: i16,
+    },
+    /// It moves four axes.
+    Positioner,
+    /// It is an analog board, with this answer to the PLC.
+    Board {
+        /// What D8230 shows while it works.
+        answer: i16,
+        /// The greatest filter constant; beyond it, a board that has an earlier one keeps that one.
+        most_filter: i16,
+        /// Whether each input has a terminal for voltage and one for current. Else the table of ranges has one for each
+        /// input.
+        has_both: bool,
+    },
+}
+
 /// A kind of module.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Kind {
     /// Its name.
     pub name: &'static str,
@@ -304,6 +291,12 @@ pub struct Kind {
     pub output_ranges: &'static [Option<Range>],
     /// The last number of its buffer memory.
     pub last: u16,
+    /// How many input terminals and output terminals it has.
+    pub points: [u8; 2],
+    /// Which PLCs it belongs to.
+    pub place: Place,
+    /// What it does besides converting.
+    pub duty: Duty,
     /// Its buffer memory. What is not in it up to `last` is reserved: it reads as 0.
     pub bfms: &'static [Bfm],
     /// How long it takes to convert a channel, in microseconds, where the program does not choose it.
@@ -349,13 +342,17 @@ impl Kind {
     /// The channels of a row's words, counted from 0: that of the first, and how many words each has.
     pub fn channels(&self, bfm: &Bfm) -> Option<(u8, u8)> {
         use Role::{
-            Addition, GreatestPeak, InputGains, InputOffsets, LeastPeak, Mean, MeanFahrenheit,
-            Output, OutputCurves, OutputGains, OutputOffsets, Present, PresentFahrenheit, Samples,
+            Addition, GreatestPeak, InputGains, InputOffsets, InputTypes, LeastPeak, Mean,
+            MeanFahrenheit, Output, OutputCurves, OutputGains, OutputOffsets, OutputShown,
+            OutputTypes, Present, PresentFahrenheit, Samples, Thermostat,
         };
         match bfm.role {
             Samples | Mean | Present | MeanFahrenheit | PresentFahrenheit | InputOffsets
-            | InputGains | Addition | LeastPeak | GreatestPeak => Some((0, 1)),
-            Output | OutputOffsets | OutputGains => Some((self.inputs, 1)),
+            | InputGains | InputTypes | Addition | LeastPeak | GreatestPeak => Some((0, 1)),
+            Thermostat(_) => Some((0, 1)),
+            Output | OutputOffsets | OutputGains | OutputTypes | OutputShown => {
+                Some((self.inputs, 1))
+            }
             OutputCurves => Some((self.inputs, 2)),
             _ => None,
         }

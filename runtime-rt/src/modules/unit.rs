@@ -1,12 +1,17 @@
 //! A special module at work.
 
-use super::{Access, Bfm, Curve, Kind, Quantity, Range, Role, Signal, Start};
+use super::positioner::Axes;
+use super::thermostat::Thermostat;
+use super::{Access, Bfm, Curve, Duty, Kind, Quantity, Range, Role, Signal, Start};
 
 /// Words of buffer memory that a module may have: more than any kind has.
-const WORDS: usize = 64;
+const WORDS: usize = 208;
 
 /// Inputs that a module may have, and outputs.
-const CHANNELS: usize = 4;
+pub(super) const CHANNELS: usize = 4;
+
+/// By how much the type of an input is greater in the table of ranges for the other of its terminals.
+const OTHER_TERMINAL: usize = 16;
 
 /// Bits of error words: any error, a value out of range, a number of samples out of range, settings locked.
 const RANGE_ERROR: i16 = 1 << 10;
@@ -15,21 +20,21 @@ const LOCKED: i16 = 1 << 12;
 
 /// An input.
 #[derive(Clone, Copy, Debug)]
-struct Input {
+pub(super) struct Input {
     signal: Option<Signal>,
     /// Offset and gain that the program has given it.
-    curve: Option<Curve>,
-    sum: i32,
-    samples: i16,
+    pub(super) curve: Option<Curve>,
+    pub(super) sum: i32,
+    pub(super) samples: i16,
     /// Whether the last sample was out of range.
     is_out: bool,
 }
 
 /// An output.
 #[derive(Clone, Copy, Debug)]
-struct Output {
+pub(super) struct Output {
     digital: i32,
-    curve: Option<Curve>,
+    pub(super) curve: Option<Curve>,
     is_out: bool,
 }
 
@@ -39,16 +44,24 @@ struct Output {
 /// of them take.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
-    kind: &'static Kind,
+    pub(super) kind: &'static Kind,
     /// The words of the table's rows, in their order.
     words: [i16; WORDS],
-    inputs: [Input; CHANNELS],
-    outputs: [Output; CHANNELS],
+    pub(super) inputs: [Input; CHANNELS],
+    pub(super) outputs: [Output; CHANNELS],
     /// Microseconds since the last conversion.
     since_us: u32,
     /// The low byte that the next conversion of an output takes.
     held_low: i16,
     is_running: bool,
+    /// Which input terminals are on, and which output terminals.
+    pub(super) points: [u16; 2],
+    /// The filter of a board.
+    pub(super) filter: i16,
+    /// Microseconds that are not a millisecond yet.
+    rest_us: u32,
+    pub(super) thermostats: [Thermostat; CHANNELS],
+    pub(super) axes: Axes,
 }
 
 impl Module {
@@ -74,6 +87,11 @@ impl Module {
             since_us: 0,
             held_low: 0,
             is_running: true,
+            points: [0; 2],
+            filter: 1,
+            rest_us: 0,
+            thermostats: [Thermostat::new(); CHANNELS],
+            axes: Axes::new(),
         };
         module.restore(|_| true);
         module
@@ -105,7 +123,10 @@ impl Module {
         for output in &mut self.outputs {
             (output.digital, output.is_out) = (0, false);
         }
-        (self.since_us, self.held_low) = (0, 0);
+        (self.since_us, self.held_low, self.rest_us) = (0, 0, 0);
+        (self.points[1], self.filter) = (0, 1);
+        self.thermostats = [Thermostat::new(); CHANNELS];
+        self.axes = Axes::new();
         self.is_running = true;
     }
 
@@ -123,9 +144,21 @@ impl Module {
     }
 
     /// Word `n` of a role; 0 if the module has none.
-    fn get(&self, role: Role, n: usize) -> i16 {
-        let bfm = self.kind.with(role);
-        bfm.map_or(0, |bfm| self.get_of(bfm, n))
+    pub(super) fn get(&self, role: Role, n: usize) -> i16 {
+        let word = self.slot(role, n).and_then(|place| self.words.get(place));
+        word.copied().unwrap_or(0)
+    }
+
+    /// Where word `n` of a role is among all, if the module has it.
+    fn slot(&self, role: Role, n: usize) -> Option<usize> {
+        let mut start = 0;
+        for bfm in self.kind.bfms {
+            if bfm.role == role {
+                return (n < usize::from(bfm.count)).then_some(start + n);
+            }
+            start += usize::from(bfm.count);
+        }
+        None
     }
 
     /// Word `n` of a row; 0 if it has none.
@@ -136,9 +169,10 @@ impl Module {
     }
 
     /// Sets word `n` of a role, if the module has it.
-    fn set(&mut self, role: Role, n: usize, value: i16) {
-        if let Some(bfm) = self.kind.with(role) {
-            self.set_of(bfm, n, value);
+    pub(super) fn set(&mut self, role: Role, n: usize, value: i16) {
+        let place = self.slot(role, n);
+        if let Some(word) = place.and_then(|place| self.words.get_mut(place)) {
+            *word = value;
         }
     }
 
@@ -157,28 +191,53 @@ impl Module {
         ranges.get(digit).copied().flatten()
     }
 
+    /// The range that a word of its own chooses for a channel.
+    fn chosen(&self, channel: usize, role: Role, ranges: &[Option<Range>]) -> Option<Range> {
+        let chosen = usize::try_from(self.get(role, channel)).ok()?;
+        let range = ranges.get(chosen).copied().flatten()?;
+        let signal = self.inputs.get(channel).and_then(|input| input.signal);
+        let other = ranges.get(chosen + OTHER_TERMINAL).copied().flatten();
+        let other = other.filter(|other| signal.is_some_and(|s| s.quantity == other.quantity));
+        Some(other.unwrap_or(range))
+    }
+
+    /// The range of the terminal that a signal is connected to.
+    fn connected(&self, channel: usize) -> Option<Range> {
+        let signal = self.inputs.get(channel)?.signal?;
+        let mut ranges = self.kind.input_ranges.iter().flatten();
+        ranges
+            .find(|range| range.quantity == signal.quantity)
+            .copied()
+    }
+
     /// The range of an input; `None` if it is off.
-    fn input_range(&self, channel: usize) -> Option<Range> {
+    pub(super) fn input_range(&self, channel: usize) -> Option<Range> {
+        let ranges = self.kind.input_ranges;
         if channel >= usize::from(self.kind.inputs) {
             return None;
         }
-        if self.kind.start == Start::Itself {
-            return self.range(channel, Role::InputRanges, self.kind.input_ranges);
+        match self.kind.duty {
+            Duty::Board { has_both: true, .. } => return self.connected(channel),
+            Duty::Board { .. } => return ranges.get(channel).copied().flatten(),
+            _ if self.kind.start != Start::Itself => return self.connected(channel),
+            _ => {}
         }
-        // These inputs have a terminal for each quantity.
-        let signal = self.inputs.get(channel)?.signal?;
-        let ranges = self.kind.input_ranges.iter().flatten();
-        ranges
-            .copied()
-            .find(|range| range.quantity == signal.quantity)
+        if self.kind.with(Role::InputTypes).is_some() {
+            return self.chosen(channel, Role::InputTypes, ranges);
+        }
+        self.range(channel, Role::InputRanges, ranges)
     }
 
     /// The range of an output; `None` if it is off.
-    fn output_range(&self, channel: usize, quantity: Option<Quantity>) -> Option<Range> {
+    pub(super) fn output_range(&self, channel: usize, quantity: Option<Quantity>) -> Option<Range> {
         if channel >= usize::from(self.kind.outputs) {
             return None;
         }
-        if self.kind.start == Start::Itself {
+        let is_board = matches!(self.kind.duty, Duty::Board { .. });
+        if self.kind.with(Role::OutputTypes).is_some() {
+            return self.chosen(channel, Role::OutputTypes, self.kind.output_ranges);
+        }
+        if self.kind.start == Start::Itself && !is_board {
             return self.range(channel, Role::OutputRanges, self.kind.output_ranges);
         }
         let ranges = self.kind.output_ranges.iter().flatten();
@@ -189,6 +248,11 @@ impl Module {
 
     /// What is connected to input `channel`, counted from 0, from now on; `None` if the module does not have it.
     pub fn connect(&mut self, channel: u8, signal: Signal) -> Option<()> {
+        match signal.quantity {
+            Quantity::InputTerminal => return self.switch(channel, signal.millionths != 0),
+            Quantity::OutputTerminal => return None,
+            _ => {}
+        }
         let channel = usize::from(channel);
         if channel >= usize::from(self.kind.inputs) {
             return None;
@@ -200,6 +264,9 @@ impl Module {
     /// What is at a channel, counted from 0: what is connected to an input, or what an output puts out, in
     /// millionths; 0 if that is of another quantity. `None` if the module does not have the channel.
     pub fn signal(&self, channel: u8, quantity: Quantity) -> Option<i32> {
+        if let Quantity::InputTerminal | Quantity::OutputTerminal = quantity {
+            return self.point(channel, quantity);
+        }
         let channel = usize::from(channel);
         let inputs = usize::from(self.kind.inputs);
         if channel < inputs {
@@ -230,15 +297,28 @@ impl Module {
         match range.quantity {
             // A current output drives in one direction only.
             Quantity::Milliamperes => millionths.max(0),
-            Quantity::Volts | Quantity::Celsius => millionths,
+            _ => millionths,
         }
     }
 
     /// Microseconds pass.
     pub fn pass(&mut self, microseconds: u32) {
-        if self.kind.start != Start::Itself {
-            return;
+        if self.kind.start == Start::Itself {
+            self.take_samples(microseconds);
         }
+        self.rest_us = self.rest_us.saturating_add(microseconds);
+        while self.rest_us >= 1000 {
+            self.rest_us -= 1000;
+            match self.kind.duty {
+                Duty::Thermostat { relay, digital } => self.regulate(relay, digital),
+                Duty::Positioner => self.move_axes(),
+                Duty::None | Duty::Board { .. } => return self.rest_us %= 1000,
+            }
+        }
+    }
+
+    /// Converts the open inputs as often as there is time.
+    fn take_samples(&mut self, microseconds: u32) {
         let channels = 0..usize::from(self.kind.inputs);
         let open = channels.filter(|&channel| self.input_range(channel).is_some());
         let open = open.count() as u32;
@@ -253,6 +333,12 @@ impl Module {
                 self.convert(channel);
             }
         }
+    }
+
+    /// Whether nothing is connected to an input.
+    pub(super) fn is_open(&self, channel: usize) -> bool {
+        let input = self.inputs.get(channel);
+        input.is_none_or(|input| input.signal.is_none())
     }
 
     /// How long it takes to convert a channel.
@@ -334,6 +420,10 @@ impl Module {
         Some(match bfm.role {
             Role::InputError => self.input_error(),
             Role::OutputError => self.output_error(),
+            Role::InputPoints => self.points[0] as i16,
+            Role::OutputShown => self.shown(n),
+            Role::Present => self.answered(n),
+            Role::Answer => self.answer(),
             _ => self.get_of(bfm, n),
         })
     }
@@ -360,13 +450,17 @@ impl Module {
     }
 
     /// Whether settings may not be changed.
-    fn is_locked(&self, role: Role) -> bool {
+    pub(super) fn is_locked(&self, role: Role) -> bool {
         self.kind.with(role).is_some() && self.get(role, 0) != self.kind.unlocked
     }
 
     /// Sets a word of buffer memory, also one that a program only reads; `None` if the module does not have that many.
     pub fn poke(&mut self, number: u16, value: i16) -> Option<()> {
         match self.kind.bfm(number) {
+            Some(bfm) if bfm.role == Role::InputPoints => {
+                self.points[0] = value as u16;
+                Some(())
+            }
             Some(bfm) if bfm.access == Access::Read => {
                 self.set_of(bfm, bfm.word(number)?, value);
                 Some(())
@@ -401,9 +495,14 @@ impl Module {
                     self.set(Role::Samples, channel, usual);
                 }
             }
-            Role::Output => {
-                self.set(Role::Output, n, value);
-                self.put(n, value.into());
+            Role::Output => self.output(n, value),
+            Role::OutputPoints => {
+                self.set(Role::OutputPoints, n, value);
+                self.points[1] = value as u16;
+            }
+            Role::Axis(word) => {
+                self.set_of(bfm, n, value);
+                self.order(word, n);
             }
             Role::InputTakeOver => {
                 self.take_over_inputs(value);
@@ -424,108 +523,6 @@ impl Module {
             _ => self.set_of(bfm, n, value),
         }
         Some(())
-    }
-
-    /// Gives channels new ranges, with the offset and gain of the factory.
-    fn choose_ranges(&mut self, role: Role, value: i16) {
-        let changed = (self.get(role, 0) ^ value) as u16;
-        self.set(role, 0, value);
-        for channel in 0..CHANNELS {
-            if changed >> (4 * channel) & 0xf == 0 {
-                continue;
-            }
-            if role == Role::InputRanges {
-                if let Some(input) = self.inputs.get_mut(channel) {
-                    (input.curve, input.sum, input.samples) = (None, 0, 0);
-                }
-            } else if let Some(output) = self.outputs.get_mut(channel) {
-                output.curve = None;
-            }
-        }
-        self.show_curves();
-    }
-
-    /// The words for offset and gain of single channels show those that are in force.
-    fn show_curves(&mut self) {
-        for channel in 0..CHANNELS {
-            let of_input = self.inputs.get(channel).and_then(|input| input.curve);
-            let usual = self.input_range(channel).map(|range| range.curve());
-            if let Some(curve) = of_input.or(usual) {
-                self.set(Role::InputOffsets, channel, word(curve.offset));
-                self.set(Role::InputGains, channel, word(curve.gain));
-            }
-            let of_output = self.outputs.get(channel).and_then(|output| output.curve);
-            let usual = self.output_range(channel, None).map(|range| range.curve());
-            if let Some(curve) = of_output.or(usual) {
-                self.set(Role::OutputCurves, 2 * channel, word(curve.offset));
-                self.set(Role::OutputCurves, 2 * channel + 1, word(curve.gain));
-                self.set(Role::OutputOffsets, channel, word(curve.offset));
-                self.set(Role::OutputGains, channel, word(curve.gain));
-            }
-        }
-    }
-
-    /// Bits, offset and gain by turns, give inputs what was written before.
-    fn take_over_inputs(&mut self, bits: i16) {
-        let offset = self.get(Role::InputOffset, 0).into();
-        let gain = self.get(Role::InputGain, 0).into();
-        for channel in 0..usize::from(self.kind.inputs) {
-            let Some(range) = self.input_range(channel) else {
-                continue;
-            };
-            let chosen = bits >> (2 * channel) & 3;
-            if let Some(input) = self.inputs.get_mut(channel).filter(|_| chosen != 0) {
-                let curve = input.curve.get_or_insert(range.curve());
-                curve.offset = if chosen & 1 != 0 {
-                    offset
-                } else {
-                    curve.offset
-                };
-                curve.gain = if chosen & 2 != 0 { gain } else { curve.gain };
-            }
-        }
-    }
-
-    /// Hexadecimal digits, offset and gain by turns, give two outputs what was written before.
-    fn take_over_outputs(&mut self, pair: usize, digits: i16) {
-        for channel in 2 * pair..(2 * pair + 2).min(usize::from(self.kind.outputs)) {
-            let Some(range) = self.output_range(channel, None) else {
-                continue;
-            };
-            let offset = self.get(Role::OutputCurves, 2 * channel).into();
-            let gain = self.get(Role::OutputCurves, 2 * channel + 1).into();
-            let chosen = digits >> (8 * (channel % 2));
-            if let Some(output) = self.outputs.get_mut(channel).filter(|_| chosen & 0xff != 0) {
-                let curve = output.curve.get_or_insert(range.curve());
-                curve.offset = if chosen & 0x01 != 0 {
-                    offset
-                } else {
-                    curve.offset
-                };
-                curve.gain = if chosen & 0x10 != 0 { gain } else { curve.gain };
-            }
-        }
-    }
-
-    /// A bit for each channel gives it the offset and gain in its own words.
-    fn take_over_each(&mut self, offsets: Role, bits: i16) {
-        for channel in (0..CHANNELS).filter(|channel| bits >> channel & 1 != 0) {
-            let of = |module: &Module, gains| Curve {
-                offset: module.get(offsets, channel).into(),
-                gain: module.get(gains, channel).into(),
-            };
-            if offsets == Role::InputOffsets {
-                let curve = of(self, Role::InputGains);
-                if let Some(input) = self.inputs.get_mut(channel) {
-                    input.curve = Some(curve);
-                }
-            } else {
-                let curve = of(self, Role::OutputGains);
-                if let Some(output) = self.outputs.get_mut(channel) {
-                    output.curve = Some(curve);
-                }
-            }
-        }
     }
 
     fn reset_peaks(&mut self, bits: i16) {
@@ -557,8 +554,14 @@ impl Module {
         self.restore(|bfm| both || of_outputs == (bfm.first >= first_of_outputs));
     }
 
+    /// What an output was given last.
+    pub(super) fn given(&self, channel: usize) -> i32 {
+        let output = self.outputs.get(channel);
+        output.map_or(0, |output| output.digital)
+    }
+
     /// Gives an output a value.
-    fn put(&mut self, channel: usize, digital: i32) {
+    pub(super) fn put(&mut self, channel: usize, digital: i32) {
         let range = self.output_range(channel, None);
         if let Some(output) = self.outputs.get_mut(channel) {
             output.digital = digital;
@@ -602,7 +605,7 @@ fn bit(on: bool, bit: i16) -> i16 {
 }
 
 /// A number held in what a word holds.
-fn word(value: i32) -> i16 {
+pub(super) fn word(value: i32) -> i16 {
     value.clamp(i16::MIN.into(), i16::MAX.into()) as i16
 }
 

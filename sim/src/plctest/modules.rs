@@ -4,7 +4,7 @@ use super::format::Reader;
 use super::runner::Running;
 use super::{Case, CaseProgram, Failure};
 use crate::protocol::{Answer, Request};
-use crate::target::Channel;
+use crate::target::{self, Channel};
 use rungc_rt::modules::{KINDS, Kind};
 use rungc_syntax::diag;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ impl Reader<'_> {
     pub(super) fn modules(&mut self, raw: Raw) -> Vec<(u16, &'static Kind)> {
         let mut modules = Vec::new();
         for (unit, name) in raw {
-            let Ok(number) = unit.get_ref().parse() else {
+            let Some(number) = target::unit(unit.get_ref()) else {
                 let message = format!("`{}` is not the number of a module", unit.get_ref());
                 self.report(unit.span().start, message);
                 continue;

@@ -1,5 +1,6 @@
 use super::super::KINDS;
 use super::*;
+use std::vec::Vec;
 
 fn module(name: &str) -> Module {
     Module::new(Kind::find(name).unwrap())
@@ -43,12 +44,23 @@ fn every_kind_fits_a_module_and_its_rows_do_not_overlap() {
         let words: usize = kind.bfms.iter().map(|bfm| usize::from(bfm.count)).sum();
         assert!(words <= WORDS, "{}", kind.name);
         for pair in kind.bfms.windows(2) {
-            let end = pair[0].first + u16::from(pair[0].count);
-            assert!(end <= pair[1].first, "{}: {:?}", kind.name, pair[1]);
+            assert!(
+                pair[0].first < pair[1].first,
+                "{}: {:?}",
+                kind.name,
+                pair[1]
+            );
         }
-        let end = kind.bfms.last().unwrap();
-        let end = end.first + u16::from(end.count) - 1;
-        assert!(end <= kind.last, "{}", kind.name);
+        let mut numbers: Vec<_> = kind.bfms.iter().flat_map(Bfm::numbers).collect();
+        numbers.sort_unstable();
+        let all = numbers.len();
+        numbers.dedup();
+        assert_eq!(numbers.len(), all, "{}: words of two rows", kind.name);
+        assert!(
+            numbers.last().is_none_or(|&last| last <= kind.last),
+            "{}",
+            kind.name
+        );
         assert_eq!(Kind::find(&kind.name.to_lowercase()), Some(kind));
         assert_eq!(&KINDS[kind.index()], kind);
         assert!(!kind.source.is_empty());
@@ -293,4 +305,63 @@ fn fx3u_modules() {
     assert_eq!(da.signal(1, Quantity::Milliamperes), Some(10_000_000));
     assert_eq!(da.signal(2, Quantity::Milliamperes), Some(12_000_000));
     assert_eq!(da.signal(3, Quantity::Milliamperes), Some(16_000_000));
+}
+
+/// The points of a module, input and output terminals.
+fn terminal(quantity: Quantity, on: bool) -> Signal {
+    Signal {
+        quantity,
+        millionths: if on { 1_000_000 } else { 0 },
+    }
+}
+
+#[test]
+fn remote_terminals_are_bits_of_words() {
+    // h1u-h2u-programming §6.2.3: inputs in BFM 0, outputs in BFM 1.
+    let mut module = module("H2U-0808ERNR");
+    for (number, on) in [(0, true), (7, true), (3, true), (3, false)] {
+        let signal = terminal(Quantity::InputTerminal, on);
+        module.connect(number, signal).unwrap();
+    }
+    assert_eq!(module.read(0), Some(0x81));
+    module.write(1, 0x12).unwrap();
+    let lit = |number| module.signal(number, Quantity::OutputTerminal);
+    assert_eq!(
+        (lit(1), lit(2), lit(4)),
+        (Some(1_000_000), Some(0), Some(1_000_000))
+    );
+    assert_eq!(lit(8), None);
+    let none = terminal(Quantity::InputTerminal, true);
+    assert_eq!(module.connect(8, none), None);
+    assert_eq!(
+        module.connect(0, terminal(Quantity::OutputTerminal, true)),
+        None
+    );
+    assert_eq!(module.read(5), Some(500));
+}
+
+#[test]
+fn types_of_single_channels() {
+    // hm-motion-controller §7.2.2: 5 is voltage, 6 current; l01s-programming §9.3.2.
+    for (name, kind, first, signal, value) in [
+        ("EX1-4AD", 5, 4, volts(5.0), 10_000),
+        ("EX1-4AD", 6, 4, milliamperes(20.0), 20_000),
+        ("EX1-4AD", 0, 4, volts(5.0), 0),
+        ("EX1-4TC", 2, 4, celsius(1234.5), 12_345),
+        ("EX1-4TC", 3, 4, celsius(0.0), 600),
+        ("L02S-4AD", 0, 19, volts(-10.0), -32_000),
+        ("L02S-4AD", 0, 19, milliamperes(10.0), 16_000),
+        ("L02S-4AD", 1, 19, milliamperes(12.0), 16_000),
+        ("L02S-4AD", 1, 19, volts(6.0), 16_000),
+        ("L02S-4TC", 11, 19, celsius(-50.0), -500),
+    ] {
+        let mut module = module(name);
+        module.write(first, kind).unwrap();
+        assert_eq!(measured(&mut module, signal), value, "{name} {kind}");
+    }
+    let mut module = module("EX1-4DA");
+    module.write(1, 6).unwrap();
+    module.write(5, 1000).unwrap();
+    assert_eq!(module.signal(1, Quantity::Milliamperes), Some(5_000_000));
+    assert_eq!(module.signal(0, Quantity::Volts), Some(0));
 }
