@@ -336,3 +336,17 @@ fn a_capture_for_wireshark() {
         );
     }
 }
+
+#[test]
+fn a_server_takes_the_place_of_an_ethernet_card() {
+    const CARD: &[u8] = b"LD M8002\nMOV HC1 D8270\nMOV K1 D8271\nMOV H2 D8276\nEND\n";
+    let check = |settings: &str| {
+        let folder = folder(&[("p.il", CARD), ("rungc.toml", settings.as_bytes())]);
+        let output = rungc(folder.path(), &["check", "p.il"]);
+        assert_eq!(output.status.code(), Some(0));
+        text(&output.stderr).contains("W0700")
+    };
+    let project = "[project]\nmodel = 'h2u'\n";
+    assert!(check(project));
+    assert!(!check(&format!("{project}[serve]\nmodbus-tcp = 5020\n")));
+}

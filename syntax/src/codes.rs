@@ -9,7 +9,7 @@
 //! | W02xx | legal, but causes trouble in practice |
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
-//! | W06xx, N06xx | how serial ports are set up |
+//! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.

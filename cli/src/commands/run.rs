@@ -30,7 +30,7 @@ use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
 use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, Program};
+use rungc_syntax::{DeviceClass, Program, codes};
 use std::fs;
 use std::path::{Path, PathBuf};
 pub use watch::STANDARD_ERROR;
@@ -52,7 +52,11 @@ pub enum Table {
 
 /// Runs a program in the interpreter, showing the watched devices.
 pub fn run(args: &RunArgs, cx: Context) -> Result {
-    let subject = subject::one(&args.input, cx)?;
+    let mut subject = subject::one(&args.input, cx)?;
+    if !args.serve.modbus_tcp.is_empty() {
+        let rules = &mut subject.reporting.rules;
+        rules.allow.push(codes::ETHERNET_CARD.id);
+    }
     program(args, &subject, Table::Usual, cx)
 }
 

@@ -8,7 +8,7 @@ use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
-use rungc_syntax::Program;
+use rungc_syntax::{Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -96,6 +96,9 @@ impl Projects<'_> {
         let mut reporting = self.reading.reporting.clone();
         if let Some(project) = &project {
             reporting.rules = project.check.clone();
+            if !project.serve.modbus_tcp.is_empty() {
+                reporting.rules.allow.push(codes::ETHERNET_CARD.id);
+            }
         }
         let mut options = self.reading.options();
         if let Some(usual) = project.as_ref().map(|project| project.reading()) {

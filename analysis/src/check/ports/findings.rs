@@ -3,6 +3,7 @@
 use super::super::Code;
 use super::facts::{Facts, Held, Uinit, Write, d, m};
 use super::{Use, has_station, port_of, use_of};
+use rungc_models::ModelId;
 use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
 use rungc_rt::{Ports, RtFn};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, codes};
@@ -28,6 +29,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
             port.station(out);
             port.rate(out);
             port.own_frames(out);
+            port.ethernet_card(out);
             port.instructions(out);
         }
     }
@@ -278,6 +280,25 @@ impl Port<'_> {
             .label("the manuals do not print the frames of this link")
             .help("docs/src/links.md describes the frames");
         out.push(note);
+    }
+
+    /// The set-up that the manual prescribes for the card H2U-ENET-BD (h1u-h2u-programming §6.7.2).
+    fn ethernet_card(&self, out: &mut Diagnostics) {
+        const FORMAT: u16 = 0xc1;
+        let format = self.wiring.format.map(d);
+        let is_card = (self.code.model().id, self.wiring.number) == (ModelId::H2u, 3)
+            && self.protocol == Some(Protocol::ModbusRtu)
+            && format.map(|register| self.facts.held(register)) == Some(Held::Constant(FORMAT))
+            && self.facts.station(self.wiring) == Some(1);
+        let Some(place) = self.place(format).filter(|_| is_card) else {
+            return;
+        };
+        let message = "COM3 is set up for the Ethernet card H2U-ENET-BD, which there is not";
+        let warning = codes::ETHERNET_CARD
+            .at(self.code.span(place), message)
+            .label("COM3 is a Modbus RTU slave")
+            .help("serve by Modbus TCP with `--modbus-tcp 502` or `modbus-tcp = 502` in `[serve]` of rungc.toml");
+        out.push(warning);
     }
 
     /// Instructions that the protocol of the port does not serve; the first of each kind is reported.
