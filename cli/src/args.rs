@@ -443,14 +443,17 @@ pub struct ViewArgs {
     /// Draw only networks about which a check reports this code: `E0404`. Repeat it for more.
     #[arg(long, value_parser = code, value_name = "CODE")]
     pub around: Vec<&'static str>,
+    /// Draw the sequential function chart of the step ladder instead of the networks.
+    #[arg(long, conflicts_with_all = ["network", "device", "around"])]
+    pub sfc: bool,
     /// Characters on a line. Default: the width of the terminal, or 120.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
     /// Omit the comments of devices, in the terminal.
     #[arg(long)]
     pub no_comments: bool,
-    /// Write a file: a page (.html) of the whole program, or a picture (.svg) of the networks that are drawn. With
-    /// several programs, a folder for their pages.
+    /// Write a file: a page (.html) or document (.pdf) of the whole program, or a picture (.svg) of the networks that
+    /// are drawn. With several programs, a folder for their pages.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Overwrite an existing file.

@@ -55,6 +55,8 @@ fn what_cannot_be_chosen_is_said() {
     assert!(said(&["--device", "M99"]).contains("none of the 6 networks matches"));
     assert!(said(&["--device", "Q1"]).contains("a device is written"));
     assert!(said(&["--network", "3..1"]).contains("counted from 1"));
+    assert!(said(&["--sfc"]).contains("the program has no step ladder"));
+    assert!(said(&["--sfc", "--network", "1"]).contains("cannot be used with"));
     assert!(said(&["--around", "E9999"]).contains("not a diagnostic code"));
 }
 
@@ -80,9 +82,29 @@ fn a_page_and_a_picture_are_files() {
     }
     let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.bmp"]);
     assert_eq!(out.status.code(), Some(2));
-    assert!(text(&out.stderr).contains("ends in .html or .svg"));
+    assert!(text(&out.stderr).contains("ends in .html, .pdf or .svg"));
     assert!(!folder.path().join("motor.bmp").exists());
-    let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.pdf"]);
-    assert_eq!(out.status.code(), Some(2));
-    assert!(text(&out.stderr).contains("print it from a browser"));
+}
+
+#[test]
+fn a_document_is_the_same_each_time_and_has_all_pages() {
+    let list = format!(
+        ";! X000 = 启动按钮\n;! Y000 = Łódź\n; 电机\n{}",
+        MOTOR.repeat(40)
+    );
+    let folder = folder(&[("motor.il", list.as_bytes())]);
+    let write = |name: &str| {
+        let out = rungc(folder.path(), &["view", "motor.il", "-o", name]);
+        assert!(out.status.success(), "{}", text(&out.stderr));
+        std::fs::read(folder.path().join(name)).unwrap()
+    };
+    let pdf = write("one.pdf");
+    assert_eq!(pdf, write("two.pdf"));
+    let holds = |what: &str| pdf.windows(what.len()).any(|part| part == what.as_bytes());
+    assert!(pdf.starts_with(b"%PDF-1.5") && pdf.ends_with(b"%%EOF"));
+    let pages = pdf.windows(12).filter(|part| part == b"/Type /Page\n");
+    assert_eq!(pages.count(), 11);
+    for what in ["/Count 11", "/UniGB-UTF16-H", "(motor.il)", "/FlateDecode"] {
+        assert!(holds(what), "{what}");
+    }
 }

@@ -10,11 +10,13 @@
 
 mod circuit;
 mod grid;
+mod master;
 
 use crate::Read;
 use crate::il::{Reader, field, is_label};
 use circuit::Step;
 use grid::{Block, Kind, Symbol};
+use master::Master;
 use rungc_syntax::{Instr, Operands, Remarks, Source, SourceKind, Span, codes};
 use smol_str::SmolStr;
 
@@ -37,6 +39,10 @@ pub(crate) fn read(name: &str, text: &str) -> Read {
     let mut lines = source.lines().peekable();
     while let Some((start, whole)) = lines.next() {
         let line = whole.trim_end_matches(['\r', '\n']);
+        if let Some(bar) = master::find(line) {
+            reader.master(bar, start);
+            continue;
+        }
         let below = lines.peek().is_some_and(|(_, below)| grid::is_drawn(below));
         if grid::is_drawn(line) || below && grid::is_names(line) {
             reader.block.push(line, start);
@@ -63,6 +69,8 @@ struct Drawing {
     list: Reader,
     /// Drawn lines that follow each other.
     block: Block,
+    /// Where the instructions of the block before begin.
+    began: usize,
 }
 
 impl Drawing {
@@ -70,6 +78,7 @@ impl Drawing {
         if self.block.is_empty() {
             return;
         }
+        self.began = self.list.program.instrs.len();
         let block = std::mem::take(&mut self.block);
         let drawn = block.read();
         let mut faults = Vec::new();
@@ -92,6 +101,29 @@ impl Drawing {
             }
         }
         if faulty {
+            let before = self.list.program.instrs.len() as u32;
+            self.list.program.unread.push(before);
+        }
+    }
+
+    /// The contact of a master control in the rail: the network above it has the MC.
+    fn master(&mut self, bar: Master, start: u32) {
+        self.finish_block();
+        let mut above = self.list.program.instrs[self.began..].iter();
+        let is_there = above.any(|instr| {
+            let operands: Vec<String> = instr
+                .operands
+                .iter()
+                .map(|operand| operand.kind.to_string())
+                .collect();
+            instr.mnemonic == "MC" && operands == [bar.nesting.as_str(), &bar.device]
+        });
+        if !is_there {
+            let span = Span::new(start + bar.at as u32, start + bar.end as u32);
+            let message = format!("no `MC {} {}` above this", bar.nesting, bar.device);
+            let fault = codes::LADDER_SYMBOL.at(span, message);
+            let label = "the network above switches no such part of the rail";
+            self.list.diagnostics.push(fault.label(label));
             let before = self.list.program.instrs.len() as u32;
             self.list.program.unread.push(before);
         }

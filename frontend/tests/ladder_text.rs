@@ -56,6 +56,24 @@ fn contacts_are_written_in_many_ways() {
 }
 
 #[test]
+fn a_master_control_has_a_contact_in_the_rail() {
+    let drawing = "|--[X0]--[MC N0 M100]--|\n@\n|--[X1]--(Y1)--|\n|--[MCR N0]--|\n";
+    let expected = "LD X000, MC N0 M100, LD X001, OUT Y001, MCR N0";
+    for bar in [
+        "N0═╪═ M100",
+        "  n0 ═╪═ m100 |",
+        "N0=|=M100",
+        "N0 ==+== M100    │",
+    ] {
+        assert_eq!(list(&drawing.replace('@', bar)), expected, "{bar}");
+    }
+    for bar in ["N0═╪═ M101", "N1═╪═ M100"] {
+        assert_eq!(mistakes(&drawing.replace('@', bar)), [("E0051", 2, 1)]);
+    }
+    assert_eq!(mistakes("|--[X1]--(Y1)--|\n N0═╪═ M0\n"), [("E0051", 2, 2)]);
+}
+
+#[test]
 fn branches_become_blocks() {
     let drawing = "\
 |--[ X000 ]--+--[/ X001]--( M0 )--|

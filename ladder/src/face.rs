@@ -3,6 +3,7 @@
 use crate::layout::{Cell, Measure, Placed};
 use crate::network::{Contact, InstrIndex, Network, Output, Shape};
 use rungc_analysis::resolve::Resolved;
+use rungc_catalogue::{Basic, Lower};
 use rungc_syntax::{Device, OperandKind};
 use std::fmt::Write as _;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -105,10 +106,7 @@ impl<'a> Face<'a> {
                 shape: Shape::Compare,
                 ..
             }) => String::new(),
-            Cell::Contact(contact) => {
-                let operand = self.resolved.program.instrs[contact.instr].operands.first();
-                operand.map_or(String::new(), |operand| operand.kind.to_string())
-            }
+            Cell::Contact(contact) => operand_text(self.resolved, contact.instr, 0),
             Cell::Result(_) | Cell::Output(_) | Cell::FoldOut(_) | Cell::FoldIn(_) => String::new(),
         }
     }
@@ -156,6 +154,21 @@ impl<'a> Face<'a> {
     }
 }
 
+/// The instructions of a network that switch the rail below it: MC.
+pub(crate) fn masters(resolved: &Resolved, network: &Network) -> Vec<InstrIndex> {
+    let is_master = |instr: &InstrIndex| {
+        let lower = resolved.instrs[*instr].lower;
+        matches!(lower, Some(Lower::Basic(Basic::Mc)))
+    };
+    network.instrs.clone().filter(is_master).collect()
+}
+
+/// An operand as it is written; nothing if it is missing.
+pub(crate) fn operand_text(resolved: &Resolved, instr: InstrIndex, at: usize) -> String {
+    let operand = resolved.program.instrs[instr].operands.get(at);
+    operand.map_or_else(String::new, |operand| operand.kind.to_string())
+}
+
 /// The device whose comment describes an operand.
 pub(crate) fn device_of(kind: &OperandKind) -> Option<Device> {
     match kind {
@@ -172,7 +185,7 @@ pub(crate) fn device_of(kind: &OperandKind) -> Option<Device> {
 }
 
 /// A text as at most `lines` lines of `width`; the last ends in `…` if there is more.
-fn fold(text: &str, width: usize, lines: usize) -> Vec<String> {
+pub(crate) fn fold(text: &str, width: usize, lines: usize) -> Vec<String> {
     let mut folded: Vec<String> = vec![String::new()];
     for word in text.split_whitespace() {
         for (i, character) in word

@@ -3,6 +3,7 @@
 
 use crate::face::device_of;
 use crate::network::{Ladder, Network};
+use crate::sfc::Chart;
 use crate::svg::Painter;
 use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
@@ -42,11 +43,18 @@ fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladde
         ladder.networks.len()
     )?;
     let uses = uses(resolved, ladder);
+    let chart = Chart::of(resolved, ladder);
     write_devices(out, resolved, &uses)?;
-    write_list(out, resolved, ladder)?;
+    write_list(out, resolved, ladder, chart.as_ref())?;
     let networks: Vec<_> = (1..).zip(&ladder.networks).collect();
     let painter = Painter::new(resolved, &networks, WIDTH);
     writeln!(out, "<main id=\"ladder\" tabindex=\"-1\">")?;
+    if let Some(chart) = &chart {
+        let picture = chart.svg().to_string();
+        let group = "role=\"group\" aria-label=\"Sequential function chart\"";
+        let picture = picture.replacen("role=\"img\"", group, 1);
+        writeln!(out, "<figure id=\"sfc\" tabindex=\"0\">{picture}</figure>")?;
+    }
     for (number, network) in &networks {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
         write!(
@@ -81,7 +89,7 @@ fn write_picture(
 }
 
 /// The networks that name each device, by their numbers.
-fn uses(resolved: &Resolved, ladder: &Ladder) -> BTreeMap<Device, Vec<usize>> {
+pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> BTreeMap<Device, Vec<usize>> {
     let mut uses: BTreeMap<Device, Vec<usize>> = BTreeMap::new();
     for (number, network) in (1..).zip(&ladder.networks) {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
@@ -127,9 +135,18 @@ fn write_devices(
     writeln!(out, "</tbody>\n</table>\n</details>\n</aside>")
 }
 
-/// The list of networks: number, step, and what each is headed or begins with.
-fn write_list(out: &mut String, resolved: &Resolved, ladder: &Ladder) -> fmt::Result {
-    writeln!(out, "<nav aria-label=\"Networks\">\n<ol>")?;
+/// The list of states, and that of networks: number, step, and what each is headed or begins with.
+fn write_list(
+    out: &mut String,
+    resolved: &Resolved,
+    ladder: &Ladder,
+    chart: Option<&Chart>,
+) -> fmt::Result {
+    writeln!(out, "<nav aria-label=\"Networks\">")?;
+    if let Some(chart) = chart {
+        write_states(out, chart)?;
+    }
+    writeln!(out, "<ol>")?;
     for (number, network) in (1..).zip(&ladder.networks) {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
         let heading = instrs.iter().find_map(|instr| instr.statement());
@@ -145,6 +162,23 @@ fn write_list(out: &mut String, resolved: &Resolved, ladder: &Ladder) -> fmt::Re
         )?;
     }
     writeln!(out, "</ol>\n</nav>")
+}
+
+fn write_states(out: &mut String, chart: &Chart) -> fmt::Result {
+    let count = chart.states.len();
+    writeln!(
+        out,
+        "<details open>\n<summary>States ({count})</summary>\n<ul>\n<li><a href=\"#sfc\">Chart</a></li>"
+    )?;
+    for state in &chart.states {
+        let name = Escaped(state.name.as_deref().unwrap_or(""));
+        let (device, network) = (state.device, state.network);
+        writeln!(
+            out,
+            "<li><a href=\"#n{network}\"><b>{device}</b> {name}</a></li>"
+        )?;
+    }
+    writeln!(out, "</ul>\n</details>")
 }
 
 /// Text within HTML, without characters that would act on its reader.

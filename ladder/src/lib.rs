@@ -11,11 +11,15 @@ pub mod compare;
 pub mod html;
 pub mod layout;
 pub mod list;
+pub mod pdf;
+pub mod sfc;
 pub mod svg;
 pub mod text;
 
+mod condition;
 mod face;
 mod network;
+mod picture;
 
 pub use network::{
     Branch, Contact, InstrIndex, Item, Join, Ladder, Network, NetworkBody, Node, Output, Part,

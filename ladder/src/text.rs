@@ -1,6 +1,6 @@
 //! Drawing a ladder in characters.
 
-use crate::face::Face;
+use crate::face::{Face, masters, operand_text};
 use crate::layout::{Cell, Grid, Placed, lay_out};
 use crate::network::{InstrIndex, Network, NetworkBody};
 use rungc_analysis::resolve::Resolved;
@@ -112,7 +112,10 @@ impl Margin {
 
 fn widest_label(resolved: &Resolved, network: &Network) -> usize {
     let names = labels(network).map(|label| resolved.program.instrs[label].mnemonic.len());
-    names.max().unwrap_or(0)
+    let nesting = masters(resolved, network)
+        .into_iter()
+        .map(|master| operand_text(resolved, master, 0).len());
+    names.chain(nesting).max().unwrap_or(0)
 }
 
 fn labels(network: &Network) -> std::ops::Range<InstrIndex> {
@@ -237,6 +240,20 @@ impl Page<'_> {
                 let _ = writeln!(out, "{}{}", self.lead("", ""), text.text());
             }
         }
+        for master in masters(self.face.resolved, network) {
+            self.master(master, grid, out);
+        }
+    }
+
+    /// The contact of a master control in the left rail, which feeds what lies below.
+    fn master(&self, master: InstrIndex, grid: &Grid, out: &mut String) {
+        let [nesting, device] = [0, 1].map(|at| operand_text(self.face.resolved, master, at));
+        let mut lead = self.lead("", &nesting);
+        lead.pop();
+        let mut rails = self.blank(grid, |_| false);
+        rails.put(0, "╪═");
+        rails.put(3, &device);
+        let _ = writeln!(out, "{lead}═{}", rails.text());
     }
 
     /// The line beneath a row that marks a symbol in it.

@@ -376,6 +376,22 @@ fn a_latching_motor() {
     insta::assert_snapshot!(picture(MOTOR));
 }
 
+const MASTER: &str =
+    "LD X0\nMPS\nAND X5\nMC N0 M100\nMPP\nOUT Y5\nLD X1\nMC N1 M101\nLD X2\nOUT Y0\nMCR N0\nEND\n";
+
+#[test]
+fn a_master_control_has_a_contact_in_the_rail() {
+    insta::assert_snapshot!(picture(MASTER));
+    let program = read(MASTER);
+    assert_eq!(read_back(&program, "master", 100), 5);
+    let bars = with(&program, |resolved, ladder| {
+        let networks = numbered(ladder);
+        let sheet = Painter::new(resolved, &networks, 60).sheet(&networks);
+        sheet.to_string().matches("class=\"gap\"").count()
+    });
+    assert_eq!(bars, 2);
+}
+
 #[test]
 fn branches_and_boxes() {
     let list = "; Heads up: branches\nLD X0\nLD X1\nAND X2\nORB\nMPS\nAND X3\nOUT Y0\nMRD\nLD X4\nORI X5\nANB\nSET M10\nMPP\nMOV K100 D0\nDADD D0 D2 D4\nLD= D0 K5\nOR>= D2 K100\nINV\nOUT C5 K10\nP1\nLDP X7\nANDF X10\nCALLP P2\nEND\n";

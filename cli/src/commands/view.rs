@@ -8,9 +8,10 @@ use crate::args::ViewArgs;
 use crate::report::Reporter;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
+use rungc_ladder::sfc::Chart;
 use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw};
-use rungc_ladder::{Ladder, Network, build, html};
+use rungc_ladder::{Ladder, Network, build, html, pdf};
 use rungc_lower::compile;
 use rungc_syntax::{Device, OperandKind, Span};
 use std::fmt::Write;
@@ -51,18 +52,7 @@ fn view(
     let model = compile::model(&read.program, &options);
     let (resolved, _) = resolve(&read.program, model);
     let ladder = build::ladder(&resolved);
-    let places = reported(args, subject, &read);
-    let wanted = |number: usize, network: &Network| {
-        let numbered =
-            args.network.is_empty() || args.network.iter().any(|range| range.contains(&number));
-        let named = args.device.is_empty() || names(&resolved, network, &args.device);
-        let around = args.around.is_empty() || holds(&resolved, network, &places);
-        numbered && named && around
-    };
-    let networks: Vec<(usize, &Network)> = (1..)
-        .zip(&ladder.networks)
-        .filter(|(number, network)| wanted(*number, network))
-        .collect();
+    let networks = chosen(args, subject, &read, (&resolved, &ladder));
     if networks.is_empty() && !ladder.networks.is_empty() {
         let count = ladder.networks.len();
         return Err(Failure::Because(format!(
@@ -70,6 +60,10 @@ fn view(
             subject.file.display()
         )));
     }
+    let chart = match args.sfc {
+        true => Some(chart(&resolved, &ladder, subject)?),
+        false => None,
+    };
     match &args.output {
         Some(path) => {
             let path = match reporter.many() {
@@ -78,42 +72,93 @@ fn view(
                 }
                 false => path.clone(),
             };
-            let heading = title(subject, &read);
-            let picture = picture(&path, &heading, &resolved, (&ladder, &networks))?;
-            write_file(&path, picture.as_bytes(), args.force)?;
+            let sheet = Sheet {
+                title: title(subject, &read),
+                resolved: &resolved,
+                ladder: &ladder,
+                networks: &networks,
+                chart: chart.as_ref(),
+            };
+            write_file(&path, &sheet.file(&path)?, args.force)?;
         }
         None => {
             let mut page = String::new();
             if reporter.many() {
                 _ = writeln!(page, "; {}", findings.name(true));
             }
-            page.push_str(&draw(&resolved, &networks, style));
+            page.push_str(&match &chart {
+                Some(chart) => chart.text(),
+                None => draw(&resolved, &networks, style),
+            });
             say(&page)?;
         }
     }
     Ok(Outcome::of(&findings))
 }
 
-/// What a path asks for by its ending: a page of all networks, or a picture of those that are chosen.
-fn picture(
-    path: &Path,
-    title: &str,
-    resolved: &Resolved,
-    (ladder, networks): (&Ladder, &[(usize, &Network)]),
-) -> std::result::Result<String, Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    let why = match ending {
-        Some("html") => return Ok(html::page(title, resolved, ladder)),
-        Some("svg") => {
-            let painter = Painter::new(resolved, networks, PICTURE_WIDTH);
-            return Ok(painter.sheet(networks).to_string());
-        }
-        Some("pdf") => {
-            "-o: PDF is not written; write a page (.html) and print it from a browser, which saves it as PDF"
-        }
-        _ => "-o: name a file that ends in .html or .svg",
+/// The networks that the arguments choose, with their numbers.
+fn chosen<'a>(
+    args: &ViewArgs,
+    subject: &Subject,
+    read: &Read,
+    (resolved, ladder): (&Resolved, &'a Ladder),
+) -> Vec<(usize, &'a Network)> {
+    let places = reported(args, subject, read);
+    let wanted = |number: usize, network: &Network| {
+        let numbered =
+            args.network.is_empty() || args.network.iter().any(|range| range.contains(&number));
+        let named = args.device.is_empty() || names(resolved, network, &args.device);
+        let around = args.around.is_empty() || holds(resolved, network, &places);
+        numbered && named && around
     };
-    Err(Failure::Because(why.to_string()))
+    let networks = (1..).zip(&ladder.networks);
+    networks
+        .filter(|(number, network)| wanted(*number, network))
+        .collect()
+}
+
+/// The chart that `--sfc` asks for.
+fn chart(
+    resolved: &Resolved,
+    ladder: &Ladder,
+    subject: &Subject,
+) -> std::result::Result<Chart, Failure> {
+    Chart::of(resolved, ladder).ok_or_else(|| {
+        let file = subject.file.display();
+        Failure::Because(format!("{file}: --sfc: the program has no step ladder"))
+    })
+}
+
+/// What goes into a file.
+struct Sheet<'a> {
+    title: String,
+    resolved: &'a Resolved<'a>,
+    ladder: &'a Ladder,
+    /// The networks that are chosen.
+    networks: &'a [(usize, &'a Network)],
+    /// The chart, if it is asked for.
+    chart: Option<&'a Chart>,
+}
+
+impl Sheet<'_> {
+    /// What a path asks for by its ending: a page or document of all networks, or a picture of those that are chosen.
+    fn file(&self, path: &Path) -> std::result::Result<Vec<u8>, Failure> {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let text = match (ending, self.chart) {
+            (Some("html"), _) => html::page(&self.title, self.resolved, self.ladder),
+            (Some("pdf"), _) => return Ok(pdf::document(&self.title, self.resolved, self.ladder)),
+            (Some("svg"), Some(chart)) => chart.sheet().to_string(),
+            (Some("svg"), None) => {
+                let painter = Painter::new(self.resolved, self.networks, PICTURE_WIDTH);
+                painter.sheet(self.networks).to_string()
+            }
+            _ => {
+                let why = "-o: name a file that ends in .html, .pdf or .svg";
+                return Err(Failure::Because(why.to_string()));
+            }
+        };
+        Ok(text.into_bytes())
+    }
 }
 
 /// What a page is headed: the project's title, or the name of its file.

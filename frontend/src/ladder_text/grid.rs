@@ -639,7 +639,7 @@ fn kind_of(word: &str) -> Option<Kind> {
 }
 
 /// Whether a word looks like a device that has a contact or a coil; what it is in truth is for the grammar of operands.
-fn is_device(word: &str) -> bool {
+pub(super) fn is_device(word: &str) -> bool {
     let letters = word.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
     let digits = word.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     let mut class = word.chars();

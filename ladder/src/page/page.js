@@ -34,7 +34,7 @@ const networks = [...all("main section")].map((section) => {
   const named = [...section.querySelectorAll("[data-device]")].map((group) => comments.get(group.dataset.device) ?? "");
   return [section, `${label} ${section.textContent} ${named.join(" ")}`.toLowerCase()];
 });
-const entries = [...all("nav li")];
+const entries = [...all("nav ol li")];
 search.addEventListener("input", () => {
   const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
   networks.forEach(([section, text], i) => {

@@ -1,0 +1,360 @@
+//! Networks as marks on paper: lines, frames and texts with their places. `svg` and `pdf` write them.
+
+use crate::face::{Face, masters, operand_text};
+use crate::layout::{Cell, Grid, Placed, lay_out};
+use crate::network::{InstrIndex, Network, NetworkBody, Shape};
+use rungc_analysis::resolve::Resolved;
+use rungc_syntax::Device;
+
+/// Width of a character, in pixels; the font is 12 pixels high.
+pub(crate) const CHARACTER: f64 = 7.3;
+/// Left of the rail: number, label and step.
+const MARGIN: f64 = 62.0;
+/// From the top of a row to its wire, and from there to its comments.
+const ABOVE: f64 = 24.0;
+const BELOW: f64 = 12.0;
+const COMMENT: f64 = 13.0;
+/// Half a contact's gap, and half its height.
+const GAP: f64 = 4.5;
+const BAR: f64 = 8.0;
+/// Height of the bar of a master control.
+const MASTER: f64 = 26.0;
+
+/// A place, in pixels from the upper left corner.
+pub(crate) type Point = (f64, f64);
+
+/// What is drawn. Classes are those of the style sheets: `wire`, `rail`, `name`, `text`, `comment`, `margin`, `area`,
+/// `box`; `middle` and `end` say where a text is anchored.
+#[derive(Clone, Debug)]
+pub(crate) enum Mark {
+    /// A straight line.
+    Line {
+        class: &'static str,
+        from: Point,
+        to: Point,
+    },
+    /// Horizontal and vertical wires.
+    Wires(Vec<(Point, Point)>),
+    /// A line of text, from its base line.
+    Text {
+        class: &'static str,
+        at: Point,
+        text: String,
+    },
+    /// A rectangle: its upper left corner and size, and the radius of its corners.
+    Frame {
+        class: &'static str,
+        at: Point,
+        size: Point,
+        radius: Option<u8>,
+    },
+    /// Marks about a device.
+    About(Option<Device>, Vec<Mark>),
+    /// Marks that lead to a network.
+    Link(usize, Vec<Mark>),
+}
+
+/// Marks on a sheet.
+#[derive(Clone, Debug)]
+pub(crate) struct Picture {
+    /// Its width and height.
+    pub(crate) size: Point,
+    pub(crate) marks: Vec<Mark>,
+    /// Heights at which it may go on to another page.
+    pub(crate) breaks: Vec<f64>,
+}
+
+pub(crate) fn text(class: &'static str, at: Point, text: &str) -> Mark {
+    let text = text.to_string();
+    Mark::Text { class, at, text }
+}
+
+pub(crate) fn line(class: &'static str, from: Point, to: Point) -> Mark {
+    Mark::Line { class, from, to }
+}
+
+/// How pictures of a program's networks are drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct Drafter<'a> {
+    face: Face<'a>,
+    columns: usize,
+}
+
+impl<'a> Drafter<'a> {
+    /// For these networks of a program, in lines of about `width` characters.
+    pub(crate) fn new(
+        resolved: &'a Resolved<'a>,
+        networks: &[(usize, &Network)],
+        width: usize,
+    ) -> Self {
+        let face = Face::of(resolved, networks, true);
+        Drafter {
+            face,
+            columns: (width / face.cell).max(2),
+        }
+    }
+
+    /// The picture of a network.
+    pub(crate) fn network(&self, number: usize, network: &Network) -> Picture {
+        match &network.body {
+            NetworkBody::Rung(node) => {
+                let grid = lay_out(node, &self.face, self.columns);
+                Draft::new(self.face, &grid).draw(number, network)
+            }
+            NetworkBody::List { why } => self.list(number, network, why),
+        }
+    }
+
+    fn list(&self, number: usize, network: &Network, why: &str) -> Picture {
+        let instrs = &self.face.resolved.program.instrs[network.instrs.clone()];
+        let lines = std::iter::once(format!("cannot be drawn: {why}"));
+        let lines: Vec<String> = lines
+            .chain(instrs.iter().map(|instr| format!("  {instr}")))
+            .collect();
+        let height = lines.len() as f64 * 16.0 + 12.0;
+        let mut marks = vec![text("margin", (2.0, 16.0), &number.to_string())];
+        for (i, line) in lines.iter().enumerate() {
+            let class = if i == 0 { "comment" } else { "text" };
+            marks.push(text(class, (MARGIN, 16.0 * (i + 1) as f64), line));
+        }
+        let size = (MARGIN + 60.0 * CHARACTER, height);
+        let breaks = (1..lines.len()).map(|i| 16.0 * i as f64 + 4.0).collect();
+        Picture {
+            size,
+            marks,
+            breaks,
+        }
+    }
+}
+
+/// A grid in pixels.
+struct Draft<'a> {
+    face: Face<'a>,
+    grid: &'a Grid,
+    /// Where the wire of each row lies.
+    wires: Vec<f64>,
+    height: f64,
+}
+
+impl<'a> Draft<'a> {
+    fn new(face: Face<'a>, grid: &'a Grid) -> Self {
+        let mut comments = vec![0; grid.rows];
+        for placed in &grid.placed {
+            let lines = face.comment(*placed).len();
+            comments[placed.row] = comments[placed.row].max(lines);
+        }
+        let mut top = 0.0;
+        let mut wires = Vec::with_capacity(grid.rows);
+        for lines in comments {
+            wires.push(top + ABOVE);
+            top += ABOVE + BELOW + COMMENT * lines as f64;
+        }
+        Draft {
+            face,
+            grid,
+            wires,
+            height: top,
+        }
+    }
+
+    /// Where a boundary lies.
+    fn x(&self, boundary: usize) -> f64 {
+        MARGIN + (boundary * self.face.cell) as f64 * CHARACTER
+    }
+
+    fn draw(&self, number: usize, network: &Network) -> Picture {
+        let right = self.x(self.grid.columns);
+        let masters = masters(self.face.resolved, network);
+        let height = self.height + MASTER * masters.len() as f64;
+        let mut marks = self.margin(number, network);
+        for rail in [self.x(0), right] {
+            marks.push(line("rail", (rail, 0.0), (rail, height)));
+        }
+        marks.push(self.wires());
+        marks.extend(self.grid.placed.iter().map(|placed| self.placed(*placed)));
+        for (i, master) in masters.into_iter().enumerate() {
+            marks.push(self.master(master, self.height + MASTER * (i as f64 + 0.5)));
+        }
+        Picture {
+            size: (right + 2.0, height),
+            marks,
+            breaks: self.wires.iter().map(|wire| wire - ABOVE).collect(),
+        }
+    }
+
+    fn margin(&self, number: usize, network: &Network) -> Vec<Mark> {
+        let labels: Vec<InstrIndex> =
+            (network.instrs.start..network.instrs.start + network.labels).collect();
+        let program = self.face.resolved.program;
+        let names: Vec<&str> = labels
+            .iter()
+            .map(|label| &*program.instrs[*label].mnemonic)
+            .collect();
+        let mut marks = vec![
+            text("margin", (2.0, 12.0), &number.to_string()),
+            text("name end", (MARGIN - 6.0, 12.0), &names.join(" ")),
+        ];
+        if let Some(first) = self
+            .face
+            .resolved
+            .instrs
+            .get(network.instrs.start + network.labels)
+        {
+            let place = (MARGIN - 6.0, self.wires[0] + 4.0);
+            marks.push(text("margin end", place, &first.step.to_string()));
+        }
+        marks
+    }
+
+    /// All wires as one path.
+    fn wires(&self) -> Mark {
+        let mut wires = Vec::new();
+        for (row, &y) in self.wires.iter().enumerate() {
+            let mut column = 0;
+            while column < self.grid.columns {
+                let start = column;
+                while column < self.grid.columns && self.grid.wire(row, column) {
+                    column += 1;
+                }
+                if column > start {
+                    wires.push(((self.x(start), y), (self.x(column), y)));
+                }
+                column += 1;
+            }
+            if row + 1 < self.grid.rows {
+                let below = self.wires[row + 1];
+                for boundary in
+                    (1..self.grid.columns).filter(|boundary| self.grid.down(row, *boundary))
+                {
+                    let x = self.x(boundary);
+                    wires.push(((x, y), (x, below)));
+                }
+            }
+        }
+        Mark::Wires(wires)
+    }
+
+    /// The contact of a master control in the left rail, which feeds what lies below.
+    fn master(&self, instr: InstrIndex, y: f64) -> Mark {
+        let name = |at| operand_text(self.face.resolved, instr, at);
+        let rail = self.x(0);
+        let mut marks = Vec::new();
+        for bar in [y - GAP, y + GAP] {
+            marks.push(line("wire", (rail - BAR, bar), (rail + BAR, bar)));
+        }
+        let gap = Mark::Frame {
+            class: "gap",
+            at: (rail - 2.0, y - GAP + 1.0),
+            size: (4.0, 2.0 * GAP - 2.0),
+            radius: None,
+        };
+        marks.push(gap);
+        marks.push(text("name end", (rail - BAR - 4.0, y + 4.0), &name(0)));
+        marks.push(text("name", (rail + BAR + 4.0, y + 4.0), &name(1)));
+        let operands = &self.face.resolved.program.instrs[instr].operands;
+        let device = operands.get(1).and_then(|operand| operand.kind.device());
+        Mark::About(device, marks)
+    }
+
+    fn placed(&self, placed: Placed) -> Mark {
+        let y = self.wires[placed.row];
+        let (left, right) = (self.x(placed.column), self.x(placed.column + placed.span));
+        // What a pointer hits.
+        let mut marks = vec![Mark::Frame {
+            class: "area",
+            at: (left, y - ABOVE + 2.0),
+            size: (right - left, ABOVE + BELOW - 4.0),
+            radius: None,
+        }];
+        let middle = (left + right) / 2.0;
+        match placed.cell {
+            Cell::Contact(contact) if contact.shape != Shape::Compare => {
+                contact_marks(contact.shape, (left, right), y, &mut marks);
+                let name = self.face.name(placed.cell);
+                marks.push(text("name middle", (middle, y - 12.0), &name));
+            }
+            Cell::Contact(_) | Cell::Output(_) => {
+                let label = self.face.symbol(placed.cell);
+                let is_output = matches!(placed.cell, Cell::Output(_));
+                boxed(&label, (left, right), y, is_output, &mut marks);
+            }
+            Cell::Result(_) => {
+                marks.push(line("wire", (left, y), (right, y)));
+                let ends = ((middle - 5.0, y + BAR), (middle + 5.0, y - BAR));
+                marks.push(line("wire", ends.0, ends.1));
+                let sign = self.face.symbol(placed.cell);
+                marks.push(text("name middle", (middle, y - 12.0), &sign));
+            }
+            Cell::FoldOut(_) | Cell::FoldIn(_) => {
+                marks.push(line("wire", (left, y), (right, y)));
+                let sign = self.face.symbol(placed.cell);
+                marks.push(text("name middle", (middle, y - 6.0), &sign));
+            }
+        }
+        for (i, comment) in self.face.comment(placed).iter().enumerate() {
+            let y = y + BELOW + 9.0 + COMMENT * i as f64;
+            marks.push(match placed.cell {
+                Cell::Output(_) => text("comment end", (right - 4.0, y), comment),
+                _ => text("comment middle", (middle, y), comment),
+            });
+        }
+        Mark::About(self.face.device(placed.cell), marks)
+    }
+}
+
+fn contact_marks(shape: Shape, (left, right): (f64, f64), y: f64, marks: &mut Vec<Mark>) {
+    let middle = (left + right) / 2.0;
+    for (from, to) in [(left, middle - GAP), (middle + GAP, right)] {
+        marks.push(line("wire", (from, y), (to, y)));
+    }
+    for bar in [middle - GAP, middle + GAP] {
+        marks.push(line("wire", (bar, y - BAR), (bar, y + BAR)));
+    }
+    let ends = ((middle - 7.0, y + BAR), (middle + 7.0, y - BAR));
+    match shape {
+        Shape::Open | Shape::Compare => {}
+        Shape::Closed => marks.push(line("wire", ends.0, ends.1)),
+        Shape::Rising => marks.push(text("text middle", (middle, y + 4.0), "↑")),
+        Shape::Falling => marks.push(text("text middle", (middle, y + 4.0), "↓")),
+    }
+}
+
+/// A comparison, coil or box: its text, which holds its brackets.
+fn boxed(label: &str, (left, right): (f64, f64), y: f64, at_rail: bool, marks: &mut Vec<Mark>) {
+    let is_coil = label.starts_with('(');
+    let label = label.trim_matches(['(', ')', '[', ']']);
+    let width = unicode_width::UnicodeWidthStr::width(label) as f64 * CHARACTER + 12.0;
+    let start = match at_rail {
+        true => right - width - 8.0,
+        false => (left + right - width) / 2.0,
+    };
+    marks.push(line("wire", (left, y), (start, y)));
+    marks.push(line("wire", (start + width, y), (right, y)));
+    marks.push(Mark::Frame {
+        class: if is_coil { "box coil" } else { "box" },
+        at: (start, y - 10.0),
+        size: (width, 20.0),
+        radius: Some(if is_coil { 10 } else { 2 }),
+    });
+    marks.push(text("text middle", (start + width / 2.0, y + 4.0), label));
+}
+
+impl Picture {
+    /// Without links, for a picture that is a file of its own.
+    pub(crate) fn unlink(&mut self) {
+        unlink(&mut self.marks);
+    }
+}
+
+fn unlink(marks: &mut [Mark]) {
+    for mark in marks {
+        match mark {
+            Mark::Link(_, inner) => {
+                unlink(inner);
+                *mark = Mark::About(None, std::mem::take(inner));
+            }
+            Mark::About(_, inner) => unlink(inner),
+            Mark::Line { .. } | Mark::Wires(_) | Mark::Text { .. } | Mark::Frame { .. } => {}
+        }
+    }
+}

@@ -1,0 +1,460 @@
+//! Where the parts of a chart lie, in columns and lines of characters.
+//!
+//! A flow runs down a line. Where it divides, its branches lie side by side, and meet again at the state or transition
+//! that most of them lead to. Each state is placed once; what leads to one that lies elsewhere is an arrow with its
+//! name. So the chart is complete whatever the program does, and tidy where the program is.
+
+use super::Chart;
+use crate::face::fold;
+use std::collections::{BTreeMap, VecDeque};
+use unicode_width::UnicodeWidthStr;
+
+/// Columns of a state's box.
+pub(super) const BOX: usize = 9;
+/// From the left edge of a branch to its line.
+const SPINE: usize = 4;
+/// Columns of a line of text before it is folded.
+const ROOM: usize = 40;
+/// How many divergences may lie in each other; beyond, arrows lead on.
+const DEEPEST: usize = 50;
+
+/// A part of a chart. Columns and lines count from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Piece {
+    /// The box of a state: its upper left corner. It has three lines.
+    State { x: usize, y: usize, state: usize },
+    /// The bar of a transition.
+    Bar { x: usize, y: usize },
+    /// A line of text.
+    Text { x: usize, y: usize, text: Words },
+    /// An arrow to a state that lies elsewhere.
+    Arrow {
+        x: usize,
+        y: usize,
+        states: Vec<usize>,
+    },
+    /// A line between two places; double where branches run together.
+    Down { x: usize, from: usize, to: usize },
+    Across {
+        y: usize,
+        from: usize,
+        to: usize,
+        double: bool,
+    },
+}
+
+/// What a line of text says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Words {
+    /// The name of a state.
+    Name(String),
+    /// A line of the action of a state.
+    Action(String, usize, usize),
+    /// A line of a condition, or of a remark.
+    Plain(String),
+}
+
+/// A placed chart.
+pub(super) struct Sheet {
+    pub pieces: Vec<Piece>,
+    pub width: usize,
+    pub height: usize,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Point {
+    State(usize),
+    Transition(usize),
+}
+
+/// How far a branch reaches.
+struct Run {
+    width: usize,
+    /// The line below it.
+    bottom: usize,
+    /// Whether it ends where the branches meet.
+    open: bool,
+    /// The states at its end.
+    last: Vec<usize>,
+}
+
+/// Branches side by side.
+struct Fork {
+    run: Run,
+    /// Where they meet, if that is not where the branches around them do.
+    meets: Option<Point>,
+}
+
+/// Places a chart.
+pub(super) fn place(chart: &Chart) -> Sheet {
+    let mut leaving = vec![Vec::new(); chart.states.len()];
+    for (t, transition) in chart.transitions.iter().enumerate() {
+        transition
+            .from
+            .iter()
+            .for_each(|&from| leaving[from].push(t));
+    }
+    let mut placer = Placer {
+        chart,
+        leaving,
+        pieces: Vec::new(),
+        placed: vec![false; chart.states.len()],
+        drawn: vec![false; chart.transitions.len()],
+        stops: Vec::new(),
+    };
+    let mut width = 0;
+    let mut y = 0;
+    for root in roots(chart) {
+        if placer.placed[root] {
+            continue;
+        }
+        let run = placer.flow(root, y);
+        width = width.max(run.width);
+        y = run.bottom + 1;
+    }
+    let remarks = placer.remarks();
+    if remarks.is_empty() {
+        y -= 1;
+    }
+    for remark in remarks {
+        for line in fold(&remark, 2 * ROOM, usize::MAX) {
+            width = width.max(line.width());
+            placer.text(0, y, Words::Plain(line));
+            y += 1;
+        }
+    }
+    Sheet {
+        pieces: placer.pieces,
+        width,
+        height: y,
+    }
+}
+
+/// The states in the order in which flows begin: initial ones, those that no other leads to, the rest.
+fn roots(chart: &Chart) -> Vec<usize> {
+    let mut led_to = vec![false; chart.states.len()];
+    for transition in chart
+        .transitions
+        .iter()
+        .filter(|made| !made.from.is_empty())
+    {
+        transition.to.iter().for_each(|&to| led_to[to] = true);
+    }
+    let mut order: Vec<usize> = (0..chart.states.len()).collect();
+    order.sort_by_key(|&state| (!chart.states[state].is_initial(), led_to[state]));
+    order
+}
+
+struct Placer<'a> {
+    chart: &'a Chart,
+    /// The transitions that leave each state.
+    leaving: Vec<Vec<usize>>,
+    pieces: Vec<Piece>,
+    placed: Vec<bool>,
+    drawn: Vec<bool>,
+    /// Where the branches around the place at hand meet, the innermost last.
+    stops: Vec<Point>,
+}
+
+impl Placer<'_> {
+    /// A flow that begins with a state, from a line on.
+    fn flow(&mut self, root: usize, y: usize) -> Run {
+        let entries = self.chart.transitions.iter().enumerate();
+        let entries = entries.filter(|(_, entry)| entry.from.is_empty() && entry.to == [root]);
+        let (entries, conditions): (Vec<usize>, Vec<&str>) = entries
+            .map(|(t, entry)| (t, entry.condition.as_str()))
+            .unzip();
+        if entries.is_empty() {
+            return self.chain(Point::State(root), (0, y), &[], false);
+        }
+        entries.iter().for_each(|&t| self.drawn[t] = true);
+        let (width, bottom) = self.bar(&conditions.join(" + "), 0, y, false);
+        let run = self.chain(Point::State(root), (0, bottom), &[], true);
+        Run {
+            width: width.max(run.width),
+            ..run
+        }
+    }
+
+    fn text(&mut self, x: usize, y: usize, text: Words) {
+        self.pieces.push(Piece::Text { x, y, text });
+    }
+
+    /// Connects a part to the line above it.
+    fn connect(&mut self, x: usize, y: usize) {
+        self.down(x + SPINE, y - 1, y);
+    }
+
+    fn down(&mut self, x: usize, from: usize, to: usize) {
+        self.pieces.push(Piece::Down { x, from, to });
+    }
+
+    /// Places what follows a point of a branch at a column, from a line on; `below` is whether a line leads to it.
+    fn chain(&mut self, first: Point, (x, y): (usize, usize), above: &[usize], below: bool) -> Run {
+        let mut run = Run {
+            width: BOX + 2,
+            bottom: y,
+            open: false,
+            last: Vec::new(),
+        };
+        let mut next = Some(first);
+        let mut below = below;
+        let mut above = above.to_vec();
+        while let Some(point) = next {
+            if self.stops.last() == Some(&point) {
+                run.open = true;
+                run.last = above;
+                return run;
+            }
+            let y = run.bottom;
+            let (width, bottom, follows) = match point {
+                Point::State(state) if self.placed[state] || self.stops.contains(&point) => {
+                    let (width, bottom) = self.arrow(&[state], x, y);
+                    (width, bottom, Vec::new())
+                }
+                Point::State(state) => {
+                    if below {
+                        self.connect(x, y);
+                    }
+                    let (width, bottom) = self.state(state, x, y);
+                    above = vec![state];
+                    let leaving = self.leaving[state].iter();
+                    (
+                        width,
+                        bottom,
+                        leaving.map(|&t| Point::Transition(t)).collect(),
+                    )
+                }
+                Point::Transition(t) => self.transition(t, x, y, &above),
+            };
+            below = true;
+            run.width = run.width.max(width);
+            run.bottom = bottom;
+            next = match follows[..] {
+                [] => None,
+                [only] => Some(only),
+                _ => {
+                    let fork = self.fork(&follows, (x, bottom), &above);
+                    run.width = run.width.max(fork.run.width);
+                    run.bottom = fork.run.bottom;
+                    run.open = fork.run.open && fork.meets.is_none();
+                    run.last.clone_from(&fork.run.last);
+                    above = fork.run.last;
+                    fork.meets.filter(|_| fork.run.open)
+                }
+            };
+        }
+        run
+    }
+
+    /// The box of a state with its actions: width, and the line below.
+    fn state(&mut self, state: usize, x: usize, y: usize) -> (usize, usize) {
+        self.placed[state] = true;
+        self.pieces.push(Piece::State { x, y, state });
+        let about = &self.chart.states[state];
+        let mut lines = Vec::new();
+        for line in about
+            .name
+            .iter()
+            .flat_map(|name| fold(name, ROOM, usize::MAX))
+        {
+            lines.push((line.width(), Words::Name(line)));
+        }
+        for (i, action) in about.actions.iter().enumerate() {
+            for line in fold(&action.text, ROOM, usize::MAX) {
+                lines.push((line.width(), Words::Action(line, state, i)));
+            }
+        }
+        let width = lines.iter().map(|line| line.0).max().unwrap_or(0);
+        let bottom = y + lines.len().max(3);
+        for (i, (_, text)) in lines.into_iter().enumerate() {
+            self.text(x + BOX + 1, y + i, text);
+        }
+        if bottom > y + 3 {
+            self.down(x + SPINE, y + 2, bottom - 1);
+        }
+        (BOX + 1 + width + 3, bottom)
+    }
+
+    /// A transition below states, and what it leads to.
+    fn transition(
+        &mut self,
+        t: usize,
+        x: usize,
+        y: usize,
+        above: &[usize],
+    ) -> (usize, usize, Vec<Point>) {
+        let transition = &self.chart.transitions[t];
+        // States that the line above does not join are contacts.
+        let elsewhere = transition.from.iter().filter(|from| !above.contains(from));
+        let factors = elsewhere.map(|&from| self.chart.states[from].device.to_string());
+        let factors = factors.chain([transition.condition.clone()]);
+        let condition = factors.collect::<Vec<_>>().join(" · ");
+        let (width, bottom) = self.bar(&condition, x, y, true);
+        let again = std::mem::replace(&mut self.drawn[t], true);
+        if again {
+            let (more, bottom) = self.arrow(&transition.to, x, bottom);
+            return (width.max(more), bottom, Vec::new());
+        }
+        let to = transition.to.iter().map(|&to| Point::State(to));
+        (width, bottom, to.collect())
+    }
+
+    /// A bar with its condition: width, and the line below.
+    fn bar(&mut self, condition: &str, x: usize, y: usize, below: bool) -> (usize, usize) {
+        if below {
+            self.connect(x, y);
+        }
+        self.pieces.push(Piece::Bar { x: x + SPINE, y });
+        let lines = fold(condition, ROOM, usize::MAX);
+        let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
+        let bottom = y + lines.len().max(1);
+        for (i, line) in lines.into_iter().enumerate() {
+            self.text(x + SPINE + 3, y + i, Words::Plain(line));
+        }
+        if bottom > y + 1 {
+            self.down(x + SPINE, y, bottom - 1);
+        }
+        (SPINE + 3 + width + 3, bottom)
+    }
+
+    /// An arrow to states that lie elsewhere: width, and the line below.
+    fn arrow(&mut self, states: &[usize], x: usize, y: usize) -> (usize, usize) {
+        self.connect(x, y);
+        self.pieces.push(Piece::Arrow {
+            x: x + SPINE,
+            y,
+            states: states.to_vec(),
+        });
+        (SPINE + 2 + 6 * states.len() + 2, y + 1)
+    }
+
+    /// Branches side by side, below a line: double where one transition begins all of them.
+    fn fork(&mut self, branches: &[Point], (x, y): (usize, usize), above: &[usize]) -> Fork {
+        let parallel = matches!(branches[0], Point::State(_));
+        let meets = match self.stops.len() < DEEPEST {
+            true => self.meeting(branches, parallel),
+            false => None,
+        };
+        self.stops.extend(meets);
+        self.connect(x, y);
+        let mut width = 0;
+        let mut last = x;
+        let mut open = Vec::new();
+        let mut bottom = y + 1;
+        let mut joined = Vec::new();
+        for &branch in branches {
+            last = x + width;
+            let run = self.chain(branch, (last, y + 1), above, true);
+            if run.open {
+                open.push((last, run.bottom));
+                joined.extend(run.last);
+            }
+            bottom = bottom.max(run.bottom);
+            width += run.width;
+        }
+        self.across(y, x, last, parallel);
+        if meets.is_some() {
+            self.stops.pop();
+        }
+        if let Some(&(last, _)) = open.last() {
+            for &(x, end) in &open {
+                self.down(x + SPINE, end - 1, bottom);
+            }
+            let double = matches!(meets, Some(Point::Transition(_)));
+            self.across(bottom, x, last, double);
+            bottom += 1;
+        }
+        let run = Run {
+            width,
+            bottom,
+            open: !open.is_empty(),
+            last: joined,
+        };
+        Fork { run, meets }
+    }
+
+    fn across(&mut self, y: usize, first: usize, last: usize, double: bool) {
+        let (from, to) = (first + SPINE, last + SPINE);
+        let beyond = if double { 2 } else { 0 };
+        self.pieces.push(Piece::Across {
+            y,
+            from: from - beyond,
+            to: to + beyond,
+            double,
+        });
+    }
+
+    /// Where most of some branches meet: the nearest state that selected ones lead to, or the nearest transition that
+    /// leaves states of parallel ones together.
+    fn meeting(&self, branches: &[Point], parallel: bool) -> Option<Point> {
+        let mut reached: BTreeMap<Point, (usize, usize)> = BTreeMap::new();
+        for &branch in branches {
+            for (point, distance) in self.distances(branch) {
+                let (count, sum) = reached.entry(point).or_default();
+                *count += 1;
+                *sum += distance;
+            }
+        }
+        let candidates = reached.into_iter().filter(|(point, (count, _))| {
+            let fits = match *point {
+                Point::State(_) => !parallel,
+                Point::Transition(t) => parallel && self.chart.transitions[t].from.len() > 1,
+            };
+            fits && *count > 1
+        });
+        let best = candidates.max_by_key(|(point, (count, sum))| {
+            (*count, std::cmp::Reverse(*sum), std::cmp::Reverse(*point))
+        });
+        best.map(|(point, _)| point)
+    }
+
+    /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
+    /// they are.
+    fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
+        let mut found = BTreeMap::new();
+        let mut open = VecDeque::from([(start, 0)]);
+        while let Some((point, distance)) = open.pop_front() {
+            let placed = match point {
+                Point::State(state) => self.placed[state],
+                Point::Transition(t) => self.drawn[t],
+            };
+            if placed || self.stops.contains(&point) || found.contains_key(&point) {
+                continue;
+            }
+            found.insert(point, distance);
+            match point {
+                Point::State(state) => {
+                    let next = self.leaving[state].iter();
+                    open.extend(next.map(|&t| (Point::Transition(t), distance + 1)));
+                }
+                Point::Transition(t) => {
+                    let next = self.chart.transitions[t].to.iter();
+                    open.extend(next.map(|&to| (Point::State(to), distance + 1)));
+                }
+            }
+        }
+        found
+    }
+
+    /// What the flows do not show.
+    fn remarks(&self) -> Vec<String> {
+        let names = |states: &[usize]| {
+            let names = states
+                .iter()
+                .map(|&to| self.chart.states[to].device.to_string());
+            names.collect::<Vec<_>>().join(", ")
+        };
+        let entries = self.chart.transitions.iter().zip(&self.drawn);
+        let entries = entries.filter(|(_, drawn)| !**drawn).map(|(entry, _)| {
+            let (network, condition) = (entry.network, &entry.condition);
+            format!(
+                "Network {network} also sets {}: {condition}",
+                names(&entry.to)
+            )
+        });
+        let others = self.chart.others.iter();
+        let others = others.map(|other| format!("Step {}: {}", other.step, other.text));
+        entries.chain(others).collect()
+    }
+}
