@@ -324,6 +324,9 @@ pub struct RunArgs {
     /// an existing file.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// With --plot: draw over this number instead of over time, such as a slave over its master.
+    #[arg(long, value_name = "DEVICE", requires = "plot")]
+    pub over: Option<String>,
     /// Draw what HM's oscilloscope has sampled last (D8030 to D8043) as an SVG, and write a table of the samples beside
     /// it (`.csv`); overwrites existing files.
     #[arg(long, value_name = "FILE")]

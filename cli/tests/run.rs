@@ -292,6 +292,13 @@ fn run_draws_a_diagram() {
     let args = ["run", "door.il", "--for", "0"];
     assert_eq!(code(path, &[&args[..], &plot].concat()), 0);
     assert!(drawn().contains(">X001</text>") && !drawn().contains("Position"));
+    // Over the pulses instead of over time.
+    let over = ["--over", "Y000.pulses"];
+    let args = ["run", "pulses.il", "--for", "300ms", "--set", "X000=1"];
+    let plot = ["--plot", "over.svg"];
+    assert_eq!(code(path, &[&args[..], &plot, &over].concat()), 0);
+    let drawn_over = fs::read_to_string(path.join("over.svg")).unwrap();
+    assert!(drawn_over.contains(">Y000.pulses</text>") && !drawn_over.contains("time ("));
     // Pulses that no axis follows are drawn, too.
     let args = ["run", "pulses.il", "--for", "300ms", "--set", "X000=1"];
     let written = ["--plot", "pulses.svg", "--vcd", "pulses.vcd"];
@@ -321,6 +328,12 @@ fn run_draws_a_diagram() {
             &["--machine", "door.toml", "--plot", "door.toml"],
         ),
         ("folder", &["--plot", "door.il/a.svg", "--watch", "Y000"]),
+        (
+            "over_text",
+            &[
+                "--plot", "a.svg", "--for", "1s", "--watch", "Y000", "--over", "D0.str",
+            ],
+        ),
     ] {
         let args = [&["run", "door.il"], args].concat();
         insta::assert_snapshot!(format!("run_plot_{name}"), shown(path, &args));

@@ -191,6 +191,9 @@ static bool machine_request(const program *program, const char *verb, const long
     } else if (strcmp(verb, "pulses") == 0) {
         rungc_map map = program->map();
         value(true, rungc_pulses_sent(&map, (uint32_t)number[0]));
+    } else if (strcmp(verb, "pass") == 0) {
+        rungc_map map = program->map();
+        value(true, (int32_t)rungc_pass_pulses(&map, (uint32_t)number[0], (uint32_t)number[1], (uint32_t)number[2]));
     } else if (strcmp(verb, "frequency") == 0) {
         rungc_map map = program->map();
         value(true, (long)rungc_pulse_millihertz(&map, (uint32_t)number[0]));

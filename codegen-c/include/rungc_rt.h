@@ -1133,6 +1133,15 @@ bool rungc_get_long(struct rungc_map *map, rungc_class class_, uint32_t number, 
 void rungc_advance_pulses(struct rungc_map *map, uint32_t now_us);
 
 /**
+ * Counts the pulses that are sent from `from_us` to `until_us`, in microseconds since power-on, wrapping, but only until an output has sent
+ * `most`; returns the time that is reached. For simulators, whose machines change an input at the very pulse.
+ */
+uint32_t rungc_pass_pulses(struct rungc_map *map,
+                           uint32_t from_us,
+                           uint32_t until_us,
+                           uint32_t most);
+
+/**
  * Brings the serial ports to `now_us`, microseconds since power-on, wrapping.
  */
 rungc_request rungc_advance_ports(struct rungc_map *map, uint32_t now_us);

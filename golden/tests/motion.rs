@@ -1,6 +1,8 @@
 //! Profiles of moves beside the equations of a trapezoid, as open planners publish them (grbl's `planner.c`, LinuxCNC's
 //! `simple_tp.c`): how many pulses and milliseconds they differ. The table is in `docs/src/motion.md`.
 
+#[path = "motion/following.rs"]
+mod following;
 #[path = "motion/homing.rs"]
 mod homing;
 
@@ -252,24 +254,27 @@ fn table() -> String {
     table
 }
 
-#[test]
-fn the_page_on_motion_shows_how_exact_moves_are() {
+/// The page on motion has this table.
+fn is_shown(table: &str) {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/motion.md");
     let page = std::fs::read_to_string(page).expect("the page exists");
-    let table = table();
     assert!(
-        page.contains(&table),
+        page.contains(table),
         "docs/src/motion.md has to show\n{table}"
     );
 }
 
 #[test]
+fn the_page_on_motion_shows_how_exact_moves_are() {
+    is_shown(&table());
+}
+
+#[test]
 fn the_page_on_motion_shows_moves_that_inputs_steer() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/motion.md");
-    let page = std::fs::read_to_string(page).expect("the page exists");
-    let table = homing::table();
-    assert!(
-        page.contains(&table),
-        "docs/src/motion.md has to show\n{table}"
-    );
+    is_shown(&homing::table());
+}
+
+#[test]
+fn the_page_on_motion_shows_axes_that_follow() {
+    is_shown(&following::table());
 }

@@ -178,6 +178,40 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
     }
 }
 
+/// Lets pulses pass as [`advance`] does, from `from_us` to `until_us` (microseconds since power-on, wrapping), but only
+/// until an output has sent `most`; returns the time that is reached. A simulated machine with a switch that many
+/// pulses away so changes an input at the very pulse.
+pub fn pass(plc: &mut dyn Plc, from_us: u32, until_us: u32, most: u32) -> u32 {
+    let (mut short, mut long) = (0, until_us.wrapping_sub(from_us));
+    if most_sent(plc, until_us) >= most {
+        while long - short > 1 {
+            let middle = short + (long - short) / 2;
+            match most_sent(plc, from_us.wrapping_add(middle)) >= most {
+                true => long = middle,
+                false => short = middle,
+            }
+        }
+    }
+    let reached = from_us.wrapping_add(long);
+    advance(plc, reached);
+    reached
+}
+
+/// How many pulses one of the outputs sends by `now_us`, the one that sends most.
+fn most_sent(plc: &mut dyn Plc, now_us: u32) -> u32 {
+    let outputs = plc.pulses().outputs().len() as u32;
+    let mut most = 0;
+    for output in 0..outputs {
+        // Several axes may be bound to an output.
+        let sent = (0..outputs).filter_map(|n| {
+            let axis = plc.axis(n)?;
+            (u32::from(axis.output) == output).then(|| axis.generator.count_by(now_us))
+        });
+        most = sent.fold(0, u32::saturating_add).max(most);
+    }
+    most
+}
+
 /// Counts the pulses that have ended and are not counted yet.
 pub(crate) fn count(plc: &mut dyn Plc, output: u32, wiring: &Wiring) {
     let Some(axis) = plc.axis(output) else {

@@ -59,7 +59,10 @@ mod wiring;
 pub mod word;
 
 pub use access::Access;
-pub use axis::{Axis, advance as advance_pulses, millihertz as pulse_millihertz, pulse_timer};
+pub use axis::{
+    Axis, advance as advance_pulses, millihertz as pulse_millihertz, pass as pass_pulses,
+    pulse_timer,
+};
 pub use comm::{Port, Ports, advance as advance_ports};
 pub use compare::CmpOp;
 pub use cx::{Cx, call, fetch, send};

@@ -245,6 +245,12 @@ impl Generator {
         count
     }
 
+    /// How many pulses end by `now_us` if nothing changes.
+    pub fn count_by(&self, now_us: u32) -> u32 {
+        let mut copy = *self;
+        copy.advance(now_us)
+    }
+
     /// The same for a host that drives a pin: at most one edge of the signal passes, so that the pin has every pulse. A
     /// host that comes late sends the next edges sooner, but none before its time is half over; what it is later than
     /// that, the train is longer.

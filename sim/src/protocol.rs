@@ -51,6 +51,16 @@ pub enum Request {
     Output(u32),
     /// Asks how many pulses an output has sent since power-on; those in reverse count down.
     Pulses(u32),
+    /// Lets pulses pass, at most until an output has sent a number of them; asks for the time that is reached, in
+    /// microseconds since power-on, wrapping.
+    Pass {
+        /// Microseconds since power-on, wrapping, that have been reached.
+        from_us: u32,
+        /// Those that are to be reached.
+        until_us: u32,
+        /// How many pulses an output sends at most, up to `i32::MAX`.
+        most: u32,
+    },
     /// Asks for the frequency at which an output sends pulses, in millihertz.
     Frequency(u32),
     /// A character comes to a serial port; it was in at its time, after those before it.
@@ -163,6 +173,11 @@ impl fmt::Display for Request {
             Request::Interrupts => write!(f, "interrupts"),
             Request::Output(n) => write!(f, "out {n}"),
             Request::Pulses(n) => write!(f, "pulses {n}"),
+            Request::Pass {
+                from_us,
+                until_us,
+                most,
+            } => write!(f, "pass {} {} {most}", from_us as i32, until_us as i32),
             Request::Frequency(n) => write!(f, "frequency {n}"),
             Request::Receive(port, c) => {
                 write!(f, "receive {port} {} {} {}", c.at_us, c.byte, c.fault as u8)

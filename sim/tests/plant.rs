@@ -5,12 +5,15 @@ use rungc_sim::Channel;
 use rungc_sim::plant::{self, Look, Plant, Terminals};
 use rungc_sim::wire::Change;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A PLC that does what the test says.
 #[derive(Default)]
 struct Plc {
     outputs: BTreeMap<u32, bool>,
     pulses: BTreeMap<u32, i32>,
+    /// What Y000 sends in a millisecond, since when, and how many of these pulses are over.
+    train: (i32, u64, u32),
     changes: Vec<Change>,
     inputs: BTreeMap<u32, bool>,
     signals: BTreeMap<String, i32>,
@@ -28,6 +31,20 @@ impl Terminals for Plc {
             Look::Channel(_) => self.driven,
         };
         Ok(at.iter().map(value).collect())
+    }
+
+    fn pass(&mut self, time: Range<u64>, most: u32, at: &[Look]) -> Result<(u64, Vec<i32>), ()> {
+        let (rate, begin, over) = self.train;
+        let each_ms = u64::from(rate.unsigned_abs());
+        let by_then = ((time.end - begin) * each_ms / 1000) as u32;
+        let sent = (by_then - over).min(most);
+        let reached = match sent == most {
+            true => begin + (u64::from(over + sent) * 1000).div_ceil(each_ms),
+            false => time.end,
+        };
+        self.train.2 += sent;
+        *self.pulses.entry(0).or_default() += sent as i32 * rate.signum();
+        Ok((reached, self.look(at)?))
     }
 
     fn change(&mut self, change: Change) -> Result<(), ()> {
@@ -68,10 +85,10 @@ impl Rig {
 
     fn run(&mut self, ms: u64, pulses_per_ms: i32) -> Vec<(u64, u32, bool)> {
         self.plc.changes.clear();
+        self.plc.train = (pulses_per_ms, 1000 * self.now_ms, 0);
         for _ in 0..ms {
             self.now_ms += 1;
-            *self.plc.pulses.entry(0).or_default() += pulses_per_ms;
-            self.plant.step(self.now_ms, &mut self.plc).unwrap();
+            self.plant.step(self.now_ms, &[], &mut self.plc).unwrap();
         }
         let seen = |c: &Change| (c.at_us, c.input, c.on);
         self.plc.changes.iter().map(seen).collect()
@@ -109,7 +126,7 @@ fn an_axis_passes_its_switches_at_their_places() {
     let seen = rig.run(41, -10);
     assert_eq!(
         seen,
-        [(7500, 1, true), (30_000, 1, false), (40_000, 2, false)]
+        [(7500, 1, true), (30_100, 1, false), (40_000, 2, false)]
     );
     assert_eq!(rig.position("Y000"), -310.0);
     assert_eq!(rig.plant.collision(), None);

@@ -72,6 +72,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     order::by_key(&mut settings, |s| s.at_ms);
     let watched = args.watch.iter().map(|name| target(name));
     let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
+    let over = args.over.as_deref().map(target).transpose()?;
     let described = args.machine.as_ref().map(|path| plant::load(path));
     let described = described.transpose().map_err(because)?;
     if let Some(machine) = &described {
@@ -86,7 +87,8 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             return Err(failure);
         }
     };
-    let used = settings.iter().map(|s| s.target).chain(watched.clone());
+    let used = settings.iter().map(|s| s.target);
+    let used = used.chain(watched.clone()).chain(over);
     let used = used.flat_map(observed);
     let wired = described.iter().flat_map(Description::terminals);
     let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
@@ -121,25 +123,29 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     }
     let plant = described.as_ref().map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
-    let usual = subject.project.as_ref().and_then(|project| {
-        let file = project.retain.as_deref()?;
-        Some(project.at(file))
-    });
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
     let run = simulate::Run {
         args,
-        retain: args.retain.clone().or(usual),
+        retain: args.retain.clone().or_else(|| usual_retain(subject)),
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
         shown: &shown,
         watched: &watched,
+        over,
         table: table == Table::Usual || !watched.is_empty(),
         modules: &fitted(&read.program),
         program_memory: program_memory.as_deref(),
     };
     run.simulate(plant)
+}
+
+/// Where the project keeps latched devices.
+fn usual_retain(subject: &Subject) -> Option<PathBuf> {
+    let project = subject.project.as_ref()?;
+    let file = project.retain.as_deref()?;
+    Some(project.at(file))
 }
 
 /// Names the axes of a machine that the program cannot move.

@@ -14,7 +14,7 @@ use core::str::{FromStr, SplitAsciiWhitespace};
 use port::Port;
 use rungc_rt::comm::{CharFault, Received};
 use rungc_rt::modules::{KINDS, Quantity, Signal};
-use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, word};
+use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, pass_pulses, word};
 
 /// Answers requests until they end. `read` waits for bytes and says how many came, 0 at the end; `write` takes all bytes.
 pub fn serve(read: &mut dyn FnMut(&mut [u8]) -> usize, write: &mut dyn FnMut(&[u8])) {
@@ -158,6 +158,11 @@ fn answer(
         "interrupts" => program.take_interrupts(hal),
         "out" => return value(program.output(next(words)?)),
         "pulses" => return value(program.pulses_sent(next(words)?)),
+        "pass" => {
+            let (from_us, until_us) = (next::<i32>(words)?, next::<i32>(words)?);
+            let reached = pass_pulses(program, from_us as u32, until_us as u32, next(words)?);
+            return value(reached as i32);
+        }
         "frequency" => return value(program.pulse_millihertz(next(words)?)),
         "receive" => {
             let line = hal.line(next(words)?)?;

@@ -49,7 +49,18 @@ const fn level(distance: f64, speed: f64) -> Phase {
 /// From 0 to 100 kHz in 100 ms, as FX3U and H2U have it at power-on.
 const ACCELERATION: f64 = 1_000_000.0;
 
-const MOVES: [Steered; 4] = [
+/// An axis of HM on Y000 with a direction, speeds in pulses per 10 ms, and the inputs X for its events.
+macro_rules! hm_axis {
+    ($program:literal) => {
+        concat!(
+            "LD M8002\nAXPO K0 K0 K1\nAXPU K0 K10 K0 K0\nAXSP K0 K500 K0\nAXAS K0 K100\n",
+            $program,
+            "END\n"
+        )
+    };
+}
+
+const MOVES: [Steered; 8] = [
     Steered {
         name: "PLSV",
         model: ModelId::Fx3u,
@@ -103,6 +114,61 @@ const MOVES: [Steered; 4] = [
             level(15_000.0 - 2500.0, 50_000.0),
             ramp(50_000.0, 0.0),
         ],
+    },
+    Steered {
+        name: "DPLSV",
+        model: ModelId::Hm,
+        program: hm_axis!("LD M0\nDPLSV K200 K0\n"),
+        source: "hm-motion-controller §8.3.12",
+        inputs: &[],
+        driven_ms: Some(501),
+        acceleration: ACCELERATION,
+        phases: &[
+            ramp(0.0, 20_000.0),
+            level(9600.0, 20_000.0),
+            ramp(20_000.0, 0.0),
+        ],
+    },
+    Steered {
+        name: "DDVIT",
+        model: ModelId::Hm,
+        program: hm_axis!("MOV K2 D324\nMOV H2200 D314\nLD M0\nDDVIT K5000 K200 K0\n"),
+        source: "hm-motion-controller §8.3.11",
+        inputs: &[(10_000, 1, true)],
+        driven_ms: None,
+        acceleration: ACCELERATION,
+        phases: &[
+            ramp(0.0, 20_000.0),
+            level(15_000.0 - 400.0, 20_000.0),
+            ramp(20_000.0, 0.0),
+        ],
+    },
+    Steered {
+        name: "HOME",
+        model: ModelId::Hm,
+        program: hm_axis!(
+            "AXEI K0 K32 K16 K0 K0\nAXOSP K0 K200 K20\nAXOX K0 H2003 K1 K0\nLD M0\nHOME K0\n"
+        ),
+        source: "hm-motion-controller §8.3.1",
+        inputs: &[(10_000, 5, true), (12_000, 5, false), (12_200, 4, true)],
+        driven_ms: None,
+        acceleration: ACCELERATION,
+        phases: &[
+            ramp(0.0, 20_000.0),
+            level(10_000.0 - 200.0, 20_000.0),
+            ramp(20_000.0, 2000.0),
+            level(2200.0 - 198.0, 2000.0),
+        ],
+    },
+    Steered {
+        name: "JOG",
+        model: ModelId::Hm,
+        program: hm_axis!("LD M0\nOUT M8099\nJOG K0 K10000 K200 K8 K16\n"),
+        source: "hm-motion-controller §8.3.2",
+        inputs: &[],
+        driven_ms: None,
+        acceleration: f64::INFINITY,
+        phases: &[level(10_000.0, 20_000.0)],
     },
 ];
 
@@ -199,10 +265,13 @@ pub fn table() -> String {
             order.source,
             1000.0 * whole
         );
-        // A pulse is under way when the input changes: DVIT counts it among those that follow.
-        assert!((sent - distance).abs() <= 1.0, "{}: {sent}", order.name);
         let first = (2.0 / order.acceleration).sqrt();
         let peak = order.phases[0].speeds[1];
+        // A pulse is under way when the input changes: DVIT counts it among those that follow. What a drive stops in
+        // time lacks the way by which its ramp is late.
+        let late = order.driven_ms.map_or(0.0, |_| peak * first / 2.0);
+        let missing = (sent - distance).abs();
+        assert!(missing <= 1.0 + late, "{}: {sent}", order.name);
         let most = peak * first + 1.5;
         assert!(
             greatest <= most,

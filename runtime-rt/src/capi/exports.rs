@@ -2,7 +2,7 @@
 
 use super::hal::{Board, Lines};
 use super::{Map, Request};
-use crate::axis::{advance, millihertz, pulse_timer};
+use crate::axis::{advance, millihertz, pass, pulse_timer};
 use crate::comm::codec::{self, Codec};
 use crate::comm::modbus::{self, Profile};
 use crate::comm::{Port, PortWiring, Ports, Status, advance as advance_ports};
@@ -69,6 +69,13 @@ pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
     hal.hold_pulses(true);
     advance(map, now_us);
     hal.hold_pulses(false);
+}
+
+/// Counts the pulses that are sent from `from_us` to `until_us`, in microseconds since power-on, wrapping, but only until an output has sent
+/// `most`; returns the time that is reached. For simulators, whose machines change an input at the very pulse.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_pass_pulses(map: &mut Map, from_us: u32, until_us: u32, most: u32) -> u32 {
+    pass(map, from_us, until_us, most)
 }
 
 /// Brings the serial ports to `now_us`, microseconds since power-on, wrapping.

@@ -37,6 +37,20 @@ fn operand(class: Class, number: u32) -> Operand {
     Operand::device(class, i32::try_from(number).unwrap_or(i32::MAX))
 }
 
+/// What is asked about pulses; `None` if it is something else.
+fn pulses(machine: &mut Machine, request: Request) -> Option<i64> {
+    Some(match request {
+        Request::Pulses(n) => machine.pulses_sent(n).into(),
+        Request::Frequency(n) => machine.pulse_millihertz(n).into(),
+        Request::Pass {
+            from_us,
+            until_us,
+            most,
+        } => rungc_rt::pass_pulses(machine, from_us, until_us, most).into(),
+        _ => return None,
+    })
+}
+
 fn set_signal(hal: &mut VirtualHal, channel: Channel, millionths: i32) -> Answer {
     let quantity = channel.quantity;
     let signal = Signal {
@@ -110,8 +124,9 @@ impl Engine for Interpreter<'_> {
                 Answer::Ok
             }
             Request::Output(n) => Answer::value(Some(machine.output(n))),
-            Request::Pulses(n) => Answer::value(Some(machine.pulses_sent(n))),
-            Request::Frequency(n) => Answer::value(Some(machine.pulse_millihertz(n))),
+            Request::Pulses(_) | Request::Pass { .. } | Request::Frequency(_) => {
+                Answer::value(pulses(machine, request))
+            }
             Request::Receive(port, character) => {
                 Answer::done(hal.line(port).and_then(|line| line.feed(character)))
             }

@@ -138,6 +138,7 @@ fn asks_for_value(request: Request) -> bool {
             | Request::Double(..)
             | Request::Output(_)
             | Request::Pulses(_)
+            | Request::Pass { .. }
             | Request::Frequency(_)
             | Request::ConstantScan
             | Request::Bfm(..)

@@ -5,6 +5,9 @@ use super::process::Sensor;
 use super::{Look, Moment};
 use std::fmt;
 
+/// Pulses that an axis follows at once where no switch is near.
+const MOST_PULSES: f64 = i32::MAX as f64;
+
 /// What drives an axis.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Drive {
@@ -138,11 +141,17 @@ impl Axis {
         }
     }
 
+    /// Whether pulses drive it.
+    pub(super) fn follows_pulses(&self) -> bool {
+        self.pulse_output().is_some()
+    }
+
     pub(super) fn inputs(&self) -> impl Iterator<Item = (u32, bool)> {
         let state = |s: &Switch| (s.input, s.is_on(self.position));
         self.switches.iter().map(state)
     }
 
+    /// What its drive needs to see of the PLC.
     pub(super) fn looks_at(&self, wanted: &mut Vec<Look>) {
         match self.drive {
             Drive::Pulses {
@@ -166,6 +175,14 @@ impl Axis {
         }
     }
 
+    /// How many pulses it may follow before one of its switches changes, at least one.
+    pub(super) fn room(&self) -> u32 {
+        let rooms = self.switches.iter().map(|s| s.room(self.position));
+        rooms.fold(f64::INFINITY, f64::min).clamp(1.0, MOST_PULSES) as u32
+    }
+
+    /// Goes as far as its drive does: by the pulses that it has not followed yet, or by what a motor does in a
+    /// millisecond.
     pub(super) fn step(
         &mut self,
         now_ms: u64,

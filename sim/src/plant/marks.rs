@@ -29,6 +29,14 @@ impl Marks {
         }
     }
 
+    /// Numbers of the first and the last section.
+    fn sections(self) -> (i64, i64) {
+        match self {
+            Marks::Range { .. } => (0, 2),
+            Marks::Periodic { .. } => (i64::MIN, i64::MAX),
+        }
+    }
+
     /// Whether the input is on there.
     fn is_on(self, index: i64) -> bool {
         match self {
@@ -72,6 +80,16 @@ impl Switch {
         self.marks.is_on(self.marks.index(at))
     }
 
+    /// How far an axis can go from this position, either way, before it changes, or less.
+    pub(super) fn room(&self, at: f64) -> f64 {
+        let index = self.marks.index(at);
+        let (first, last) = self.marks.sections();
+        let below = (index > first).then(|| at - self.marks.begin(index));
+        let above = (index < last).then(|| self.marks.begin(index + 1) - at);
+        let borders = [below, above].into_iter().flatten();
+        borders.fold(f64::INFINITY, f64::min)
+    }
+
     /// What it does on the way from one position to another, of which the axis goes `speed` in the millisecond.
     pub(super) fn pass(&self, from: f64, to: f64, speed: f64, moments: &mut Vec<Moment>) {
         let (begin, end) = (self.marks.index(from), self.marks.index(to));
@@ -110,6 +128,32 @@ mod tests {
         assert_eq!(passed(marks, 40.0, 0.0), back);
         assert_eq!(passed(marks, 10.0, 20.0), []);
         assert_eq!(passed(marks, 21.0, 20.0).len(), 1);
+    }
+
+    #[test]
+    fn nothing_changes_within_the_room() {
+        let range = Marks::Range {
+            from: 10.0,
+            to: 20.0,
+        };
+        let periodic = Marks::Periodic {
+            offset: 0.25,
+            width: 0.5,
+            every: 1.0,
+        };
+        for (marks, at, room) in [
+            (range, 3.0, 7.0),
+            (range, 12.5, 2.5),
+            (range, 26.0, 6.0),
+            (periodic, 0.5, 0.25),
+            (periodic, -7.0, 0.25),
+        ] {
+            let switch = Switch { input: 0, marks };
+            assert_eq!(switch.room(at), room, "{marks:?} {at}");
+            for to in [at - 0.99 * room, at + 0.99 * room] {
+                assert_eq!(passed(marks, at, to), [], "{marks:?} {at}");
+            }
+        }
     }
 
     #[test]

@@ -3,8 +3,9 @@
 //!
 //! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a
 //! millisecond at a time: it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a
-//! millisecond an axis moves evenly, and each switch and each encoder line changes when the axis passes the position
-//! where it does.
+//! millisecond a motor moves evenly, and each switch and each encoder line changes when the axis passes the position
+//! where it does. An axis that pulses drive stops at each pulse that changes an input, so that what the PLC does then
+//! has its effect on the next pulse.
 
 mod axis;
 mod delay;
@@ -20,6 +21,7 @@ use crate::target::Channel;
 use crate::wire::Change;
 use delay::Delay;
 use rungc_syntax::order;
+use std::ops::Range;
 
 /// What the machine asks of an output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -40,11 +42,27 @@ pub trait Terminals {
     /// What the outputs do now.
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Self::Error>;
 
+    /// Lets the PLC send pulses for this time, in microseconds since power-on, but only until an output has sent
+    /// `most`. Returns the time that is reached, and what the outputs do then.
+    fn pass(
+        &mut self,
+        time: Range<u64>,
+        most: u32,
+        at: &[Look],
+    ) -> Result<(u64, Vec<i32>), Self::Error>;
+
     /// An input turns on or off. Changes come in the order of their times.
     fn change(&mut self, change: Change) -> Result<(), Self::Error>;
 
     /// A signal, in millionths, reaches an input of a module.
     fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), Self::Error>;
+}
+
+/// What was seen of one of the things that were looked at.
+fn found(wanted: &[Look], seen: &[i32], look: Look) -> i32 {
+    let mut both = wanted.iter().zip(seen);
+    let found = both.find(|(wanted, _)| **wanted == look);
+    found.map_or(0, |(_, &value)| value)
 }
 
 /// A machine.
@@ -58,7 +76,7 @@ pub struct Plant {
     normally_closed: Vec<u32>,
 }
 
-/// An input that turns on or off: when, as a part of the millisecond, which one, and whether it is on now.
+/// An input that turns on or off: when, as a part of the time that passes, which one, and whether it is on now.
 type Moment = (f64, u32, bool);
 
 impl Plant {
@@ -72,41 +90,105 @@ impl Plant {
             .collect()
     }
 
-    /// A millisecond passes, which ends at `now_ms`.
-    pub fn step<T: Terminals>(&mut self, now_ms: u64, terminals: &mut T) -> Result<(), T::Error> {
-        let mut wanted = Vec::new();
-        for axis in self.movers() {
-            axis.looks_at(&mut wanted);
+    /// A millisecond passes, which ends at `now_ms`. In it, inputs that the machine does not drive change, too, in the
+    /// order of their times.
+    pub fn step<T: Terminals>(
+        &mut self,
+        now_ms: u64,
+        others: &[Change],
+        terminals: &mut T,
+    ) -> Result<(), T::Error> {
+        let mut time = now_ms.saturating_sub(1) * 1000..now_ms * 1000;
+        let mut changes = self.drive(now_ms, terminals)?;
+        changes.extend(others);
+        order::by_key(&mut changes, |change| change.at_us);
+        for change in changes {
+            let until = change.at_us.clamp(time.start, time.end);
+            self.follow(time.start..until, now_ms, terminals)?;
+            time.start = until;
+            terminals.change(change)?;
         }
-        wanted.extend(self.delays.iter().map(Delay::looks_at));
-        wanted.extend(self.processes.iter().map(Process::looks_at));
+        if self.axes.iter().any(Axis::follows_pulses) {
+            self.follow(time, now_ms, terminals)?;
+        }
+        self.measure(terminals)
+    }
+
+    /// What everything does in a millisecond but axes that pulses drive: the changes of inputs, in any order.
+    fn drive<T: Terminals>(
+        &mut self,
+        now_ms: u64,
+        terminals: &mut T,
+    ) -> Result<Vec<Change>, T::Error> {
+        let Plant {
+            axes,
+            cylinders,
+            delays,
+            processes,
+            ..
+        } = self;
+        let motors = axes.iter_mut().filter(|axis| !axis.follows_pulses());
+        let mut movers: Vec<&mut Axis> = motors.chain(cylinders).collect();
+        let mut wanted = Vec::new();
+        movers.iter().for_each(|axis| axis.looks_at(&mut wanted));
+        wanted.extend(delays.iter().map(Delay::looks_at));
+        wanted.extend(processes.iter().map(Process::looks_at));
         let seen = terminals.look(&wanted)?;
-        let see = |look: Look| {
-            let found = wanted
-                .iter()
-                .zip(&seen)
-                .find(|(wanted, _)| **wanted == look);
-            found.map_or(0, |(_, &value)| value)
-        };
+        let see = |look| found(&wanted, &seen, look);
         let mut moments: Vec<Moment> = Vec::new();
-        for axis in self.axes.iter_mut().chain(&mut self.cylinders) {
+        for axis in &mut movers {
             axis.step(now_ms, &see, &mut moments);
         }
-        for delay in &mut self.delays {
+        for delay in delays {
             delay.step(&see, &mut moments);
         }
-        for process in &mut self.processes {
+        for process in processes {
             process.step(&see);
         }
         order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
-        for (part, input, on) in moments {
-            terminals.change(Change {
-                at_us: now_ms.saturating_sub(1) * 1000 + (part * 1000.0) as u64,
-                input,
-                on: self.contact(input, on),
-            })?;
+        let begin_us = now_ms.saturating_sub(1) * 1000;
+        let change = |(part, input, on): Moment| Change {
+            at_us: begin_us + (part * 1000.0) as u64,
+            input,
+            on: self.contact(input, on),
+        };
+        Ok(moments.into_iter().map(change).collect())
+    }
+
+    /// Axes follow the pulses of this time, in microseconds.
+    fn follow<T: Terminals>(
+        &mut self,
+        mut time: Range<u64>,
+        now_ms: u64,
+        terminals: &mut T,
+    ) -> Result<(), T::Error> {
+        let mut wanted = Vec::new();
+        let followers = self.axes.iter().filter(|axis| axis.follows_pulses());
+        followers.for_each(|axis| axis.looks_at(&mut wanted));
+        loop {
+            let followers = self.axes.iter_mut().filter(|axis| axis.follows_pulses());
+            let mut followers: Vec<&mut Axis> = followers.collect();
+            let rooms = followers.iter().map(|axis| axis.room());
+            let room = rooms.min().unwrap_or(i32::MAX as u32);
+            let (reached, seen) = terminals.pass(time.clone(), room, &wanted)?;
+            let see = |look| found(&wanted, &seen, look);
+            let mut moments: Vec<Moment> = Vec::new();
+            for axis in &mut followers {
+                axis.step(now_ms, &see, &mut moments);
+            }
+            order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
+            for (_, input, on) in moments {
+                terminals.change(Change {
+                    at_us: reached,
+                    input,
+                    on: self.contact(input, on),
+                })?;
+            }
+            time.start = reached;
+            if time.is_empty() {
+                return Ok(());
+            }
         }
-        self.measure(terminals)
     }
 
     /// The sensors send what has changed; when the machine is connected, all that they measure.

@@ -12,7 +12,7 @@ use crate::engines::{Engine, EngineError};
 use crate::plant::{Description, Plant};
 use crate::protocol::{Answer, Request};
 use crate::target::Target;
-use crate::wire;
+use crate::wire::{self, Change};
 use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
@@ -104,6 +104,8 @@ pub(super) struct PlcInfo {
     module: usize,
     /// Whether the program takes notice of what happens outside its scan.
     takes_events: bool,
+    /// Whether it sends pulses.
+    sends_pulses: bool,
     /// Whether the program may ask for scans of constant length.
     asks_constant_scan: bool,
     /// Its serial ports.
@@ -116,6 +118,7 @@ impl PlcInfo {
         PlcInfo {
             module,
             takes_events: program.is_some_and(Module::takes_events),
+            sends_pulses: program.is_some_and(Module::sends_pulses),
             asks_constant_scan: program.is_some_and(asks_constant_scan),
             ports: program.map_or(Vec::new(), |program| program.ports.clone()),
         }
@@ -346,15 +349,17 @@ impl Running<'_> {
             for _ in 0..scan_ms {
                 self.now_ms = self.now_ms.wrapping_add(1);
                 self.select(0)?;
+                let begin_us = u64::from(begin_ms) * 1000;
                 let now_us = u64::from(self.now_ms.wrapping_sub(begin_ms)) * 1000;
-                while let Some(change) = changes.next_if(|change| change.at_us < now_us) {
-                    self.ask(Request::SetBit(Class::X, change.input, change.on))?;
-                    self.input(change.input, change.on)?;
-                    self.interrupts()?;
+                let mut others = Vec::new();
+                while let Some(&change) = changes.next_if(|change| change.at_us < now_us) {
+                    others.push(Change {
+                        at_us: begin_us + change.at_us,
+                        ..change
+                    });
                 }
+                self.move_machine(self.now_ms, &others)?;
                 self.tick()?;
-                self.select(0)?;
-                self.move_machine(self.now_ms)?;
             }
         }
         self.check(step)
@@ -464,6 +469,13 @@ impl Running<'_> {
         self.plcs
             .get(self.current)
             .is_some_and(|plc| plc.takes_events)
+    }
+
+    /// Whether the PLC that is asked sends pulses.
+    pub(super) fn sends_pulses(&self) -> bool {
+        self.plcs
+            .get(self.current)
+            .is_some_and(|plc| plc.sends_pulses)
     }
 
     /// An input terminal of the PLC that is asked is on or off from now.

@@ -10,6 +10,7 @@ use crate::wire::Change;
 use rungc_models::{Model, ModelId};
 use rungc_rt::Class;
 use rungc_syntax::DeviceClass;
+use std::ops::Range;
 
 /// Whether a case and its machine fit each other.
 pub(super) fn check(
@@ -87,12 +88,14 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// A millisecond passes.
-    pub(super) fn move_machine(&mut self, now_ms: u32) -> Result<(), Failure> {
-        let Some(mut plant) = self.plant.take() else {
+    /// A millisecond passes, in which these inputs change, too; their times are since power-on.
+    pub(super) fn move_machine(&mut self, now_ms: u32, others: &[Change]) -> Result<(), Failure> {
+        if self.plant.is_none() && others.is_empty() {
             return Ok(());
-        };
-        plant.step(now_ms.into(), self)?;
+        }
+        // Without a machine, there are only these inputs.
+        let mut plant = self.plant.take().unwrap_or_default();
+        plant.step(now_ms.into(), others, self)?;
         let collision = plant.collision().map(ToString::to_string);
         self.plant = Some(plant);
         match collision {
@@ -136,29 +139,60 @@ impl Running<'_> {
     }
 }
 
-impl Terminals for Running<'_> {
-    type Error = Failure;
-
-    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
+impl Running<'_> {
+    /// What asks for this.
+    fn requests(&self, at: &[Look]) -> Vec<Request> {
         let now_ms = self.now_ms();
-        let requests: Vec<Request> = at
-            .iter()
-            .map(|look| match *look {
-                Look::Output(output) => Request::Output(output),
-                Look::Pulses(output) => Request::Pulses(output),
-                Look::Channel(channel) => Request::Signal { now_ms, channel },
-            })
-            .collect();
-        let answers = self.engine.ask_all(&requests);
+        let request = |look: &Look| match *look {
+            Look::Output(output) => Request::Output(output),
+            Look::Pulses(output) => Request::Pulses(output),
+            Look::Channel(channel) => Request::Signal { now_ms, channel },
+        };
+        at.iter().map(request).collect()
+    }
+
+    /// The values that are asked for.
+    fn values(&mut self, requests: &[Request]) -> Result<Vec<i32>, Failure> {
+        let answers = self.engine.ask_all(requests);
         let answers = answers.map_err(|error| self.failed(&error))?;
         let values = answers
             .iter()
             .zip(requests)
-            .map(|(answer, request)| match answer {
+            .map(|(answer, &request)| match answer {
                 Answer::Value(value) => Ok(*value as i32),
                 _ => Err(self.failed(&EngineError::Missing(request))),
             });
         values.collect()
+    }
+}
+
+impl Terminals for Running<'_> {
+    type Error = Failure;
+
+    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
+        self.values(&self.requests(at))
+    }
+
+    fn pass(
+        &mut self,
+        time: Range<u64>,
+        most: u32,
+        at: &[Look],
+    ) -> Result<(u64, Vec<i32>), Failure> {
+        if !self.sends_pulses() {
+            return Ok((time.end, self.look(at)?));
+        }
+        let [from_us, until_us] = [time.start as u32, time.end as u32];
+        let pass = Request::Pass {
+            from_us,
+            until_us,
+            most,
+        };
+        let mut requests = vec![pass];
+        requests.extend(self.requests(at));
+        let mut values = self.values(&requests)?;
+        let left = until_us.wrapping_sub(values.remove(0) as u32);
+        Ok((time.end - u64::from(left), values))
     }
 
     fn change(&mut self, change: Change) -> Result<(), Failure> {

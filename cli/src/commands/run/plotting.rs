@@ -52,6 +52,8 @@ fn number(seen: Seen, target: Target) -> Option<f64> {
 /// A diagram in the making.
 pub struct Plotting {
     plot: Plot,
+    /// What the horizontal axis shows instead of time.
+    over: Option<Target>,
     curves: Vec<(CurveId, Subject)>,
     file: AtomicFile,
 }
@@ -61,13 +63,23 @@ impl Plotting {
     pub fn begin(
         path: &Path,
         seen: Seen,
-        watched: &[Target],
+        (watched, over): (&[Target], Option<Target>),
         duration_ms: u64,
     ) -> std::result::Result<Self, Failure> {
         let module = seen.machine.module();
         let name = file_name(rungc_lower::stem(&module.source_name), &module.name);
         let title = format!("{name} on {}", module.model.title);
         let mut plot = Plot::new(&title, duration_ms);
+        if let Some(target) = over {
+            let name = named(target, module);
+            number(seen, target)
+                .ok_or_else(|| Failure::Because(format!("--over: `{name}` is not a number")))?;
+            plot.over(&name);
+        }
+        let shape = match over {
+            Some(_) => Shape::Line,
+            None => Shape::Step,
+        };
         let mut curves = Vec::new();
         let axes = seen.axes();
         for (i, axis) in axes.iter().enumerate() {
@@ -82,7 +94,9 @@ impl Plotting {
             curves.push((curve, Subject::Value(i)));
         }
         for &output in &module.pulse_outputs {
-            if axes.iter().any(|axis| axis.pulse_output() == Some(output)) {
+            let followed = axes.iter().any(|axis| axis.pulse_output() == Some(output));
+            // Over a value, what is watched is meant.
+            if followed || (over.is_some() && !watched.is_empty()) {
                 continue;
             }
             let name = DeviceClass::Y.number(output).to_string();
@@ -95,7 +109,6 @@ impl Plotting {
             let name = named(target, module);
             let curve = match Reading::of(seen, target) {
                 Some(Reading::Bit(_)) => plot.lane(&name),
-
                 Some(Reading::Integer(..) | Reading::Float(_)) => {
                     let panel = match target {
                         Target::Channel(channel) => {
@@ -103,7 +116,7 @@ impl Plotting {
                         }
                         _ => name.clone(),
                     };
-                    plot.curve(&panel, &name, Shape::Step)
+                    plot.curve(&panel, &name, shape)
                 }
                 Some(Reading::Text(_)) | None => continue,
             };
@@ -116,6 +129,7 @@ impl Plotting {
         }
         Ok(Plotting {
             plot,
+            over,
             curves,
             file: AtomicFile::create(path)?,
         })
@@ -124,6 +138,9 @@ impl Plotting {
     /// Takes notice of how things are now.
     pub fn sample(&mut self, at_ms: u64, seen: Seen) {
         let (machine, axes) = (seen.machine, seen.axes());
+        if let Some(place) = self.over.and_then(|target| number(seen, target)) {
+            self.plot.place(place);
+        }
         for &(curve, subject) in &self.curves {
             let value = match subject {
                 Subject::Position(i) => axes.get(i).map(Axis::position),

@@ -70,6 +70,8 @@ pub struct Run<'a> {
     pub shown: &'a [Target],
     /// What was asked for with `--watch`.
     pub watched: &'a [Target],
+    /// What the horizontal axis of the diagram shows, if not time.
+    pub over: Option<Target>,
     /// Whether there is a table.
     pub table: bool,
     /// The special modules that are fitted.
@@ -91,7 +93,7 @@ impl Run<'_> {
         machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.
         let set = self.settings.iter().map(|s| s.target);
-        for target in set.chain(self.shown.iter().copied()) {
+        for target in set.chain(self.shown.iter().copied()).chain(self.over) {
             let seen = Seen {
                 machine: &machine,
                 hal: &hal,
@@ -122,7 +124,8 @@ impl Run<'_> {
                     let message = "--plot: state with --for how long the run takes";
                     Failure::Because(message.to_string())
                 })?;
-                let plotting = Plotting::begin(path, seen, self.watched, duration);
+                let what = (self.watched, self.over);
+                let plotting = Plotting::begin(path, seen, what, duration);
                 Some(plotting?)
             }
             None => None,
@@ -333,21 +336,25 @@ impl Simulation<'_> {
     fn millisecond(&mut self) -> std::result::Result<(), Failure> {
         self.now_ms += 1;
         self.hal.advance_to(self.now_ms as u32);
+        self.move_plant()?;
         self.machine.tick(&mut self.hal, self.now_ms as u32);
         self.apply_settings()?;
         self.machine.take_interrupts(&mut self.hal);
+        Ok(())
+    }
+
+    /// The machine moves for the millisecond that ends now.
+    fn move_plant(&mut self) -> std::result::Result<(), Failure> {
         let Some(plant) = &mut self.plant else {
             return Ok(());
         };
         let before = plant.collision().cloned();
-        plant.step(
-            self.now_ms,
-            &mut Wiring {
-                machine: &mut self.machine,
-                hal: &mut self.hal,
-                recording: self.recording.as_mut(),
-            },
-        )?;
+        let mut wiring = Wiring {
+            machine: &mut self.machine,
+            hal: &mut self.hal,
+            recording: self.recording.as_mut(),
+        };
+        plant.step(self.now_ms, &[], &mut wiring)?;
         if let Some(collision) = plant.collision()
             && before.as_ref() != Some(collision)
         {

@@ -4,10 +4,11 @@ use super::recording::Recording;
 use crate::commands::Failure;
 use rungc_interp::Machine;
 use rungc_rt::modules::Signal;
-use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_rt::{Class, Plc, Program, VirtualHal, pass_pulses};
 use rungc_sim::Channel;
 use rungc_sim::plant::{Look, Terminals};
 use rungc_sim::wire::Change;
+use std::ops::Range;
 
 /// A PLC between two scans.
 pub struct Wiring<'a, 'm> {
@@ -33,6 +34,18 @@ impl Terminals for Wiring<'_, '_> {
             }) => self.hal.signal(unit, number, quantity).unwrap_or(0),
         };
         Ok(at.iter().map(value).collect())
+    }
+
+    fn pass(
+        &mut self,
+        time: Range<u64>,
+        most: u32,
+        at: &[Look],
+    ) -> Result<(u64, Vec<i32>), Failure> {
+        let [from, until] = [time.start as u32, time.end as u32];
+        let reached = pass_pulses(self.machine, from, until, most);
+        let left = until.wrapping_sub(reached);
+        Ok((time.end - u64::from(left), self.look(at)?))
     }
 
     fn change(&mut self, change: Change) -> Result<(), Failure> {

@@ -4,10 +4,10 @@ use super::Shape;
 use rungc_syntax::order;
 
 /// How many columns a diagram has: two a pixel of its width.
-const COLUMNS: u64 = 1600;
+const COLUMNS: f64 = 1600.0;
 
-/// A moment in milliseconds, and the value then.
-pub(super) type Point = (u64, f64);
+/// A moment in milliseconds, or a value that the horizontal axis shows, and the value there.
+pub(super) type Point = (f64, f64);
 
 /// What a column keeps of the points that fall into it.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -21,63 +21,105 @@ struct Column {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Curve {
     pub(super) shape: Shape,
-    duration_ms: u64,
-    /// Those that hold points, by their number.
-    columns: Vec<(u64, Column)>,
+    kept: Kept,
+}
+
+/// What is kept of a curve.
+#[derive(Clone, PartialEq, Debug)]
+enum Kept {
+    /// Over time: the columns that hold points, by their numbers.
+    Columns {
+        duration_ms: f64,
+        columns: Vec<(u64, Column)>,
+    },
+    /// Over a value, which may go back: where it was, one after the other.
+    Way(Vec<Point>),
 }
 
 impl Curve {
-    pub(super) fn new(shape: Shape, duration_ms: u64) -> Curve {
+    /// A curve over this much time.
+    pub(super) fn over_time(shape: Shape, duration_ms: u64) -> Curve {
+        let duration_ms = duration_ms.max(1) as f64;
+        let columns = Vec::new();
         Curve {
             shape,
-            duration_ms: duration_ms.max(1),
-            columns: Vec::new(),
+            kept: Kept::Columns {
+                duration_ms,
+                columns,
+            },
+        }
+    }
+
+    /// A curve over a value.
+    pub(super) fn over_value(shape: Shape) -> Curve {
+        Curve {
+            shape,
+            kept: Kept::Way(Vec::new()),
         }
     }
 
     /// A value that is not a number is omitted.
-    pub(super) fn push(&mut self, at_ms: u64, value: f64) {
+    pub(super) fn push(&mut self, at: f64, value: f64) {
         if !value.is_finite() {
             return;
         }
-        let point = (at_ms, value);
-        let number = at_ms.min(self.duration_ms) * COLUMNS / self.duration_ms;
-        match self.columns.last_mut() {
-            Some((last, column)) if *last == number => {
-                if value < column.least.1 {
-                    column.least = point;
-                }
-                if value > column.greatest.1 {
-                    column.greatest = point;
-                }
-                column.last = point;
+        let point = (at, value);
+        match &mut self.kept {
+            Kept::Columns {
+                duration_ms,
+                columns,
+            } => {
+                let number = at.min(*duration_ms) * COLUMNS / *duration_ms;
+                add(columns, number as u64, point);
             }
-            _ => {
-                let column = Column {
-                    first: point,
-                    least: point,
-                    greatest: point,
-                    last: point,
-                };
-                self.columns.push((number, column));
-            }
+            Kept::Way(points) if points.last() == Some(&point) => {}
+            Kept::Way(points) => points.push(point),
         }
     }
 
     /// The least and the greatest value; `None` without points.
     pub(super) fn range(&self) -> Option<(f64, f64)> {
-        let columns = || self.columns.iter().map(|(_, column)| column);
-        let least = columns().map(|c| c.least.1).reduce(f64::min)?;
-        let greatest = columns().map(|c| c.greatest.1).reduce(f64::max)?;
+        let values = || self.points().map(|(_, value)| value);
+        let least = values().reduce(f64::min)?;
+        let greatest = values().reduce(f64::max)?;
         Some((least, greatest))
     }
 
     /// Its points in the order of their times.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> {
-        self.columns.iter().flat_map(|(_, column)| {
+        let (columns, way) = match &self.kept {
+            Kept::Columns { columns, .. } => (&columns[..], &[][..]),
+            Kept::Way(points) => (&[][..], &points[..]),
+        };
+        let columns = columns.iter().flat_map(|(_, column)| {
             let mut points = [column.first, column.least, column.greatest, column.last];
-            order::by_key(&mut points, |&(at_ms, _)| at_ms);
+            order::by(&mut points, |a, b| a.0.total_cmp(&b.0));
             points
-        })
+        });
+        columns.chain(way.iter().copied())
+    }
+}
+
+/// Adds a point to its column, the last one or a new one.
+fn add(columns: &mut Vec<(u64, Column)>, number: u64, point: Point) {
+    match columns.last_mut() {
+        Some((last, column)) if *last == number => {
+            if point.1 < column.least.1 {
+                column.least = point;
+            }
+            if point.1 > column.greatest.1 {
+                column.greatest = point;
+            }
+            column.last = point;
+        }
+        _ => {
+            let column = Column {
+                first: point,
+                least: point,
+                greatest: point,
+                last: point,
+            };
+            columns.push((number, column));
+        }
     }
 }

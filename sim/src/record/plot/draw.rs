@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::ticks::Ticks;
-use super::{Panel, Plot, Shape};
+use super::{Across, Panel, Plot, Shape};
 use svg::Document;
 use svg::node::element::{Element, Group, Line, Polygon, Polyline, Rectangle, Text};
 
@@ -17,7 +17,7 @@ const TITLE: f64 = 30.0;
 /// Between the border of a panel or lane and its scale.
 const MARGIN: f64 = 6.0;
 const LANE: f64 = 24.0;
-/// Below everything, for the time.
+/// Below everything, for the horizontal scale.
 const FOOT: f64 = 46.0;
 
 /// Colours that are distinguishable with any kind of colour vision (Okabe and Ito), and dashes that distinguish them
@@ -35,18 +35,60 @@ const GRID: &str = "#dddddd";
 const LANE_INK: &str = "#0072b2";
 const LANE_FILL: &str = "#d6e6f2";
 
-/// What the picture is drawn on: where times are, and the elements so far.
+/// What the picture is drawn on: its horizontal scale, and the elements so far.
 struct Canvas {
     /// Left edge of the panels.
     left: f64,
-    /// The unit of times.
-    unit: Unit,
-    duration_ms: f64,
-    /// Until when values are held that do not change any more.
-    last_ms: f64,
-    /// Times that are marked, in milliseconds, with their labels.
-    marks: Vec<(f64, String)>,
+    scale: Scale,
     group: Group,
+}
+
+/// The horizontal scale: times in milliseconds, or values.
+struct Scale {
+    title: String,
+    least: f64,
+    greatest: f64,
+    /// Until when values are held that do not change any more.
+    holds_to: Option<f64>,
+    /// What is marked, with the labels.
+    marks: Vec<(f64, String)>,
+}
+
+impl Scale {
+    fn of(across: &Across) -> Scale {
+        match across {
+            Across::Time { duration, last } => Scale::of_time(*duration, *last),
+            Across::Value { name, range, .. } => Scale::of_value(name, *range),
+        }
+    }
+
+    fn of_time(duration: u64, last: u64) -> Scale {
+        let greatest = duration.max(1) as f64;
+        let (name, factor) = unit(greatest);
+        let marks = Ticks::around(0.0, greatest / factor, 10.0).labels();
+        Scale {
+            title: format!("time ({name})"),
+            least: 0.0,
+            greatest,
+            holds_to: Some(last as f64),
+            marks: marks
+                .map(|(at, label)| (at * factor, label))
+                .filter(|&(at_ms, _)| at_ms <= greatest * (1.0 + 1e-9))
+                .collect(),
+        }
+    }
+
+    fn of_value(name: &str, range: Option<(f64, f64)>) -> Scale {
+        let (least, greatest) = range.unwrap_or((0.0, 0.0));
+        let ticks = Ticks::around(least, greatest, 10.0);
+        Scale {
+            title: name.to_string(),
+            least: ticks.least().min(least),
+            greatest: ticks.greatest().max(greatest),
+            holds_to: None,
+            marks: ticks.labels().collect(),
+        }
+    }
 }
 
 /// A unit of time: its name and its milliseconds.
@@ -88,20 +130,11 @@ impl Frame {
 
 /// The picture.
 pub(super) fn draw(plot: &Plot) -> String {
-    let duration_ms = plot.duration_ms.max(1) as f64;
-    let unit = unit(duration_ms);
-    let marks = Ticks::around(0.0, duration_ms / unit.1, 10.0).labels();
     let names = plot.lanes.iter().map(|(name, _)| 20.0 + width(name));
     let left = names.fold(LEFT[0], f64::max).min(LEFT[1]);
     let mut canvas = Canvas {
         left,
-        unit,
-        duration_ms,
-        last_ms: plot.last_ms as f64,
-        marks: marks
-            .map(|(at, label)| (at * unit.1, label))
-            .filter(|&(at_ms, _)| at_ms <= duration_ms * (1.0 + 1e-9))
-            .collect(),
+        scale: Scale::of(&plot.across),
         group: Group::new()
             .set("font-family", "Helvetica, Arial, sans-serif")
             .set("font-size", 12)
@@ -114,7 +147,7 @@ pub(super) fn draw(plot: &Plot) -> String {
         top = canvas.panel(plot, panel, top + TITLE);
     }
     top = canvas.lanes(plot, top);
-    canvas.times(top);
+    canvas.foot(top);
     let height = top + FOOT;
     let background = Rectangle::new()
         .set("width", number(WIDTH))
@@ -138,8 +171,11 @@ impl Canvas {
         self.group = group.add(element.into());
     }
 
-    fn x(&self, at_ms: f64) -> f64 {
-        self.left + (WIDTH - self.left - RIGHT) * at_ms / self.duration_ms
+    fn x(&self, at: f64) -> f64 {
+        let Scale {
+            least, greatest, ..
+        } = self.scale;
+        self.left + (WIDTH - self.left - RIGHT) * (at - least) / (greatest - least)
     }
 
     /// A panel whose frame begins at `top`; returns where it ends.
@@ -160,7 +196,7 @@ impl Canvas {
         if panel.curves.iter().any(|(name, _)| *name != panel.title) {
             self.legend(panel, top - 9.0);
         }
-        self.time_lines(frame);
+        self.upright_lines(frame);
         for (value, label) in ticks.labels() {
             let y = frame.y(value);
             let colour = if value == 0.0 { "#999999" } else { GRID };
@@ -206,7 +242,7 @@ impl Canvas {
             least: 0.0,
             greatest: 1.0,
         };
-        self.time_lines(all);
+        self.upright_lines(all);
         for (i, (name, id)) in plot.lanes.iter().enumerate() {
             let top = all.top + LANE * i as f64;
             let frame = Frame {
@@ -246,21 +282,21 @@ impl Canvas {
         all.bottom()
     }
 
-    /// The labels of the times below everything.
-    fn times(&mut self, y: f64) {
-        for (at_ms, label) in self.marks.clone() {
-            let x = self.x(at_ms);
+    /// The horizontal scale, below everything.
+    fn foot(&mut self, y: f64) {
+        for (at, label) in self.scale.marks.clone() {
+            let x = self.x(at);
             self.add(line([x, y], [x, y + 4.0], INK));
             self.add(text(x, y + 18.0, "middle", &label));
         }
         let middle = (self.left + WIDTH - RIGHT) / 2.0;
-        let title = format!("time ({})", self.unit.0);
-        self.add(text(middle, y + 36.0, "middle", &title));
+        let title = text(middle, y + 36.0, "middle", &self.scale.title);
+        self.add(title);
     }
 
-    fn time_lines(&mut self, frame: Frame) {
-        for (at_ms, _) in self.marks.clone() {
-            let x = self.x(at_ms);
+    fn upright_lines(&mut self, frame: Frame) {
+        for (at, _) in self.scale.marks.clone() {
+            let x = self.x(at);
             self.add(line([x, frame.top], [x, frame.bottom()], GRID));
         }
     }
@@ -287,16 +323,16 @@ impl Canvas {
             }
         };
         let mut held = None;
-        for (at_ms, value) in curve.points() {
-            let [x, y] = [self.x(at_ms as f64), frame.y(value)].map(rounded);
+        for (at, value) in curve.points() {
+            let [x, y] = [self.x(at), frame.y(value)].map(rounded);
             if let Some(y) = held.filter(|_| curve.shape == Shape::Step) {
                 put([x, y]);
             }
             put([x, y]);
             held = Some(y);
         }
-        if let Some(y) = held.filter(|_| curve.shape == Shape::Step) {
-            put([rounded(self.x(self.last_ms)), y]);
+        if let (Some(y), Shape::Step, Some(last)) = (held, curve.shape, self.scale.holds_to) {
+            put([rounded(self.x(last)), y]);
         }
         thinned(&places)
     }

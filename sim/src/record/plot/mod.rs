@@ -1,7 +1,8 @@
-//! Diagrams of a run: positions, speeds and values over time, as an SVG that needs nothing beside it.
+//! Diagrams of a run: positions, speeds and values over time, or over one of the values, as an SVG that needs nothing
+//! beside it.
 //!
-//! Curves are thinned out while they are collected, to what a column of the diagram can show: its first, least,
-//! greatest and last value. So a run of any length takes the same space, and no peak is lost.
+//! Curves over time are thinned out while they are collected, to what a column of the diagram can show: its first,
+//! least, greatest and last value. So a run of any length takes the same space, and no peak is lost.
 
 mod curve;
 mod draw;
@@ -35,13 +36,24 @@ struct Panel {
     curves: Vec<(String, CurveId)>,
 }
 
-/// A diagram: panels of curves one below the other over the same time, and below them lanes of bits.
+/// What the horizontal axis shows.
+#[derive(Clone, PartialEq, Debug)]
+enum Across {
+    /// Time, in milliseconds: all of it, and that of the last point.
+    Time { duration: u64, last: u64 },
+    /// A value: its name, where it is now, and the least and the greatest that it has been.
+    Value {
+        name: String,
+        at: f64,
+        range: Option<(f64, f64)>,
+    },
+}
+
+/// A diagram: panels of curves one below the other over the same time or value, and below them lanes of bits.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plot {
     title: String,
-    duration_ms: u64,
-    /// Time of the last point.
-    last_ms: u64,
+    across: Across,
     curves: Vec<Curve>,
     panels: Vec<Panel>,
     lanes: Vec<(String, CurveId)>,
@@ -52,11 +64,33 @@ impl Plot {
     pub fn new(title: &str, duration_ms: u64) -> Plot {
         Plot {
             title: title.to_string(),
-            duration_ms,
-            last_ms: 0,
+            across: Across::Time {
+                duration: duration_ms,
+                last: 0,
+            },
             curves: Vec::new(),
             panels: Vec::new(),
             lanes: Vec::new(),
+        }
+    }
+
+    /// Shows this value on the horizontal axis instead of time. Say so before the first curve.
+    pub fn over(&mut self, name: &str) {
+        self.across = Across::Value {
+            name: name.to_string(),
+            at: 0.0,
+            range: None,
+        };
+    }
+
+    /// Where the value on the horizontal axis is from now; one that is not a number stays where it was.
+    pub fn place(&mut self, value: f64) {
+        if let Across::Value { at, range, .. } = &mut self.across
+            && value.is_finite()
+        {
+            let (least, greatest) = range.unwrap_or((value, value));
+            *at = value;
+            *range = Some((least.min(value), greatest.max(value)));
         }
     }
 
@@ -93,14 +127,23 @@ impl Plot {
     }
 
     fn add(&mut self, shape: Shape) -> CurveId {
-        self.curves.push(Curve::new(shape, self.duration_ms));
+        self.curves.push(match self.across {
+            Across::Time { duration, .. } => Curve::over_time(shape, duration),
+            Across::Value { .. } => Curve::over_value(shape),
+        });
         CurveId(self.curves.len() - 1)
     }
 
     /// A curve has this value at this time. Times do not go back.
     pub fn point(&mut self, curve: CurveId, at_ms: u64, value: f64) {
-        self.last_ms = at_ms;
-        self.curves[curve.0].push(at_ms, value);
+        let at = match &mut self.across {
+            Across::Time { last, .. } => {
+                *last = at_ms;
+                at_ms as f64
+            }
+            Across::Value { at, .. } => *at,
+        };
+        self.curves[curve.0].push(at, value);
     }
 
     /// The diagram as SVG.
@@ -126,6 +169,22 @@ mod tests {
             plot.point(other, t, -x / 40.0);
             plot.point(word, t, (t / 300) as f64);
             plot.point(bit, t, f64::from(t % 250 > 200));
+        }
+        insta::assert_snapshot!(plot.draw());
+    }
+
+    #[test]
+    fn a_diagram_over_a_value() {
+        let mut plot = Plot::new("a slave & its master", 1000);
+        plot.over("D1220");
+        let slave = plot.curve("D318", "D318", Shape::Line);
+        let bit = plot.lane("M0");
+        for t in 0..=1000 {
+            // There and back again, on another way.
+            let master = f64::from(t.min(1200 - t));
+            plot.place(master);
+            plot.point(slave, t as u64, master * master / 100.0 + f64::from(t));
+            plot.point(bit, t as u64, f64::from(u8::from(master > 400.0)));
         }
         insta::assert_snapshot!(plot.draw());
     }
