@@ -160,6 +160,8 @@ fn every_runtime_function_has_a_row() {
     let without_row = [
         rungc_rt::RtFn::AnalogInputs,
         rungc_rt::RtFn::Potentiometers,
+        rungc_rt::RtFn::ExchangeModule,
+        rungc_rt::RtFn::ExchangeBoard,
         rungc_rt::RtFn::RingCounter,
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,

@@ -27,6 +27,7 @@ mod density;
 mod digits;
 mod drums;
 mod edges;
+mod extension;
 mod flow;
 mod high_speed;
 mod inline;

@@ -74,6 +74,7 @@ impl Lowerer<'_> {
             this.ring_counter();
             this.slow_ring_counter();
             this.analog_inputs();
+            this.begin_modules();
             this.virtual_inputs();
             this.show_axes();
             this.axis_defaults();
@@ -84,6 +85,7 @@ impl Lowerer<'_> {
     pub(super) fn end_function(&mut self) -> Body {
         self.body(|this| {
             this.interruptible();
+            this.end_modules();
             this.begin_tables();
             this.begin_rows();
             this.first_captures();
@@ -344,7 +346,12 @@ impl Lowerer<'_> {
         self.call_system_with(function, registers, Vec::new());
     }
 
-    fn call_system_with(&mut self, function: RtFn, registers: &[Register], args: Vec<Arg>) {
+    pub(super) fn call_system_with(
+        &mut self,
+        function: RtFn,
+        registers: &[Register],
+        args: Vec<Arg>,
+    ) {
         let registers = registers.iter().map(|register| (D, register.number()));
         self.specials.flags.extend(registers);
         let needs = function.needs();

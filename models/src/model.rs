@@ -18,6 +18,7 @@ use crate::interrupts::Interrupts;
 use crate::runs::IndexAlias;
 use crate::special::Special;
 use crate::times::InstructionTimes;
+use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, Register, Relay, TimerKind};
 use rungc_syntax::{Classes, DeviceClass};
 pub use set::ModelSet;
@@ -236,6 +237,10 @@ pub struct Model {
     pub max_call: u32,
     /// What its serial ports are.
     pub ports: Ports,
+    /// Where it has special modules.
+    pub module_places: &'static [Place],
+    /// Whether it finds out which board is in its slot.
+    pub finds_boards: bool,
     /// What its pulse outputs are.
     pub pulses: Pulses,
     /// Their numbers, as far as instructions name them by output.

@@ -3,6 +3,7 @@
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
 use crate::Model;
+use rungc_rt::modules::Place;
 use rungc_rt::special::{
     D_CONSTANT_SCAN, D_REMOTE, D_SCOPE_STATE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN,
     M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL, M_REMOTE_RUN,
@@ -52,8 +53,21 @@ pub enum Status {
     Scan,
     /// These instructions read or write it.
     Instructions(&'static str),
+    /// The special modules at this place read or write it, if the settings list any; else it is a plain register.
+    Modules(Place),
     /// It is a plain relay or register here, for this reason.
     Inert(Reason),
+}
+
+impl Status {
+    /// Why the device is inert on a PLC with special modules at these places; `None` if it works.
+    pub fn inert(self, places: &[Place]) -> Option<Reason> {
+        match self {
+            Status::Inert(reason) => Some(reason),
+            Status::Modules(place) => (!places.contains(&place)).then_some(NOT_FITTED),
+            Status::Scan | Status::Instructions(_) => None,
+        }
+    }
 }
 
 /// Why a special device is inert, and what a program that relies on it misses.
@@ -312,10 +326,6 @@ pub(crate) const CAN_RATE: Reason = because(
 );
 pub(crate) const CONTROLLER: Reason = because(Missed::Never, "the host watches the CAN controller");
 pub(crate) const CAN_FREE: Reason = because(Missed::Never, "CANTX and CANRX work whatever it says");
-pub(crate) const CARDS: Reason = because(
-    Missed::ByAll,
-    "there are no extension cards: the host gives analog values to channels and modules",
-);
 pub(crate) const AXES: Reason = because(
     Missed::ByAll,
     "the manual does not state which period it means; D212 and D262 show the pulses of a millisecond",
@@ -338,9 +348,9 @@ pub(crate) const LATCHES: Reason = because(
     Missed::ByWriters,
     "the latched ranges are chosen when the program is compiled, by the project's PLC parameters or `[latched]` in rungc.toml",
 );
-pub(crate) const MODULES: Reason = because(
+const NOT_FITTED: Reason = because(
     Missed::ByAll,
-    "which modules are there is the host's affair",
+    "no `[[module]]` in rungc.toml lists the module that it belongs to",
 );
 pub(crate) const TIMING: Reason = because(
     Missed::ByAll,
@@ -349,7 +359,7 @@ pub(crate) const TIMING: Reason = because(
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
 /// Writes a table of special devices, a row a line: `class first[-last] access default status "meaning";` with the
-/// access `r` or `rw` and the status `scan`, `by("…")` or `inert(…)`.
+/// access `r` or `rw` and the status `scan`, `by("…")`, `modules(…)` or `inert(…)`.
 macro_rules! specials {
     ($(
         $class:ident $first:literal $(- $last:literal)?
@@ -371,15 +381,17 @@ macro_rules! specials {
     (@access rw) => { $crate::special::Access::ReadWrite };
     (@status scan) => { $crate::special::Status::Scan };
     (@status by $instructions:expr) => { $crate::special::Status::Instructions($instructions) };
+    (@status modules $place:expr) => { $crate::special::Status::Modules($place) };
     (@status inert $why:expr) => { $crate::special::Status::Inert($why) };
 }
 pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CANLINK, CARDS, MODULES, POWER, RunCommand, Special, Status};
+    use super::{Access, CANLINK, POWER, RunCommand, Special, Status};
     use crate::{Model, ModelId};
     use rungc_rt::Register;
+    use rungc_rt::modules::Place;
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
 
@@ -451,13 +463,16 @@ mod tests {
             assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CANLINK)));
         }
         for number in [8220, 8239] {
-            assert_eq!(of(ModelId::H1u, D, number), Some(Status::Inert(CARDS)));
+            assert_eq!(
+                of(ModelId::H1u, D, number),
+                Some(Status::Modules(Place::Slot))
+            );
         }
         assert_eq!(of(ModelId::H2u, D, 8005), Some(Status::Inert(POWER)));
         // Axes and modules of HM (hm-motion-controller §7, §8.2).
         let axis = Some(Status::Instructions("axis motion"));
         assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);
-        assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Inert(MODULES)));
+        assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Modules(Place::Hm)));
         assert_eq!(of(ModelId::Hm, D, 1000), None);
         let modules: Vec<_> = Model::get(ModelId::Hm).special_words().collect();
         assert!(modules.contains(&(Register(7143), 60)));

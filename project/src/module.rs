@@ -2,8 +2,7 @@
 
 use crate::{Error, Project};
 use rungc_models::Model;
-use rungc_rt::Ports;
-use rungc_rt::modules::Kind;
+use rungc_rt::modules::{Kind, Place};
 use rungc_syntax::{FittedModule, Program, Span, codes};
 
 /// Numbers of modules beside the main unit.
@@ -29,13 +28,20 @@ impl Project {
         if self.modules.is_empty() {
             return Ok(());
         }
-        let has_bus = model.ports == Ports::Inovance;
+        let places = model.module_places;
         for row in &self.modules {
-            if REMOTE.contains(&row.unit) && !has_bus {
+            let why = if REMOTE.contains(&row.unit) && !places.contains(&Place::Remote) {
                 let message = format!("{} has no remote modules", model.title);
                 let why = codes::PROJECT_VALUE.at(row.span, message);
-                return Err(self.mistake(why.help("the modules beside it have the numbers 0 to 7")));
-            }
+                why.help("the modules beside it have the numbers 0 to 7")
+            } else if !places.contains(&row.kind.place) {
+                let message = format!("{} does not fit {}", row.kind.name, model.title);
+                let why = codes::PROJECT_VALUE.at(row.span, message);
+                why.help(format!("it is described in {}", row.kind.source))
+            } else {
+                continue;
+            };
+            return Err(self.mistake(why));
         }
         let fitted = self.modules.iter().map(|row| FittedModule {
             unit: row.unit,

@@ -514,12 +514,41 @@ fn modules_are_fitted_to_the_plc() {
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
     assert_eq!(messages, ["Mitsubishi FX3U has no remote modules"]);
+    for (at, kind, id, message) in [
+        ("\"board\"", "H2U-6A-BD", ModelId::H2u, None),
+        ("3", "EX1-4AD", ModelId::Hm, None),
+        (
+            "3",
+            "EX1-4AD",
+            ModelId::H2u,
+            Some("EX1-4AD does not fit Inovance H2U"),
+        ),
+        (
+            "\"board\"",
+            "H1U-4A-BD",
+            ModelId::Fx3u,
+            Some("H1U-4A-BD does not fit Mitsubishi FX3U"),
+        ),
+    ] {
+        let project = parse(&format!("[[module]]\nat = {at}\nkind = \"{kind}\"\n")).unwrap();
+        let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+        let fits = project.complete(path, &mut program, Model::get(id));
+        let why = match fits {
+            Err(Error::Mistakes { diagnostics, .. }) => {
+                diagnostics.iter().next().map(|d| d.message.clone())
+            }
+            _ => None,
+        };
+        assert_eq!(why.as_deref(), message, "{at} {kind}");
+    }
     insta::assert_snapshot!(
         "modules",
         mistakes(
             "[[module]]\nat = 0\nkind = \"FX2N-4AB\"\n[[module]]\nat = 8\nkind = \"FX2N-4AD\"\n[[module]]\nat = 1\n\
              [[module]]\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4DA\"\n\
-             [[module]]\nat = 3\nkind = \"FX2N-4DA\"\nid = 1\n"
+             [[module]]\nat = 3\nkind = \"FX2N-4DA\"\nid = 1\n\
+             [[module]]\nat = 4\nkind = \"H2U-6A-BD\"\n[[module]]\nat = \"board\"\nkind = \"H2U-4AD\"\n[[module]]\nat = 5\n\
+             kind = \"H2U-0808ERDR\"\n[[module]]\nat = 6\nkind = \"EX1-4AD\"\n"
         )
     );
 }

@@ -301,6 +301,8 @@ registry! {
     ErrorLog = system::error_log() [state, always];
     AnalogInputs = system::analog_inputs() [always, hal];
     Potentiometers = system::potentiometers() [always, hal];
+    ExchangeModule = exchange::exchange_module(unit, d, reads, n, period) [state, always, hal];
+    ExchangeBoard = exchange::exchange_board(s, d) [always, hal];
     RingCounter = system::ring_counter() [always];
     Oscilloscope = scope::oscilloscope(n, d) [state];
     Ptab = segment::ptab(s, d, n) [state, always];

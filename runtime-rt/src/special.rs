@@ -267,6 +267,24 @@ pub const D_ANALOG_INPUTS: Register = Register(8030);
 pub const D_ANALOG_ENABLE: Register = Register(8114);
 /// Values of the built-in analog outputs of L01S.
 pub const D_ANALOG_OUTPUTS: Register = Register(8050);
+/// What analog boards of H1U and H2U exchange with the PLC: twenty registers.
+pub const D_BOARD: Register = Register(8220);
+/// The type of the board that is fitted.
+pub const D_BOARD_TYPE: Register = Register(8199);
+/// How many extension modules L01S has.
+pub const D_MODULE_COUNT: Register = Register(8108);
+/// Their types, two in each of sixteen registers.
+pub const D_MODULE_TYPES: Register = Register(8260);
+/// Where the extension modules of HM have their words, seven registers for each of six modules.
+pub const D_EXTENSIONS: Register = Register(7100);
+/// How many there are.
+pub const D_EXTENSION_COUNT: Register = Register(7142);
+/// Times between exchanges of digital, of analog modules, and what they were.
+pub const D_EXTENSION_TIMES: Register = Register(7143);
+/// 1: there are more terminals or words than allowed.
+pub const D_EXTENSION_ERROR: Register = Register(7147);
+/// First register of the words of analog extension modules.
+pub const D_EXTENSION_DATA: Register = Register(7200);
 /// Stand for inputs that have no terminal (HM), from X014 on: four relays.
 pub const M_VIRTUAL_INPUTS: Relay = Relay(8160);
 /// Stand for the inputs of motion instructions from X000 on (HM).

@@ -1,10 +1,12 @@
 //! Special devices that a program relies on and that do nothing in compiled programs.
 
 use super::Code;
+use super::modules::Modules;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
-use rungc_models::special::{Missed, Reason, Special, Status};
+use rungc_models::special::{Missed, Reason, Special};
+use rungc_rt::modules::Place;
 use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
 use std::collections::BTreeMap;
@@ -17,8 +19,11 @@ const MAX_SINGLE: usize = 3;
 const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.
-#[derive(Default)]
-pub(super) struct Inert(BTreeMap<Device, Used>);
+pub(super) struct Inert {
+    used: BTreeMap<Device, Used>,
+    /// Where the PLC has special modules.
+    places: Vec<Place>,
+}
 
 /// What a program does with an inert device.
 struct Used {
@@ -30,6 +35,13 @@ struct Used {
 }
 
 impl Inert {
+    pub(super) fn new(modules: &Modules) -> Self {
+        Inert {
+            used: BTreeMap::new(),
+            places: modules.places().collect(),
+        }
+    }
+
     /// Takes an access of instruction `i`.
     pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
         let Some(count) = access.count.filter(|&count| count <= MAX_RUN) else {
@@ -44,10 +56,10 @@ impl Inert {
             let Some(row) = code.model().special(device.class, number) else {
                 continue;
             };
-            let Status::Inert(reason) = row.status else {
+            let Some(reason) = row.status.inert(&self.places) else {
                 continue;
             };
-            let used = self.0.entry(device).or_insert_with(|| Used {
+            let used = self.used.entry(device).or_insert_with(|| Used {
                 row,
                 reason,
                 places: Vec::new(),
@@ -60,7 +72,7 @@ impl Inert {
 
     /// Warns of those whose work the program misses.
     pub(super) fn report(self, out: &mut Diagnostics) {
-        let missed = self.0.into_iter();
+        let missed = self.used.into_iter();
         let missed = missed.filter(|(device, used)| used.is_missed(*device));
         let mut by_reason: Vec<(Reason, Vec<(Device, Used)>)> = Vec::new();
         for (device, used) in missed {

@@ -93,8 +93,8 @@ fn driven(
 fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
-    let mut inert = inert::Inert::default();
     let modules = modules::Modules::new(code);
+    let mut inert = inert::Inert::new(&modules);
     for i in 0..code.len {
         modules.check(code, i, out);
         operation_errors::check(code, i, out);

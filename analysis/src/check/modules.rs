@@ -3,7 +3,7 @@
 use super::Code;
 use rungc_catalogue::{Lower, Role};
 use rungc_rt::RtFn;
-use rungc_rt::modules::{Access, Kind};
+use rungc_rt::modules::{Access, Kind, Place};
 use rungc_syntax::{Diagnostics, OperandKind, Span, codes};
 use std::ops::Range;
 
@@ -30,6 +30,11 @@ impl Modules {
                 .filter_map(|module| Some((module.unit, Kind::find(module.kind)?)))
                 .collect(),
         )
+    }
+
+    /// Where they are.
+    pub(super) fn places(&self) -> impl Iterator<Item = Place> {
+        self.0.iter().map(|(_, kind)| kind.place)
     }
 
     /// Checks instruction `i`; nothing if the settings fit no modules.

@@ -8,6 +8,7 @@ use super::shared::{
 use super::{ErrorNumbers, Model, ModelId, Range, mitsubishi};
 use crate::times::InstructionTimes;
 use crate::{high_speed, interrupts, special};
+use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, special::M_OPERATION_ERROR};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, M, P, S, Y};
@@ -54,6 +55,8 @@ pub(super) const FX2N: Model = Model {
     error_numbers: ErrorNumbers::All,
     pulses: Pulses::Fx2n,
     ports: Ports::Fx,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
     notations: Classes::TEXT,
@@ -89,6 +92,8 @@ pub(super) const FX2N_COMPATIBLE: Model = Model {
     nearest: &[],
     pulses: Pulses::Board2n,
     ports: Ports::Board2n,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX2N
 };

@@ -11,6 +11,7 @@ use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
 use crate::interrupts::{self, Interrupts, PULSE_CATCH_OF_8};
 use crate::special;
 use crate::times::InstructionTimes;
+use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, ER, M, P, R, S, T, X, Y};
@@ -45,6 +46,8 @@ pub(super) const FX3S: Model = Model {
     max_steps: 4000,
     instruction_times: Some(TIMES_FX3SG),
     ports: Ports::Fx3,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
     notations: Classes::E,
@@ -76,6 +79,8 @@ pub(super) const FX3G: Model = Model {
     instruction_times: Some(TIMES_FX3SG),
     pulses: Pulses::Fx3,
     ports: Ports::Fx3g,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
@@ -113,6 +118,8 @@ pub(super) const FX3U: Model = Model {
     instruction_times: Some(TIMES_FX3U),
     pulses: Pulses::Fx3,
     ports: Ports::Fx3,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E
@@ -153,6 +160,8 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
     nearest: &[],
     pulses: Pulses::Board3u,
     ports: Ports::Board3u,
+    module_places: &[Place::Bus],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX3U
 };

@@ -10,6 +10,7 @@ use crate::interrupts::{
 };
 use crate::runs::IndexAlias;
 use rungc_rt::axis_place::{ACCELERATION, HIGHEST, UNIT};
+use rungc_rt::modules::Place;
 use rungc_rt::{CmpOp, Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, P, R, S, T, V, Z};
@@ -40,6 +41,8 @@ pub(super) const HM: Model = Model {
     error_numbers: ErrorNumbers::No,
     pulses: Pulses::Hm,
     ports: Ports::Hm,
+    module_places: &[Place::Hm],
+    finds_boards: false,
     pulse_outputs: &[],
     position_outputs: &[],
     notations: Classes::NONE,

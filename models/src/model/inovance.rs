@@ -12,6 +12,7 @@ use crate::high_speed::{self, FastUnits, HighSpeed, ResetRelays};
 use crate::interrupts::{
     self, CountRows, Gate, Interrupt, Interrupts, Kind, Precedence, Source, fx_pointer,
 };
+use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, I, M, P, S, Y};
@@ -30,6 +31,7 @@ pub(super) const H1U: Model = Model {
     instruction_times: None,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
+    finds_boards: false,
     special: &[special::BOTH, special::H1U],
     ..H2U
 };
@@ -55,6 +57,8 @@ pub(super) const H2U: Model = Model {
     error_numbers: ErrorNumbers::AllButLogic,
     pulses: Pulses::Inovance,
     ports: Ports::Inovance,
+    module_places: &[Place::Bus, Place::Remote, Place::Slot],
+    finds_boards: true,
     pulse_outputs: &[(Y, 0, 7)],
     position_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),

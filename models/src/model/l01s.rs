@@ -11,6 +11,7 @@ use super::{ErrorNumbers, Model, ModelId, Range, Timers};
 use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
 use crate::interrupts::{self, Interrupts, Kind, PULSE_CATCH_OF_8, Precedence};
 use crate::times::InstructionTimes;
+use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, Register};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, I, M, P, R, S, T, Y};
@@ -55,6 +56,8 @@ pub(super) const L01S: Model = Model {
     error_numbers: ErrorNumbers::No,
     pulses: Pulses::L01s,
     ports: Ports::L01s,
+    module_places: &[Place::Bus, Place::L01s],
+    finds_boards: false,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),

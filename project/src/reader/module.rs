@@ -3,7 +3,7 @@
 use super::{Reader, Value, hint, span};
 use crate::Project;
 use crate::module::{LOCAL, REMOTE, Row};
-use rungc_rt::modules::{KINDS, Kind};
+use rungc_rt::modules::{BOARD, KINDS, Kind, Place};
 use rungc_syntax::Span;
 use toml::de::DeTable;
 
@@ -21,7 +21,7 @@ impl Reader {
             };
             if project.modules.iter().any(|other| other.unit == row.unit) {
                 self.wrong(row.span, format!("module {} is listed twice", row.unit), "");
-            } else if project.modules.len() == MOST {
+            } else if row.unit != BOARD && project.modules.len() == MOST {
                 self.wrong(at, format!("a PLC has at most {MOST} modules"), "");
             } else {
                 project.modules.push(row);
@@ -29,9 +29,19 @@ impl Reader {
         }
     }
 
+    /// The number of a module; `"board"` is that of an analog board.
+    fn unit(&mut self, table: &DeTable<'_>, at: Span) -> Option<u16> {
+        let text = table.get("at").and_then(|value| value.get_ref().as_str());
+        if text == Some("board") {
+            return Some(BOARD);
+        }
+        let unit = self.number(table, at, "at", 0..=(*REMOTE.end()).into(), None);
+        unit.and_then(|unit| u16::try_from(unit).ok())
+    }
+
     fn module(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
         self.known(MODULE, table, &["at", "kind"]);
-        let unit = self.number(table, at, "at", 0..=(*REMOTE.end()).into(), None);
+        let unit = self.unit(table, at);
         let Some(named) = self.get(table, "kind") else {
             if !table.contains_key("kind") {
                 self.wrong(
@@ -53,8 +63,12 @@ impl Reader {
             return None;
         };
         let at = table.get("at").map_or(at, |value| span(value.span()));
-        let unit = unit.and_then(|unit| u16::try_from(unit).ok())?;
-        if !LOCAL.contains(&unit) && !REMOTE.contains(&unit) {
+        let unit = unit?;
+        if let Some((message, help)) = misplaced(unit, kind) {
+            self.wrong(at, message, help);
+            return None;
+        }
+        if unit != BOARD && !LOCAL.contains(&unit) && !REMOTE.contains(&unit) {
             let help = "the number is 0 to 7 beside the main unit, or 100 and the station on the CAN bus of H1U and H2U";
             self.wrong(at, format!("no module has the number {unit}"), help);
             return None;
@@ -64,5 +78,30 @@ impl Reader {
             kind,
             span: at,
         })
+    }
+}
+
+/// What is wrong with the number of a kind of module, and what helps.
+fn misplaced(unit: u16, kind: &Kind) -> Option<(String, &'static str)> {
+    let name = kind.name;
+    match (kind.place, unit) {
+        (Place::Slot, BOARD) => None,
+        (Place::Slot, _) => Some((
+            format!("{name} is a board in the main unit"),
+            "write `at = \"board\"`",
+        )),
+        (_, BOARD) => Some((
+            format!("{name} is not a board in the main unit"),
+            "the number of a module beside the main unit is 0 to 7",
+        )),
+        (Place::Remote, _) if !REMOTE.contains(&unit) => Some((
+            format!("{name} is a remote module"),
+            "its number is 100 and its station on the CAN bus",
+        )),
+        (Place::Hm, 6..) => Some((
+            "HM has at most six modules".to_owned(),
+            "their numbers are 0 to 5",
+        )),
+        _ => None,
     }
 }

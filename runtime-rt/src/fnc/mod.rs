@@ -16,6 +16,7 @@ pub mod clock;
 pub mod cut;
 pub mod data;
 pub mod display;
+pub mod exchange;
 pub mod float;
 pub mod gray;
 pub mod handy;

@@ -6,7 +6,8 @@ use super::{Case, CaseProgram, Failure};
 use crate::protocol::{Answer, Request};
 use crate::target::{self, Channel};
 use rungc_rt::modules::{KINDS, Kind};
-use rungc_syntax::diag;
+use rungc_syntax::{FittedModule, Program, diag};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
@@ -43,6 +44,21 @@ impl Reader<'_> {
 }
 
 impl Case {
+    /// A program for a PLC with the modules of the case.
+    pub(super) fn with_modules<'p>(&self, program: &'p Program) -> Cow<'p, Program> {
+        if self.modules.is_empty() {
+            return Cow::Borrowed(program);
+        }
+        let mut program = program.clone();
+        let fitted = self.fitted().into_iter();
+        let fitted = fitted.map(|(unit, kind)| FittedModule {
+            unit,
+            kind: kind.name,
+        });
+        program.parameters.get_or_insert_default().modules = fitted.collect();
+        Cow::Owned(program)
+    }
+
     /// The modules that are fitted to its PLC: those of the file or case, else those of the settings of its program.
     pub(super) fn fitted(&self) -> Vec<(u16, &'static Kind)> {
         let CaseProgram::File(file) = &self.program else {

@@ -145,7 +145,7 @@ fn compile_case(case: &Case, warn: &[&'static str]) -> Result<Module, Errors> {
         }
         CaseProgram::File(file) => &file.read,
     };
-    let program = &read.program;
+    let program = &case.with_modules(&read.program);
     let compiled = compile_on(case.model, case, program, warn);
     let compiled = for_boards(case, program, &compiled, warn).unwrap_or(compiled);
     finish(read, compiled)

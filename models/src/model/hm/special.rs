@@ -1,7 +1,8 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers
 //! mean something else than on the other models.
 
-use crate::special::{AXES, MAKER, MODULES, POWER, Special, TIMING, specials};
+use crate::special::{AXES, MAKER, POWER, Special, TIMING, specials};
+use rungc_rt::modules::Place;
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -53,10 +54,10 @@ pub(super) const HM: &[Special] = specials! {
     D 450-499 rw 0 by("axis motion") "AXV3: as D300–D349";
     D 500-549 rw 0 by("axis motion") "AXV4: as D300–D349";
     D 550-599 rw 0 by("axis motion") "AXV5: as D300–D349";
-    D 7100-7142 rw 0 inert(MODULES) "extension modules: their addresses, D7142 their number (from D8129 on)";
-    D 7143-7144 rw 60 inert(MODULES) "time in ms between two exchanges with digital, with analog extension modules";
-    D 7145-7147 r 0 inert(MODULES) "extension modules: measured times of the exchanges, D7147 their error";
-    D 7200-7583 rw 0 inert(MODULES) "data of analog extension modules";
+    D 7100-7142 rw 0 modules(Place::Hm) "extension modules: their addresses, D7142 their number (from D8129 on)";
+    D 7143-7144 rw 60 modules(Place::Hm) "time in ms between two exchanges with digital, with analog extension modules";
+    D 7145-7147 r 0 modules(Place::Hm) "extension modules: measured times of the exchanges, D7147 their error";
+    D 7200-7583 rw 0 modules(Place::Hm) "data of analog extension modules";
     D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
     D 8001 r 0 inert(MAKER) "series number of the instruction set";
     D 8002 r 12 scan "program capacity";
@@ -98,7 +99,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8123 rw 0 by("UINIT") "UART1 protocol control word";
     D 8124 rw 0 by("UINIT") "UART1 byte control word";
     D 8125 rw 7020 by("UINIT") "UART1: first D register it occupies";
-    D 8129 rw 7100 inert(MODULES) "first D register occupied by extensions";
+    D 8129 rw 7100 modules(Place::Hm) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
     D 8180-8185 rw 0 by("axis motion, REF") "use of Y000–Y005: 0 PLC, 2 pulses of an axis, as soon as one moves there; REF leaves an output alone whose use is not 0";
     D 8188-8195 rw 0 by("axis motion, REF") "use of Y010–Y017: 0 PLC, 1 high-speed event output, 3 direction of an axis, as soon as one moves";

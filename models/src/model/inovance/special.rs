@@ -1,9 +1,10 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CARDS, CHECKED, CONTROLLER, HARDWARE, LATCHES, N_SERIES,
-    NETWORK, NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
+    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CHECKED, CONTROLLER, HARDWARE, LATCHES, N_SERIES, NETWORK,
+    NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
 };
+use rungc_rt::modules::Place;
 
 /// What both have.
 pub(super) const BOTH: &[Special] = specials! {
@@ -338,13 +339,13 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8204-8210 r 0 by("serial ports") "N:N link: slave 1–7 error count";
     D 8211 r 0 by("serial ports") "N:N link: master error code";
     D 8212-8218 r 0 by("serial ports") "N:N link: slave 1–7 error code";
-    D 8220 rw 0 inert(CARDS) "analog card 6A, 6B, 4A: command, C000h pause, C001h filter time";
-    D 8221-8222 rw 0 inert(CARDS) "analog card: outputs 1 and 2, 0 to 10000";
-    D 8223-8229 rw 0 inert(CARDS) "extension card: send buffer";
-    D 8230 r 0 inert(CARDS) "analog card: 6A42h, 6B42h, 4A22h, or the command that it obeys";
-    D 8231-8236 r 0 inert(CARDS) "analog card: inputs, then outputs, 0 to 10000";
-    D 8237-8238 r 0 inert(CARDS) "extension card: receive buffer";
-    D 8239 r 0 inert(CARDS) "extension card: communication error counter, 0 while it answers";
+    D 8220 rw 0 modules(Place::Slot) "analog card 6A, 6B, 4A: command, C000h pause, C001h filter time";
+    D 8221-8222 rw 0 modules(Place::Slot) "analog card: outputs 1 and 2, 0 to 10000";
+    D 8223-8229 rw 0 modules(Place::Slot) "extension card: send buffer";
+    D 8230 r 0 modules(Place::Slot) "analog card: 6A42h, 6B42h, 4A22h, or the command that it obeys";
+    D 8231-8236 r 0 modules(Place::Slot) "analog card: inputs, then outputs, 0 to 10000";
+    D 8237-8238 r 0 modules(Place::Slot) "extension card: receive buffer";
+    D 8239 r 0 modules(Place::Slot) "extension card: communication error counter, 0 while it answers";
     D 8240 rw 0 inert(N_SERIES) "CAN function setting (N series)";
     D 8241 rw 0 inert(N_SERIES) "CAN receive time-out in ms (N series)";
     D 8242 rw 0 inert(N_SERIES) "CANlink address (N series)";

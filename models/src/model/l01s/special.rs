@@ -1,9 +1,10 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use crate::special::{
-    CHECKED, CONTROL_LINES, COUNTER_INPUTS, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES,
-    NO_CAN, NO_PORT, RAW, Special, TRACE, specials,
+    CHECKED, CONTROL_LINES, COUNTER_INPUTS, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, NO_CAN,
+    NO_PORT, RAW, Special, TRACE, specials,
 };
+use rungc_rt::modules::Place;
 
 /// Its special devices.
 pub(super) const L01S: &[Special] = specials! {
@@ -182,7 +183,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8100 rw 5 inert(RAW) "analog input filter period, 0..32767";
     D 8101 r 26232 scan "PLC type and system version";
     D 8102 r 32 scan "memory capacity in k steps: 16 or 32";
-    D 8108 r 0 inert(MODULES) "number of connected special/extension modules";
+    D 8108 r 0 modules(Place::L01s) "number of connected special/extension modules";
     D 8109 r 0 inert(HARDWARE) "number of the Y at which an output refresh error occurred";
     D 8114 rw 0 scan "analog input channel enable: bit n = 1 starts AD n (n=0..7)";
     D 8120 rw 0 by("serial ports") "port 2 communication parameters: b0 data length 0=7,1=8";
@@ -221,7 +222,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8193 r 0 scan "contents of V6";
     D 8194 r 0 scan "contents of Z7";
     D 8195 r 0 scan "contents of V7";
-    D 8260-8275 r 0 inert(MODULES) "types of extension modules 1–31";
+    D 8260-8275 r 0 modules(Place::L01s) "types of extension modules 1–31";
     D 8340 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: current position in pulses, low word";
     D 8341 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: current position in pulses, high word";
     D 8342 rw 0 by("ZRN, DRVI, DRVA, DSZR") "Y000: bias (base) speed in Hz, 16 bit";
