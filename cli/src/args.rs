@@ -5,12 +5,12 @@ mod forms;
 mod values;
 
 pub use diff::{DiffArgs, DiffFormat};
-pub use forms::{ConvertArgs, ConvertTo, Names, ReadArgs, ReadFrom};
+pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
 
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
-use rungc_frontend::{Encoding, ReadOptions};
+use rungc_frontend::{Encoding, Names, ReadOptions};
 use rungc_models::{ModelId, Variant};
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
@@ -152,7 +152,8 @@ pub struct FileKind {
     /// What a file is, where its content does not show it.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub from: Option<ReadFrom>,
-    /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`.
+    /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`; `*,M100-M199` lists devices for
+    /// variables without an address.
     #[arg(long, value_parser = forms::names, value_name = "FILE")]
     pub names: Option<Names>,
 }
@@ -177,7 +178,7 @@ impl Reading {
             encoding: self.kind.encoding,
             compiled: self.kind.compiled,
             image: self.kind.from == Some(ReadFrom::Image),
-            names: self.kind.names.clone().unwrap_or_default().0,
+            names: self.kind.names.clone().unwrap_or_default(),
             ..ReadOptions::default()
         }
     }

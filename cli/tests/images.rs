@@ -88,3 +88,27 @@ ST Motor</IL></body></pou></pous></types></project>"#;
     );
     insta::assert_snapshot!("plcopen_variable", shown(path, &["check", "plc.xml"]));
 }
+
+#[test]
+fn settings_name_devices_of_plcopen_variables() {
+    let project = br#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="m" pouType="program">
+        <interface><localVars><variable name="Lamp"><type><BOOL/></type></variable></localVars></interface>
+        <body><IL>LD Start
+ST Motor
+ST Lamp</IL></body></pou></pous></types></project>"#;
+    let settings =
+        b"[plcopen]\nfree = ['M30-M39']\n[plcopen.names]\nStart = 'X003'\nMotor = 'Y010'\n";
+    let folder = folder(&[
+        ("plc.xml", project),
+        ("rungc.toml", settings),
+        ("names.csv", b"Start,X007\n*,M50\n"),
+    ]);
+    let convert = |more: &[&str]| {
+        let args = [&["convert", "plc.xml", "--to", "il"], more].concat();
+        text(&rungc(folder.path(), &args).stdout)
+    };
+    let expected = ["LD X003", "OUT Y010", "OUT M30", "END"];
+    assert_eq!(instructions(&convert(&[])), expected);
+    let expected = ["LD X007", "OUT Y010", "OUT M50", "END"];
+    assert_eq!(instructions(&convert(&["--names", "names.csv"])), expected);
+}

@@ -20,8 +20,7 @@ mod search;
 mod text;
 
 use rungc_syntax::order;
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Program, Span, codes};
-use std::collections::BTreeMap;
+use rungc_syntax::{Diagnostic, Diagnostics, Program, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -32,7 +31,7 @@ pub use gx::table::has_code;
 pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
-pub use plcopen::names;
+pub use plcopen::Names;
 pub use search::{is_project, programs};
 
 /// A program and what its reader found.
@@ -60,8 +59,8 @@ pub struct ReadOptions {
     pub compiled: bool,
     /// Take a file of unknown format for an image of program memory.
     pub image: bool,
-    /// The devices of variables, by their names in upper case; they take precedence over addresses.
-    pub names: BTreeMap<String, Device>,
+    /// The devices of variables of PLCopen XML.
+    pub names: Names,
 }
 
 impl ReadOptions {

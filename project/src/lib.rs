@@ -15,7 +15,7 @@ pub mod serve;
 mod template;
 
 use encoding_rs::Encoding;
-use rungc_frontend::{LearnedCodes, ReadOptions};
+use rungc_frontend::{LearnedCodes, Names, ReadOptions};
 use rungc_models::{ModelId, Variant};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
 use std::io::{self, Read};
@@ -65,6 +65,8 @@ pub struct Project {
     pub latched: Vec<Range>,
     /// `[retain] file`: where `run` and `serve` keep latched devices.
     pub retain: Option<PathBuf>,
+    /// `[plcopen]`: the devices of variables of PLCopen XML.
+    pub plcopen: Names,
     /// `[serve]`: servers and serial lines of a running program, and devices that it serves.
     pub serve: serve::Serve,
 }
@@ -236,6 +238,7 @@ impl Project {
         ReadOptions {
             learned: self.learned.clone(),
             encoding: self.encoding,
+            names: self.plcopen.clone(),
             ..ReadOptions::default()
         }
     }

@@ -1,6 +1,7 @@
 //! From TOML to [`Project`], every mistake with its place.
 
 mod module;
+mod plcopen;
 mod serve;
 
 use crate::modbus::{self, Row};
@@ -16,7 +17,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 11] = [
+const TABLES: [(&str, &[&str]); 12] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -25,6 +26,7 @@ const TABLES: [(&str, &[&str]); 11] = [
     ("index", &[]),
     ("latched", &[]),
     ("retain", &["file"]),
+    ("plcopen", &["names", "free"]),
     ("serve", &[]),
     (MODBUS, &[]),
     (MODULE, &[]),
@@ -154,6 +156,7 @@ impl Reader {
                 "index" => self.index(table, project),
                 "retain" => project.retain = self.path(table, "file"),
                 "serve" => self.serve(table, project),
+                "plcopen" => self.plcopen(table, project),
                 _ => self.latched(table, project),
             }
         }

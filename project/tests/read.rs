@@ -552,3 +552,26 @@ fn modules_are_fitted_to_the_plc() {
         )
     );
 }
+
+#[test]
+fn plcopen() {
+    let project = parse(
+        "[plcopen]\nfree = ['M100-M199', 'T5']\n[plcopen.names]\nStart = 'X010'\n\"main.Level\" = 'D10'\n",
+    )
+    .unwrap();
+    let names = project.reading().names;
+    let shown = names
+        .devices
+        .iter()
+        .map(|(name, device)| format!("{name} {device}"));
+    assert_eq!(shown.collect::<Vec<_>>(), ["MAIN.LEVEL D10", "START X010"]);
+    assert_eq!(names.free.len(), 2);
+    insta::assert_snapshot!(
+        "plcopen",
+        [
+            mistakes("[plcopen]\nfree = ['M5-D6', 7]\nnames = 'names.csv'\n"),
+            mistakes("[plcopen.names]\nStart = 'X9'\nStop = 1\n[plcopen.devices]\n"),
+        ]
+        .concat()
+    );
+}

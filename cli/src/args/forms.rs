@@ -2,9 +2,8 @@
 
 use super::{Inputs, Reporting};
 use clap::{Args, ValueEnum};
+use rungc_frontend::Names;
 use rungc_project::serve::LineEnd;
-use rungc_syntax::Device;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
@@ -112,15 +111,9 @@ impl ConvertTo {
     }
 }
 
-/// The devices of variables, by their names in upper case.
-#[derive(Clone, Debug, Default)]
-pub struct Names(pub BTreeMap<String, Device>);
-
 /// Reads a table of variables and their devices.
 pub fn names(path: &str) -> Result<Names, String> {
     let table = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    let names = rungc_frontend::names(&table);
-    names
-        .map(Names)
+    Names::parse(&table)
         .map_err(|row| format!("`{row}` is not a row of a name and a device, such as `Start,X000`"))
 }

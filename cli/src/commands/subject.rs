@@ -104,6 +104,9 @@ impl Projects<'_> {
         if let Some(usual) = project.as_ref().map(|project| project.reading()) {
             options.learned = usual.learned;
             options.encoding = options.encoding.or(usual.encoding);
+            let given = std::mem::replace(&mut options.names, usual.names);
+            options.names.devices.extend(given.devices);
+            options.names.free.splice(0..0, given.free);
         }
         let of_project = |project: &Rc<Project>| {
             let model = project.model?;

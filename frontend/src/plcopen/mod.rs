@@ -1,29 +1,41 @@
-//! PLCopen XML (TC6 2.01), which editors of IEC 61131-3 exchange programs by: ladders of contacts and coils, and
-//! instruction lists.
+//! PLCopen XML (TC6 2.01), which editors of IEC 61131-3 exchange programs by: ladders, function block diagrams,
+//! instruction lists and sequential function charts.
 //!
-//! A variable is a device by its address (`%IX0.3` is X003) or by a name that is itself one. What else a program
-//! contains is an error with the element and its line.
+//! What a program contains becomes instructions where these do the same; all else is an error with the element and its
+//! line. `variables` finds the devices of variables, `logic` turns what leads to an output into a list, `drawing`
+//! follows the wires of ladders and diagrams, `blocks` knows the standard's functions and blocks, `list` its
+//! instruction lists, `chart` its steps and transitions, `expression` their conditions.
 
+mod blocks;
+mod chart;
+mod drawing;
+mod expression;
+mod functions;
+mod list;
 mod logic;
+mod variables;
 
 use crate::Read;
 use crate::il;
 use crate::listing::Listing;
-use logic::{Logic, Sense};
+use logic::{Logic, Output, Part};
 use roxmltree::{Document, Node};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, SourceKind, codes};
-use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
+use smol_str::{SmolStr, ToSmolStr};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+use variables::{Found, Kind, Missing, Variables};
+
+pub use variables::Names;
 
 /// What the namespace of a project begins with.
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
 /// How far into a text its namespace is, at most.
 const HEAD: usize = 4096;
-/// The most elements on all ways to a coil: drawings that share ways grow when they become a list.
-const MOST_ELEMENTS: usize = 2000;
-/// The most elements on one way.
-const DEEPEST: usize = 200;
+/// The most contacts that lead to an output: drawings that share ways grow when they become a list.
+const MOST_CONTACTS: usize = 2000;
+
+/// The most mistakes that are reported: a project of another world has one in each element.
+const MOST_FAULTS: usize = 200;
 
 /// Whether a text is a project of this form.
 pub(crate) fn is_project(text: &str) -> bool {
@@ -35,49 +47,96 @@ pub(crate) fn is_project(text: &str) -> bool {
     head.starts_with('<') && head[..end].contains(NAMESPACE)
 }
 
-/// A table of variables and their devices: rows of a name and a device, separated by a comma or a tab.
-///
-/// # Errors
-/// The first row that is not of this form.
-pub fn names(table: &str) -> Result<BTreeMap<String, Device>, String> {
-    let lines = table.trim_start_matches('\u{FEFF}').lines();
-    let rows = lines.filter(|line| !line.trim().is_empty());
-    let row = |line: &str| {
-        let (name, written) = line.split_once([',', '\t'])?;
-        let plain = |field: &str| field.trim().trim_matches('"').trim().to_uppercase();
-        Some((plain(name), device(&plain(written))?))
-    };
-    rows.map(|line| row(line).ok_or_else(|| line.to_owned()))
-        .collect()
-}
-
-/// Reads a project; `named` are the devices of variables by their names in upper case.
-pub(crate) fn read(name: &str, text: &str, named: &BTreeMap<String, Device>) -> Read {
-    let mut reader = Reader {
-        variables: named.clone(),
-        ..Reader::default()
-    };
+/// Reads a project; `names` are the devices of its variables.
+pub(crate) fn read(name: &str, text: &str, names: &Names) -> Read {
     match Document::parse(text.trim_start_matches('\u{FEFF}')) {
-        Ok(document) => reader.project(&document),
-        Err(error) => reader.faults.push((
-            &codes::PLCOPEN_SYNTAX,
-            format!("the project is not well-formed XML: {error}"),
-            "export the project again",
-        )),
+        Ok(document) => {
+            let mut reader = Reader {
+                variables: Variables::new(names, document.root_element()),
+                ..Reader::default()
+            };
+            reader.project(&document);
+            reader.finish(name)
+        }
+        Err(error) => {
+            let mut reader = Reader::default();
+            reader.faults.push(Fault {
+                code: &codes::PLCOPEN_SYNTAX,
+                what: format!("the project is not well-formed XML: {error}"),
+                help: "export the project again",
+            });
+            reader.finish(name)
+        }
     }
-    reader.finish(name)
 }
 
 /// Something that has no counterpart: what is wrong, and what helps.
-type Fault = (&'static codes::Code, String, &'static str);
+#[derive(Debug)]
+struct Fault {
+    code: &'static codes::Code,
+    what: String,
+    help: &'static str,
+}
+
+impl Fault {
+    /// An element that has no counterpart, and why.
+    fn at(node: Node, what: impl AsRef<str>, help: &'static str) -> Self {
+        Fault {
+            code: &codes::PLCOPEN_ELEMENT,
+            what: format!("line {}: {}", line(node), what.as_ref()),
+            help,
+        }
+    }
+
+    /// An element that has no counterpart.
+    fn outside(node: Node, help: &'static str) -> Self {
+        let what = format!("{} has no counterpart in an FX program", called(node));
+        Fault::at(node, what, help)
+    }
+
+    /// A variable that is not a device.
+    fn variable(node: Node, name: &str, missing: &Missing) -> Self {
+        let name = name.trim();
+        let (what, help) = match missing {
+            Missing::Device => (format!("the variable `{name}` is not a device"), ADDRESSES),
+            Missing::Address(address) => (
+                format!("the address `{address}` of `{name}` is not that of a device"),
+                ADDRESSES,
+            ),
+            Missing::Type(kind) => (
+                format!("`{name}` is of the type `{kind}`, which no device holds"),
+                "a PLC of the family holds BOOL, INT, DINT, WORD and DWORD",
+            ),
+        };
+        Fault {
+            code: &codes::PLCOPEN_VARIABLE,
+            what: format!("line {}: {what}", line(node)),
+            help,
+        }
+    }
+}
+
+/// An element with its name, if it has one.
+fn called(node: Node) -> String {
+    let named = ["typeName", "name", "label", "instanceName"];
+    let named = named.into_iter().find_map(|key| node.attribute(key));
+    let named = named.map_or_else(String::new, |name| format!(" `{name}`"));
+    format!("element `{}`{named}", node.tag_name().name())
+}
 
 #[derive(Default)]
 struct Reader {
-    list: String,
+    parts: Vec<Part>,
     title: Option<String>,
-    comments: BTreeMap<Device, String>,
-    /// The devices of variables, by their names in upper case.
-    variables: BTreeMap<String, Device>,
+    variables: Variables,
+    /// Pointers by the labels of programs.
+    pointers: BTreeMap<String, u32>,
+    /// The devices of the blocks of the program that is being read, by the names of their instances.
+    instances: BTreeMap<String, blocks::Instance>,
+    /// The relays of steps, by name in upper case.
+    steps: BTreeMap<String, Device>,
+    /// Whether what follows is driven by STL.
+    in_state: bool,
     faults: Vec<Fault>,
 }
 
@@ -87,12 +146,6 @@ fn children<'a, 'i: 'a>(
     name: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children()
-        .filter(move |child| child.tag_name().name() == name)
-}
-
-/// The descendants of a node that are called so.
-fn all<'a, 'i: 'a>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
-    node.descendants()
         .filter(move |child| child.tag_name().name() == name)
 }
 
@@ -108,229 +161,176 @@ fn text(node: Node) -> String {
         .collect()
 }
 
+/// Whether an attribute says so.
+fn flag(node: Node, name: &str) -> bool {
+    matches!(node.attribute(name), Some("true" | "1"))
+}
+
 impl Reader {
     fn project(&mut self, document: &Document) {
         let root = document.root_element();
         let header = children(root, "contentHeader").next();
         self.title = header.and_then(|h| h.attribute("name")).map(str::to_owned);
-        for variable in all(root, "variable").filter(|v| v.attribute("name").is_some()) {
-            self.variable(variable);
-        }
-        let programs = all(root, "pou").filter(|pou| pou.attribute("pouType") == Some("program"));
-        let programs: Vec<_> = programs.collect();
+        let pous = root
+            .descendants()
+            .filter(|node| node.tag_name().name() == "pou");
+        let programs: Vec<_> = pous
+            .filter(|pou| pou.attribute("pouType") == Some("program"))
+            .collect();
         if programs.is_empty() {
-            let what = "the project has no program".to_owned();
-            self.faults.push((
-                &codes::PLCOPEN_ELEMENT,
-                what,
-                "functions and function blocks alone do not run",
-            ));
+            self.faults.push(Fault {
+                code: &codes::PLCOPEN_ELEMENT,
+                what: "the project has no program".to_owned(),
+                help: "functions and function blocks alone do not run",
+            });
         }
         for pou in programs {
-            for body in children(pou, "body")
-                .flat_map(|body| body.children())
-                .filter(Node::is_element)
-            {
-                match body.tag_name().name() {
-                    "LD" => self.ladder(body),
-                    "IL" => self.instruction_list(body),
-                    "documentation" | "addData" => {}
-                    _ => self.outside(body, "write it as LD or IL, or compile it in its editor"),
-                }
+            self.variables.enter(pou);
+            self.instances.clear();
+            self.steps.clear();
+            self.in_state = false;
+            let bodies = children(pou, "body").flat_map(|body| body.children());
+            for body in bodies.filter(Node::is_element) {
+                self.body(pou, body);
+            }
+            if let Some(number) = self.pointers.remove(RETURN) {
+                self.parts.push(Part::Line(format!("P{number}")));
+            }
+            self.pointers.clear();
+        }
+    }
+
+    fn body(&mut self, pou: Node, body: Node) {
+        let result = match body.tag_name().name() {
+            "LD" | "FBD" => {
+                drawing::read(self, body);
+                Ok(())
+            }
+            "IL" => {
+                list::read(self, body);
+                Ok(())
+            }
+            "SFC" => chart::read(self, pou, body),
+            "documentation" | "addData" => Ok(()),
+            _ => Err(Fault::outside(
+                body,
+                "write it as LD, FBD, IL or SFC, or compile it in its editor",
+            )),
+        };
+        if let Err(fault) = result {
+            self.report(fault);
+        }
+    }
+
+    /// Whether there are enough mistakes that more would not help.
+    fn has_given_up(&self) -> bool {
+        self.faults.len() >= MOST_FAULTS
+    }
+
+    /// Adds an output that contacts drive.
+    fn output(&mut self, logic: Logic, line: impl Into<SmolStr>) {
+        self.parts.push(Part::Output(Output {
+            logic,
+            lines: vec![line.into()],
+            alone: false,
+            bare: self.in_state,
+        }));
+    }
+
+    /// Reports what has no counterpart: a variable once, an element once.
+    fn report(&mut self, fault: Fault) {
+        let of_variable = fault.code.id == codes::PLCOPEN_VARIABLE.id;
+        let what = |fault: &Fault| match fault.what.split_once(": ") {
+            Some((_, rest)) if of_variable => rest.to_owned(),
+            _ => fault.what.clone(),
+        };
+        let said = what(&fault);
+        if !self.faults.iter().any(|other| what(other) == said) {
+            self.faults.push(fault);
+        }
+    }
+
+    /// The device of a variable, and what it holds.
+    fn find(&mut self, node: Node, name: &str) -> Result<Found, Fault> {
+        self.variables
+            .find(name)
+            .map_err(|missing| Fault::variable(node, name, &missing))
+    }
+
+    /// The device of a variable that holds a bit, or the part of a block's instance that does.
+    fn bit(&mut self, node: Node, name: &str) -> Result<Device, Fault> {
+        if let Some((instance, part)) = name.trim().rsplit_once('.') {
+            let known = self.instances.get(&instance.trim().to_uppercase());
+            let device = known.and_then(|known| known.bit(&part.to_uppercase()));
+            if let Some(device) = device {
+                return Ok(device);
+            }
+            if let Some(Kind::Block(kind)) = self.variables.kind(instance) {
+                let what = format!("`{instance}` ({kind}) has no bit `{part}` here");
+                let help = "read an output of a block of this program";
+                return Err(Fault::at(node, what, help));
             }
         }
-        self.list.push_str("END\n");
+        if let Some((step, "X" | "x")) = name.trim().rsplit_once('.')
+            && let Some(device) = self.steps.get(&step.to_uppercase())
+        {
+            return Ok(*device);
+        }
+        if let Some((timer, "Q" | "q")) = name.trim().rsplit_once('.')
+            && let Some(device) = variables::device(timer)
+            && matches!(device.class, DeviceClass::T | DeviceClass::C)
+        {
+            return Ok(device);
+        }
+        let found = self.find(node, name)?;
+        let is_contact = matches!(found.device.class, DeviceClass::T | DeviceClass::C);
+        if found.kind != Kind::Bool && !is_contact {
+            let what = format!("`{}` is not a bit", name.trim());
+            return Err(Fault::at(node, what, "contacts and coils need a bit"));
+        }
+        Ok(found.device)
     }
 
-    /// Reports an element that has no counterpart.
-    fn outside(&mut self, node: Node, help: &'static str) {
-        let named = ["typeName", "name", "label", "instanceName"];
-        let named = named.into_iter().find_map(|key| node.attribute(key));
-        let named = named.map_or_else(String::new, |name| format!(" `{name}`"));
-        let what = format!(
-            "line {}: element `{}`{named} has no counterpart in an FX program",
-            line(node),
-            node.tag_name().name()
-        );
-        self.faults.push((&codes::PLCOPEN_ELEMENT, what, help));
-    }
-
-    /// Takes a declaration.
-    fn variable(&mut self, node: Node) {
-        let name = node.attribute("name").unwrap_or_default();
-        let named = self.variables.get(&name.to_uppercase()).copied();
-        let device = match node.attribute("address") {
-            _ if named.is_some() => named,
-            Some(address) => addressed(address),
-            None => device(name),
-        };
-        let Some(device) = device else {
-            if let Some(address) = node.attribute("address") {
-                let what = format!(
-                    "line {}: the address `{address}` of `{name}` is not that of a device",
-                    line(node)
-                );
-                self.faults
-                    .push((&codes::PLCOPEN_VARIABLE, what, ADDRESSES));
-            }
-            return;
-        };
-        let documentation = children(node, "documentation").next().map(text);
-        let documentation = documentation.and_then(|text| crate::text::clean(&text));
-        let comment = documentation.unwrap_or_else(|| name.into());
-        self.comments
-            .entry(device)
-            .or_insert_with(|| comment.to_string());
-        self.variables.insert(name.to_uppercase(), device);
-    }
-
-    /// How an operand is written in a list.
-    fn operand(&mut self, node: Node, name: &str) -> SmolStr {
-        let name = name.trim();
-        let known = self.variables.get(&name.to_uppercase()).copied();
-        let found = known.or_else(|| addressed(name)).or_else(|| device(name));
-        if let Some(device) = found {
+    /// The pointer of a label.
+    fn pointer(&mut self, label: &str) -> SmolStr {
+        if let Some(device) = variables::device(label)
+            && device.class == DeviceClass::P
+        {
             return device.to_smolstr();
         }
-        if let Ok(number) = name.parse::<i32>() {
-            return format_smolstr!("K{number}");
-        }
-        let what = format!("line {}: the variable `{name}` is not a device", line(node));
-        let known = self
-            .faults
-            .iter()
-            .any(|(_, fault, _)| fault.ends_with(&format!("`{name}` is not a device")));
-        if !known {
-            self.faults
-                .push((&codes::PLCOPEN_VARIABLE, what, ADDRESSES));
-        }
-        "M0".into()
-    }
-
-    /// Reads a drawing: each coil from the top down, with what leads to it.
-    fn ladder(&mut self, body: Node) {
-        let elements = body.children().filter(Node::is_element);
-        let by_id: BTreeMap<_, _> = elements
-            .clone()
-            .filter_map(|node| Some((node.attribute("localId")?, node)))
-            .collect();
-        for node in elements {
-            match node.tag_name().name() {
-                "leftPowerRail" | "rightPowerRail" | "contact" | "coil" | "comment" => {}
-                _ => self.outside(node, "only contacts and coils of a ladder are read"),
+        let number = match self.pointers.get(label) {
+            Some(number) => *number,
+            None => {
+                let number = self.variables.pointer();
+                self.pointers.insert(label.to_owned(), number);
+                number
             }
-        }
-        let place = |node: &Node| {
-            let position = children(*node, "position").next();
-            let number = |key| position.and_then(|p| p.attribute(key)?.parse::<f64>().ok());
-            (number("y").unwrap_or(0.0), number("x").unwrap_or(0.0))
         };
-        let mut coils: Vec<_> = by_id
-            .values()
-            .filter(|node| node.tag_name().name() == "coil")
-            .collect();
-        coils.sort_by(|a, b| {
-            place(a)
-                .partial_cmp(&place(b))
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
-        let mut last = None;
-        for coil in coils {
-            let mut way = Way {
-                by_id: &by_id,
-                on_it: Vec::new(),
-                elements: 0,
-            };
-            let logic = match way.to(*coil, self) {
-                Ok(logic) => logic,
-                Err(why) => {
-                    let what = format!("line {}: {why}", line(*coil));
-                    self.faults.push((
-                        &codes::PLCOPEN_ELEMENT,
-                        what,
-                        "connect the coil to the left power rail",
-                    ));
-                    continue;
-                }
-            };
-            let inverted = coil.attribute("negated") == Some("true");
-            if inverted || last.as_ref() != Some(&logic) {
-                for instruction in logic.instructions() {
-                    let _ = writeln!(self.list, "{instruction}");
-                }
-            }
-            last = (!inverted).then_some(logic);
-            self.coil(*coil, inverted);
-        }
-    }
-
-    fn coil(&mut self, coil: Node, inverted: bool) {
-        let mnemonic = match (coil.attribute("storage"), coil.attribute("edge")) {
-            (Some("set"), _) => "SET",
-            (Some("reset"), _) => "RST",
-            (_, Some("rising")) => "PLS",
-            (_, Some("falling")) => "PLF",
-            _ => "OUT",
-        };
-        if inverted {
-            self.list.push_str("INV\n");
-        }
-        let operand = variable_of(coil).map(|name| self.operand(coil, &name));
-        match operand {
-            Some(device) => _ = writeln!(self.list, "{mnemonic} {device}"),
-            None => self.outside(coil, "give the coil a variable"),
-        }
-    }
-
-    /// Reads a list: the operators of IEC 61131-3 that an FX list has under another name.
-    fn instruction_list(&mut self, body: Node) {
-        for written in text(body).lines() {
-            let code = written.split("(*").next().unwrap_or_default().trim();
-            if code.is_empty() {
-                continue;
-            }
-            let (operator, operand) = code.split_once(char::is_whitespace).unwrap_or((code, ""));
-            let mnemonic = match operator.to_ascii_uppercase().as_str() {
-                "LD" => "LD",
-                "LDN" => "LDI",
-                "AND" | "&" => "AND",
-                "ANDN" | "&N" => "ANI",
-                "OR" => "OR",
-                "ORN" => "ORI",
-                "ST" => "OUT",
-                "S" => "SET",
-                "R" => "RST",
-                "NOT" => "INV",
-                _ => {
-                    let what = format!(
-                        "line {}: `{code}` has no counterpart in an FX list",
-                        line(body)
-                    );
-                    let help = "LD, AND, OR with or without N, NOT, ST, S and R are read";
-                    self.faults.push((&codes::PLCOPEN_ELEMENT, what, help));
-                    continue;
-                }
-            };
-            let operand = match operand.trim() {
-                "" => SmolStr::default(),
-                name => self.operand(body, name),
-            };
-            let _ = writeln!(self.list, "{}", format!("{mnemonic} {operand}").trim_end());
-        }
+        smol_str::format_smolstr!("P{number}")
     }
 
     fn finish(self, name: &str) -> Read {
-        let mut read = il::read_text(name, &self.list);
+        let first_scan = self.variables.first_scan.iter().map(|line| {
+            Part::Output(Output {
+                logic: Logic::contact(u32::MAX, true, "M8002"),
+                lines: vec![line.clone()],
+                alone: false,
+                bare: false,
+            })
+        });
+        let mut lines = logic::lines(first_scan.chain(self.parts).collect());
+        lines.push("END".into());
+        let mut read = il::read_text(name, &lines.join("\n"));
         read.program.kind = SourceKind::Plcopen;
         read.program.title = self.title.filter(|title| !title.trim().is_empty());
-        read.program.comments = self.comments;
+        read.program.comments = self.variables.comments;
         if self.faults.is_empty() {
             return read;
         }
         // A list with gaps would mislead: what is quoted is the elements that make them.
         let mut listing = Listing::default();
         let mut diagnostics = Diagnostics::new();
-        for (code, what, help) in self.faults {
+        for Fault { code, what, help } in self.faults {
             listing.next_line();
             let span = listing.word(&format!("?? {what}"));
             diagnostics.push(code.at(span, what).label("in the project").help(help));
@@ -343,117 +343,12 @@ impl Reader {
     }
 }
 
+/// How devices become free for what has none.
+const FREE: &str = "list free devices in `[plcopen.free]` of rungc.toml, or in a row such as `*,D100-D199` of the table for `--names`";
+
+/// What the end of a program is called, where a return goes.
+const RETURN: &str = "";
+
 /// Which addresses and names mean devices.
-const ADDRESSES: &str = "name its device in a table for `--names`, or give it an address: `%IX0.0` is X000, `%QX0.0` Y000, \
-                         `%MX0.0` M0, `%MW0` D0";
-
-/// The device that a name is, such as `X010`.
-fn device(name: &str) -> Option<Device> {
-    let mut faults = Diagnostics::new();
-    match il::field::operand(name, 0, false, &mut faults)?.kind {
-        OperandKind::Device(device, None) if faults.is_empty() => Some(device),
-        _ => None,
-    }
-}
-
-/// The device at an IEC address: bits by byte and bit, words by their numbers.
-fn addressed(address: &str) -> Option<Device> {
-    use DeviceClass::{D, M, X, Y};
-    let address = address.trim().strip_prefix('%')?.to_ascii_uppercase();
-    let (place, rest) = address.split_at_checked(2)?;
-    let class = match place {
-        "IX" => X,
-        "QX" => Y,
-        "MX" => M,
-        "MW" => D,
-        _ => return None,
-    };
-    let number = match rest.split_once('.') {
-        Some((byte, bit)) if class != D => {
-            let bit = bit.parse::<u32>().ok().filter(|bit| *bit < 8)?;
-            byte.parse::<u32>().ok()?.checked_mul(8)?.checked_add(bit)?
-        }
-        Some(_) => return None,
-        None => rest.parse().ok()?,
-    };
-    Some(Device { class, number })
-}
-
-/// The variable of a contact or coil.
-fn variable_of(node: Node) -> Option<String> {
-    let name = children(node, "variable").next().map(text)?;
-    (!name.trim().is_empty()).then_some(name)
-}
-
-/// The way back from an element to the left power rail.
-struct Way<'a, 'i> {
-    by_id: &'a BTreeMap<&'a str, Node<'a, 'i>>,
-    /// The elements that it has come through.
-    on_it: Vec<&'a str>,
-    /// How many elements it has come through on all ways.
-    elements: usize,
-}
-
-impl<'a, 'i> Way<'a, 'i> {
-    /// What leads to an element.
-    fn to(&mut self, node: Node<'a, 'i>, reader: &mut Reader) -> Result<Logic, String> {
-        let connections =
-            children(node, "connectionPointIn").flat_map(|point| children(point, "connection"));
-        let from: Vec<_> = connections
-            .filter_map(|c| c.attribute("refLocalId"))
-            .collect();
-        if from.is_empty() {
-            return Err(format!(
-                "nothing leads to element {}",
-                node.attribute("localId").unwrap_or("?")
-            ));
-        }
-        let mut ways = Vec::new();
-        for id in from {
-            ways.push(self.through(id, reader)?);
-        }
-        Ok(Logic::joined(ways))
-    }
-
-    /// What leads to the output of an element.
-    fn through(&mut self, id: &'a str, reader: &mut Reader) -> Result<Logic, String> {
-        let node = *self
-            .by_id
-            .get(id)
-            .ok_or_else(|| format!("there is no element {id}"))?;
-        if self.on_it.contains(&id) {
-            return Err(format!("the way through element {id} returns to it"));
-        }
-        let name = node.tag_name().name();
-        match name {
-            "leftPowerRail" => return Ok(Logic::wire()),
-            "contact" | "coil" => {}
-            _ => {
-                return Err(format!(
-                    "the way comes through `{name}`, which is not a contact"
-                ));
-            }
-        }
-        self.elements += 1;
-        if self.elements > MOST_ELEMENTS || self.on_it.len() > DEEPEST {
-            return Err("the ways to this coil are more than a network of a PLC holds".to_owned());
-        }
-        self.on_it.push(id);
-        let before = self.to(node, reader);
-        self.on_it.pop();
-        let before = before?;
-        if name == "coil" {
-            return Ok(before);
-        }
-        let sense = match (node.attribute("edge"), node.attribute("negated")) {
-            (Some("rising"), _) => Sense::Rising,
-            (Some("falling"), _) => Sense::Falling,
-            (_, Some("true")) => Sense::Off,
-            _ => Sense::On,
-        };
-        let name = variable_of(node)
-            .ok_or_else(|| format!("the contact on line {} has no variable", line(node)))?;
-        let device = reader.operand(node, &name);
-        Ok(before.then(Logic::Contact(sense, device)))
-    }
-}
+const ADDRESSES: &str = "name its device in `[plcopen.names]` of rungc.toml or in a table for `--names`, or give it an address: \
+                         `%IX0.0` is X000, `%QX0.0` Y000, `%MX0.0` M0, `%MW0` D0";

@@ -184,13 +184,13 @@ super::codes! {
 
     PLCOPEN_ELEMENT = "E0063" "plcopen-element" Error None,
     "element of a PLCopen project without a counterpart",
-    "Of PLCopen XML, rungc reads programs drawn as ladders (LD) of contacts and coils, and instruction lists (IL) with the operators of a ladder. Function blocks, structured text, FBD, SFC, jumps and variables of a drawing have no counterpart that can be read yet. The message names the element and its line.",
+    "Of PLCopen XML, rungc reads programs as LD, FBD, IL and SFC, with contacts, coils and those functions and blocks of IEC 61131-3 that instructions of the PLC compute exactly. The message names the element, its line and what is different: structured text, blocks of the project's own, types such as REAL, actions with bodies, a comparison with EN, a timer whose preset is not a constant..",
     wrong: "",
     right: "";
 
     PLCOPEN_VARIABLE = "E0064" "plcopen-variable" Error None,
     "variable of a PLCopen project without a device",
-    "A PLC of the FX family knows devices, not variables. A variable of a PLCopen project becomes the device at its address: `%IX0.3` is X003, `%QX1.0` is Y010, `%MX0.5` is M5, `%MW7` is D7 (bits are counted through, eight to a byte). A variable without an address must have the name of a device, such as `M100`.",
+    "A PLC of the FX family knows devices, not variables. A variable of a PLCopen project becomes the device that `[plcopen.names]` of `rungc.toml` or a table for `--names` names, or the device at its address: `%IX0.3` is X003, `%QX1.0` is Y010, `%MX0.5` is M5, `%MW7` is D7 (bits are counted through, eight to a byte). A variable with neither must have the name of a device, such as `M100`, or `[plcopen]` must list free devices..",
     wrong: "",
     right: "";
 

@@ -1,0 +1,411 @@
+//! Sequential function charts: steps as relays, which transitions set and reset as the standard lets a chart evolve.
+//!
+//! All transitions are evaluated first, then the steps before those that fire are reset, then the steps after them are
+//! set, then the actions of the active steps are executed.
+
+use super::drawing::Drawing;
+use super::logic::{Logic, Output, Part};
+use super::{FREE, Fault, Reader, called, children, expression, flag, list, text};
+use roxmltree::Node;
+use rungc_syntax::{Device, DeviceClass};
+use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most divergences and convergences between a step and a transition.
+const DEEPEST: usize = 50;
+
+/// A chart while it is read.
+struct Chart<'a, 'i> {
+    by_id: BTreeMap<&'a str, Node<'a, 'i>>,
+    /// What an element's outputs lead to.
+    uses: BTreeMap<&'a str, Vec<&'a str>>,
+    /// By name in upper case.
+    steps: BTreeMap<String, Device>,
+}
+
+/// A transition: the steps around it and the relay of its condition.
+struct Transition<'a> {
+    before: BTreeSet<&'a str>,
+    relay: Device,
+    reset: Vec<Device>,
+    set: Vec<Device>,
+}
+
+/// Reads the chart of a program.
+pub(super) fn read(reader: &mut Reader, pou: Node, body: Node) -> Result<(), Fault> {
+    let mut chart = Chart {
+        by_id: BTreeMap::new(),
+        uses: BTreeMap::new(),
+        steps: BTreeMap::new(),
+    };
+    for node in body.children().filter(Node::is_element) {
+        let Some(id) = node.attribute("localId") else {
+            continue;
+        };
+        chart.by_id.insert(id, node);
+        for from in sources(node) {
+            chart.uses.entry(from).or_default().push(id);
+        }
+    }
+    chart.check(body)?;
+    chart.find_steps(reader, body)?;
+    let mut transitions = Vec::new();
+    for node in in_order(body) {
+        let id = node.attribute("localId").unwrap_or_default();
+        let relay = reader
+            .variables
+            .part(&format!("transition..{id}"), DeviceClass::M, 1, |_| true);
+        let relay = relay.ok_or_else(|| Fault::at(node, "the transition needs a relay", FREE))?;
+        let transition = chart.transition(node, relay)?;
+        let condition = condition(reader, pou, body, node)?;
+        let active = transition.before.iter().filter_map(|id| chart.step(id));
+        let active =
+            active.map(|device| Logic::contact(node.id().get(), true, device.to_smolstr()));
+        let mut logic = active.fold(Logic::wire(), Logic::then);
+        let rivals = transitions
+            .iter()
+            .filter(|other: &&Transition| !other.before.is_disjoint(&transition.before));
+        for rival in rivals {
+            let contact = Logic::contact(node.id().get(), false, rival.relay.to_smolstr());
+            logic = logic.then(contact);
+        }
+        network(
+            reader,
+            logic.then(condition),
+            vec![format_smolstr!("OUT {relay}")],
+        );
+        transitions.push(transition);
+    }
+    for (mnemonic, resets) in [("RST", true), ("SET", false)] {
+        for transition in &transitions {
+            let devices = if resets {
+                &transition.reset
+            } else {
+                &transition.set
+            };
+            let lines = devices
+                .iter()
+                .map(|device| format_smolstr!("{mnemonic} {device}"));
+            let fires = Logic::contact(0, true, transition.relay.to_smolstr());
+            network(reader, fires, lines.collect());
+        }
+    }
+    chart.actions(reader, body)
+}
+
+fn network(reader: &mut Reader, logic: Logic, lines: Vec<SmolStr>) {
+    reader.parts.push(Part::Output(Output {
+        logic,
+        lines,
+        alone: true,
+        bare: false,
+    }));
+}
+
+/// The elements that lead to one.
+fn sources<'a, 'i>(node: Node<'a, 'i>) -> Vec<&'a str> {
+    let points = children(node, "connectionPointIn");
+    let connections = points.flat_map(|point| children(point, "connection"));
+    connections
+        .filter_map(|c| c.attribute("refLocalId"))
+        .collect()
+}
+
+/// The transitions by their priorities, then from left to right and from the top down.
+fn in_order<'a, 'i>(body: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
+    let mut transitions: Vec<_> = children(body, "transition").collect();
+    let number = |node: &Node, key: &str| {
+        let position = children(*node, "position").next()?;
+        position.attribute(key)?.parse::<f64>().ok()
+    };
+    let priority = |node: &Node| {
+        let priority = node.attribute("priority")?.parse::<u64>().ok()?;
+        (priority > 0).then_some(priority)
+    };
+    transitions.sort_by(|a, b| {
+        let by = |key| {
+            let of = |node| number(node, key).unwrap_or(0.0);
+            of(a).total_cmp(&of(b))
+        };
+        let rank = |node| priority(node).unwrap_or(u64::MAX);
+        rank(a).cmp(&rank(b)).then(by("x")).then(by("y"))
+    });
+    transitions
+}
+
+impl<'a, 'i> Chart<'a, 'i> {
+    /// Rejects elements that have no counterpart.
+    fn check(&self, body: Node) -> Result<(), Fault> {
+        for node in body.children().filter(Node::is_element) {
+            match node.tag_name().name() {
+                "step"
+                | "transition"
+                | "selectionDivergence"
+                | "selectionConvergence"
+                | "simultaneousDivergence"
+                | "simultaneousConvergence"
+                | "jumpStep"
+                | "actionBlock"
+                | "contact"
+                | "inVariable"
+                | "block"
+                | "leftPowerRail"
+                | "rightPowerRail"
+                | "comment"
+                | "connector"
+                | "continuation" => {}
+                _ => {
+                    let help = "rungc reads steps, transitions, branches, jumps and actions";
+                    return Err(Fault::outside(node, help));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the relays of all steps; the first scan sets the initial ones.
+    fn find_steps(&mut self, reader: &mut Reader, body: Node) -> Result<(), Fault> {
+        for node in children(body, "step") {
+            let name = node.attribute("name").unwrap_or_default();
+            let variables = &mut reader.variables;
+            let key = format!("{name}.X");
+            let state = variables.part(&key, DeviceClass::S, 1, |_| true);
+            let device = state.or_else(|| variables.part(&key, DeviceClass::M, 1, |_| true));
+            let device = device.ok_or_else(|| {
+                Fault::at(
+                    node,
+                    format!("the step `{name}` needs a relay for `{key}`"),
+                    FREE,
+                )
+            })?;
+            if flag(node, "initialStep") {
+                reader
+                    .variables
+                    .first_scan
+                    .push(format_smolstr!("SET {device}"));
+            }
+            reader.steps.insert(name.to_uppercase(), device);
+            self.steps.insert(name.to_uppercase(), device);
+        }
+        Ok(())
+    }
+
+    /// The relay of a step by its number.
+    fn step(&self, id: &str) -> Option<Device> {
+        let name = self.by_id.get(id)?.attribute("name")?;
+        self.steps.get(&name.to_uppercase()).copied()
+    }
+
+    fn transition(&self, node: Node<'a, 'i>, relay: Device) -> Result<Transition<'a>, Fault> {
+        let mut before = BTreeSet::new();
+        for from in sources(node) {
+            self.before(from, node, 0, &mut before)?;
+        }
+        let mut after = Vec::new();
+        let id = node.attribute("localId").unwrap_or_default();
+        self.after(id, node, 0, &mut after)?;
+        if before.is_empty() || after.is_empty() {
+            let what = "the transition lacks a step before or after it";
+            return Err(Fault::at(node, what, "connect it to steps"));
+        }
+        let reset = before.iter().filter_map(|id| self.step(id)).collect();
+        Ok(Transition {
+            before,
+            relay,
+            reset,
+            set: after,
+        })
+    }
+
+    /// The steps that lead to a transition through an element.
+    fn before(
+        &self,
+        id: &'a str,
+        to: Node,
+        depth: usize,
+        steps: &mut BTreeSet<&'a str>,
+    ) -> Result<(), Fault> {
+        let missing = || {
+            Fault::at(
+                to,
+                format!("there is no element {id}"),
+                "draw the wire again",
+            )
+        };
+        let node = self.by_id.get(id).ok_or_else(missing)?;
+        match node.tag_name().name() {
+            "step" => _ = steps.insert(id),
+            "selectionDivergence" | "simultaneousDivergence" | "simultaneousConvergence"
+                if depth < DEEPEST =>
+            {
+                for from in sources(*node) {
+                    self.before(from, to, depth + 1, steps)?;
+                }
+            }
+            name => {
+                let what = format!("`{name}` leads to a transition");
+                return Err(Fault::at(to, what, "put a step before it"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The steps that a transition leads to.
+    fn after(
+        &self,
+        id: &'a str,
+        from: Node,
+        depth: usize,
+        steps: &mut Vec<Device>,
+    ) -> Result<(), Fault> {
+        for id in self.uses.get(id).into_iter().flatten() {
+            let Some(node) = self.by_id.get(id) else {
+                continue;
+            };
+            match node.tag_name().name() {
+                "step" => steps.extend(self.step(id)),
+                "jumpStep" => {
+                    let name = node.attribute("targetName").unwrap_or_default();
+                    let step = self.steps.get(&name.to_uppercase()).ok_or_else(|| {
+                        let what = format!("there is no step `{name}`");
+                        Fault::at(*node, what, "jump to a step of this chart")
+                    })?;
+                    steps.push(*step);
+                }
+                "selectionConvergence" | "simultaneousDivergence" if depth < DEEPEST => {
+                    self.after(id, from, depth + 1, steps)?;
+                }
+                name => {
+                    let what = format!("a transition leads to `{name}`");
+                    return Err(Fault::at(from, what, "put a step after it"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The actions of steps: variables that are on while a step is active, or that it sets and resets.
+    fn actions(&self, reader: &mut Reader, body: Node<'a, 'i>) -> Result<(), Fault> {
+        let mut by_variable: BTreeMap<Device, Vec<(&str, Device)>> = BTreeMap::new();
+        for block in children(body, "actionBlock") {
+            let steps = sources(block);
+            let step = steps.first().and_then(|id| self.step(id));
+            let step =
+                step.ok_or_else(|| Fault::at(block, "no step has these actions", "connect them"))?;
+            for action in children(block, "action") {
+                let reference = children(action, "reference").next();
+                let name = reference.and_then(|reference| reference.attribute("name"));
+                let Some(name) = name else {
+                    let what = "an action that is a separate program has no counterpart";
+                    return Err(Fault::at(action, what, "name a BOOL variable"));
+                };
+                let qualifier = action.attribute("qualifier").unwrap_or("N");
+                if !matches!(qualifier, "N" | "S" | "R") {
+                    let what =
+                        format!("the qualifier `{qualifier}` of `{name}` has no counterpart");
+                    return Err(Fault::at(action, what, "rungc reads N, S and R"));
+                }
+                let device = reader.bit(action, name)?;
+                by_variable
+                    .entry(device)
+                    .or_default()
+                    .push((qualifier, step));
+            }
+        }
+        for (device, uses) in by_variable {
+            let ways = |wanted: &str| {
+                let steps = uses.iter().filter(|(qualifier, _)| *qualifier == wanted);
+                let contact = |(nth, (_, step)): (usize, &(&str, Device))| {
+                    Logic::contact(nth as u32, true, step.to_smolstr())
+                };
+                let ways: Vec<_> = steps.enumerate().map(contact).collect();
+                (!ways.is_empty()).then(|| Logic::joined(ways))
+            };
+            let stored = ways("S").into_iter().map(|logic| (logic, "SET"));
+            let stored: Vec<_> = stored
+                .chain(ways("R").map(|logic| (logic, "RST")))
+                .collect();
+            match (ways("N"), stored.is_empty()) {
+                (Some(_), false) => {
+                    let what = format!("{device} is both stored and not stored by actions");
+                    return Err(Fault::at(body, what, "use two variables"));
+                }
+                (Some(logic), true) => {
+                    network(reader, logic, vec![format_smolstr!("OUT {device}")])
+                }
+                (None, _) => {
+                    for (logic, mnemonic) in stored {
+                        network(reader, logic, vec![format_smolstr!("{mnemonic} {device}")]);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// When a transition fires, once the steps before it are active.
+fn condition(reader: &mut Reader, pou: Node, body: Node, transition: Node) -> Result<Logic, Fault> {
+    let Some(condition) = children(transition, "condition").next() else {
+        return Err(Fault::at(
+            transition,
+            "the transition has no condition",
+            "write TRUE",
+        ));
+    };
+    let negated = flag(condition, "negated");
+    let Some(kind) = condition.first_element_child() else {
+        return Err(Fault::at(
+            transition,
+            "the transition has no condition",
+            "write TRUE",
+        ));
+    };
+    let logic = match kind.tag_name().name() {
+        "reference" => {
+            let name = kind.attribute("name").unwrap_or_default();
+            let lists = children(pou, "transitions").flat_map(|list| children(list, "transition"));
+            let mut named = lists.filter(|node| node.attribute("name") == Some(name));
+            match named.next().and_then(|node| children(node, "body").next()) {
+                Some(body) => written(reader, body)?,
+                None => expression::bit(reader, kind, kind.id().get(), true, name)?,
+            }
+        }
+        "inline" => written(reader, kind)?,
+        "connectionPointIn" => {
+            let mut drawing = Drawing::new(reader, body);
+            let power = drawing.flow_into(condition);
+            power.map_err(|fault| {
+                let unread =
+                    || Fault::at(condition, "the condition cannot be read", "draw contacts");
+                fault.unwrap_or_else(unread)
+            })?
+        }
+        _ => {
+            return Err(Fault::outside(
+                kind,
+                "write the condition as contacts, IL or ST",
+            ));
+        }
+    };
+    Ok(if negated { logic.changed("INV") } else { logic })
+}
+
+/// A condition in a separate body.
+fn written(reader: &mut Reader, body: Node) -> Result<Logic, Fault> {
+    let Some(language) = body.first_element_child() else {
+        return Err(Fault::at(body, "the condition is empty", "write TRUE"));
+    };
+    match language.tag_name().name() {
+        "ST" => expression::read(reader, language, &text(language)),
+        "IL" => list::condition(reader, language),
+        _ => {
+            let what = format!("{} as a condition has no counterpart", called(language));
+            Err(Fault::at(
+                language,
+                what,
+                "write it as ST or IL, or draw contacts at the transition",
+            ))
+        }
+    }
+}

@@ -1,0 +1,582 @@
+//! Ladders and function block diagrams: what the wires lead to, from the top down.
+
+use super::logic::{Contact, Logic, Output, Part, Sense};
+use super::variables::{Kind, constant};
+use super::{Fault, MOST_CONTACTS, Reader, called, children, flag, text};
+use roxmltree::Node;
+use rungc_syntax::DeviceClass;
+use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most elements on one way.
+const DEEPEST: usize = 200;
+
+/// What a wire carries.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    /// Power: whether something is on.
+    Flow(Logic),
+    /// A number.
+    Word(Word),
+}
+
+impl Value {
+    /// The power, if it is power.
+    pub fn flow(&self) -> Option<Logic> {
+        match self {
+            Value::Flow(logic) => Some(logic.clone()),
+            Value::Word(_) => None,
+        }
+    }
+}
+
+/// A number: a constant or a register.
+#[derive(Clone, Debug)]
+pub(super) struct Word {
+    /// How a list writes it.
+    pub operand: SmolStr,
+    /// What it is; `None`: a constant, which fits all.
+    pub kind: Option<Kind>,
+}
+
+/// A drawing while it is read.
+pub(super) struct Drawing<'a, 'i, 'r> {
+    pub reader: &'r mut Reader,
+    by_id: BTreeMap<&'a str, Node<'a, 'i>>,
+    /// By name.
+    connectors: BTreeMap<&'a str, Node<'a, 'i>>,
+    /// Where an element's outputs lead: the output as the connection names it, and the element there.
+    uses: BTreeMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
+    /// What leads out of an element's output.
+    known: BTreeMap<(&'a str, &'a str), Logic>,
+    /// Outputs of the blocks that have been read.
+    done: BTreeMap<&'a str, BTreeMap<SmolStr, Value>>,
+    /// Blocks that could not be read, and were reported.
+    failed: BTreeSet<&'a str>,
+    /// The elements on the way that is being followed.
+    on_it: Vec<&'a str>,
+}
+
+/// Reads a drawing: each coil and block from the top down, after what leads to it.
+pub(super) fn read(reader: &mut Reader, body: Node) {
+    let mut drawing = Drawing::new(reader, body);
+    let mut ends: Vec<_> = body.children().filter(|node| ends_a_way(*node)).collect();
+    let order = |node: &Node| node.attribute("executionOrderId")?.parse::<u64>().ok();
+    let ordered = |node: &Node| order(node).is_some_and(|order| order > 0);
+    if ends.iter().all(ordered) {
+        ends.sort_by_key(order);
+    } else {
+        ends.sort_by(|a, b| {
+            let (a, b) = (place(a), place(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+    }
+    super::blocks::prepare(&mut drawing, &ends);
+    for node in ends {
+        if drawing.reader.has_given_up() {
+            return;
+        }
+        match drawing.end(node) {
+            Ok(()) | Err(None) => {}
+            Err(Some(fault)) => drawing.reader.report(fault),
+        }
+    }
+}
+
+/// Row and column of an element.
+fn place(node: &Node) -> (f64, f64) {
+    let position = children(*node, "position").next();
+    let number = |key| position.and_then(|p| p.attribute(key)?.parse::<f64>().ok());
+    (number("y").unwrap_or(0.0), number("x").unwrap_or(0.0))
+}
+
+/// Whether an element does something, and is not only on the way to another.
+fn ends_a_way(node: Node) -> bool {
+    node.is_element()
+        && !matches!(
+            node.tag_name().name(),
+            "leftPowerRail"
+                | "rightPowerRail"
+                | "contact"
+                | "inVariable"
+                | "connector"
+                | "continuation"
+        )
+}
+
+/// Why a way cannot be followed; `None` if that has been reported.
+pub(super) type Failure = Option<Fault>;
+
+impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
+    pub fn new(reader: &'r mut Reader, body: Node<'a, 'i>) -> Self {
+        let mut drawing = Drawing {
+            reader,
+            by_id: BTreeMap::new(),
+            connectors: BTreeMap::new(),
+            uses: BTreeMap::new(),
+            known: BTreeMap::new(),
+            done: BTreeMap::new(),
+            failed: BTreeSet::new(),
+            on_it: Vec::new(),
+        };
+        for node in body.children().filter(Node::is_element) {
+            if let Some(id) = node.attribute("localId") {
+                drawing.by_id.insert(id, node);
+            }
+            if let ("connector", Some(name)) = (node.tag_name().name(), node.attribute("name")) {
+                drawing.connectors.insert(name, node);
+            }
+            let connections = node.descendants();
+            for connection in connections.filter(|n| n.tag_name().name() == "connection") {
+                let output = connection.attribute("formalParameter").unwrap_or_default();
+                let from = connection.attribute("refLocalId").unwrap_or_default();
+                drawing.uses.entry(from).or_default().push((output, node));
+            }
+        }
+        drawing
+    }
+
+    fn end(&mut self, node: Node<'a, 'i>) -> Result<(), Failure> {
+        match node.tag_name().name() {
+            "coil" => {
+                let name = variable_of(node)
+                    .ok_or_else(|| Fault::outside(node, "give the coil a variable"))?;
+                let logic = self.flow_into(node)?;
+                let device = self.reader.bit(node, &name)?;
+                self.store(node, logic, &device.to_smolstr());
+            }
+            "block" => _ = self.block(node.attribute("localId").unwrap_or_default())?,
+            "outVariable" | "inOutVariable" => self.out_variable(node)?,
+            "label" => {
+                let label = node.attribute("label").unwrap_or_default();
+                let pointer = self.reader.pointer(label);
+                self.reader.parts.push(Part::Line(pointer.into()));
+            }
+            "jump" => {
+                let logic = self.flow_into(node)?;
+                let label = node.attribute("label").unwrap_or_default();
+                let pointer = self.reader.pointer(label);
+                self.reader.output(logic, format_smolstr!("CJ {pointer}"));
+            }
+            "return" => {
+                let logic = self.flow_into(node)?;
+                let pointer = self.reader.pointer(super::RETURN);
+                self.reader.output(logic, format_smolstr!("CJ {pointer}"));
+            }
+            "comment" => {
+                let content = children(node, "content").map(text).collect::<String>();
+                let lines = content.lines().map(str::trim).filter(|l| !l.is_empty());
+                let lines = lines.map(|line| Part::Line(format!("; {line}")));
+                self.reader.parts.extend(lines);
+            }
+            _ => {
+                let help = "rungc reads contacts, coils, variables, blocks, labels and jumps";
+                return Err(Some(Fault::outside(node, help)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets power drive a device as an element says: negated, stored, or by an edge.
+    fn store(&mut self, node: Node, logic: Logic, device: &str) {
+        let mnemonic = match (node.attribute("storage"), node.attribute("edge")) {
+            (Some("set"), _) => "SET",
+            (Some("reset"), _) => "RST",
+            (_, Some("rising")) => "PLS",
+            (_, Some("falling")) => "PLF",
+            _ => "OUT",
+        };
+        let logic = match flag(node, "negated") {
+            true => logic.changed("INV"),
+            false => logic,
+        };
+        self.reader
+            .output(logic, format_smolstr!("{mnemonic} {device}"));
+    }
+
+    /// Stores what leads to an output variable.
+    fn out_variable(&mut self, node: Node<'a, 'i>) -> Result<(), Failure> {
+        let point = children(node, "connectionPointIn").next();
+        let Some((point, source)) = point.and_then(|p| Some((p, self.one_source(p)?))) else {
+            return match node.tag_name().name() {
+                // It is read only, as an input is.
+                "inOutVariable" => Ok(()),
+                _ => Err(Some(self.unconnected(node))),
+            };
+        };
+        let name = children(node, "expression").map(text).collect::<String>();
+        let from = self.by_id.get(source.0);
+        let of_block = from.is_some_and(|from| from.tag_name().name() == "block");
+        match self.value_into(point, node)? {
+            Value::Flow(logic) => {
+                let device = self.reader.bit(node, &name)?;
+                self.store(node, logic, &device.to_smolstr());
+            }
+            Value::Word(word) => {
+                let found = self.reader.find(node, &name)?;
+                let device = found.device.to_smolstr();
+                if word.operand == device && of_block {
+                    // The block stored it there.
+                    return Ok(());
+                }
+                let to = Word {
+                    operand: device,
+                    kind: Some(found.kind),
+                };
+                let wide = super::functions::wide(node, &[&word, &to])?;
+                let mnemonic = if wide { "DMOV" } else { "MOV" };
+                let line = format_smolstr!("{mnemonic} {} {}", word.operand, to.operand);
+                self.reader.output(Logic::wire(), line);
+            }
+        }
+        Ok(())
+    }
+
+    fn unconnected(&self, node: Node) -> Fault {
+        let id = node.attribute("localId").unwrap_or("?");
+        let what = format!("nothing leads to element {id}");
+        Fault::at(node, what, "connect it to the left power rail")
+    }
+
+    /// Where the connections of a point come from: element and output.
+    fn sources(point: Node<'a, 'i>) -> Vec<(&'a str, &'a str)> {
+        let connections = children(point, "connection");
+        let source = |c: Node<'a, 'i>| {
+            let output = c.attribute("formalParameter").unwrap_or_default();
+            Some((c.attribute("refLocalId")?, output))
+        };
+        connections.filter_map(source).collect()
+    }
+
+    fn one_source(&self, point: Node<'a, 'i>) -> Option<(&'a str, &'a str)> {
+        Self::sources(point).first().copied()
+    }
+
+    /// What leads to an element of a ladder.
+    pub fn flow_into(&mut self, node: Node<'a, 'i>) -> Result<Logic, Failure> {
+        let points = children(node, "connectionPointIn");
+        let from: Vec<_> = points.flat_map(Self::sources).collect();
+        if from.is_empty() {
+            return Err(Some(self.unconnected(node)));
+        }
+        let mut ways = Vec::new();
+        for (id, output) in from {
+            match self.value_of(id, output, node)? {
+                Value::Flow(logic) => ways.push(logic),
+                Value::Word(word) => {
+                    let what = format!("`{}` is a number, not power", word.operand);
+                    return Err(Some(Fault::at(node, what, "compare it with another")));
+                }
+            }
+        }
+        let joined = Logic::joined(ways);
+        match joined.size() <= MOST_CONTACTS {
+            true => Ok(joined),
+            false => {
+                let what = "the ways to this element are more than a network of a PLC holds";
+                Err(Some(Fault::at(node, what, "divide it by auxiliary relays")))
+            }
+        }
+    }
+
+    /// What leads to a point of an element.
+    pub fn value_into(
+        &mut self,
+        point: Node<'a, 'i>,
+        node: Node<'a, 'i>,
+    ) -> Result<Value, Failure> {
+        if let Some(expression) = children(point, "expression").next() {
+            return self.expression(node, &text(expression));
+        }
+        match Self::sources(point).as_slice() {
+            [] => Err(Some(self.unconnected(node))),
+            [(id, output)] => self.value_of(id, output, node),
+            sources => {
+                let mut ways = Vec::new();
+                for (id, output) in sources {
+                    match self.value_of(id, output, node)? {
+                        Value::Flow(logic) => ways.push(logic),
+                        Value::Word(_) => {
+                            let what = "two numbers meet on a wire";
+                            return Err(Some(Fault::at(node, what, "connect one of them")));
+                        }
+                    }
+                }
+                Ok(Value::Flow(Logic::joined(ways)))
+            }
+        }
+    }
+
+    /// What leads out of an output of an element, on the way to another.
+    fn value_of(
+        &mut self,
+        id: &'a str,
+        output: &'a str,
+        to: Node<'a, 'i>,
+    ) -> Result<Value, Failure> {
+        if let Some(logic) = self.known.get(&(id, output)) {
+            return Ok(Value::Flow(logic.clone()));
+        }
+        let missing = || {
+            Fault::at(
+                to,
+                format!("there is no element {id}"),
+                "draw the wire again",
+            )
+        };
+        let node = *self.by_id.get(id).ok_or_else(missing)?;
+        if self.on_it.contains(&id) {
+            let what = format!("the way through element {id} returns to it");
+            return Err(Some(Fault::at(to, what, "lead it over a variable")));
+        }
+        if self.on_it.len() > DEEPEST {
+            let what = "the ways to this element are more than a network of a PLC holds";
+            return Err(Some(Fault::at(to, what, "divide it by auxiliary relays")));
+        }
+        self.on_it.push(id);
+        let value = self.out_of(node, id, output, to);
+        self.on_it.pop();
+        let value = value?;
+        if let Value::Flow(logic) = &value {
+            self.known.insert((id, output), logic.clone());
+        }
+        Ok(value)
+    }
+
+    fn out_of(
+        &mut self,
+        node: Node<'a, 'i>,
+        id: &'a str,
+        output: &'a str,
+        to: Node<'a, 'i>,
+    ) -> Result<Value, Failure> {
+        match node.tag_name().name() {
+            "leftPowerRail" => Ok(Value::Flow(Logic::wire())),
+            "coil" => self.flow_into(node).map(Value::Flow),
+            "contact" => {
+                let before = self.flow_into(node)?;
+                let contact = self.contact(node)?;
+                Ok(Value::Flow(before.then(Logic::Contact(contact))))
+            }
+            "inVariable" | "inOutVariable" => {
+                let written = children(node, "expression").map(text).collect::<String>();
+                let value = self.expression(node, &written)?;
+                match value {
+                    Value::Flow(logic) if flag(node, "negated") => {
+                        Ok(Value::Flow(logic.changed("INV")))
+                    }
+                    value => Ok(value),
+                }
+            }
+            "continuation" => {
+                let name = node.attribute("name").unwrap_or_default();
+                let connector = self.connectors.get(name).copied();
+                let point = connector.and_then(|c| children(c, "connectionPointIn").next());
+                match point {
+                    Some(point) => self.value_into(point, node),
+                    None => Err(Some(Fault::outside(node, "draw its connector"))),
+                }
+            }
+            "block" => {
+                let outputs = self.block(id)?;
+                let name = match output {
+                    "" => first_output(node).to_uppercase(),
+                    _ => output.to_uppercase(),
+                };
+                let found = outputs.get_key_value(name.as_str());
+                found.map(|(_, value)| value.clone()).ok_or_else(|| {
+                    let what = format!("{} has no output `{output}` here", called(node));
+                    Some(Fault::at(to, what, "connect another output"))
+                })
+            }
+            name => {
+                let what = format!("the way comes through `{name}`, which is not a contact");
+                Err(Some(Fault::at(
+                    to,
+                    what,
+                    "connect it to the left power rail",
+                )))
+            }
+        }
+    }
+
+    /// The outputs of a block, which is read once.
+    fn block(&mut self, id: &'a str) -> Result<BTreeMap<SmolStr, Value>, Failure> {
+        if let Some(outputs) = self.done.get(id) {
+            return Ok(outputs.clone());
+        }
+        if self.failed.contains(id) {
+            return Err(None);
+        }
+        let Some(node) = self.by_id.get(id).copied() else {
+            return Err(None);
+        };
+        match super::blocks::read(self, node) {
+            Ok(outputs) => {
+                self.done.insert(id, outputs.clone());
+                Ok(outputs)
+            }
+            Err(failure) => {
+                self.failed.insert(id);
+                Err(failure)
+            }
+        }
+    }
+
+    fn contact(&mut self, node: Node<'a, 'i>) -> Result<Contact, Failure> {
+        let sense = match (node.attribute("edge"), flag(node, "negated")) {
+            (Some("rising"), _) => Sense::Rising,
+            (Some("falling"), _) => Sense::Falling,
+            (_, true) => Sense::Off,
+            _ => Sense::On,
+        };
+        let name = variable_of(node).ok_or_else(|| {
+            let help = "give the contact a variable";
+            Fault::at(node, "the contact has no variable", help)
+        })?;
+        let device = self.reader.bit(node, &name)?;
+        Ok(Contact {
+            element: node.id().get(),
+            sense,
+            operands: device.to_smolstr(),
+        })
+    }
+
+    /// A variable or a constant as a value.
+    fn expression(&mut self, node: Node<'a, 'i>, written: &str) -> Result<Value, Failure> {
+        let element = node.id().get();
+        match written.trim().to_uppercase().as_str() {
+            "TRUE" | "BOOL#1" | "BOOL#TRUE" => return Ok(Value::Flow(Logic::wire())),
+            "FALSE" | "BOOL#0" | "BOOL#FALSE" => {
+                return Ok(Value::Flow(Logic::contact(element, false, "M8000")));
+            }
+            _ => {}
+        }
+        if let Some(operand) = constant(written) {
+            return Ok(Value::Word(Word {
+                operand,
+                kind: None,
+            }));
+        }
+        if written.contains('.') && super::variables::addressed(written).is_none() {
+            let device = self.reader.bit(node, written)?;
+            return Ok(Value::Flow(Logic::contact(
+                element,
+                true,
+                device.to_smolstr(),
+            )));
+        }
+        let found = self.reader.find(node, written)?;
+        let operand = found.device.to_smolstr();
+        Ok(match found.kind {
+            Kind::Bool => Value::Flow(Logic::contact(element, true, operand)),
+            kind => Value::Word(Word {
+                operand,
+                kind: Some(kind),
+            }),
+        })
+    }
+
+    /// The register that a block's result goes to: that of the output variable at its output, or a free one.
+    pub fn destination(
+        &mut self,
+        block: Node<'a, 'i>,
+        output: &str,
+        like: &Kind,
+    ) -> Result<Word, Failure> {
+        let uses = self.uses_of(block, output);
+        let variable = uses
+            .iter()
+            .find(|node| node.tag_name().name() == "outVariable");
+        if let Some(node) = variable {
+            let name = children(*node, "expression").map(text).collect::<String>();
+            let found = self.reader.find(*node, &name)?;
+            return Ok(Word {
+                operand: found.device.to_smolstr(),
+                kind: Some(found.kind),
+            });
+        }
+        if uses.is_empty() {
+            let what = format!("the result of {} goes nowhere", called(block));
+            return Err(Some(Fault::at(block, what, "connect it to a variable")));
+        }
+        self.register(block, output, like, 1)
+    }
+
+    /// Where an output of a block leads.
+    pub fn uses_of(&self, block: Node<'a, 'i>, output: &str) -> Vec<Node<'a, 'i>> {
+        let id = block.attribute("localId").unwrap_or_default();
+        let uses = self.uses.get(id).into_iter().flatten();
+        let is_first = first_output(block).eq_ignore_ascii_case(output);
+        let same = |name: &str| match name {
+            "" => is_first,
+            _ => name.eq_ignore_ascii_case(output),
+        };
+        uses.filter(|(name, _)| same(name))
+            .map(|(_, node)| *node)
+            .collect()
+    }
+
+    /// Free registers for this many results of this kind.
+    pub fn register(
+        &mut self,
+        block: Node<'a, 'i>,
+        output: &str,
+        like: &Kind,
+        results: u32,
+    ) -> Result<Word, Failure> {
+        let id = block.id().get();
+        let count = results * if like.is_wide() { 2 } else { 1 };
+        let variables = &mut self.reader.variables;
+        let device = variables.part(&format!("{output}..{id}"), DeviceClass::D, count, |_| true);
+        let device = device.ok_or_else(|| {
+            let what = format!("{} needs a register for its result", called(block));
+            Fault::at(block, what, super::FREE)
+        })?;
+        Ok(Word {
+            operand: device.to_smolstr(),
+            kind: Some(like.clone()),
+        })
+    }
+
+    /// Marks a block that could not be read, which was reported.
+    pub fn fail(&mut self, block: Node<'a, 'i>) {
+        let id = block.attribute("localId").unwrap_or_default();
+        self.failed.insert(id);
+    }
+
+    /// The constant or variable that is written at a point, or at the element that leads to it.
+    pub fn written(&self, point: Node<'a, 'i>) -> Option<String> {
+        if let Some(expression) = children(point, "expression").next() {
+            return Some(text(expression));
+        }
+        let (id, _) = self.one_source(point)?;
+        let node = self.by_id.get(id)?;
+        let expression = children(*node, "expression").next()?;
+        Some(text(expression))
+    }
+
+    /// Adds a network that nothing can follow.
+    pub fn network(&mut self, logic: Logic, lines: Vec<SmolStr>) {
+        self.reader.parts.push(Part::Output(Output {
+            logic,
+            lines,
+            alone: true,
+            bare: false,
+        }));
+    }
+}
+
+/// The output of a block that a connection means which names none: the first that is not ENO.
+fn first_output<'a>(block: Node<'a, '_>) -> &'a str {
+    let lists = children(block, "outputVariables");
+    let pins = lists.flat_map(|list| children(list, "variable"));
+    let mut names = pins.filter_map(|pin| pin.attribute("formalParameter"));
+    names.find(|name| *name != "ENO").unwrap_or_default()
+}
+
+/// The variable of a contact or coil.
+fn variable_of(node: Node) -> Option<String> {
+    let name = children(node, "variable").next().map(text)?;
+    (!name.trim().is_empty()).then_some(name)
+}
