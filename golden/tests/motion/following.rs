@@ -26,7 +26,7 @@ struct Following {
 /// Before the program: the axis, at most 90 pulses per millisecond.
 const AXIS: &str = "LD M8002\nAXPO K0 K0 K1\nAXPU K0 K10 K0 K0\nAXSP K0 K900 K0\nAXAS K0 K9000\n";
 
-/// A segment of 8000 pulses over 200 points, from rest to 80 pulses a point: D1000 tells which curve.
+/// A segment of 8000 pulses over 200 points, from rest to 80 pulses a point: D1000 chooses the curve.
 macro_rules! segment {
     ($curve:literal) => {
         concat!(

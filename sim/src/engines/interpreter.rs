@@ -33,13 +33,20 @@ fn double<'a>(machine: &'a mut Machine<'_>, hal: &'a mut VirtualHal, op: &'a [Op
     Cx::new(machine, hal, op, Site::at(0).wide())
 }
 
+/// Value of a pair or 32-bit counter.
+fn value_of(machine: &mut Machine, hal: &mut VirtualHal, (class, n): (Class, u32)) -> Option<i32> {
+    let ops = [operand(class, n)];
+    double(machine, hal, &ops).dword(0, 0).ok()
+}
+
 fn operand(class: Class, number: u32) -> Operand {
     Operand::device(class, i32::try_from(number).unwrap_or(i32::MAX))
 }
 
-/// What is asked about pulses; `None` if it is something else.
-fn pulses(machine: &mut Machine, request: Request) -> Option<i64> {
+/// What is asked about outputs and their pulses; `None` if it is something else.
+fn sent(machine: &mut Machine, request: Request) -> Option<i64> {
     Some(match request {
+        Request::Output(n) => machine.output(n).into(),
         Request::Pulses(n) => machine.pulses_sent(n).into(),
         Request::Frequency(n) => machine.pulse_millihertz(n).into(),
         Request::Pass {
@@ -101,10 +108,7 @@ impl Engine for Interpreter<'_> {
             }
             Request::Bit(class, n) => Answer::value(machine.bit(class, n)),
             Request::Word(class, n) => Answer::value(machine.word(class, n)),
-            Request::Double(class, n) => {
-                let ops = [operand(class, n)];
-                Answer::value(double(machine, hal, &ops).dword(0, 0).ok())
-            }
+            Request::Double(class, n) => Answer::value(value_of(machine, hal, (class, n))),
             Request::Scan { now_ms, scan_us } => {
                 hal.advance_to(now_ms);
                 machine.scan(hal, now_ms, scan_us);
@@ -123,10 +127,10 @@ impl Engine for Interpreter<'_> {
                 machine.take_interrupts(hal);
                 Answer::Ok
             }
-            Request::Output(n) => Answer::value(Some(machine.output(n))),
-            Request::Pulses(_) | Request::Pass { .. } | Request::Frequency(_) => {
-                Answer::value(pulses(machine, request))
-            }
+            Request::Output(_)
+            | Request::Pulses(_)
+            | Request::Pass { .. }
+            | Request::Frequency(_) => Answer::value(sent(machine, request)),
             Request::Receive(port, character) => {
                 Answer::done(hal.line(port).and_then(|line| line.feed(character)))
             }
