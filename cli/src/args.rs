@@ -11,7 +11,7 @@ use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, Names, ReadOptions};
-use rungc_models::{ModelId, Variant};
+use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
 use rungc_syntax::{Device, DeviceClass};
@@ -665,13 +665,4 @@ pub enum EngineChoice {
     Rust,
     /// All three.
     All,
-}
-
-/// A model, or a variant of one.
-#[derive(Clone, Copy, Debug)]
-pub struct Plc {
-    /// The model.
-    pub model: ModelId,
-    /// The PLC of its family that was named.
-    pub variant: Option<&'static Variant>,
 }

@@ -29,6 +29,32 @@ pub struct Variant {
     pub source: &'static str,
 }
 
+/// The PLC that a program is for: a model, and which one of its family, if that is known.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Plc {
+    /// The family.
+    pub model: ModelId,
+    /// The PLC of that family.
+    pub variant: Option<&'static Variant>,
+}
+
+impl Plc {
+    /// The model or variant with this name on the command line. Case does not matter.
+    pub fn find(name: &str) -> Option<Plc> {
+        let variant = Variant::find(name);
+        let model = variant.map_or_else(|| ModelId::from_name(name), |v| Some(v.model))?;
+        Some(Plc { model, variant })
+    }
+
+    /// Any PLC of a model.
+    pub const fn any(model: ModelId) -> Plc {
+        Plc {
+            model,
+            variant: None,
+        }
+    }
+}
+
 /// What H2U-MTQ and H2U-MTP do not have (h1u-h2u-programming §8.6).
 const NO_FLOATS: &[&str] = &[
     "CANTX", "CANRX", "RS2", "MODBUS2", "ECMP", "EZCP", "EMOV", "EBCD", "EBIN", "EADD", "ESUB",
@@ -87,8 +113,40 @@ const fn h1u(name: &'static str, title: &'static str, inputs: u32, outputs: u32)
     }
 }
 
+/// A base unit of L01S with transistor outputs. Those with eight pulse outputs send on what their family has, Y000 to
+/// Y003: l01s-programming §7 describes no others.
+const fn l01s(name: &'static str, title: &'static str, inputs: u32, outputs: u32) -> Variant {
+    Variant {
+        model: ModelId::L01s,
+        pulse_outputs: 4,
+        source: "l01s-programming §1.3",
+        ..h2u(name, title, inputs, outputs)
+    }
+}
+
+/// The same, of which the table of base units says that it has no analog inputs and outputs.
+const fn digital(unit: Variant) -> Variant {
+    Variant {
+        lacks_devices: &[(D, 8030, 8045), (D, 8050, 8057)],
+        ..unit
+    }
+}
+
+/// The same with relays but at Y000 and Y001.
+const fn relays(name: &'static str, title: &'static str, unit: Variant) -> Variant {
+    Variant {
+        name,
+        title,
+        pulse_outputs: 2,
+        ..unit
+    }
+}
+
+const L01S_16MT: Variant = l01s("l01s-16mt", "Coolmay L01S-16MT", 8, 8);
+const L01S_24MT: Variant = digital(l01s("l01s-24mt", "Coolmay L01S-24MT", 14, 10));
+
 /// All of them.
-pub static VARIANTS: [Variant; 10] = [
+pub static VARIANTS: [Variant; 18] = [
     Variant {
         name: "h1u-xp",
         title: "Inovance H1U-XP",
@@ -120,6 +178,14 @@ pub static VARIANTS: [Variant; 10] = [
     h2u("h2u-3624", "Inovance H2U-3624", 36, 24),
     h2u("h2u-3232", "Inovance H2U-3232", 32, 32),
     h2u("h2u-6464", "Inovance H2U-6464", 64, 64),
+    L01S_16MT,
+    relays("l01s-16mrt", "Coolmay L01S-16MRT", L01S_16MT),
+    L01S_24MT,
+    relays("l01s-24mrt", "Coolmay L01S-24MRT", L01S_24MT),
+    l01s("l01s-32mt", "Coolmay L01S-32MT", 16, 16),
+    digital(l01s("l01s-40mt", "Coolmay L01S-40MT", 24, 16)),
+    l01s("l01s-48mt", "Coolmay L01S-48MT", 24, 24),
+    l01s("l01s-64mt", "Coolmay L01S-64MT", 32, 32),
 ];
 
 impl Variant {

@@ -8,7 +8,7 @@ use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use encoding_rs::Encoding;
 use module::MODULE;
-use rungc_models::{Model, ModelId, Variant};
+use rungc_models::{Model, ModelId, Plc};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
 use std::ops::{Range, RangeInclusive};
@@ -270,9 +270,9 @@ impl Reader {
     fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
         project.program = self.path(table, "program");
         if let Some(name) = self.get(table, "model") {
-            project.variant = Variant::find(&name.text);
-            let of_variant = project.variant.map(|variant| variant.model);
-            project.model = of_variant.or_else(|| self.model(&name));
+            let plc = Plc::find(&name.text);
+            project.variant = plc.and_then(|plc| plc.variant);
+            project.model = plc.map(|plc| plc.model).or_else(|| self.model(&name));
         }
         project.name = self.get(table, "name").map(|name| name.text);
         project.encoding = self.get(table, "encoding").and_then(|name| {

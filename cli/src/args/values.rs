@@ -1,9 +1,8 @@
 //! Values of arguments: how each is written, and what is said of one that is not.
 
-use super::Plc;
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::Encoding;
-use rungc_models::{ModelId, Variant};
+use rungc_models::{ModelId, Plc, Variant};
 use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
 use std::ops::RangeInclusive;
 
@@ -91,18 +90,17 @@ pub(super) fn target(name: &str) -> Result<&'static Target, String> {
 }
 
 pub(super) fn plc(name: &str) -> Result<Plc, String> {
-    let variant = Variant::find(name);
-    let model = variant.map_or_else(|| model(name), |variant| Ok(variant.model));
-    model
-        .map(|model| Plc { model, variant })
-        .map_err(|why| format!("{why}; variants: {}", Variant::names()))
+    let unknown = || format!("{}; variants: {}", unknown_model(name), Variant::names());
+    Plc::find(name).ok_or_else(unknown)
 }
 
 pub(super) fn model(name: &str) -> Result<ModelId, String> {
-    ModelId::from_name(name).ok_or_else(|| {
-        let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
-            format!("; the nearest is {}", rungc_models::Model::get(id).name)
-        });
-        format!("unknown model{nearest}; available: {}", ModelId::names())
-    })
+    ModelId::from_name(name).ok_or_else(|| unknown_model(name))
+}
+
+fn unknown_model(name: &str) -> String {
+    let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
+        format!("; the nearest is {}", rungc_models::Model::get(id).name)
+    });
+    format!("unknown model{nearest}; available: {}", ModelId::names())
 }

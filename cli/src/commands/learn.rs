@@ -2,12 +2,12 @@
 
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
-use crate::args::{FileKind, Input, LearnArgs, Plc, Reading, Reporting};
+use crate::args::{FileKind, Input, LearnArgs, Reading, Reporting};
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::Basic;
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
 use rungc_lower::compile::{self, CompileOptions};
-use rungc_models::Model;
+use rungc_models::{Model, Plc};
 use rungc_project::FILE;
 use rungc_syntax::{SourceKind, text};
 use std::fmt::Write as _;
@@ -66,10 +66,7 @@ fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failur
         });
     }
     let kind = FileKind {
-        model: args.model.map(|model| Plc {
-            model,
-            variant: None,
-        }),
+        model: args.model.map(Plc::any),
         ..FileKind::default()
     };
     let reading = Reading {

@@ -1,11 +1,11 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
 use super::{Context, Failure, Outcome, Result, counted, counts, interruption, tell};
-use crate::args::{Format, Input, Inputs, Plc, Reading, Reporting};
+use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
-use rungc_models::{ModelId, Variant};
+use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
 use rungc_syntax::{Program, codes};

@@ -7,8 +7,8 @@ use std::fmt::Write;
 /// The page: a table, as the models hold it.
 pub fn variants() -> String {
     let mut page = "# Variants and base units\n\nA model such as `h2u` stands for a family: it has what any PLC of the family \
-                    has. `--model h2u-mtq`, or `model = \"h2u-mtq\"` in [rungc.toml](../project.md), holds a program to \
-                    one of them: an instruction ([E0670](../checks/E0670.md)) or a device \
+                    has. `--model h2u-mtq`, or `model = \"h2u-mtq\"` in [rungc.toml](../project.md) or in a \
+                    [test file](../test-files.md), holds a program to one of them: an instruction ([E0670](../checks/E0670.md)) or a device \
                     ([E0671](../checks/E0671.md)) that it lacks is an error, a terminal beyond those of the base unit \
                     a warning ([W0672](../checks/W0672.md)), since an extension module may have it. Compiled programs \
                     are the same. `rungc explain h2u-mtq` prints a variant.\n\n\
@@ -43,6 +43,6 @@ pub fn variants() -> String {
             lacks.join(", ")
         );
     }
-    page += "\nSources: h1u-h2u-programming §3.1, §3.2, §8.1, §8.4 to §8.7.\n";
+    page += "\nSources: h1u-h2u-programming §3.1, §3.2, §8.1, §8.4 to §8.7; l01s-programming §1.3. Of L01S, `mt` has transistor outputs, `mrt` transistors at Y000 and Y001 and relays at the others.\n";
     page
 }

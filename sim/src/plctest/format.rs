@@ -8,7 +8,7 @@ use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
 use crate::target::Target;
 use crate::wire::Signal;
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Plc};
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Source};
@@ -173,16 +173,16 @@ impl Reader<'_> {
         self.source.line_col(at as u32).0
     }
 
-    fn model(&mut self, name: &Spanned<String>) -> ModelId {
-        ModelId::from_name(name.get_ref()).unwrap_or_else(|| {
+    fn plc(&mut self, name: &Spanned<String>) -> Plc {
+        Plc::find(name.get_ref()).unwrap_or_else(|| {
             let message = format!("unknown model `{}`", name.get_ref());
             self.report(name.span().start, message);
-            ModelId::Fx3u
+            Plc::any(ModelId::Fx3u)
         })
     }
 
     fn file(&mut self, raw: RawFile) -> TestFile {
-        let given = raw.model.as_ref().map(|name| self.model(name));
+        let given = raw.model.as_ref().map(|name| self.plc(name));
         let program = raw.program.map(|program| self.program(program));
         let machine = self.machine(raw.machine.as_ref());
         let modules = self.modules(raw.modules);
@@ -257,15 +257,10 @@ impl Reader<'_> {
     }
 
     /// A case; `given` and `usual` are the model and the program that the file names for all of them.
-    fn case(
-        &mut self,
-        raw: Spanned<RawCase>,
-        given: Option<ModelId>,
-        usual: Option<&Tested>,
-    ) -> Case {
+    fn case(&mut self, raw: Spanned<RawCase>, given: Option<Plc>, usual: Option<&Tested>) -> Case {
         let at = raw.span().start;
         let raw = raw.into_inner();
-        let given = raw.model.as_ref().map(|name| self.model(name)).or(given);
+        let given = raw.model.as_ref().map(|name| self.plc(name)).or(given);
         let tested = match raw.program {
             Some(program) => self.program(program),
             None => usual.cloned().unwrap_or_else(|| {
@@ -274,13 +269,13 @@ impl Reader<'_> {
                 Tested::unread()
             }),
         };
-        let model = given.or(tested.model).unwrap_or_else(|| {
+        let plc = given.or(tested.plc).unwrap_or_else(|| {
             let message = "`model` is missing, the PLC that the program is for".to_string();
             self.report(at, message);
-            ModelId::Fx3u
+            Plc::any(ModelId::Fx3u)
         });
         self.no_index(raw.index.as_ref());
-        let others = self.others(raw.plc, model);
+        let others = self.others(raw.plc, plc);
         let wires = raw.wire.iter();
         let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
         let wires = wires.collect();
@@ -317,7 +312,8 @@ impl Reader<'_> {
         Case {
             line: self.line(raw.name.span().start),
             name: raw.name.into_inner(),
-            model,
+            model: plc.model,
+            variant: plc.variant,
             source: raw.source,
             basis: raw.basis,
             note: raw.note,
@@ -391,7 +387,7 @@ impl Reader<'_> {
     }
 
     /// The other PLCs of a case.
-    fn others(&mut self, plcs: Vec<RawPlc>, usual: ModelId) -> Vec<OtherPlc> {
+    fn others(&mut self, plcs: Vec<RawPlc>, usual: Plc) -> Vec<OtherPlc> {
         self.others = plcs.iter().map(|plc| plc.name.get_ref().clone()).collect();
         let mut others: Vec<OtherPlc> = Vec::new();
         for plc in plcs {
@@ -408,10 +404,12 @@ impl Reader<'_> {
                     format!("the PLC `{name}` is defined twice in this case"),
                 );
             }
-            let model = plc.model.as_ref().map(|model| self.model(model));
+            let named = plc.model.as_ref().map(|model| self.plc(model));
+            let Plc { model, variant } = named.unwrap_or(usual);
             others.push(OtherPlc {
                 name,
-                model: model.unwrap_or(usual),
+                model,
+                variant,
                 program: plc.program,
                 init: self.settings(plc.init),
             });

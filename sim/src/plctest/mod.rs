@@ -24,7 +24,7 @@ use crate::plant::Description;
 use crate::problem::{self, LoadError};
 use crate::target::Target;
 use crate::wire::Signal;
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Variant};
 use rungc_rt::Clock;
 use rungc_rt::modules::Kind;
 use rungc_syntax::Source;
@@ -55,6 +55,8 @@ pub struct Case {
     pub line: u32,
     /// The model that it is for.
     pub model: ModelId,
+    /// The PLC of that model that it is for, if it names one.
+    pub variant: Option<&'static Variant>,
     /// Where the behaviour is stated: a manual's file and lines.
     pub source: String,
     /// How the behaviour follows from that.
@@ -84,6 +86,8 @@ pub struct OtherPlc {
     pub name: String,
     /// Its model.
     pub model: ModelId,
+    /// The PLC of that model, if the case names one.
+    pub variant: Option<&'static Variant>,
     /// Its program, an instruction list.
     pub program: String,
     /// Set once before the first scan.

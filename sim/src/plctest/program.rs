@@ -2,7 +2,7 @@
 
 use rungc_frontend::Read;
 use rungc_lower::compile::{self, Bound, CompileOptions};
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Plc};
 use rungc_project::{Error, Project};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
@@ -40,18 +40,18 @@ impl CaseProgram {
     }
 }
 
-/// A program and the model that it is for, if it says so itself.
+/// A program and the PLC that it is for, if it says so itself.
 #[derive(Clone, Debug)]
 pub(super) struct Tested {
     pub program: CaseProgram,
-    pub model: Option<ModelId>,
+    pub plc: Option<Plc>,
 }
 
 impl Tested {
     pub fn list(list: String) -> Self {
         Tested {
             program: CaseProgram::List(list),
-            model: None,
+            plc: None,
         }
     }
 
@@ -59,7 +59,7 @@ impl Tested {
     pub fn unread() -> Self {
         Tested {
             program: CaseProgram::List(String::new()),
-            model: Some(ModelId::Fx3u),
+            plc: Some(Plc::any(ModelId::Fx3u)),
         }
     }
 }
@@ -79,8 +79,12 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
     let model = compile::model(&read.program, &compiled);
     let completed = project.complete(path, &mut read.program, model);
     completed.map_err(|error| mistakes(&error))?;
+    let variant = project.variant.filter(|v| v.model == model.id);
     Ok(Tested {
-        model: Some(model.id),
+        plc: Some(Plc {
+            model: model.id,
+            variant,
+        }),
         program: CaseProgram::File(Arc::new(ProgramFile {
             bounds: project.bounds(path),
             warn: project.check.warn,

@@ -204,7 +204,9 @@ fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static s
 /// What a case asks of the program of a PLC. Partners on a line may ask for any device.
 fn options(case: &Case, plc: usize) -> CompileOptions {
     let ports = opened(case, plc);
+    let other = plc.checked_sub(1).and_then(|i| case.others.get(i));
     CompileOptions {
+        variant: other.map_or(case.variant, |other| other.variant),
         observe: observed(case, plc),
         observe_all: !ports.is_empty() || !case.serve.is_empty(),
         ports,
