@@ -1,0 +1,416 @@
+//! Statements as logic.
+
+use super::memory::REACH;
+use super::{Encoder, Key, STATEMENTS};
+use crate::aig::Lit;
+use crate::bits::{Bits, constant, known, signed};
+use rungc_ir::node::{
+    Access, AccessKind, Block, Body, Edge, EdgeId, ExprId, IndexedCoil, Part, Place, Repeat, Stmt,
+    TempId,
+};
+use rungc_models::runs::is_counter32;
+use rungc_rt::{EdgeKind, TimerKind};
+use rungc_rt::special::M_KEEP_IN_STOP;
+use rungc_syntax::DeviceClass;
+use rustc_hash::FxHashMap;
+
+/// How often a loop is unrolled whose count is not constant, and how often a jump back is followed.
+const ROUNDS: u32 = 300;
+
+impl Encoder<'_> {
+    /// Executes a function under a condition.
+    pub(super) fn function(&mut self, number: usize, guard: Lit) {
+        let module = self.module;
+        if let Some(function) = module.functions.get(number) {
+            let jumps = std::mem::take(&mut self.jumps);
+            self.run(&function.body, guard);
+            self.jumps = jumps;
+        }
+    }
+
+    /// Executes a body; under which condition its end is reached.
+    fn run(&mut self, body: &Body, mut guard: Lit) -> Lit {
+        for stmt in body {
+            if guard == Lit::FALSE {
+                break;
+            }
+            self.statements += 1;
+            if self.statements > STATEMENTS {
+                return self.give_up(guard, "loops of very many steps");
+            }
+            self.forget_values();
+            guard = self.step(stmt, guard);
+        }
+        guard
+    }
+
+    /// The rest of the scan is not modelled where this condition holds.
+    fn give_up(&mut self, guard: Lit, what: &str) -> Lit {
+        let gap = self.gap(what);
+        self.lost_gap.get_or_insert(gap);
+        self.lost = self.aig.or(self.lost, guard);
+        Lit::FALSE
+    }
+
+    /// Gives a temporary its value.
+    pub(super) fn assign(&mut self, temp: TempId, value: Bits, guard: Lit) {
+        let value = match self.temps[temp].take() {
+            Some(old) => self.aig.select(guard, &value, &old),
+            None => value,
+        };
+        self.temps[temp] = Some(value);
+    }
+
+    /// Executes a statement; under which condition the next one is reached.
+    fn step(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
+        match stmt {
+            Stmt::Network(network) => self.network = Some(*network),
+            &Stmt::Let(temp, value) => {
+                let value = self.eval(value);
+                self.assign(temp, value, guard);
+            }
+            Stmt::Edge(edge) => self.edge(edge, guard),
+            &Stmt::SetFlag(flag, value) => {
+                let value = self.eval(value);
+                self.store(Key::Flag(flag.0), &value, guard);
+            }
+            &Stmt::SetCell(cell, value) => {
+                let value = self.eval(value);
+                self.store(Key::Cell(cell.0), &value, guard);
+            }
+            &Stmt::SetEntry(table, index, value) => {
+                let (index, value) = (self.eval(index), self.eval(value));
+                for i in 0..self.module.tables[table].length {
+                    let here = self.aig.is(&index, i.into());
+                    let here = self.aig.and(guard, here);
+                    self.store(Key::Entry(table.0, i), &value, here);
+                }
+            }
+            &Stmt::Write(access, value) => self.write(access, value, guard),
+            Stmt::Block(block) => self.block(block, guard),
+            Stmt::Timer(coil) => {
+                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
+                self.timer(coil.number, coil.kind, drive, &preset, guard);
+            }
+            Stmt::TimerAt(coil) => self.coil_at(coil, guard),
+            &Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(number, kind, guard),
+            Stmt::Counter16(coil) => {
+                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
+                self.counter16(coil.number, drive, &preset, guard);
+            }
+            Stmt::Counter16At(coil) => self.coil_at(coil, guard),
+            Stmt::Counter32(coil) => {
+                let (drive, down) = (self.on(coil.drive), self.on(coil.down));
+                let preset = self.eval(coil.preset);
+                self.counter32(coil.number, drive, (down, &preset), guard);
+            }
+            Stmt::Count(count) => {
+                let (down, preset) = (self.on(count.down), self.eval(count.preset));
+                self.count(count.number, down, &preset, guard);
+            }
+            &Stmt::Reset(place) => self.reset(place, guard),
+            Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat(_)
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Watch { .. } => return self.flow(stmt, guard),
+            Stmt::Call(call) => self.call(stmt, call, guard),
+            Stmt::Fetch(fetch) => self.fetch(fetch, guard),
+            Stmt::Send(_) => self.send(stmt, guard),
+            Stmt::Fault { .. } => self.fault(guard),
+            Stmt::Stop => self.stop(guard),
+            &Stmt::Clear { latched } => self.clear(latched, guard),
+        }
+        guard
+    }
+
+    /// Executes a statement that decides what is executed.
+    fn flow(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
+        match stmt {
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                let cond = self.on(*cond);
+                let yes = self.aig.and(guard, cond);
+                let no = self.aig.and(guard, !cond);
+                let (then, otherwise) = (self.run(then, yes), self.run(otherwise, no));
+                if (then, otherwise) == (yes, no) {
+                    return guard;
+                }
+                self.aig.or(then, otherwise)
+            }
+            Stmt::For { count, body } => {
+                let count = self.eval(*count);
+                self.repeat(&count, None, body, guard)
+            }
+            Stmt::Repeat(Repeat {
+                count,
+                iteration,
+                body,
+                ..
+            }) => self.repeat(&constant((*count).into(), 33), Some(*iteration), body, guard),
+            Stmt::CallSub(function) => {
+                self.function(*function as usize, guard);
+                guard
+            }
+            Stmt::Parts(parts) => self.parts(parts, guard),
+            Stmt::Goto(label) => {
+                let known = self.jumps.iter_mut().rev().find(|jumps| jumps.contains_key(label));
+                if let Some(target) = known.and_then(|jumps| jumps.get_mut(label)) {
+                    *target = self.aig.or(*target, guard);
+                }
+                Lit::FALSE
+            }
+            Stmt::Watch { steps, .. } => self.watch(*steps, guard),
+            // The caller goes on.
+            _ => Lit::FALSE,
+        }
+    }
+
+    /// The watchdog may end a scan that has repeated very many steps.
+    fn watch(&mut self, steps: u32, guard: Lit) -> Lit {
+        self.watched += u64::from(steps);
+        if self.watched <= self.watch_limit {
+            return guard;
+        }
+        let fresh = self.fresh(1, "when the watchdog ends a scan")[0];
+        let trips = self.aig.and(guard, fresh);
+        self.store(Key::Running, &[Lit::FALSE], trips);
+        self.aig.and(guard, !fresh)
+    }
+
+    fn repeat(&mut self, count: &[Lit], number: Option<TempId>, body: &Body, guard: Lit) -> Lit {
+        let most = known(count).map_or(ROUNDS, |count| count.clamp(1, i64::from(u32::MAX)) as u32);
+        let (mut inside, mut after) = (guard, Lit::FALSE);
+        for round in 0..most {
+            if round > 0 {
+                // A count of less than 1 is 1.
+                let more = self.aig.less(&constant(round.into(), count.len()), count);
+                let ends = self.aig.and(inside, !more);
+                after = self.aig.or(after, ends);
+                inside = self.aig.and(inside, more);
+            }
+            if inside == Lit::FALSE {
+                return after;
+            }
+            if let Some(number) = number {
+                self.temps[number] = Some(constant(round.into(), 32));
+            }
+            inside = self.run(body, inside);
+        }
+        if known(count).is_some() {
+            return self.aig.or(after, inside);
+        }
+        let more = self.aig.less(&constant(most.into(), count.len()), count);
+        let lost = self.aig.and(inside, more);
+        self.give_up(lost, "loops of very many steps");
+        let ends = self.aig.and(inside, !more);
+        self.aig.or(after, ends)
+    }
+
+    fn parts(&mut self, parts: &[Part], guard: Lit) -> Lit {
+        let labels = parts.iter().filter_map(|part| part.label);
+        let jumps: FxHashMap<_, _> = labels.map(|label| (label, Lit::FALSE)).collect();
+        self.jumps.push(jumps);
+        let (mut falls, mut round) = (guard, 0);
+        let mut leaves = Lit::FALSE;
+        loop {
+            for part in parts {
+                let waiting = part.label.and_then(|label| self.jumps.last_mut()?.get_mut(&label));
+                let jumped = waiting.map_or(Lit::FALSE, |target| {
+                    std::mem::replace(target, Lit::FALSE)
+                });
+                falls = self.aig.or(falls, jumped);
+                if falls != Lit::FALSE {
+                    falls = self.run(&part.body, falls);
+                }
+            }
+            leaves = self.aig.or(leaves, falls);
+            falls = Lit::FALSE;
+            round += 1;
+            let waiting = self.jumps.last().into_iter().flat_map(|jumps| jumps.values());
+            let waiting: Vec<Lit> = waiting.copied().collect();
+            let again = self.aig.any(waiting);
+            if again == Lit::FALSE {
+                break;
+            }
+            if round == ROUNDS {
+                self.give_up(again, "jumps back that are taken very often");
+                break;
+            }
+        }
+        self.jumps.pop();
+        leaves
+    }
+
+    fn edge(&mut self, edge: &Edge, guard: Lit) {
+        let further = edge.index.map_or(0, |index| known(&self.eval(index)).unwrap_or(0));
+        let memory = Key::Edge(EdgeId(edge.memory.0 + further as u32).0);
+        let now = self.on(edge.input);
+        let before = self.load(memory)[0];
+        let out = match edge.kind {
+            EdgeKind::Rising => self.aig.and(now, !before),
+            EdgeKind::Falling => self.aig.and(before, !now),
+        };
+        self.store(memory, &[now], guard);
+        self.assign(edge.out, vec![out], guard);
+    }
+
+    fn write(&mut self, Access { place, kind }: Access, value: ExprId, guard: Lit) {
+        let value = self.eval(value);
+        let Some(index) = place.index else {
+            return self.write_at(kind, (place.class, place.number), &value, guard);
+        };
+        let index = self.eval(index);
+        match self.candidates(place, &index) {
+            Some(candidates) => {
+                for (here, number) in candidates {
+                    let here = self.aig.and(guard, here);
+                    self.write_at(kind, (place.class, number), &value, here);
+                }
+            }
+            None => self.write_anywhere(Stmt::Write(Access { place, kind }, ExprId(0)), guard),
+        }
+    }
+
+    /// A write that an index may lead to many devices.
+    fn write_anywhere(&mut self, stmt: Stmt, guard: Lit) {
+        let keys = self.of_operands(&stmt);
+        self.free(&keys, guard, "operands whose index can lead to many devices");
+    }
+
+    fn write_at(
+        &mut self,
+        kind: AccessKind,
+        (class, number): (DeviceClass, u32),
+        value: &[Lit],
+        guard: Lit,
+    ) {
+        match kind {
+            AccessKind::Bit => self.write_bit(class, number, value[0], guard),
+            AccessKind::WordBit(bit) => {
+                let mut word = self.read_word(class, number);
+                word[usize::from(bit & 15)] = value[0];
+                self.write_word(class, number, &word, guard);
+            }
+            AccessKind::Word => self.write_word(class, number, value, guard),
+            AccessKind::Pair | AccessKind::Float if is_counter32(class, number) => {
+                if let Some(key) = self.word_key(class, number) {
+                    self.store(key, value, guard);
+                }
+            }
+            AccessKind::Pair | AccessKind::Float => {
+                let high = Place::fixed(class, number).high_word(self.module.model);
+                self.write_word(class, number, &value[..16], guard);
+                self.write_word(high.class, high.number, &value[16..], guard);
+            }
+            AccessKind::Nibbles { digits, .. } => {
+                let bits = value.iter().take(4 * usize::from(digits));
+                for (number, &bit) in (number..).zip(bits) {
+                    self.write_bit(class, number, bit, guard);
+                }
+            }
+        }
+    }
+
+    fn write_bit(&mut self, class: DeviceClass, number: u32, on: Lit, guard: Lit) {
+        let key = match class {
+            DeviceClass::T => Key::Timer(number, super::TimerPart::Done),
+            DeviceClass::C => Key::Counter(number, super::CounterPart::Done),
+            _ => Key::Bit(class, number),
+        };
+        self.store(key, &[on], guard);
+    }
+
+    fn write_word(&mut self, class: DeviceClass, number: u32, value: &[Lit], guard: Lit) {
+        if let Some(key) = self.word_key(class, number) {
+            let width = if is_counter32(class, number) { 32 } else { 16 };
+            self.store(key, &signed(value, width), guard);
+        }
+    }
+
+    fn block(&mut self, block: &Block, guard: Lit) {
+        let (to, count) = block.written();
+        if count > REACH {
+            let keys = self.of_operands(&Stmt::Block(*block));
+            return self.free(&keys, guard, "blocks of very many devices");
+        }
+        let bits = matches!(
+            to.class,
+            DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
+        );
+        let kind = if bits { AccessKind::Bit } else { AccessKind::Word };
+        let values: Vec<Bits> = match *block {
+            Block::Copy { from, .. } => (from.number..from.number + count)
+                .map(|number| self.read_at(kind, from.class, number))
+                .collect(),
+            Block::Fill { value, .. } => vec![self.eval(value); count as usize],
+        };
+        for (number, value) in (to.number..).zip(&values) {
+            self.write_at(kind, (to.class, number), value, guard);
+        }
+    }
+
+    /// OUT T or OUT C with an index.
+    fn coil_at(&mut self, coil: &IndexedCoil, guard: Lit) {
+        let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
+        let Some(index) = coil.place.index else {
+            return;
+        };
+        let index = self.eval(index);
+        let Some(candidates) = self.candidates(coil.place, &index) else {
+            return self.write_anywhere(Stmt::TimerAt(*coil), guard);
+        };
+        for (here, number) in candidates {
+            let here = self.aig.and(guard, here);
+            if coil.place.class == DeviceClass::C {
+                if !is_counter32(DeviceClass::C, number) {
+                    self.counter16(number, drive, &preset, here);
+                }
+            } else if let Some(kind) = self.module.model.timer(number) {
+                let kind = TimerKind {
+                    shared: true,
+                    ..kind
+                };
+                self.timer(number, kind, drive, &preset, here);
+            }
+        }
+    }
+
+    fn reset(&mut self, place: Place, guard: Lit) {
+        let Some(index) = place.index else {
+            let keys = self.keys(place.class, place.number);
+            return self.reset_timing(&keys, guard);
+        };
+        let index = self.eval(index);
+        let Some(candidates) = self.candidates(place, &index) else {
+            return self.write_anywhere(Stmt::Reset(place), guard);
+        };
+        for (here, number) in candidates {
+            let here = self.aig.and(guard, here);
+            let keys = self.keys(place.class, number);
+            self.reset_timing(&keys, here);
+        }
+    }
+
+    fn clear(&mut self, latched: bool, guard: Lit) {
+        for key in self.cleared(latched) {
+            let zero = constant(0, self.load(key).len());
+            self.store(key, &zero, guard);
+        }
+    }
+
+    /// The PLC stops after this scan. STOP clears the devices that are not latched, unless M8033 is on.
+    fn stop(&mut self, guard: Lit) {
+        self.store(Key::Running, &[Lit::FALSE], guard);
+        let keeps = Key::Bit(DeviceClass::M, M_KEEP_IN_STOP.number());
+        let keeps = self.state.get(&keeps).map_or(Lit::FALSE, |bits| bits[0]);
+        let clears = self.aig.and(guard, !keeps);
+        self.clear(false, clears);
+    }
+}

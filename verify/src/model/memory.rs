@@ -1,0 +1,418 @@
+//! The memory of a program: which there is, how it begins, and how it is read and written.
+
+use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
+use crate::aig::Lit;
+use crate::bits::{Bits, constant, unsigned};
+use rungc_ir::node::{Expr, FunctionKind, Place, Stmt};
+use rungc_ir::reach::{Footprint, of_expr, of_stmt};
+use rungc_ir::walk::{callees, called_functions, statements};
+use rungc_models::runs::is_counter32;
+use rungc_rt::{Register, Relay};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
+
+/// An operand that may reach more devices than this is not modelled.
+pub(super) const REACH: u32 = 256;
+
+/// The parts of a timer.
+const TIMER: [TimerPart; 6] = [
+    TimerPart::Value,
+    TimerPart::Preset,
+    TimerPart::Done,
+    TimerPart::Coil,
+    TimerPart::Counted,
+    TimerPart::Part,
+];
+
+/// The parts of a counter.
+const COUNTER: [CounterPart; 3] = [CounterPart::Value, CounterPart::Done, CounterPart::Coil];
+
+/// The device that a piece of memory belongs to.
+pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
+    match key {
+        Key::Bit(class, number) | Key::Word(class, number) => Some((class, number)),
+        Key::Timer(number, _) => Some((DeviceClass::T, number)),
+        Key::Counter(number, _) => Some((DeviceClass::C, number)),
+        Key::Edge(_)
+        | Key::Flag(_)
+        | Key::Cell(_)
+        | Key::Entry(..)
+        | Key::First
+        | Key::Running
+        | Key::Now
+        | Key::Monitor(_) => None,
+    }
+}
+
+/// How many bits a piece of memory has.
+fn width(key: Key, unit_ms: u16) -> usize {
+    match key {
+        Key::Bit(..) | Key::Edge(_) | Key::Flag(_) | Key::First | Key::Running => 1,
+        Key::Word(..) | Key::Timer(_, TimerPart::Value | TimerPart::Preset) => 16,
+        Key::Timer(_, TimerPart::Part) => match unit_ms {
+            ..=1 => 0,
+            2..=10 => 4,
+            _ => 8,
+        },
+        Key::Timer(..) | Key::Counter(_, CounterPart::Done | CounterPart::Coil) => 1,
+        Key::Counter(number, CounterPart::Value) => match is_counter32(DeviceClass::C, number) {
+            true => 32,
+            false => 16,
+        },
+        Key::Cell(_) | Key::Entry(..) | Key::Now => 32,
+        Key::Monitor(_) => 0,
+    }
+}
+
+impl Encoder<'_> {
+    /// The memory of a device.
+    pub(super) fn keys(&self, class: DeviceClass, number: u32) -> Vec<Key> {
+        use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
+        let (class, number) = self.module.model.canonical(class, number);
+        if !self.module.model.has(class, number) {
+            return Vec::new();
+        }
+        match class {
+            X | Y | M | S => vec![Key::Bit(class, number)],
+            D | R | ER | V | Z => vec![Key::Word(class, number)],
+            T => TIMER.map(|part| Key::Timer(number, part)).into(),
+            C => COUNTER.map(|part| Key::Counter(number, part)).into(),
+            P | I | N => Vec::new(),
+        }
+    }
+
+    /// Gives every piece of memory that the program names its bits.
+    pub(super) fn find_memory(&mut self) {
+        let (module, model) = (self.module, self.module.model);
+        let mut devices: BTreeSet<(DeviceClass, u32)> = self.world.observed.clone();
+        let mut note = |used: Footprint| {
+            let class = used.place.class;
+            let runs = used.reach(model, &module.exprs);
+            let size: u32 = runs.iter().map(|(first, last)| last - first + 1).sum();
+            if size <= REACH {
+                let all = runs.into_iter().flat_map(|(first, last)| first..=last);
+                devices.extend(all.map(|number| (class, number)));
+            }
+        };
+        for expr in &module.exprs {
+            of_expr(model, expr, &mut note);
+        }
+        let called = called_functions(module);
+        for (function, _) in module.functions.iter().zip(called).filter(|(_, called)| *called) {
+            statements(&function.body, &mut |stmt| of_stmt(model, stmt, &mut note));
+        }
+        let devices: BTreeSet<_> = devices
+            .into_iter()
+            .map(|(class, number)| model.canonical(class, number))
+            .collect();
+        for (class, number) in devices {
+            for key in self.keys(class, number) {
+                self.add_memory(key);
+            }
+        }
+        let tables = module.tables.iter().zip(0..);
+        let entries = tables.flat_map(|(table, t)| (0..table.length).map(move |i| Key::Entry(t, i)));
+        let private = (0..module.edges).map(Key::Edge);
+        let private = private.chain((0..module.flags.len() as u32).map(Key::Flag));
+        let private = private.chain((0..module.cells.len() as u32).map(Key::Cell));
+        for key in private.chain(entries).chain([Key::First, Key::Running, Key::Now]) {
+            self.add_memory(key);
+        }
+    }
+
+    fn add_memory(&mut self, key: Key) {
+        let unit_ms = match key {
+            Key::Timer(number, _) => self.module.model.timer(number).map_or(1, |kind| kind.unit_ms),
+            _ => 1,
+        };
+        let bits = self.aig.inputs_of(width(key, unit_ms));
+        if let Key::Timer(_, TimerPart::Part) = key
+            && unit_ms > 1
+        {
+            let less = self.aig.below(&bits, &constant(unit_ms.into(), bits.len()));
+            self.constraints.push(less);
+            let zero = self.aig.is(&bits, 0);
+            self.first_wishes.push(zero);
+        }
+        self.before.insert(key, bits.clone());
+        // No coil has been executed in a scan that begins.
+        let now = match key {
+            Key::Timer(_, TimerPart::Counted) => vec![Lit::FALSE],
+            _ => bits,
+        };
+        self.state.insert(key, now);
+    }
+
+    /// What a piece of memory holds before the first scan; `None`: anything.
+    pub(super) fn initial(&self, key: Key) -> Option<i64> {
+        let model = self.module.model;
+        let latched = |class, number| self.module.is_latched(class, number) && !self.world.fresh;
+        match key {
+            Key::Bit(class, number) if latched(class, number) => None,
+            Key::Bit(DeviceClass::M, number) => {
+                let relay = u16::try_from(number).ok().map(Relay);
+                Some(relay.is_some_and(|relay| model.is_on_at_power_on(relay)).into())
+            }
+            Key::Word(class, number) if latched(class, number) => None,
+            Key::Word(DeviceClass::D, number) => {
+                let register = u16::try_from(number).ok().map(Register);
+                Some(register.map_or(0, |register| model.word_at_power_on(register).into()))
+            }
+            Key::Timer(number, TimerPart::Value | TimerPart::Preset | TimerPart::Part)
+                if latched(DeviceClass::T, number) =>
+            {
+                None
+            }
+            Key::Timer(number, TimerPart::Done) if latched(DeviceClass::T, number) => {
+                (!model.keeps_contacts).then_some(0)
+            }
+            Key::Counter(number, CounterPart::Value) if latched(DeviceClass::C, number) => None,
+            Key::Counter(number, CounterPart::Done) if latched(DeviceClass::C, number) => {
+                (!model.keeps_contacts).then_some(0)
+            }
+            Key::Now => None,
+            Key::First | Key::Running => Some(1),
+            Key::Bit(..)
+            | Key::Word(..)
+            | Key::Timer(..)
+            | Key::Counter(..)
+            | Key::Edge(_)
+            | Key::Flag(_)
+            | Key::Cell(_)
+            | Key::Entry(..)
+            | Key::Monitor(_) => Some(0),
+        }
+    }
+
+    /// What a piece of memory holds now; nothing is known of one that the program does not name.
+    pub(super) fn load(&mut self, key: Key) -> Bits {
+        if let Key::Flag(flag) = key
+            && self.events.contains(&flag)
+        {
+            return self.fresh(1, "events between two scans");
+        }
+        match self.state.get(&key) {
+            Some(bits) => bits.clone(),
+            None => self.fresh(width(key, 1), "devices that only an index reaches"),
+        }
+    }
+
+    /// Writes a piece of memory under a condition.
+    pub(super) fn store(&mut self, key: Key, value: &[Lit], guard: Lit) {
+        if let Some(old) = self.state.get(&key) {
+            let new = match guard.constant() {
+                Some(true) => value.to_vec(),
+                Some(false) => return,
+                None => {
+                    let old = old.clone();
+                    self.aig.select(guard, value, &old)
+                }
+            };
+            self.state.insert(key, new);
+            self.written.insert(key);
+        }
+    }
+
+    /// Makes pieces of memory free under a condition.
+    pub(super) fn free(&mut self, keys: &[Key], guard: Lit, what: &str) {
+        for key in keys {
+            if let Some(bits) = self.state.get(key) {
+                let fresh = self.fresh(bits.len(), what);
+                self.store(*key, &fresh, guard);
+            }
+        }
+    }
+
+    /// The memory that the program names, of the devices of a class from the one number to the other.
+    pub(super) fn named(&self, class: DeviceClass, first: u32, last: u32) -> Vec<Key> {
+        let mut keys: Vec<Key> = self
+            .state
+            .keys()
+            .copied()
+            .filter(|&key| {
+                device_of(key).is_some_and(|(of, number)| of == class && (first..=last).contains(&number))
+            })
+            .collect();
+        let aliases = self.module.model.aliases_within(class, first, last);
+        let aliases = aliases.map(|alias| Key::Word(alias.class, alias.index));
+        keys.extend(aliases.filter(|key| self.state.contains_key(key)));
+        keys
+    }
+
+    /// Finds what changes between two scans: what input edges write, what interrupts write, since a host may take them
+    /// then, and what ports and pulse outputs show.
+    pub(super) fn find_outside(&mut self) {
+        let module = self.module;
+        for (flag, i) in module.flags.iter().zip(0..) {
+            if flag.period_ms.is_some() || flag.pulses_end.is_some() {
+                self.events.insert(i);
+            }
+        }
+        for (cell, i) in module.cells.iter().zip(0..) {
+            if cell.follows_time {
+                self.outside.insert(Key::Cell(i));
+            }
+        }
+        let by_host = |kind: &FunctionKind| {
+            matches!(
+                kind,
+                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
+            )
+        };
+        let mut open = self.functions_of(by_host);
+        let mut seen = BTreeSet::new();
+        while let Some(i) = open.pop() {
+            if seen.insert(i) {
+                let body = &module.functions[i].body;
+                open.extend(callees(body));
+                statements(body, &mut |stmt| self.outside_of(stmt));
+            }
+        }
+        if module.sends_pulses() || module.has_ports() {
+            self.outside.extend(self.specials());
+        }
+        if module.has_ports() {
+            let called = called_functions(module);
+            for (function, _) in module.functions.iter().zip(called).filter(|(_, called)| *called) {
+                statements(&function.body, &mut |stmt| {
+                    if let Stmt::Call(call) = stmt {
+                        let needs = call.function.needs();
+                        if needs.port || needs.names_port || needs.any_port || needs.can {
+                            self.outside_of(stmt);
+                        }
+                    }
+                });
+            }
+        }
+    }
+
+    /// What a statement writes that is executed between two scans.
+    fn outside_of(&mut self, stmt: &Stmt) {
+        let keys = self.of_operands(stmt);
+        self.outside.extend(keys);
+        match *stmt {
+            Stmt::SetFlag(flag, _) => {
+                self.events.insert(flag.0);
+            }
+            Stmt::SetCell(cell, _) => {
+                self.outside.insert(Key::Cell(cell.0));
+            }
+            Stmt::SetEntry(table, ..) => {
+                let length = self.module.tables[table].length;
+                self.outside.extend((0..length).map(|i| Key::Entry(table.0, i)));
+            }
+            Stmt::Edge(ref edge) => {
+                self.outside.insert(Key::Edge(edge.memory.0));
+            }
+            Stmt::Call(ref call) => {
+                let keys = self.of_call(call);
+                self.outside.extend(keys);
+            }
+            Stmt::Fetch(ref fetch) => {
+                self.outside.insert(Key::Cell(fetch.value.0));
+                self.outside.extend(self.specials());
+            }
+            Stmt::Send(_) | Stmt::Fault { .. } => self.outside.extend(self.specials()),
+            Stmt::Clear { latched } => {
+                let keys = self.cleared(latched);
+                self.outside.extend(keys);
+            }
+            _ => {}
+        }
+    }
+
+    /// The memory that M8031 or M8032 clears.
+    pub(super) fn cleared(&self, latched: bool) -> Vec<Key> {
+        let keys = self.state.keys().copied();
+        let is_it = |key: &Key| {
+            device_of(*key).is_some_and(|(class, number)| {
+                class != DeviceClass::X
+                    && !rungc_models::runs::is_special(class, number)
+                    && self.module.is_latched(class, number) == latched
+            })
+        };
+        keys.filter(is_it).collect()
+    }
+
+    /// Makes the time of the scan.
+    pub(super) fn begin_time(&mut self) {
+        let most = self.world.scan_ms.max(1);
+        let width_of = |most: u32| (u32::BITS - most.leading_zeros()).max(1) as usize;
+        let mut digit = |digit: Digit, most: u32| {
+            let bits = self.aig.inputs_of(width_of(most));
+            let named = bits.iter().enumerate();
+            self.inputs
+                .extend(named.map(|(i, &bit)| (bit, Input::Time(digit, i))));
+            bits
+        };
+        let hundreds = digit(Digit::Hundreds, most / 100);
+        let tens = digit(Digit::Tens, 9);
+        let ones = digit(Digit::Ones, 9);
+        for bits in [&tens, &ones] {
+            let fits = self.aig.below(bits, &constant(10, 4));
+            self.constraints.push(fits);
+        }
+        let width = width_of(most) + 8;
+        let scaled = |this: &mut Self, bits: &[Lit], by: i64| {
+            let wide = unsigned(bits, width);
+            this.aig.mul(&wide, &constant(by, width))
+        };
+        let high = scaled(self, &hundreds, 100);
+        let middle = scaled(self, &tens, 10);
+        let below_hundred = self.aig.add(&middle, &unsigned(&ones, width));
+        let raw = self.aig.add(&high, &below_hundred);
+        let within = self.aig.below(&raw, &constant(i64::from(most) + 1, width));
+        self.constraints.push(within);
+        let first = self.state[&Key::First][0];
+        // Tests of counterexamples have scans of at least a millisecond, the first one at 0.
+        let some = self.aig.nonzero(&raw);
+        let wish = self.aig.mux(first, !some, some);
+        self.wishes.push(wish);
+        let shown = |this: &mut Self, bits: &[Lit]| -> Bits {
+            bits.iter().map(|&bit| this.aig.and(bit, !first)).collect()
+        };
+        let before = self.state[&Key::Now].clone();
+        let now = self.aig.add(&before, &unsigned(&raw, 32));
+        let start = self.aig.is(&before, 0);
+        self.first_wishes.push(start);
+        self.state.insert(Key::Now, now);
+        let many_tens = scaled(self, &hundreds, 10);
+        let all_tens = self.aig.add(&many_tens, &unsigned(&tens, width));
+        self.time = Some(Time {
+            hundreds: shown(self, &hundreds),
+            tens: shown(self, &all_tens),
+            all: shown(self, &raw),
+            below_hundred: unsigned(&shown(self, &below_hundred), 7),
+            below_ten: shown(self, &ones),
+        });
+    }
+
+    /// Devices that an index leads to, with the condition for each; `None` if there are too many.
+    pub(super) fn candidates(&mut self, place: Place, index: &[Lit]) -> Option<Vec<(Lit, u32)>> {
+        if let Some(index) = crate::bits::known(index) {
+            let number = u32::try_from(i64::from(place.number) + index);
+            return Some(number.map(|number| (Lit::TRUE, number)).into_iter().collect());
+        }
+        let used = Footprint {
+            place,
+            count: Some(1),
+            in_array: false,
+            writes: false,
+        };
+        let runs = used.reach(self.module.model, &self.module.exprs);
+        let runs = match place.index.map(|index| self.module.expr(index)) {
+            Some(Expr::Stride(..)) => return None,
+            _ => runs,
+        };
+        let size: u32 = runs.iter().map(|(first, last)| last - first + 1).sum();
+        if size > REACH {
+            return None;
+        }
+        let numbers: Vec<u32> = runs.into_iter().flat_map(|(first, last)| first..=last).collect();
+        let found = numbers.into_iter().map(|number| {
+            let by = i64::from(number) - i64::from(place.number);
+            (self.aig.is(index, by), number)
+        });
+        Some(found.collect())
+    }
+}

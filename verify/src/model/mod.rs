@@ -1,0 +1,404 @@
+//! From a module to logic: a scan, executed with bits that stand for all values at once.
+//!
+//! [`Encoder`] walks the statements as the interpreter does. Every statement is executed under a guard, the condition
+//! under which a scan reaches it, and what it writes is chosen between the new and the old value by that guard. What is
+//! not modelled exactly becomes free ([`Encoder::fresh`]), with a note that the verdict quotes. The rules of
+//! [`rungc_ir::node`] hold; `golden` compares each transition with the interpreter's.
+
+mod calls;
+mod eval;
+mod exec;
+mod memory;
+mod timing;
+
+use crate::aig::{Aig, Lit};
+use crate::bits::{Bits, constant};
+use crate::system::{Latch, System};
+use rungc_ir::Module;
+use rungc_ir::node::{ExprId, FunctionKind, LabelId};
+use rungc_rt::special::D_WATCHDOG_MS;
+use rungc_syntax::DeviceClass;
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
+use typed_index_collections::TiVec;
+
+/// A part of a timer's memory ([`rungc_rt::Timer`]).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum TimerPart {
+    /// The current value.
+    Value,
+    /// The preset that was taken over.
+    Preset,
+    /// The contact.
+    Done,
+    /// Whether the coil was on when it was executed last.
+    Coil,
+    /// Whether the coil was executed in this scan.
+    Counted,
+    /// Milliseconds since the last whole unit.
+    Part,
+}
+
+/// A part of a counter's memory ([`rungc_rt::Counter16`]).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum CounterPart {
+    /// The current value.
+    Value,
+    /// The contact.
+    Done,
+    /// Whether the coil was on when it was executed last.
+    Coil,
+}
+
+/// A piece of what lasts from scan to scan.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Key {
+    /// X, Y, M or S.
+    Bit(DeviceClass, u32),
+    /// A word device other than timers and counters.
+    Word(DeviceClass, u32),
+    /// Of a timer.
+    Timer(u32, TimerPart),
+    /// Of a counter.
+    Counter(u32, CounterPart),
+    /// An edge memory.
+    Edge(u32),
+    /// A private bit.
+    Flag(u32),
+    /// A private number.
+    Cell(u32),
+    /// An entry of a private table.
+    Entry(u32, u32),
+    /// Whether it is the first scan.
+    First,
+    /// Whether the PLC is in RUN.
+    Running,
+    /// Milliseconds since power-on.
+    Now,
+    /// What a property remembers, by number.
+    Monitor(u32),
+}
+
+/// What a free bit of a scan is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Input {
+    /// A bit of a device that something other than the program sets before the scan.
+    Device(Key, usize),
+    /// A bit of the time since the scan before: its hundreds, tens and ones of milliseconds.
+    Time(Digit, usize),
+    /// A bit of the time that the scan before took (D8010).
+    ScanTime(usize),
+    /// A bit of a value that is not modelled: a number of [`Encoder::gaps`].
+    Gap(usize),
+}
+
+/// A part of a time in milliseconds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Digit {
+    /// Whole hundreds.
+    Hundreds,
+    /// Whole tens beyond them.
+    Tens,
+    /// What remains.
+    Ones,
+}
+
+/// Something that is not modelled exactly, so that any value is taken to be possible.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Gap {
+    /// Step of the network in which it is, if it is in one.
+    pub step: Option<u32>,
+    /// What it is, as the end of "not modelled: …".
+    pub what: String,
+}
+
+/// What is supposed of the world around the program.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The most milliseconds from one scan to the next.
+    pub scan_ms: u32,
+    /// Whether latched devices begin with 0, as on a new PLC.
+    pub fresh: bool,
+    /// Devices that something other than the program writes.
+    pub free: BTreeSet<(DeviceClass, u32)>,
+    /// Devices that properties look at, in addition to those of the program.
+    pub observed: BTreeSet<(DeviceClass, u32)>,
+}
+
+impl Default for World {
+    fn default() -> Self {
+        World {
+            scan_ms: 200,
+            fresh: false,
+            free: BTreeSet::new(),
+            observed: BTreeSet::new(),
+        }
+    }
+}
+
+/// How many statements a scan may execute, loops unrolled, before the rest of it counts as not modelled.
+const STATEMENTS: u32 = 400_000;
+
+/// The time of a scan, as logic.
+struct Time {
+    /// Milliseconds since the scan before, 0 in the first: whole hundreds, tens, and the whole.
+    hundreds: Bits,
+    tens: Bits,
+    all: Bits,
+    /// What tens and hundreds leave.
+    below_hundred: Bits,
+    below_ten: Bits,
+}
+
+/// Makes logic of a module.
+pub struct Encoder<'m> {
+    module: &'m Module,
+    world: World,
+    /// The graph so far.
+    pub aig: Aig,
+    inputs: Vec<(Lit, Input)>,
+    constraints: Vec<Lit>,
+    wishes: Vec<Lit>,
+    first_wishes: Vec<Lit>,
+    /// What is not modelled exactly, each once.
+    pub gaps: Vec<Gap>,
+    gap_numbers: FxHashMap<Gap, usize>,
+    /// All memory, as it is before the scan.
+    before: BTreeMap<Key, Bits>,
+    /// All memory, as the scan has left it so far.
+    state: BTreeMap<Key, Bits>,
+    /// What the program may write.
+    written: BTreeSet<Key>,
+    /// What something outside the scan may write between two scans.
+    outside: BTreeSet<Key>,
+    /// Flags that something outside the scan sets at any time.
+    events: BTreeSet<u32>,
+    temps: TiVec<rungc_ir::node::TempId, Option<Bits>>,
+    values: FxHashMap<ExprId, Bits>,
+    /// Where jumps of the bodies that are being executed go, the innermost last.
+    jumps: Vec<FxHashMap<LabelId, Lit>>,
+    /// Under which condition the rest of the scan is not modelled.
+    lost: Lit,
+    lost_gap: Option<usize>,
+    time: Option<Time>,
+    scan_time: Option<Bits>,
+    network: Option<u32>,
+    statements: u32,
+    watched: u64,
+    watch_limit: u64,
+    monitors: u32,
+    extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
+}
+
+impl<'m> Encoder<'m> {
+    /// Executes a scan of a module.
+    pub fn scan(module: &'m Module, world: World) -> Self {
+        let mut encoder = Encoder {
+            module,
+            aig: Aig::default(),
+            inputs: Vec::new(),
+            constraints: Vec::new(),
+            wishes: Vec::new(),
+            first_wishes: Vec::new(),
+            gaps: Vec::new(),
+            gap_numbers: FxHashMap::default(),
+            before: BTreeMap::new(),
+            state: BTreeMap::new(),
+            written: BTreeSet::new(),
+            outside: BTreeSet::new(),
+            events: BTreeSet::new(),
+            temps: vec![None; module.temps.len()].into(),
+            values: FxHashMap::default(),
+            jumps: Vec::new(),
+            lost: Lit::FALSE,
+            lost_gap: None,
+            time: None,
+            scan_time: None,
+            network: None,
+            statements: 0,
+            watched: 0,
+            watch_limit: 0,
+            monitors: 0,
+            extra_latches: Vec::new(),
+            world,
+        };
+        encoder.find_memory();
+        encoder.find_outside();
+        encoder.begin_time();
+        encoder.watch_limit = encoder.watch_steps();
+        // A module's first functions are `Begin`, `Main`, `End`.
+        for function in 0..3 {
+            encoder.function(function, Lit::TRUE);
+        }
+        encoder.state.insert(Key::First, vec![Lit::FALSE]);
+        encoder.lose();
+        encoder
+    }
+
+    /// The steps that a scan may repeat for certain before the watchdog ends it.
+    fn watch_steps(&self) -> u64 {
+        let register = Key::Word(DeviceClass::D, D_WATCHDOG_MS.number());
+        let ms = match self.before.contains_key(&register) {
+            true => 1,
+            false => self.module.watchdog_ms(),
+        };
+        Module::scan_steps(ms).into()
+    }
+
+    /// A free value, because of something that is not modelled.
+    fn fresh(&mut self, width: usize, what: &str) -> Bits {
+        let gap = self.gap(what);
+        self.fresh_of(width, gap)
+    }
+
+    fn gap(&mut self, what: &str) -> usize {
+        let networks = &self.module.networks;
+        let network = self.network.and_then(|n| networks.get(n as usize));
+        let gap = Gap {
+            step: network.map(|network| network.step),
+            what: what.to_string(),
+        };
+        let next = self.gaps.len();
+        let number = *self.gap_numbers.entry(gap.clone()).or_insert(next);
+        if number == next {
+            self.gaps.push(gap);
+        }
+        number
+    }
+
+    fn fresh_of(&mut self, width: usize, gap: usize) -> Bits {
+        let bits = self.aig.inputs_of(width);
+        let named = bits.iter().map(|&bit| (bit, Input::Gap(gap)));
+        self.inputs.extend(named);
+        bits
+    }
+
+    /// Where the rest of a scan is not modelled, it may leave anything.
+    fn lose(&mut self) {
+        let (lost, Some(gap)) = (self.lost, self.lost_gap) else {
+            return;
+        };
+        let keys: Vec<Key> = self.state.keys().copied().collect();
+        for key in keys {
+            let fresh = self.fresh_of(self.state[&key].len(), gap);
+            self.store(key, &fresh, lost);
+        }
+    }
+
+    /// The functions of the module of a kind, by number.
+    fn functions_of(&self, is_it: impl Fn(&FunctionKind) -> bool) -> Vec<usize> {
+        let functions = self.module.functions.iter().enumerate();
+        functions
+            .filter(|(_, function)| is_it(&function.kind))
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    /// Supposes that something holds after every scan.
+    pub fn suppose(&mut self, holds: Lit) {
+        self.constraints.push(holds);
+    }
+
+    /// Whether the PLC is in RUN after the scan: what the program leaves when it stops is not looked at.
+    pub fn running(&self) -> Lit {
+        self.state[&Key::Running][0]
+    }
+
+    /// A memory for a property, that begins as this: its bits before the scan.
+    pub fn monitor(&mut self, width: usize, init: i64) -> (usize, Bits) {
+        let bits = self.aig.inputs_of(width);
+        let key = Key::Monitor(self.monitors);
+        self.monitors += 1;
+        self.extra_latches
+            .push((key, bits.clone(), constant(init, width), Some(init)));
+        (self.extra_latches.len() - 1, bits)
+    }
+
+    /// What such a memory holds after the scan.
+    pub fn remember(&mut self, monitor: usize, next: Bits) {
+        self.extra_latches[monitor].2 = next;
+    }
+
+    /// Milliseconds since the scan before, 0 in the first.
+    pub fn elapsed(&self) -> Bits {
+        self.time.as_ref().map_or_else(Bits::new, |time| time.all.clone())
+    }
+
+    /// Whether the program could read a device but nothing in it writes it.
+    fn is_unwritten(&self, key: Key) -> bool {
+        let class = match key {
+            Key::Bit(class, _) | Key::Word(class, _) => class,
+            _ => return false,
+        };
+        use DeviceClass::{D, ER, M, R};
+        matches!(class, M | D | R | ER) && !self.written.contains(&key)
+    }
+
+    /// Whether something other than the program sets a device before each scan.
+    pub fn is_free(&self, key: Key) -> bool {
+        matches!(key, Key::Bit(DeviceClass::X, _))
+            || self.outside.contains(&key)
+            || self.is_unwritten(key)
+            || memory::device_of(key).is_some_and(|device| self.world.free.contains(&device))
+    }
+
+    /// The devices that the program reads and nothing in it writes, which count as inputs.
+    pub fn unwritten(&self) -> Vec<Key> {
+        let keys = self.before.keys().copied();
+        keys.filter(|&key| self.is_unwritten(key)).collect()
+    }
+
+    /// The system with the question whether this can happen.
+    pub fn system(&self, bad: Lit) -> System {
+        let mut inputs = self.inputs.clone();
+        let mut latches = Vec::new();
+        for (&key, before) in &self.before {
+            let free = self.is_free(key);
+            let init = self.initial(key);
+            for (bit, &now) in before.iter().enumerate() {
+                if free {
+                    inputs.push((now, Input::Device(key, bit)));
+                    continue;
+                }
+                latches.push(Latch {
+                    now,
+                    next: self.state[&key][bit],
+                    init: init.map(|init| init >> bit & 1 == 1),
+                    key,
+                    bit,
+                });
+            }
+        }
+        for (key, now, next, init) in &self.extra_latches {
+            for (bit, (&now, &next)) in now.iter().zip(next).enumerate() {
+                latches.push(Latch {
+                    now,
+                    next,
+                    init: init.map(|init| init >> bit & 1 == 1),
+                    key: *key,
+                    bit,
+                });
+            }
+        }
+        System {
+            aig: self.aig.clone(),
+            latches,
+            inputs,
+            constraints: self.constraints.clone(),
+            wishes: self.wishes.clone(),
+            first_wishes: self.first_wishes.clone(),
+            bad,
+        }
+    }
+}
+
+impl Digit {
+    /// How many milliseconds one of it is.
+    pub fn milliseconds(self) -> u32 {
+        match self {
+            Digit::Hundreds => 100,
+            Digit::Tens => 10,
+            Digit::Ones => 1,
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Timers and counters as logic: what [`rungc_rt::Timer`] and the counters do.
+
+use super::{CounterPart, Encoder, Key, TimerPart};
+use crate::aig::Lit;
+use crate::bits::{Bits, constant, unsigned};
+use rungc_rt::TimerKind;
+
+/// How far a timer moves on: whole units, and milliseconds beyond them.
+struct Step {
+    units: Bits,
+    rest: Bits,
+}
+
+impl Encoder<'_> {
+    /// The time since the scan before in a timer's units.
+    fn step_of(&self, kind: TimerKind) -> Step {
+        let Some(time) = &self.time else {
+            return Step {
+                units: constant(0, 16),
+                rest: Bits::new(),
+            };
+        };
+        match kind.unit_ms {
+            ..=1 => Step {
+                units: time.all.clone(),
+                rest: Bits::new(),
+            },
+            2..=10 => Step {
+                units: time.tens.clone(),
+                rest: time.below_ten.clone(),
+            },
+            _ => Step {
+                units: time.hundreds.clone(),
+                rest: time.below_hundred.clone(),
+            },
+        }
+    }
+
+    /// As [`rungc_rt::Timer::run`].
+    pub(super) fn timer(
+        &mut self,
+        number: u32,
+        kind: TimerKind,
+        drive: Lit,
+        preset: &[Lit],
+        guard: Lit,
+    ) {
+        let key = |part| Key::Timer(number, part);
+        let idle = self.aig.and(guard, !drive);
+        if !kind.accumulating {
+            for part in [TimerPart::Value, TimerPart::Preset, TimerPart::Part] {
+                let zero = constant(0, self.load(key(part)).len());
+                self.store(key(part), &zero, idle);
+            }
+            self.store(key(TimerPart::Done), &[Lit::FALSE], idle);
+        }
+        self.store(key(TimerPart::Coil), &[Lit::FALSE], idle);
+        self.store(key(TimerPart::Counted), &[Lit::FALSE], idle);
+        let driven = self.aig.and(guard, drive);
+        self.driven(number, kind, preset, driven);
+    }
+
+    /// A timer whose coil is on.
+    fn driven(&mut self, number: u32, kind: TimerKind, preset: &[Lit], guard: Lit) {
+        let key = |part| Key::Timer(number, part);
+        let was_on = self.load(key(TimerPart::Coil))[0];
+        let done = self.load(key(TimerPart::Done))[0];
+        let value = self.load(key(TimerPart::Value));
+        let once_a_scan = kind.shared || kind.free_running;
+        let mut moves = was_on;
+        if once_a_scan {
+            let counted = self.load(key(TimerPart::Counted))[0];
+            moves = self.aig.and(moves, !counted);
+        }
+        let mut preset = preset.to_vec();
+        if kind.latches_preset {
+            let taken = self.load(key(TimerPart::Preset));
+            preset = self.aig.select(was_on, &taken, &preset);
+        }
+        if kind.latches_preset || kind.free_running {
+            self.store(key(TimerPart::Preset), &preset, guard);
+        }
+        self.store(key(TimerPart::Coil), &[Lit::TRUE], guard);
+        if once_a_scan {
+            self.store(key(TimerPart::Counted), &[Lit::TRUE], guard);
+        }
+        let (units, part) = self.advanced(number, kind, moves);
+        let runs = match kind.overruns {
+            true => guard,
+            false => self.aig.and(guard, !done),
+        };
+        let limit = match kind.overruns {
+            true => constant(i16::MAX.into(), 18),
+            false => crate::bits::signed(&preset, 18),
+        };
+        let wide = crate::bits::signed(&value, 18);
+        let room = self.aig.sub(&limit, &wide);
+        let open = self.aig.less(&constant(0, 18), &room);
+        let sum = self.aig.least(&unsigned(&units, 18), &room);
+        let sum = self.aig.add(&wide, &sum);
+        let new = self.aig.select(open, &sum[..16], &value);
+        self.store(key(TimerPart::Value), &new, runs);
+        self.store(key(TimerPart::Part), &part, runs);
+        let reached = !self.aig.less(&new, &preset);
+        let closed = self.aig.or(done, reached);
+        self.store(key(TimerPart::Done), &[closed], runs);
+    }
+
+    /// By how many units a timer moves on, and the milliseconds since the last whole one then.
+    fn advanced(&mut self, number: u32, kind: TimerKind, moves: Lit) -> (Bits, Bits) {
+        let mut step = self.step_of(kind);
+        if kind.stepwise {
+            let whole = self.aig.nonzero(&step.units);
+            step.units = vec![whole];
+            step.rest = step.rest.iter().map(|&bit| self.aig.and(bit, !whole)).collect();
+        }
+        let mut moved = |bits: &[Lit]| -> Bits {
+            bits.iter().map(|&bit| self.aig.and(bit, moves)).collect()
+        };
+        let (units, rest) = (moved(&step.units), moved(&step.rest));
+        let part = self.load(Key::Timer(number, TimerPart::Part));
+        if part.is_empty() {
+            return (unsigned(&units, 17), part);
+        }
+        let width = part.len() + 1;
+        let unit = constant(kind.unit_ms.into(), width);
+        let sum = self.aig.add(&unsigned(&part, width), &unsigned(&rest, width));
+        let carry = !self.aig.below(&sum, &unit);
+        let less = self.aig.sub(&sum, &unit);
+        let part = self.aig.select(carry, &less, &sum);
+        let units = self.aig.add(&unsigned(&units, 17), &unsigned(&[carry], 17));
+        (units, part[..width - 1].to_vec())
+    }
+
+    /// As [`rungc_rt::Timer::go_on`].
+    pub(super) fn timer_goes_on(&mut self, number: u32, kind: TimerKind, guard: Lit) {
+        let on = self.load(Key::Timer(number, TimerPart::Coil))[0];
+        let preset = self.load(Key::Timer(number, TimerPart::Preset));
+        let goes_on = self.aig.and(guard, on);
+        self.driven(number, kind, &preset, goes_on);
+    }
+
+    /// RST of a timer or counter.
+    pub(super) fn reset_timing(&mut self, keys: &[Key], guard: Lit) {
+        for &key in keys {
+            let kept = matches!(
+                key,
+                Key::Timer(_, TimerPart::Preset | TimerPart::Coil | TimerPart::Counted)
+                    | Key::Counter(_, CounterPart::Coil)
+            );
+            if !kept {
+                let zero = constant(0, self.load(key).len());
+                self.store(key, &zero, guard);
+            }
+        }
+    }
+
+    /// As [`rungc_rt::Counter16::run`].
+    pub(super) fn counter16(&mut self, number: u32, drive: Lit, preset: &[Lit], guard: Lit) {
+        let key = |part| Key::Counter(number, part);
+        let coil = self.load(key(CounterPart::Coil))[0];
+        let done = self.load(key(CounterPart::Done))[0];
+        let value = self.load(key(CounterPart::Value));
+        let counts = self.aig.all([guard, drive, !coil, !done]);
+        let one = constant(1, 16);
+        let low = self.aig.less(preset, &one);
+        let preset = self.aig.select(low, &one, preset);
+        let most = self.aig.is(&value, i16::MAX.into());
+        let next = self.aig.add(&value, &one);
+        let next = self.aig.select(most, &value, &next);
+        let next = self.aig.least(&next, &preset);
+        let reached = !self.aig.less(&next, &preset);
+        self.store(key(CounterPart::Value), &next, counts);
+        self.store(key(CounterPart::Done), &[reached], counts);
+        self.store(key(CounterPart::Coil), &[drive], guard);
+    }
+
+    /// As [`rungc_rt::Counter32::run`].
+    pub(super) fn counter32(
+        &mut self,
+        number: u32,
+        drive: Lit,
+        (down, preset): (Lit, &[Lit]),
+        guard: Lit,
+    ) {
+        let coil = self.load(Key::Counter(number, CounterPart::Coil))[0];
+        let counts = self.aig.all([guard, drive, !coil]);
+        self.count(number, down, preset, counts);
+        self.store(Key::Counter(number, CounterPart::Coil), &[drive], guard);
+    }
+
+    /// As [`rungc_rt::Counter32::count`].
+    pub(super) fn count(&mut self, number: u32, down: Lit, preset: &[Lit], guard: Lit) {
+        let key = |part| Key::Counter(number, part);
+        let done = self.load(key(CounterPart::Done))[0];
+        let value = self.load(key(CounterPart::Value));
+        let by = self.aig.select(down, &constant(-1, 32), &constant(1, 32));
+        let next = self.aig.add(&value, &by);
+        let reached = self.aig.equal(&next, preset);
+        let left = self.aig.equal(&value, preset);
+        let closes = self.aig.and(!down, reached);
+        let opens = self.aig.and(down, left);
+        let contact = self.aig.or(done, closes);
+        let contact = self.aig.and(contact, !opens);
+        self.store(key(CounterPart::Value), &next, guard);
+        self.store(key(CounterPart::Done), &[contact], guard);
+    }
+}

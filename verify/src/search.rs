@@ -1,0 +1,167 @@
+//! Proofs by induction, and bounded search for counterexamples.
+
+use crate::model::{Input, Key};
+use crate::sat::{Answer, Solver};
+use crate::system::System;
+use crate::unroll::Unroller;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// A run that the model allows: what it begins with, and the inputs of each scan.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Trace {
+    /// What latched memory holds at first.
+    pub start: BTreeMap<Key, i64>,
+    /// What happens before each scan.
+    pub scans: Vec<Scan>,
+}
+
+/// What happens before a scan.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Scan {
+    /// Milliseconds since the scan before.
+    pub ms: u32,
+    /// How long the scan before took, in units of 0.1 ms.
+    pub scan_time: u32,
+    /// Devices that something other than the program sets.
+    pub set: BTreeMap<Key, i64>,
+}
+
+/// What was found of a property.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Found {
+    /// No run violates it.
+    Proved {
+        /// By induction over this many scans; `None`: by an invariant that was found (IC3).
+        induction: Option<usize>,
+    },
+    /// This one may.
+    Violated(Trace),
+    /// None of at most this many scans violates it; more is not known.
+    Unknown {
+        /// How many.
+        scans: usize,
+    },
+}
+
+/// Searches from power-on, scan by scan.
+pub struct Bounded<'s> {
+    system: &'s System,
+    unroller: Unroller<'s>,
+    solver: Solver,
+    /// Supposes what a replay needs: scans of at least a millisecond and the like.
+    wishes: bool,
+}
+
+impl<'s> Bounded<'s> {
+    /// A search; `wishes` leaves out what a replay cannot show.
+    pub fn new(system: &'s System, wishes: bool, deadline: Instant) -> Self {
+        Bounded {
+            system,
+            unroller: Unroller::new(system, true),
+            solver: Solver::new(deadline),
+            wishes,
+        }
+    }
+
+    /// How many scans were searched.
+    pub fn scans(&self) -> usize {
+        self.unroller.len()
+    }
+
+    /// Searches one scan further.
+    pub fn step(&mut self) -> Step {
+        self.unroller.extend();
+        let scan = self.unroller.len() - 1;
+        let wishes = self.system.wishes.iter().filter(|_| self.wishes);
+        let first = self.system.first_wishes.iter();
+        let first = first.filter(|_| self.wishes && scan == 0);
+        for &holds in self.system.constraints.iter().chain(wishes).chain(first) {
+            let holds = self.unroller.at(scan, holds);
+            let holds = self.solver.lit(&self.unroller.aig, holds);
+            self.solver.clause(&[holds]);
+        }
+        let bad = self.unroller.at(scan, self.system.bad);
+        let bad = self.solver.lit(&self.unroller.aig, bad);
+        match self.solver.solve(&[bad]) {
+            Answer::Sat => Step::Violated(self.trace()),
+            Answer::Unknown => Step::TimeUp,
+            Answer::Unsat => {
+                self.solver.clause(&[!bad]);
+                Step::Holds
+            }
+        }
+    }
+
+    /// The run that the solver has found.
+    fn trace(&self) -> Trace {
+        let mut trace = Trace::default();
+        for latch in self.system.latches.iter().filter(|latch| latch.init.is_none()) {
+            let on = self.solver.value(self.unroller.at(0, latch.now));
+            *trace.start.entry(latch.key).or_default() |= i64::from(on) << latch.bit;
+        }
+        for scan in 0..self.unroller.len() {
+            let mut happens = Scan::default();
+            for &(lit, input) in &self.system.inputs {
+                let on = self.solver.value(self.unroller.at(scan, lit));
+                match input {
+                    Input::Device(key, bit) => {
+                        *happens.set.entry(key).or_default() |= i64::from(on) << bit;
+                    }
+                    Input::Time(digit, bit) => {
+                        happens.ms += (u32::from(on) << bit) * digit.milliseconds();
+                    }
+                    Input::ScanTime(bit) => happens.scan_time |= u32::from(on) << bit,
+                    Input::Gap(_) => {}
+                }
+            }
+            trace.scans.push(happens);
+        }
+        trace
+    }
+}
+
+/// What one more scan has shown.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Step {
+    /// It cannot violate the property.
+    Holds,
+    /// This run may.
+    Violated(Trace),
+    /// The time is up.
+    TimeUp,
+}
+
+/// Induction: if no scan of several in a row violates the property, the next one does not.
+pub struct Induction<'s> {
+    system: &'s System,
+    unroller: Unroller<'s>,
+    solver: Solver,
+}
+
+impl<'s> Induction<'s> {
+    /// Before the first step.
+    pub fn new(system: &'s System, deadline: Instant) -> Self {
+        Induction {
+            system,
+            unroller: Unroller::new(system, false),
+            solver: Solver::new(deadline),
+        }
+    }
+
+    /// Supposes one scan more; whether the next one cannot violate the property then.
+    pub fn step(&mut self) -> bool {
+        self.unroller.extend();
+        let scan = self.unroller.len() - 1;
+        for &holds in &self.system.constraints {
+            let holds = self.unroller.at(scan, holds);
+            let holds = self.solver.lit(&self.unroller.aig, holds);
+            self.solver.clause(&[holds]);
+        }
+        let bad = self.unroller.at(scan, self.system.bad);
+        let bad = self.solver.lit(&self.unroller.aig, bad);
+        let proved = self.solver.solve(&[bad]) == Answer::Unsat;
+        self.solver.clause(&[!bad]);
+        proved
+    }
+}

@@ -1,0 +1,136 @@
+//! Transition systems: what a scan makes of the state before it and of its inputs, bit by bit.
+
+use crate::aig::{Aig, Lit, Node};
+use crate::model::{Input, Key};
+use rustc_hash::FxHashMap;
+
+/// A bit that lasts from scan to scan.
+#[derive(Clone, Debug)]
+pub struct Latch {
+    /// The bit before the scan, an input of the graph.
+    pub now: Lit,
+    /// The bit after it.
+    pub next: Lit,
+    /// What it is at first; `None`: anything.
+    pub init: Option<bool>,
+    /// The bit of the memory that it is.
+    pub key: Key,
+    /// Which bit of that.
+    pub bit: usize,
+}
+
+/// A system with one question: whether `bad` can be on after a scan.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The logic.
+    pub aig: Aig,
+    /// The state.
+    pub latches: Vec<Latch>,
+    /// The inputs of each scan, with what they are.
+    pub inputs: Vec<(Lit, Input)>,
+    /// What holds in every scan.
+    pub constraints: Vec<Lit>,
+    /// What a search for a counterexample may suppose in addition, so that it can be replayed.
+    pub wishes: Vec<Lit>,
+    /// The same, of the first scan.
+    pub first_wishes: Vec<Lit>,
+    /// What must not happen.
+    pub bad: Lit,
+}
+
+
+impl System {
+    /// What the answer depends on, alone: the cone of influence of `bad`. A constraint stays if it meets the cone, and
+    /// what it depends on belongs to the cone then.
+    pub fn sliced(&self) -> System {
+        let number_of = self.latch_numbers();
+        let mut wanted = vec![false; self.aig.nodes().len()];
+        let mut kept = vec![false; self.constraints.len()];
+        let mut open = vec![self.bad.node()];
+        let supports: Vec<Vec<usize>> = self.constraints.iter().map(|&c| self.support(c)).collect();
+        loop {
+            while let Some(node) = open.pop() {
+                if std::mem::replace(&mut wanted[node], true) {
+                    continue;
+                }
+                if let Node::And(a, b) = self.aig.nodes()[node] {
+                    open.extend([a.node(), b.node()]);
+                }
+                if let Some(&latch) = number_of.get(&node) {
+                    open.push(self.latches[latch].next.node());
+                }
+            }
+            for (i, support) in supports.iter().enumerate() {
+                let meets = support.iter().any(|&node| wanted[node]);
+                if !kept[i] && (meets || support.is_empty()) {
+                    kept[i] = true;
+                    open.push(self.constraints[i].node());
+                }
+            }
+            if open.is_empty() {
+                return self.keep(&wanted, &kept);
+            }
+        }
+    }
+
+    /// The latches by their nodes.
+    pub fn latch_numbers(&self) -> FxHashMap<usize, usize> {
+        let latches = self.latches.iter().enumerate();
+        latches.map(|(i, latch)| (latch.now.node(), i)).collect()
+    }
+
+    /// The inputs and latches on which a literal depends within a scan.
+    fn support(&self, lit: Lit) -> Vec<usize> {
+        let cone = self.aig.cone([lit]);
+        let is_input = |&node: &usize| matches!(self.aig.nodes()[node], Node::Input(_));
+        cone.into_iter().filter(is_input).collect()
+    }
+
+    /// The wanted nodes, in a new graph.
+    fn keep(&self, wanted: &[bool], constraints: &[bool]) -> System {
+        let mut aig = Aig::default();
+        let mut map = vec![None; wanted.len()];
+        map[0] = Some(Lit::FALSE);
+        let new = |map: &[Option<Lit>], lit: Lit| -> Option<Lit> {
+            map[lit.node()].map(|node: Lit| node.invert_if(lit.is_inverted()))
+        };
+        for (node, what) in self.aig.nodes().iter().enumerate() {
+            if !wanted[node] {
+                continue;
+            }
+            map[node] = match *what {
+                Node::False => Some(Lit::FALSE),
+                Node::Input(_) => Some(aig.input()),
+                Node::And(a, b) => match (new(&map, a), new(&map, b)) {
+                    (Some(a), Some(b)) => Some(aig.and(a, b)),
+                    _ => None,
+                },
+            };
+        }
+        let lits = |lits: &[Lit]| lits.iter().filter_map(|&lit| new(&map, lit)).collect();
+        let latch = |latch: &Latch| {
+            let (now, next) = (new(&map, latch.now)?, new(&map, latch.next)?);
+            Some(Latch {
+                now,
+                next,
+                ..latch.clone()
+            })
+        };
+        let kept = self.constraints.iter().zip(constraints);
+        System {
+            latches: self.latches.iter().filter_map(latch).collect(),
+            inputs: self
+                .inputs
+                .iter()
+                .filter_map(|&(lit, input)| Some((new(&map, lit)?, input)))
+                .collect(),
+            constraints: kept
+                .filter_map(|(&lit, &kept)| new(&map, lit).filter(|_| kept))
+                .collect(),
+            wishes: lits(&self.wishes),
+            first_wishes: lits(&self.first_wishes),
+            bad: new(&map, self.bad).unwrap_or(Lit::FALSE),
+            aig,
+        }
+    }
+}
