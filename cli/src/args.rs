@@ -3,9 +3,11 @@
 mod diff;
 mod forms;
 mod values;
+mod verify;
 
 pub use diff::{DiffArgs, DiffFormat};
 pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
+pub use verify::VerifyArgs;
 
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -43,6 +45,7 @@ Examples:
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
   rungc test tests --engine all                all test files in a folder
+  rungc verify motor.il --never 'Y000 & Y001'  proved, or how it happens
   rungc view machine.gxw --device Y000         networks, as ladder
   rungc xref machine.gxw --device M100..M199   who reads and writes each device
   rungc diff old.gxw new.gxw --semantic        what changed, and which outputs can differ
@@ -50,7 +53,7 @@ Examples:
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
 Exit codes: 0: success; 1: errors in the program, a failed test, or a simulated machine that hit its end stop;
-2: incorrect usage or unreadable input; 130: interrupted with Ctrl-C.")]
+2: incorrect usage or unreadable input; 3: `verify` has not decided; 130: interrupted with Ctrl-C.")]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -82,6 +85,11 @@ pub enum Command {
     Serve(RunArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
+    /// Prove that a program has a property, or show how it violates it.
+    ///
+    /// A property is a condition over devices as they are after a scan, such as `Y000 & Y001`. Exit codes: 0: proved;
+    /// 1: violated; 2: incorrect usage; 3: not decided.
+    Verify(VerifyArgs),
     /// Draw a program as ladder.
     View(ViewArgs),
     /// List who reads, writes, sets and resets each device.

@@ -24,7 +24,11 @@ pub fn main() -> ExitCode {
             Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
             Command::Read(args) => args.output.is_none(),
-            Command::Run(_) | Command::Serve(_) | Command::Stats(_) | Command::Diff(_) => true,
+            Command::Run(_)
+            | Command::Serve(_)
+            | Command::Stats(_)
+            | Command::Diff(_)
+            | Command::Verify(_) => true,
             Command::Xref(args) => args.output.is_none(),
             Command::Fmt(args) => args.check,
             _ => false,
@@ -45,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Read(args) => commands::read::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
+        Command::Verify(args) => commands::verify::run(args, cx),
         Command::View(args) => commands::view::run(args, cx),
         Command::Xref(args) => commands::xref::run(args, cx),
         Command::Stats(args) => commands::stats::run(args, cx),
@@ -65,6 +70,7 @@ pub fn main() -> ExitCode {
             ExitCode::from(interruption::EXIT_CODE)
         }
         Ok(Outcome::Success) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
+        Ok(Outcome::Undecided) => ExitCode::from(3),
         Ok(Outcome::Failed) => ExitCode::from(1),
         Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),

@@ -10,6 +10,8 @@
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
+//! | W06xx, N06xx | how serial ports are set up |
+//! | E08xx, W08xx | properties that are verified |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.
@@ -25,6 +27,7 @@ mod operands;
 mod ports;
 mod practice;
 mod project;
+mod properties;
 mod reading;
 mod structure;
 mod vendor;
@@ -36,6 +39,7 @@ pub use operands::*;
 pub use ports::*;
 pub use practice::*;
 pub use project::*;
+pub use properties::*;
 pub use reading::*;
 pub use structure::*;
 pub use vendor::*;
@@ -140,6 +144,7 @@ pub fn all() -> Vec<&'static Code> {
         practice::TABLE,
         modules::TABLE,
         vendor::TABLE,
+        properties::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
     order::by_key(&mut all, |code| code.id);

@@ -87,7 +87,11 @@ impl Solver {
 
     fn known(&self, lit: Lit) -> Option<SatLit> {
         let variable = (*self.variables.get(lit.node())?)?;
-        Some(if lit.is_inverted() { !variable } else { variable })
+        Some(if lit.is_inverted() {
+            !variable
+        } else {
+            variable
+        })
     }
 
     /// Whether all that was added can hold together with these.

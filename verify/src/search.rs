@@ -27,23 +27,6 @@ pub struct Scan {
     pub set: BTreeMap<Key, i64>,
 }
 
-/// What was found of a property.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Found {
-    /// No run violates it.
-    Proved {
-        /// By induction over this many scans; `None`: by an invariant that was found (IC3).
-        induction: Option<usize>,
-    },
-    /// This one may.
-    Violated(Trace),
-    /// None of at most this many scans violates it; more is not known.
-    Unknown {
-        /// How many.
-        scans: usize,
-    },
-}
-
 /// Searches from power-on, scan by scan.
 pub struct Bounded<'s> {
     system: &'s System,
@@ -88,7 +71,11 @@ impl<'s> Bounded<'s> {
             Answer::Unknown => Step::TimeUp,
             Answer::Unsat => {
                 self.solver.clause(&[!bad]);
-                Step::Holds
+                match self.solver.solve(&[]) {
+                    Answer::Sat => Step::Holds,
+                    Answer::Unsat => Step::Impossible,
+                    Answer::Unknown => Step::TimeUp,
+                }
             }
         }
     }
@@ -96,7 +83,12 @@ impl<'s> Bounded<'s> {
     /// The run that the solver has found.
     fn trace(&self) -> Trace {
         let mut trace = Trace::default();
-        for latch in self.system.latches.iter().filter(|latch| latch.init.is_none()) {
+        for latch in self
+            .system
+            .latches
+            .iter()
+            .filter(|latch| latch.init.is_none())
+        {
             let on = self.solver.value(self.unroller.at(0, latch.now));
             *trace.start.entry(latch.key).or_default() |= i64::from(on) << latch.bit;
         }
@@ -128,6 +120,8 @@ pub enum Step {
     Holds,
     /// This run may.
     Violated(Trace),
+    /// There is no such scan: what is assumed contradicts itself.
+    Impossible,
     /// The time is up.
     TimeUp,
 }

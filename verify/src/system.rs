@@ -38,7 +38,6 @@ pub struct System {
     pub bad: Lit,
 }
 
-
 impl System {
     /// What the answer depends on, alone: the cone of influence of `bad`. A constraint stays if it meets the cone, and
     /// what it depends on belongs to the cone then.

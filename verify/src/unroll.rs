@@ -55,9 +55,7 @@ impl<'s> Unroller<'s> {
         let mut values: Vec<Option<Lit>> = vec![None; nodes.len()];
         for latch in &self.system.latches {
             let value = match (self.scans.last(), latch.init) {
-                (Some(before), _) => {
-                    before[latch.next.node()].invert_if(latch.next.is_inverted())
-                }
+                (Some(before), _) => before[latch.next.node()].invert_if(latch.next.is_inverted()),
                 (None, Some(init)) if self.from_start => init.into(),
                 (None, _) => match start(latch) {
                     Some(on) => on.into(),

@@ -1,6 +1,6 @@
 //! `rungc check`.
 
-mod draw;
+pub(super) mod draw;
 
 use super::subject::{self, Subject};
 use super::{Context, Result, conclude, counted, findings, fix, grouped, ports, read};

@@ -22,6 +22,7 @@ pub mod subject;
 pub mod test;
 mod together;
 mod unproven;
+pub mod verify;
 pub mod view;
 pub mod xref;
 
@@ -41,6 +42,8 @@ use tempfile::NamedTempFile;
 pub enum Outcome {
     /// Exit code 0.
     Success,
+    /// Neither a proof nor a counterexample: exit code 3.
+    Undecided,
     /// Errors in the program or a failed test: exit code 1.
     Failed,
     /// One of several programs could not be worked on, which has been said: exit code 2.

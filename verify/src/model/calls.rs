@@ -32,8 +32,8 @@ impl Encoder<'_> {
             .collect()
     }
 
-    /// The special devices that the runtime may write. Index registers are no special devices, even if a special
-    /// register is another name of one.
+    /// The special devices that the runtime may write. An index register is not one of them, even if a special
+    /// register is another name for it.
     pub(super) fn specials(&self) -> Vec<Key> {
         let mut keys = self.named_in(&SPECIAL);
         keys.retain(|key| !matches!(key, Key::Word(DeviceClass::V | DeviceClass::Z, _)));
@@ -69,7 +69,10 @@ impl Encoder<'_> {
     pub(super) fn call(&mut self, stmt: &Stmt, call: &Call, guard: Lit) {
         let mut keys = self.of_operands(stmt);
         keys.extend(self.of_call(call));
-        let name = call.function.name().to_uppercase();
+        let name = match self.module.origin(call.step) {
+            Some(origin) => origin.text.clone(),
+            None => call.function.name().to_uppercase(),
+        };
         self.free(&keys, guard, &name);
     }
 

@@ -1,11 +1,9 @@
 //! Expressions as logic.
 
-use super::{Encoder, Input, Key, TimerPart, CounterPart};
+use super::{CounterPart, Encoder, Input, Key, TimerPart};
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, complement, constant, known, signed, unsigned};
-use rungc_ir::node::{
-    Access, AccessKind, BinOp, Expr, ExprId, FloatOp, Place, SysValue, Ty, UnOp,
-};
+use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, FloatOp, Place, SysValue, Ty, UnOp};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{CmpOp, word};
 use rungc_syntax::DeviceClass;
@@ -262,7 +260,11 @@ impl Encoder<'_> {
     fn in_range(&mut self, place: Place, count: u32) -> Lit {
         let number = i64::from(place.number);
         let Some(index) = place.index else {
-            return self.module.model.in_range(place.class, number, count).into();
+            return self
+                .module
+                .model
+                .in_range(place.class, number, count)
+                .into();
         };
         let index = signed(&self.eval(index), 40);
         let mut found = Lit::FALSE;

@@ -9,8 +9,8 @@ use rungc_ir::node::{
     TempId,
 };
 use rungc_models::runs::is_counter32;
-use rungc_rt::{EdgeKind, TimerKind};
 use rungc_rt::special::M_KEEP_IN_STOP;
+use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 
@@ -153,21 +153,30 @@ impl Encoder<'_> {
                 iteration,
                 body,
                 ..
-            }) => self.repeat(&constant((*count).into(), 33), Some(*iteration), body, guard),
+            }) => self.repeat(
+                &constant((*count).into(), 33),
+                Some(*iteration),
+                body,
+                guard,
+            ),
             Stmt::CallSub(function) => {
                 self.function(*function as usize, guard);
                 guard
             }
             Stmt::Parts(parts) => self.parts(parts, guard),
             Stmt::Goto(label) => {
-                let known = self.jumps.iter_mut().rev().find(|jumps| jumps.contains_key(label));
+                let known = self
+                    .jumps
+                    .iter_mut()
+                    .rev()
+                    .find(|jumps| jumps.contains_key(label));
                 if let Some(target) = known.and_then(|jumps| jumps.get_mut(label)) {
                     *target = self.aig.or(*target, guard);
                 }
                 Lit::FALSE
             }
             Stmt::Watch { steps, .. } => self.watch(*steps, guard),
-            // The caller goes on.
+            // The caller continues.
             _ => Lit::FALSE,
         }
     }
@@ -221,10 +230,11 @@ impl Encoder<'_> {
         let mut leaves = Lit::FALSE;
         loop {
             for part in parts {
-                let waiting = part.label.and_then(|label| self.jumps.last_mut()?.get_mut(&label));
-                let jumped = waiting.map_or(Lit::FALSE, |target| {
-                    std::mem::replace(target, Lit::FALSE)
-                });
+                let waiting = part
+                    .label
+                    .and_then(|label| self.jumps.last_mut()?.get_mut(&label));
+                let jumped =
+                    waiting.map_or(Lit::FALSE, |target| std::mem::replace(target, Lit::FALSE));
                 falls = self.aig.or(falls, jumped);
                 if falls != Lit::FALSE {
                     falls = self.run(&part.body, falls);
@@ -233,7 +243,11 @@ impl Encoder<'_> {
             leaves = self.aig.or(leaves, falls);
             falls = Lit::FALSE;
             round += 1;
-            let waiting = self.jumps.last().into_iter().flat_map(|jumps| jumps.values());
+            let waiting = self
+                .jumps
+                .last()
+                .into_iter()
+                .flat_map(|jumps| jumps.values());
             let waiting: Vec<Lit> = waiting.copied().collect();
             let again = self.aig.any(waiting);
             if again == Lit::FALSE {
@@ -249,7 +263,9 @@ impl Encoder<'_> {
     }
 
     fn edge(&mut self, edge: &Edge, guard: Lit) {
-        let further = edge.index.map_or(0, |index| known(&self.eval(index)).unwrap_or(0));
+        let further = edge
+            .index
+            .map_or(0, |index| known(&self.eval(index)).unwrap_or(0));
         let memory = Key::Edge(EdgeId(edge.memory.0 + further as u32).0);
         let now = self.on(edge.input);
         let before = self.load(memory)[0];
@@ -281,7 +297,11 @@ impl Encoder<'_> {
     /// A write that an index may lead to many devices.
     fn write_anywhere(&mut self, stmt: Stmt, guard: Lit) {
         let keys = self.of_operands(&stmt);
-        self.free(&keys, guard, "operands whose index can lead to many devices");
+        self.free(
+            &keys,
+            guard,
+            "operands whose index can lead to many devices",
+        );
     }
 
     fn write_at(
@@ -344,7 +364,11 @@ impl Encoder<'_> {
             to.class,
             DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
         );
-        let kind = if bits { AccessKind::Bit } else { AccessKind::Word };
+        let kind = if bits {
+            AccessKind::Bit
+        } else {
+            AccessKind::Word
+        };
         let values: Vec<Bits> = match *block {
             Block::Copy { from, .. } => (from.number..from.number + count)
                 .map(|number| self.read_at(kind, from.class, number))

@@ -5,7 +5,7 @@ use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
 use rungc_ir::node::{Expr, FunctionKind, Place, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
-use rungc_ir::walk::{callees, called_functions, statements};
+use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
@@ -98,7 +98,12 @@ impl Encoder<'_> {
             of_expr(model, expr, &mut note);
         }
         let called = called_functions(module);
-        for (function, _) in module.functions.iter().zip(called).filter(|(_, called)| *called) {
+        for (function, _) in module
+            .functions
+            .iter()
+            .zip(called)
+            .filter(|(_, called)| *called)
+        {
             statements(&function.body, &mut |stmt| of_stmt(model, stmt, &mut note));
         }
         let devices: BTreeSet<_> = devices
@@ -111,18 +116,26 @@ impl Encoder<'_> {
             }
         }
         let tables = module.tables.iter().zip(0..);
-        let entries = tables.flat_map(|(table, t)| (0..table.length).map(move |i| Key::Entry(t, i)));
+        let entries =
+            tables.flat_map(|(table, t)| (0..table.length).map(move |i| Key::Entry(t, i)));
         let private = (0..module.edges).map(Key::Edge);
         let private = private.chain((0..module.flags.len() as u32).map(Key::Flag));
         let private = private.chain((0..module.cells.len() as u32).map(Key::Cell));
-        for key in private.chain(entries).chain([Key::First, Key::Running, Key::Now]) {
+        for key in private
+            .chain(entries)
+            .chain([Key::First, Key::Running, Key::Now])
+        {
             self.add_memory(key);
         }
     }
 
     fn add_memory(&mut self, key: Key) {
         let unit_ms = match key {
-            Key::Timer(number, _) => self.module.model.timer(number).map_or(1, |kind| kind.unit_ms),
+            Key::Timer(number, _) => self
+                .module
+                .model
+                .timer(number)
+                .map_or(1, |kind| kind.unit_ms),
             _ => 1,
         };
         let bits = self.aig.inputs_of(width(key, unit_ms));
@@ -151,7 +164,11 @@ impl Encoder<'_> {
             Key::Bit(class, number) if latched(class, number) => None,
             Key::Bit(DeviceClass::M, number) => {
                 let relay = u16::try_from(number).ok().map(Relay);
-                Some(relay.is_some_and(|relay| model.is_on_at_power_on(relay)).into())
+                Some(
+                    relay
+                        .is_some_and(|relay| model.is_on_at_power_on(relay))
+                        .into(),
+                )
             }
             Key::Word(class, number) if latched(class, number) => None,
             Key::Word(DeviceClass::D, number) => {
@@ -230,7 +247,8 @@ impl Encoder<'_> {
             .keys()
             .copied()
             .filter(|&key| {
-                device_of(key).is_some_and(|(of, number)| of == class && (first..=last).contains(&number))
+                device_of(key)
+                    .is_some_and(|(of, number)| of == class && (first..=last).contains(&number))
             })
             .collect();
         let aliases = self.module.model.aliases_within(class, first, last);
@@ -273,7 +291,12 @@ impl Encoder<'_> {
         }
         if module.has_ports() {
             let called = called_functions(module);
-            for (function, _) in module.functions.iter().zip(called).filter(|(_, called)| *called) {
+            for (function, _) in module
+                .functions
+                .iter()
+                .zip(called)
+                .filter(|(_, called)| *called)
+            {
                 statements(&function.body, &mut |stmt| {
                     if let Stmt::Call(call) = stmt {
                         let needs = call.function.needs();
@@ -299,7 +322,8 @@ impl Encoder<'_> {
             }
             Stmt::SetEntry(table, ..) => {
                 let length = self.module.tables[table].length;
-                self.outside.extend((0..length).map(|i| Key::Entry(table.0, i)));
+                self.outside
+                    .extend((0..length).map(|i| Key::Entry(table.0, i)));
             }
             Stmt::Edge(ref edge) => {
                 self.outside.insert(Key::Edge(edge.memory.0));
@@ -391,7 +415,12 @@ impl Encoder<'_> {
     pub(super) fn candidates(&mut self, place: Place, index: &[Lit]) -> Option<Vec<(Lit, u32)>> {
         if let Some(index) = crate::bits::known(index) {
             let number = u32::try_from(i64::from(place.number) + index);
-            return Some(number.map(|number| (Lit::TRUE, number)).into_iter().collect());
+            return Some(
+                number
+                    .map(|number| (Lit::TRUE, number))
+                    .into_iter()
+                    .collect(),
+            );
         }
         let used = Footprint {
             place,
@@ -408,7 +437,10 @@ impl Encoder<'_> {
         if size > REACH {
             return None;
         }
-        let numbers: Vec<u32> = runs.into_iter().flat_map(|(first, last)| first..=last).collect();
+        let numbers: Vec<u32> = runs
+            .into_iter()
+            .flat_map(|(first, last)| first..=last)
+            .collect();
         let found = numbers.into_iter().map(|number| {
             let by = i64::from(number) - i64::from(place.number);
             (self.aig.is(index, by), number)

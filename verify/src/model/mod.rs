@@ -11,6 +11,8 @@ mod exec;
 mod memory;
 mod timing;
 
+pub use memory::device_of;
+
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
 use crate::system::{Latch, System};
@@ -321,7 +323,9 @@ impl<'m> Encoder<'m> {
 
     /// Milliseconds since the scan before, 0 in the first.
     pub fn elapsed(&self) -> Bits {
-        self.time.as_ref().map_or_else(Bits::new, |time| time.all.clone())
+        self.time
+            .as_ref()
+            .map_or_else(Bits::new, |time| time.all.clone())
     }
 
     /// Whether the program could read a device but nothing in it writes it.

@@ -112,11 +112,14 @@ impl Encoder<'_> {
         if kind.stepwise {
             let whole = self.aig.nonzero(&step.units);
             step.units = vec![whole];
-            step.rest = step.rest.iter().map(|&bit| self.aig.and(bit, !whole)).collect();
+            step.rest = step
+                .rest
+                .iter()
+                .map(|&bit| self.aig.and(bit, !whole))
+                .collect();
         }
-        let mut moved = |bits: &[Lit]| -> Bits {
-            bits.iter().map(|&bit| self.aig.and(bit, moves)).collect()
-        };
+        let mut moved =
+            |bits: &[Lit]| -> Bits { bits.iter().map(|&bit| self.aig.and(bit, moves)).collect() };
         let (units, rest) = (moved(&step.units), moved(&step.rest));
         let part = self.load(Key::Timer(number, TimerPart::Part));
         if part.is_empty() {
@@ -124,7 +127,9 @@ impl Encoder<'_> {
         }
         let width = part.len() + 1;
         let unit = constant(kind.unit_ms.into(), width);
-        let sum = self.aig.add(&unsigned(&part, width), &unsigned(&rest, width));
+        let sum = self
+            .aig
+            .add(&unsigned(&part, width), &unsigned(&rest, width));
         let carry = !self.aig.below(&sum, &unit);
         let less = self.aig.sub(&sum, &unit);
         let part = self.aig.select(carry, &less, &sum);

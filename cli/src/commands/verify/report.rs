@@ -1,0 +1,214 @@
+//! Verdicts as text.
+
+use crate::commands::{Outcome, counted};
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+use rungc_verify::model::{Key, device_of};
+use rungc_verify::property::Property;
+use rungc_verify::prove::{Decision, Options, Verdict, Why};
+use rungc_verify::replay::{Change, Setting, story};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// A property and what was found of it.
+pub struct Result<'a> {
+    /// The property as it was asked for.
+    pub asked: &'a str,
+    pub property: &'a Property,
+    pub decision: &'a Decision,
+    /// How long it took.
+    pub time: Duration,
+}
+
+impl Result<'_> {
+    /// What it means for the exit code.
+    pub fn outcome(&self) -> Outcome {
+        match (&self.decision.verdict, self.property.is_wanted()) {
+            (Verdict::Undecided(_), _) => Outcome::Undecided,
+            (Verdict::Proved, false) | (Verdict::Found(_), true) => Outcome::Success,
+            (Verdict::Proved, true) | (Verdict::Found(_), false) => Outcome::Failed,
+        }
+    }
+
+    /// The verdict in a word.
+    fn word(&self) -> &'static str {
+        match (&self.decision.verdict, self.property.is_wanted()) {
+            (Verdict::Undecided(_), _) => "not decided",
+            (Verdict::Proved, false) => "proved",
+            (Verdict::Found(_), false) => "violated",
+            (Verdict::Found(_), true) => "reached",
+            (Verdict::Proved, true) => "not reachable",
+        }
+    }
+
+    /// The verdict as a diagnostic says it.
+    pub fn sentence(&self) -> String {
+        let asked = self.asked;
+        match (&self.decision.verdict, self.property.is_wanted()) {
+            (Verdict::Undecided(why), _) => format!("`{asked}` is not decided: {}", reason(why)),
+            (Verdict::Proved, _) => format!("`{asked}`: no run reaches this"),
+            (Verdict::Found(trace), _) => format!(
+                "`{asked}` is violated after {}",
+                counted(trace.scans.len(), "scan")
+            ),
+        }
+    }
+}
+
+fn reason(why: &Why) -> String {
+    match why {
+        Why::Time { scans } => format!(
+            "the time was up; no run of {} does it",
+            counted(*scans, "scan")
+        ),
+        Why::Spurious { scans } => format!(
+            "a run of {} does it in the model, but not on the interpreter",
+            counted(*scans, "scan")
+        ),
+        Why::Contradiction { scans } => format!(
+            "no run of {} keeps the assumptions",
+            counted(*scans, "scan")
+        ),
+    }
+}
+
+/// All verdicts as readable text.
+pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[String]) -> String {
+    let mut text = String::new();
+    for result in results {
+        let seconds = result.time.as_secs_f64();
+        let _ = writeln!(
+            text,
+            "{:<11} {} ({seconds:.2} s)",
+            result.word(),
+            result.asked
+        );
+        match &result.decision.verdict {
+            Verdict::Found(trace) => {
+                tell(&mut text, module, &story(module, result.property, trace))
+            }
+            Verdict::Undecided(why) => {
+                let _ = writeln!(text, "            {}", reason(why));
+            }
+            Verdict::Proved => {}
+        }
+        for gap in &result.decision.gaps {
+            let step = gap
+                .step
+                .map_or_else(String::new, |step| format!(" (network at step {step})"));
+            let _ = writeln!(
+                text,
+                "            not modelled, any value possible: {}{step}",
+                gap.what
+            );
+        }
+        let unwritten = &result.decision.unwritten;
+        if !unwritten.is_empty() {
+            let names = list(unwritten);
+            let _ = writeln!(
+                text,
+                "            nothing in the program writes {names}: taken as inputs"
+            );
+        }
+    }
+    if results
+        .iter()
+        .any(|result| result.word() == "proved" || result.word() == "not reachable")
+    {
+        let _ = writeln!(text, "Proved for this model under these assumptions:");
+        for line in assumptions(options, assumed) {
+            let _ = writeln!(text, "  - {line}");
+        }
+    }
+    text
+}
+
+/// What every proof supposes.
+fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
+    let ms = options.world.scan_ms;
+    let mut lines = vec![
+        "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
+            .to_string(),
+        format!(
+            "a scan begins at most {ms} ms after the one before; inputs change only between scans"
+        ),
+        match options.world.fresh {
+            true => "latched devices begin with 0".to_string(),
+            false => "latched devices begin with any value, all others as at power-on".to_string(),
+        },
+        "nothing but the program writes the devices that it writes, except inputs and `--free`"
+            .to_string(),
+    ];
+    lines.extend(
+        assumed
+            .iter()
+            .map(|text| format!("after every scan: {text}")),
+    );
+    lines
+}
+
+/// Names of devices.
+fn list(keys: &[Key]) -> String {
+    const SHOWN: usize = 8;
+    let names = keys.iter().filter_map(|&key| device_of(key));
+    let names: Vec<String> = names
+        .map(|(class, n)| class.number(n).to_string())
+        .collect();
+    match names.len() > SHOWN {
+        true => format!(
+            "{} and {} more",
+            names[..SHOWN].join(", "),
+            names.len() - SHOWN
+        ),
+        false => names.join(", "),
+    }
+}
+
+/// A run, a line for each scan in which something changes.
+fn tell(text: &mut String, module: &Module, story: &[Change]) {
+    let settings = |settings: &[Setting]| -> String {
+        let settings = settings.iter();
+        let settings = settings.map(|(name, device, value)| setting(module, name, *device, *value));
+        settings.collect::<Vec<_>>().join(", ")
+    };
+    for change in story {
+        if !change.start.is_empty() {
+            let _ = writeln!(
+                text,
+                "            at power-on                 {}",
+                settings(&change.start)
+            );
+        }
+        let scans = match change.scans {
+            1 => format!("scan {}", change.first + 1),
+            n => format!("scans {} to {}", change.first + 1, change.first + n),
+        };
+        let set = match change.set.is_empty() {
+            true => "no change".to_string(),
+            false => settings(&change.set),
+        };
+        let _ = writeln!(
+            text,
+            "            {scans:<14} {:>8} ms  {set}",
+            change.at_ms
+        );
+        if !change.after.is_empty() {
+            let _ = writeln!(
+                text,
+                "            {:<26}  then: {}",
+                "",
+                settings(&change.after)
+            );
+        }
+    }
+}
+
+/// `X000 = 1 (start button)`.
+fn setting(module: &Module, name: &str, (class, number): (DeviceClass, u32), value: i64) -> String {
+    let mut comments = module.comments.iter();
+    let comment = comments.find(|(of, n, _)| (*of, *n) == (class, number));
+    match comment {
+        Some((_, _, comment)) => format!("{name} = {value} ({})", comment.trim()),
+        None => format!("{name} = {value}"),
+    }
+}

@@ -1,0 +1,187 @@
+//! From a program and a property to a verdict.
+
+use crate::model::{Encoder, Gap, Input, Key, World};
+use crate::pdr;
+use crate::property::{Condition, Property};
+use crate::replay;
+use crate::search::{Bounded, Induction, Step, Trace};
+use crate::system::System;
+use rungc_ir::Module;
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+/// How to decide.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// What is supposed of the world around the program.
+    pub world: World,
+    /// What holds after every scan.
+    pub assumed: Vec<Condition>,
+    /// How long to try, for each property.
+    pub time: Duration,
+}
+
+/// What was found of a property.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Verdict {
+    /// No run of the model does what must not happen.
+    Proved,
+    /// This run does it, on the interpreter too.
+    Found(Trace),
+    /// Neither is known.
+    Undecided(Why),
+}
+
+/// Why a property is not decided.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Why {
+    /// The time was up after this many scans without what is searched for.
+    Time {
+        /// How many.
+        scans: usize,
+    },
+    /// The model allows a run of this many scans, but the program does otherwise: something in it is not modelled.
+    Spurious {
+        /// How many.
+        scans: usize,
+    },
+    /// No run of this many scans keeps the assumptions.
+    Contradiction {
+        /// How many.
+        scans: usize,
+    },
+}
+
+/// A verdict, and what it is about.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Decision {
+    /// What was found.
+    pub verdict: Verdict,
+    /// What the model leaves open, of what the property depends on.
+    pub gaps: Vec<Gap>,
+    /// Devices that the property depends on, that the program reads and never writes: they count as inputs.
+    pub unwritten: Vec<Key>,
+    /// How many bits of memory the property depends on.
+    pub latches: usize,
+}
+
+/// How many scans induction supposes at most.
+const INDUCTION: usize = 12;
+
+/// Decides whether a program has a property.
+pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
+    let deadline = Instant::now() + options.time;
+    let mut world = options.world.clone();
+    let conditions = property.conditions().into_iter().chain(&options.assumed);
+    world
+        .observed
+        .extend(conditions.flat_map(Condition::devices));
+    let mut encoder = Encoder::scan(module, world);
+    for assumed in &options.assumed {
+        let holds = assumed.encode(&mut encoder);
+        encoder.suppose(holds);
+    }
+    let bad = property.encode(&mut encoder);
+    let system = encoder.system(bad).sliced();
+    let of_cone = |wanted: &dyn Fn(&Input) -> bool| system.inputs.iter().any(|(_, i)| wanted(i));
+    let gaps: BTreeSet<Gap> = encoder
+        .gaps
+        .iter()
+        .enumerate()
+        .filter(|(n, _)| of_cone(&|input| *input == Input::Gap(*n)))
+        .map(|(_, gap)| gap.clone())
+        .collect();
+    let unwritten = encoder.unwritten().into_iter();
+    let unwritten = unwritten
+        .filter(|key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key)));
+    Decision {
+        gaps: gaps.into_iter().collect(),
+        unwritten: unwritten.collect(),
+        latches: system.latches.len(),
+        verdict: search(module, property, options, &system, deadline),
+    }
+}
+
+/// Bounded search and induction side by side, then an invariant, then bounded search alone.
+fn search(
+    module: &Module,
+    property: &Property,
+    options: &Options,
+    system: &System,
+    deadline: Instant,
+) -> Verdict {
+    let mut hunt = Hunt {
+        module,
+        property,
+        assumed: &options.assumed,
+        bounded: Bounded::new(system, true, deadline),
+        spurious: None,
+    };
+    // A proof must hold for what a replay cannot show, too.
+    let mut complete = Bounded::new(system, false, deadline);
+    let mut induction = Induction::new(system, deadline);
+    for _ in 0..INDUCTION {
+        if let Some(verdict) = hunt.step() {
+            return verdict;
+        }
+        match complete.step() {
+            Step::Holds if induction.step() => return Verdict::Proved,
+            Step::Holds => {}
+            Step::Impossible => {
+                let scans = complete.scans();
+                return Verdict::Undecided(Why::Contradiction { scans });
+            }
+            Step::Violated(_) | Step::TimeUp => break,
+        }
+    }
+    let now = Instant::now();
+    let half = now + deadline.saturating_duration_since(now) / 2;
+    if let pdr::Found::Invariant(cubes) = pdr::search(system, half)
+        && pdr::check(system, &cubes, deadline)
+    {
+        return Verdict::Proved;
+    }
+    while Instant::now() < deadline && hunt.spurious.is_none() {
+        if let Some(verdict) = hunt.step() {
+            return verdict;
+        }
+    }
+    hunt.undecided()
+}
+
+/// A search for a run that the interpreter confirms.
+struct Hunt<'a> {
+    module: &'a Module,
+    property: &'a Property,
+    assumed: &'a [Condition],
+    bounded: Bounded<'a>,
+    /// How long the first run was that the interpreter did not confirm.
+    spurious: Option<usize>,
+}
+
+impl Hunt<'_> {
+    /// Searches one scan further, unless nothing can be confirmed any more.
+    fn step(&mut self) -> Option<Verdict> {
+        if self.spurious.is_some() {
+            return None;
+        }
+        let Step::Violated(trace) = self.bounded.step() else {
+            return None;
+        };
+        if replay::replay(self.module, self.property, self.assumed, &trace).is_none() {
+            self.spurious = Some(self.bounded.scans());
+            return None;
+        }
+        let plain = replay::plain(self.module, self.property, self.assumed, trace);
+        Some(Verdict::Found(plain))
+    }
+
+    fn undecided(&self) -> Verdict {
+        Verdict::Undecided(match self.spurious {
+            Some(scans) => Why::Spurious { scans },
+            None => Why::Time {
+                scans: self.bounded.scans().saturating_sub(1),
+            },
+        })
+    }
+}

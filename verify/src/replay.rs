@@ -1,0 +1,222 @@
+//! Counterexamples on the interpreter: no run is reported that has not happened there.
+
+use crate::model::device_of;
+use crate::model::{CounterPart, Key, TimerPart};
+use crate::property::{Condition, Property, Watcher};
+use crate::search::{Scan, Trace};
+use rungc_interp::{Machine, rt_class};
+use rungc_ir::Module;
+use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
+
+/// Gives a piece of memory its value; whether a host can.
+fn set(machine: &mut Machine, key: Key, value: i64) -> bool {
+    let done = match key {
+        Key::Bit(class, number) => {
+            rt_class(class).and_then(|class| machine.set_bit(class, number, value != 0))
+        }
+        Key::Word(class, number) => {
+            rt_class(class).and_then(|class| machine.set_word(class, number, value as i16))
+        }
+        Key::Timer(number, TimerPart::Value) => machine.set_word(Class::T, number, value as i16),
+        Key::Timer(number, TimerPart::Done) => machine.set_bit(Class::T, number, value != 0),
+        Key::Counter(number, CounterPart::Value) if machine.counter32(number).is_some() => {
+            machine.set_counter32(number, value as i32)
+        }
+        Key::Counter(number, CounterPart::Value) => {
+            machine.set_word(Class::C, number, value as i16)
+        }
+        Key::Counter(number, CounterPart::Done) => machine.set_bit(Class::C, number, value != 0),
+        _ => None,
+    };
+    done.is_some()
+}
+
+/// Runs a trace; after how many of its scans what is searched for has happened, with all assumptions kept until then.
+pub fn replay(
+    module: &Module,
+    property: &Property,
+    assumed: &[Condition],
+    trace: &Trace,
+) -> Option<usize> {
+    let mut machine = Machine::new(module);
+    let mut hal = VirtualHal::new();
+    for (&key, &value) in &trace.start {
+        set(&mut machine, key, value);
+    }
+    let mut watcher = Watcher::new(property);
+    let mut now_ms = 0u32;
+    for (
+        n,
+        Scan {
+            ms,
+            scan_time,
+            set: devices,
+        },
+    ) in trace.scans.iter().enumerate()
+    {
+        for (&key, &value) in devices {
+            set(&mut machine, key, value);
+        }
+        now_ms = now_ms.wrapping_add(*ms);
+        machine.scan(&mut hal, now_ms, scan_time * 100);
+        let elapsed = if n == 0 { 0 } else { *ms };
+        if machine.last_error().stop != Stop::No || !assumed.iter().all(|a| a.holds(&machine)) {
+            return None;
+        }
+        if watcher.happened(&machine, elapsed) {
+            return Some(n + 1);
+        }
+    }
+    None
+}
+
+/// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
+/// ordinary.
+pub fn plain(
+    module: &Module,
+    property: &Property,
+    assumed: &[Condition],
+    mut trace: Trace,
+) -> Trace {
+    let happens = |trace: &Trace| replay(module, property, assumed, trace);
+    if let Some(scans) = happens(&trace) {
+        trace.scans.truncate(scans);
+    }
+    let attempt = |trace: &mut Trace, change: &dyn Fn(&mut Trace)| {
+        let mut other = trace.clone();
+        change(&mut other);
+        if other != *trace && happens(&other) == Some(other.scans.len()) {
+            *trace = other;
+        }
+    };
+    /// A scan time that people expect.
+    const USUAL_MS: u32 = 10;
+    attempt(&mut trace, &|trace| {
+        trace
+            .scans
+            .iter_mut()
+            .skip(1)
+            .for_each(|scan| scan.ms = USUAL_MS);
+    });
+    for key in trace.start.keys().copied().collect::<Vec<_>>() {
+        attempt(&mut trace, &|trace| {
+            trace.start.insert(key, 0);
+        });
+    }
+    for scan in 0..trace.scans.len() {
+        attempt(&mut trace, &|trace| trace.scans[scan].scan_time = 0);
+        attempt(&mut trace, &|trace| {
+            if scan > 0 {
+                trace.scans[scan].ms = USUAL_MS;
+            }
+        });
+        for key in trace.scans[scan].set.keys().copied().collect::<Vec<_>>() {
+            // Off from here on, or as in the scan before.
+            attempt(&mut trace, &|trace| {
+                trace.scans[scan..].iter_mut().for_each(|scan| {
+                    scan.set.insert(key, 0);
+                });
+            });
+            attempt(&mut trace, &|trace| {
+                trace.scans[scan].set.insert(key, 0);
+            });
+            attempt(&mut trace, &|trace| {
+                let before = scan
+                    .checked_sub(1)
+                    .and_then(|s| trace.scans[s].set.get(&key).copied());
+                trace.scans[scan].set.insert(key, before.unwrap_or(0));
+            });
+        }
+    }
+    trace
+}
+
+/// A device with a name as test files have it, and its value.
+pub type Setting = (String, (DeviceClass, u32), i64);
+
+/// Equal scans of a run.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Change {
+    /// What is set before the first scan of the run.
+    pub start: Vec<Setting>,
+    /// The first of the scans, from 0.
+    pub first: usize,
+    /// How many.
+    pub scans: usize,
+    /// When the first begins, in milliseconds since power-on.
+    pub at_ms: u64,
+    /// Milliseconds from each of them to the next scan.
+    pub scan_ms: u32,
+    /// What changes before the first of them.
+    pub set: Vec<Setting>,
+    /// At the end of the run: what the property looks at.
+    pub after: Vec<Setting>,
+}
+
+/// A run in words: equal scans together, with what the property looks at in the end.
+pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change> {
+    let mut machine = Machine::new(module);
+    let mut hal = VirtualHal::new();
+    let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value));
+    for (&key, &value) in &trace.start {
+        set(&mut machine, key, value);
+    }
+    let start = trace.start.iter().filter(|(_, value)| **value != 0);
+    let start: Vec<Setting> = start.filter_map(named).collect();
+    let mut changes: Vec<Change> = Vec::new();
+    let mut known: BTreeMap<Key, i64> = BTreeMap::new();
+    let mut now_ms = 0u64;
+    for (n, scan) in trace.scans.iter().enumerate() {
+        now_ms += u64::from(scan.ms);
+        let mut set_now = BTreeMap::new();
+        for (&key, &value) in &scan.set {
+            set(&mut machine, key, value);
+            if known.insert(key, value).unwrap_or(0) != value {
+                set_now.insert(key, value);
+            }
+        }
+        machine.scan(&mut hal, now_ms as u32, scan.scan_time * 100);
+        const USUAL_MS: u32 = 10;
+        let scan_ms = trace.scans.get(n + 1).map_or(USUAL_MS, |next| next.ms);
+        match changes.last_mut() {
+            Some(last) if set_now.is_empty() && last.scan_ms == scan_ms => last.scans += 1,
+            _ => changes.push(Change {
+                start: Vec::new(),
+                first: n,
+                scans: 1,
+                at_ms: now_ms,
+                scan_ms,
+                set: set_now.iter().filter_map(named).collect(),
+                after: Vec::new(),
+            }),
+        }
+    }
+    if let Some(first) = changes.first_mut() {
+        first.start = start;
+    }
+    if let Some(last) = changes.last_mut() {
+        for condition in property.conditions() {
+            last.after.extend(condition.values(&machine));
+        }
+        last.after.dedup();
+    }
+    changes
+}
+
+/// What test files call a piece of memory, if they can set it.
+fn name(key: Key) -> Option<String> {
+    let (class, number) = device_of(key)?;
+    let device = class.number(number);
+    Some(match key {
+        Key::Timer(_, TimerPart::Value) | Key::Counter(_, CounterPart::Value) => {
+            format!("{device}.value")
+        }
+        Key::Bit(..)
+        | Key::Word(..)
+        | Key::Timer(_, TimerPart::Done)
+        | Key::Counter(_, CounterPart::Done) => device.to_string(),
+        _ => return None,
+    })
+}
