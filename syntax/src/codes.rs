@@ -10,7 +10,6 @@
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
-//! | W06xx, N06xx | how serial ports are set up |
 //! | E08xx, W08xx | properties that are verified |
 //! | N00xx | worth knowing: how the source was read |
 //!

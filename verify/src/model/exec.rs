@@ -5,8 +5,8 @@ use super::{Encoder, Key, STATEMENTS};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, known, signed};
 use rungc_ir::node::{
-    Access, AccessKind, Block, Body, Edge, EdgeId, ExprId, IndexedCoil, Part, Place, Repeat, Stmt,
-    TempId,
+    Access, AccessKind, Block, Body, Branch, Edge, EdgeId, ExprId, IndexedCoil, Part, Place,
+    Repeat, SetEntry, Stmt, TempId,
 };
 use rungc_models::runs::is_counter32;
 use rungc_rt::special::M_KEEP_IN_STOP;
@@ -78,7 +78,11 @@ impl Encoder<'_> {
                 let value = self.eval(value);
                 self.store(Key::Cell(cell.0), &value, guard);
             }
-            &Stmt::SetEntry(table, index, value) => {
+            &Stmt::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
                 let (index, value) = (self.eval(index), self.eval(value));
                 for i in 0..self.module.tables[table].length {
                     let here = self.aig.is(&index, i.into());
@@ -109,7 +113,7 @@ impl Encoder<'_> {
                 self.count(count.number, down, &preset, guard);
             }
             &Stmt::Reset(place) => self.reset(place, guard),
-            Stmt::If { .. }
+            Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
             | Stmt::CallSub(_)
@@ -130,11 +134,11 @@ impl Encoder<'_> {
     /// Executes a statement that decides what is executed.
     fn flow(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
         match stmt {
-            Stmt::If {
+            Stmt::If(Branch {
                 cond,
                 then,
                 otherwise,
-            } => {
+            }) => {
                 let cond = self.on(*cond);
                 let yes = self.aig.and(guard, cond);
                 let no = self.aig.and(guard, !cond);

@@ -3,7 +3,7 @@
 use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
-use rungc_ir::node::{Expr, FunctionKind, Place, Stmt};
+use rungc_ir::node::{Expr, FunctionKind, Place, SetEntry, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
@@ -320,7 +320,7 @@ impl Encoder<'_> {
             Stmt::SetCell(cell, _) => {
                 self.outside.insert(Key::Cell(cell.0));
             }
-            Stmt::SetEntry(table, ..) => {
+            Stmt::SetEntry(SetEntry { table, .. }) => {
                 let length = self.module.tables[table].length;
                 self.outside
                     .extend((0..length).map(|i| Key::Entry(table.0, i)));
