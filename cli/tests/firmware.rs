@@ -184,6 +184,47 @@ fn images_in_rust_run() {
     }
 }
 
+/// Counts go out to a converter and come back from one, in images from C and from Rust: at power-on the converter holds
+/// 0, which is -10 V.
+#[test]
+fn channels_of_modules_are_pins() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let target = "thumbv7m-none-eabi";
+    let Some(cargo) = cargo(target) else {
+        return leave_out(&no_rust(target));
+    };
+    let folder = folder(&[]);
+    let (program, board) = (board("analog/follow.il"), board("analog/board.toml"));
+    for backend in ["c", "rust"] {
+        let output = with_cargo(&cargo)
+            .args(["build", &program, "--emit", "elf", "--board", &board])
+            .args(["--set", "X0=1@1s,X0=0@2s", "--for", "3s"])
+            .args(["--backend", backend, "-o", backend])
+            .current_dir(folder.path())
+            .output();
+        quiet(&output.unwrap());
+        let printed = simulated("mps2-an385", &folder.path().join(backend));
+        insta::assert_snapshot!("analog", printed);
+    }
+    std::fs::copy(&board, folder.path().join("board.toml")).unwrap();
+    let wrong = "[[module]]\nat = 0\nkind = \"H2U-4AD\"\npins = { CH1 = \"AI7\" }\n";
+    std::fs::write(folder.path().join("rungc.toml"), wrong).unwrap();
+    std::fs::write(folder.path().join("p.il"), "LD X0\nFROM K0 K5 D0 K1\nEND\n").unwrap();
+    let args = [
+        "build",
+        "p.il",
+        "--model",
+        "h2u",
+        "--emit",
+        "elf",
+        "--board",
+        "board.toml",
+    ];
+    insta::assert_snapshot!("no_analog_pin", shown(folder.path(), &args));
+}
+
 /// A board whose pins are functions in C. What it shows are two outputs and how often they were set.
 const PANEL: &str = "\
 name = \"Panel\"

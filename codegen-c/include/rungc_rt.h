@@ -37,6 +37,11 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
 #define RUNGC_LONGEST_REPLY 8192
 
 /**
+ * The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
+ */
+#define BOARD 200
+
+/**
  * Device class. The numbers are part of the C ABI.
  */
 enum rungc_class
@@ -439,6 +444,43 @@ enum rungc_heard
 typedef enum rungc_heard rungc_heard;
 #else
 typedef uint8_t rungc_heard;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a channel measures or puts out.
+ */
+enum Quantity
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Volts.
+     */
+    QUANTITY_VOLTS = 0,
+    /**
+     * Milliamperes.
+     */
+    QUANTITY_MILLIAMPERES = 1,
+    /**
+     * Degrees Celsius.
+     */
+    QUANTITY_CELSIUS = 2,
+    /**
+     * An input terminal: 1 if it is on. Its channels count the X of the module, the first being X0.
+     */
+    QUANTITY_INPUT_TERMINAL = 3,
+    /**
+     * An output terminal: 1 if it is on. Its channels count the Y of the module, the first being Y0.
+     */
+    QUANTITY_OUTPUT_TERMINAL = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum Quantity Quantity;
+#else
+typedef uint8_t Quantity;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -921,6 +963,16 @@ typedef struct rungc_operand {
 } rungc_operand;
 
 /**
+ * A special module at work. It is not to be copied, and takes no call before rungc_module_fit.
+ */
+typedef struct rungc_module {
+    /**
+     * Room for it.
+     */
+    uint64_t words[256];
+} rungc_module;
+
+/**
  * What a server speaks, for a model.
  */
 typedef struct rungc_service {
@@ -1085,6 +1137,11 @@ typedef struct rungc_axis {
     bool timed;
 } rungc_axis;
 
+/**
+ * All of them, by their numbers.
+ */
+#define Quantity_ALL { Quantity_Volts, Quantity_Milliamperes, Quantity_Celsius, Quantity_InputTerminal, Quantity_OutputTerminal, }
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1166,6 +1223,38 @@ uint32_t rungc_pulse_millihertz(struct rungc_map *map, uint32_t number);
  * Sets the 32-bit value of a counter from C200 on or of a pair of words.
  */
 bool rungc_set_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t value);
+
+/**
+ * Puts a module of a kind, by its number in the table of kinds, as it comes from the factory; false if there is no such
+ * kind.
+ */
+bool rungc_module_fit(struct rungc_module *module, uint16_t kind);
+
+/**
+ * What is connected to a channel from now on; channels are counted from 0, and the signal is in millionths of a volt
+ * (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if there is no such input.
+ */
+bool rungc_module_connect(struct rungc_module *module, uint8_t channel, uint8_t quantity, int32_t millionths);
+
+/**
+ * What a channel puts out, in millionths of that unit; 0 if it puts out nothing of the kind.
+ */
+int32_t rungc_module_signal(struct rungc_module *module, uint8_t channel, uint8_t quantity);
+
+/**
+ * Microseconds pass: the module converts its inputs.
+ */
+void rungc_module_pass(struct rungc_module *module, uint32_t microseconds);
+
+/**
+ * Reads a word of buffer memory; false if the module does not have that many.
+ */
+bool rungc_module_read(struct rungc_module *module, uint16_t address, int16_t *value);
+
+/**
+ * Writes a word of buffer memory; false if the module does not have that many.
+ */
+bool rungc_module_write(struct rungc_module *module, uint16_t address, int16_t value);
 
 /**
  * A connection begins.

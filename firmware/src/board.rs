@@ -1,8 +1,10 @@
 //! The description of a board, in TOML: docs/src/boards.md.
 
+mod analog;
 mod retain;
 mod serial;
 
+pub use analog::{Analog, AnalogPin};
 pub use retain::{Retain, RetainMemory};
 pub use serial::{Serial, Uart};
 
@@ -39,6 +41,8 @@ pub struct Board {
     pub inputs: BTreeMap<u32, InputPin>,
     /// Pins of outputs Y.
     pub outputs: BTreeMap<u32, OutputPin>,
+    /// Analog pins.
+    pub analog: Analog,
     /// Serial ports of the PLC, and the UARTs that they are.
     pub serial: Vec<Serial>,
     /// Where latched devices survive power-off.
@@ -147,6 +151,8 @@ struct Format {
     inputs: BTreeMap<toml::Spanned<String>, InputPin>,
     #[serde(default)]
     outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
+    #[serde(default)]
+    analog: analog::Format,
     #[serde(default)]
     serial: Vec<serial::Format>,
     retain: Option<retain::Format>,
@@ -370,6 +376,7 @@ impl Reader<'_> {
             setup: format.setup,
             inputs,
             outputs,
+            analog: self.analog(format.analog)?,
             serial: self.serial(format.serial, clock_hz)?,
             retain: format
                 .retain
@@ -568,6 +575,7 @@ impl Reader<'_> {
             ("input", !board.inputs.is_empty(), "[inputs]"),
             ("set_output", !board.outputs.is_empty(), "[outputs]"),
             ("set_line", !board.serial.is_empty(), "[[serial]]"),
+            ("analog", board.analog.has_channels(), "[analog.inputs]"),
         ];
         for (function, described, table) in both {
             if described && board.functions.contains_key(function) {

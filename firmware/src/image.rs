@@ -1,13 +1,14 @@
 //! The sources of an image: a program, a board, and what is between reset and the first scan.
 
 mod c;
+mod modules;
 mod rust;
 
 use crate::board::{Board, Retain, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
-use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
+use rungc_syntax::{DeviceClass, FittedModule};
 use std::fmt::Write;
 
 pub use c::project as c_project;
@@ -32,6 +33,8 @@ pub struct Image<'a> {
     pub board: &'a Board,
     /// What happens by itself.
     pub script: &'a Script,
+    /// The special modules of the PLC; those whose channels are pins of the board are in the image.
+    pub modules: &'a [FittedModule],
 }
 
 /// Numbers of the terminals of a class that a program looks at.

@@ -23,7 +23,7 @@ static volatile uint32_t microseconds;
     microseconds += TICK_US;
 /* DUE */}
 
-/* PINS *//* SERIAL *//* SETUP *//* CONSOLE *//* RETAIN */static rungc_board board = {
+/* PINS *//* MODULES *//* SERIAL *//* SETUP *//* CONSOLE *//* RETAIN */static rungc_board board = {
 /* HAL */    .period_us = SCAN_US,
 };
 
@@ -34,7 +34,7 @@ int main(void)
     PROGRAM_init(&plc);
 /* LOAD */    SYSTICK_CTRL = 7; /* the core's clock, interrupt, on */
     for (;;) {
-        PROGRAM_poll(&plc, &board);
+/* EXCHANGE */        PROGRAM_poll(&plc, &board);
 /* SHOW */        __asm__ volatile("wfi");
     }
 }

@@ -6,7 +6,7 @@ use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU32, Ordering};
 use rungc_rt::Hal;
 use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt/* EDGE TYPE */, PulseOutput, Setup, Timebase};
-/* USE RETAIN *//* USE SERIAL *//* USE PROGRAM */use CRATE::TYPE;
+/* USE MODULES *//* USE RETAIN *//* USE SERIAL *//* USE PROGRAM */use CRATE::TYPE;
 
 /// The clock that SysTick counts, in Hz.
 const CLOCK_HZ: u32 = /* HZ */;
@@ -88,7 +88,7 @@ impl Timebase for Pins {
 impl Hal for Pins {
 /* HAL */}
 
-impl EdgeInterrupt for Pins {/* EDGES */}
+/* MODULES */impl EdgeInterrupt for Pins {/* EDGES */}
 
 impl CounterInput for Pins {}
 

@@ -184,6 +184,7 @@ fn erased(retain: &str, define: &str) -> Option<String> {
         module: &module,
         board: &described(&format!("{BOARD}{retain}")).unwrap(),
         script: &Script::default(),
+        modules: &[],
     };
     let files = image::c_project(&image).unwrap();
     let main = files.iter().find(|file| file.path == "main.c").unwrap();

@@ -12,12 +12,14 @@ pub const LOCAL: std::ops::RangeInclusive<u16> = 0..=7;
 pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=162;
 
 /// A module.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Row {
     /// Its number in FROM and TO.
     pub unit: u16,
     /// What it is.
     pub kind: &'static Kind,
+    /// Channels, counted from 0, and the analog pins of a board that they are.
+    pub pins: Vec<(u8, String)>,
     /// Where that number is.
     pub span: Span,
 }
@@ -46,6 +48,7 @@ impl Project {
         let fitted = self.modules.iter().map(|row| FittedModule {
             unit: row.unit,
             kind: row.kind.name,
+            pins: row.pins.clone(),
         });
         program.parameters.get_or_insert_default().modules = fitted.collect();
         Ok(())

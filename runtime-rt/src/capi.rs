@@ -15,6 +15,7 @@
 mod exports;
 mod hal;
 mod map;
+mod modules;
 mod servers;
 
 use crate::comm::codec::Codec;

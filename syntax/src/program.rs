@@ -61,12 +61,14 @@ impl Parameters {
 }
 
 /// A special module that is fitted to a PLC.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FittedModule {
     /// Its number in FROM and TO.
     pub unit: u16,
     /// Its kind, as the table of modules names it.
     pub kind: &'static str,
+    /// Channels, counted from 0, and the analog pins of a board that they are.
+    pub pins: Vec<(u8, String)>,
 }
 
 /// Devices of one class that follow each other.

@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 38] = [
+const NAMES: [(&str, &str); 39] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -45,6 +45,7 @@ const NAMES: [(&str, &str); 38] = [
     ("Connection", "rungc_connection"),
     ("Memory", "rungc_memory"),
     ("Reply", "rungc_reply"),
+    ("ModuleRoom", "rungc_module"),
     ("LONGEST_REQUEST", "RUNGC_LONGEST_REQUEST"),
     ("LONGEST_REPLY", "RUNGC_LONGEST_REPLY"),
     ("SIZE", "RUNGC_MEMORY_SIZE"),
@@ -126,6 +127,7 @@ pub fn make() -> Result<Made, Problem> {
         "comm/wiring.rs",
         "capi.rs",
         "capi/exports.rs",
+        "capi/modules.rs",
         "capi/servers.rs",
         "capi_virtual.rs",
     ];

@@ -21,7 +21,7 @@ use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
 use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, text};
+use rungc_syntax::{DeviceClass, FittedModule, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -52,8 +52,11 @@ fn build(
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
     let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
-    let image = image.transpose()?;
+    let mut image = image.transpose()?;
     let read = read(subject, reporter)?;
+    if let (Some(image), Some(parameters)) = (&mut image, &read.program.parameters) {
+        image.modules.clone_from(&parameters.modules);
+    }
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         name: Some(name.clone()),
@@ -224,6 +227,8 @@ const NO_SERVERS: &str =
 struct ForImage {
     board: Board,
     script: Script,
+    /// The special modules of the PLC.
+    modules: Vec<FittedModule>,
 }
 
 impl ForImage {
@@ -252,7 +257,11 @@ impl ForImage {
             inputs: inputs.collect::<std::result::Result<_, _>>()?,
             until_ms: args.duration.map(milliseconds).transpose()?,
         };
-        Ok(ForImage { board, script })
+        Ok(ForImage {
+            board,
+            script,
+            modules: Vec::new(),
+        })
     }
 
     /// The serial ports that work whatever the program does.
@@ -271,6 +280,7 @@ impl ForImage {
             module,
             board: &self.board,
             script: &self.script,
+            modules: &self.modules,
         }
     }
 
@@ -286,6 +296,12 @@ impl ForImage {
         if backend == Backend::Rust && own {
             return Err(Failure::Because(format!(
                 "{} has C functions, which an image built from Rust cannot call; use --backend c",
+                board.name
+            )));
+        }
+        if let Some((unit, channel, pin)) = image.missing_pins().first() {
+            return Err(Failure::Because(format!(
+                "{} has no analog pin `{pin}`, which rungc.toml gives to {unit}:CH{channel}",
                 board.name
             )));
         }

@@ -1,5 +1,6 @@
 //! An image in C.
 
+mod modules;
 mod retain;
 mod serial;
 
@@ -132,6 +133,10 @@ fn main(image: &Image) -> String {
         let _ = writeln!(begin, "    {init}();");
     }
     begin.push_str(&serial::enable(image));
+    let analog = modules::are_there(image);
+    if analog {
+        begin.push_str("    fit_modules();\n");
+    }
     let mut show = retain::save(image);
     let include = match image.retain() {
         Some(_) => "#include \"PROGRAM_retain.h\"\n",
@@ -155,6 +160,15 @@ fn main(image: &Image) -> String {
         .replace("/* NOW */", &format!("{declared}{now}{timers}"))
         .replace("/* PINS */", &pins(image))
         .replace("/* SETUP */", &setup(image))
+        .replace("/* MODULES */", &modules::drivers(image))
+        .replace(
+            "/* EXCHANGE */",
+            if analog {
+                "        exchange_pins();\n"
+            } else {
+                ""
+            },
+        )
         .replace("/* SERIAL */", &serial::drivers(image))
         .replace("/* CONSOLE */", &console(image))
         .replace("/* HAL */", &hal(image, timer))
@@ -390,6 +404,10 @@ fn hal(image: &Image, timer: bool) -> String {
             "now_us" => Some("now_us".to_string()),
             "hold_pulses" | "wake_in" if timer => Some(field.to_string()),
             "next_edge" if edges(image).is_some() => Some(field.to_string()),
+            "analog" if board.analog.channels().next().is_some() => Some(field.to_string()),
+            _ if modules::FIELDS.contains(&field) && modules::are_there(image) => {
+                Some(field.to_string())
+            }
             _ if serial::FIELDS.contains(&field) && !image.serial().is_empty() => {
                 Some(field.to_string())
             }

@@ -1,5 +1,6 @@
 //! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
 
+mod modules;
 mod retain;
 mod serial;
 
@@ -168,20 +169,15 @@ fn main(image: &Image) -> String {
             if watched.is_empty() { "" } else { NEXT_EDGE },
         )
         .replace("/* CONSOLE */", &console(image))
+        .replace("/* USE MODULES */", modules::uses(image))
+        .replace("/* MODULES */", &modules::drivers(image))
         .replace("/* USE SERIAL */", &serial_uses(image))
         .replace("/* USE RETAIN */", &retain::uses(image))
         .replace("/* RETAIN */", &retain::drivers(image))
         .replace("/* SERIAL */", &serial::drivers(image))
         .replace("/* SETUP */", &(setup + &serial::enable(image)))
         .replace("/* BEFORE */", &before)
-        .replace(
-            "/* NOW */",
-            if image.script.inputs.is_empty() {
-                ""
-            } else {
-                "        driver.board.now_ms = driver.now_ms();\n"
-            },
-        )
+        .replace("/* NOW */", &before_scan(image))
         .replace("/* SHOW */", &after_scan(image))
         .replace("CRATE", &package)
         .replace("TYPE", &program);
@@ -201,6 +197,18 @@ fn serial_uses(image: &Image) -> String {
         Some(Uart::Cmsdk) => uses.to_string(),
         None => String::new(),
     }
+}
+
+/// What the main loop does before a scan.
+fn before_scan(image: &Image) -> String {
+    let mut text = String::new();
+    if !image.script.inputs.is_empty() {
+        text.push_str("        driver.board.now_ms = driver.now_ms();\n");
+    }
+    if !image.modules().is_empty() {
+        text.push_str("        driver.board.exchange();\n");
+    }
+    text
 }
 
 /// What the main loop does after a scan: saves latched devices, shows the outputs, and ends with the script.
@@ -238,6 +246,10 @@ fn fields(image: &Image) -> (String, String) {
             "    /// The serial port that was asked for last.\n    line: Option<&'static Uart>,\n",
         );
         begin.push_str(" line: None,");
+    }
+    if let Some((own, start)) = modules::fields(image) {
+        fields.push_str(&own);
+        begin.push_str(&start);
     }
     if fields.is_empty() {
         return (";".to_string(), "Pins".to_string());
@@ -334,7 +346,8 @@ fn hal(image: &Image) -> String {
         true => "",
         false => serial::SERIAL_PORT,
     };
-    format!("{}{}{serial}", inputs(image), outputs(image))
+    let modules = modules::hal(image);
+    format!("{}{}{modules}{serial}", inputs(image), outputs(image))
 }
 
 fn setup(image: &Image) -> String {

@@ -39,8 +39,36 @@ impl Reader {
         unit.and_then(|unit| u16::try_from(unit).ok())
     }
 
+    /// `pins = { CH1 = "AI0" }`.
+    fn pins(&mut self, table: &DeTable<'_>, kind: &Kind) -> Vec<(u8, String)> {
+        let Some(value) = table.get("pins") else {
+            return Vec::new();
+        };
+        let Some(pins) = value.get_ref().as_table() else {
+            let help = "write `pins = { CH1 = \"AI0\" }`, with pins of the board's description";
+            self.wrong(span(value.span()), "`pins` must be a table", help);
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        for (name, pin) in pins {
+            let number = name.get_ref().to_uppercase();
+            let number = number.strip_prefix("CH").and_then(|n| n.parse().ok());
+            let number = number.and_then(|number: u8| number.checked_sub(1));
+            let number = number.filter(|&number| number < kind.inputs + kind.outputs);
+            match (number, self.text(name.get_ref(), pin)) {
+                (Some(number), Some(pin)) => found.push((number, pin.text)),
+                (None, _) => {
+                    let message = format!("{} has no channel `{}`", kind.name, name.get_ref());
+                    self.wrong(span(name.span()), message, "");
+                }
+                (Some(_), None) => {}
+            }
+        }
+        found
+    }
+
     fn module(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
-        self.known(MODULE, table, &["at", "kind"]);
+        self.known(MODULE, table, &["at", "kind", "pins"]);
         let unit = self.unit(table, at);
         let Some(named) = self.get(table, "kind") else {
             if !table.contains_key("kind") {
@@ -73,9 +101,11 @@ impl Reader {
             self.wrong(at, format!("no module has the number {unit}"), help);
             return None;
         }
+        let pins = self.pins(table, kind);
         Some(Row {
             unit,
             kind,
+            pins,
             span: at,
         })
     }

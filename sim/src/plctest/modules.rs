@@ -54,6 +54,7 @@ impl Case {
         let fitted = fitted.map(|(unit, kind)| FittedModule {
             unit,
             kind: kind.name,
+            pins: Vec::new(),
         });
         program.parameters.get_or_insert_default().modules = fitted.collect();
         Cow::Owned(program)

@@ -1,0 +1,7 @@
+    fn read_bfm(&mut self, unit: u16, address: u16) -> Option<i16> {
+        self.module(unit)?.read(address)
+    }
+
+    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        self.module(unit)?.write(address, value)
+    }
