@@ -1,4 +1,4 @@
-//! The page of `rungc view` in headless Chromium, driven by playwright and checked for accessibility by axe.
+//! The pages of `rungc view` and `rungc diff` in headless Chromium, driven by playwright and checked for accessibility by axe.
 //! `RUNGC_BROWSER` names a folder with playwright-core and axe-core; Chromium is Debian's. Without them the test says
 //! so and does not run.
 
@@ -9,6 +9,22 @@ use serde_json::{Value, json};
 use std::env;
 use std::path::Path;
 use std::process::Command;
+
+const STEPS: &str = "\
+;! S0 = wait
+;! S20 = lift
+LD M8002
+SET S0
+STL S0
+LD X000
+SET S20
+STL S20
+OUT Y000
+LD X001
+OUT S0
+RET
+END
+";
 
 const PROGRAM: &str = "\
 ;! X000 = start button
@@ -29,23 +45,23 @@ MOV K5 D0
 END
 ";
 
-#[test]
-fn a_page_works_in_a_browser() {
+/// What a script reports of a page that rungc makes of files; nothing without a browser.
+fn report(files: &[(&str, &[u8])], args: &[&str], page: &str, script: &str) -> Option<Value> {
     let Some(modules) = env::var_os("RUNGC_BROWSER") else {
         eprintln!(
             "skipped: RUNGC_BROWSER names no folder with playwright-core and axe-core (see .ci/run)"
         );
-        return;
+        return None;
     };
-    let folder = folder(&[("motor.il", PROGRAM.as_bytes())]);
-    let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.html"]);
-    assert!(out.status.success(), "{}", text(&out.stderr));
-    let page = folder.path().canonicalize().unwrap().join("motor.html");
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients/page.js");
+    let folder = folder(files);
+    let out = rungc(folder.path(), args);
+    assert!(out.status.code() < Some(2), "{}", text(&out.stderr));
+    let page = folder.path().canonicalize().unwrap().join(page);
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients");
     let mut command = Command::new("node");
     command
         .env("NODE_PATH", modules)
-        .arg(script)
+        .arg(scripts.join(script))
         .arg(format!("file://{}", page.display()));
     if let Some(pictures) = env::var_os("RUNGC_PICTURES") {
         command.arg(pictures);
@@ -55,6 +71,16 @@ fn a_page_works_in_a_browser() {
     let mut report: Value = serde_json::from_slice(&out.stdout).unwrap();
     let loaded = report["loaded_ms"].take();
     assert!(loaded.as_u64().is_some_and(|ms| ms < 10_000), "{loaded}");
+    Some(report)
+}
+
+#[test]
+fn a_page_works_in_a_browser() {
+    let files: &[(&str, &[u8])] = &[("motor.il", PROGRAM.as_bytes())];
+    let args = ["view", "motor.il", "-o", "motor.html"];
+    let Some(report) = report(files, &args, "motor.html", "page.js") else {
+        return;
+    };
     let expected = json!({
         "loaded_ms": null,
         "networks": 4,
@@ -64,10 +90,66 @@ fn a_page_works_in_a_browser() {
         "marked": 3,
         "row": "M0\t\t1 2",
         "hint": "Y000: main contactor of the conveyor",
+        "states": [],
         "theme": "dark",
         "dark": [],
         "printed_list": false,
         "pages": 2,
+        "requests": [],
+        "errors": [],
+    });
+    assert_eq!(report, expected);
+}
+
+#[test]
+fn a_page_of_a_step_ladder_has_its_chart_and_states() {
+    let list = format!("{STEPS}{PROGRAM}");
+    let files: &[(&str, &[u8])] = &[("lift.il", list.as_bytes())];
+    let args = ["view", "lift.il", "-o", "lift.html"];
+    let Some(report) = report(files, &args, "lift.html", "page.js") else {
+        return;
+    };
+    let states = ["Chart", "S0 wait", "S20 lift"];
+    assert_eq!(report["states"], json!(states));
+    assert_eq!([&report["state"], &report["first_state"]], ["#n4", "#n2"]);
+    for none in ["light", "dark", "requests", "errors"] {
+        assert_eq!(report[none], json!([]), "{none}");
+    }
+    assert_eq!(report["pages"], 3);
+}
+
+#[test]
+fn a_comparison_works_in_a_browser() {
+    let new = PROGRAM
+        .replace("ANI X001", "ANI X002")
+        .replace("start button", "start")
+        .replace("END", "LD X5\nOUT Y5\nEND");
+    let files: &[(&str, &[u8])] = &[("old.il", PROGRAM.as_bytes()), ("new.il", new.as_bytes())];
+    let args = [
+        "diff",
+        "old.il",
+        "new.il",
+        "--format",
+        "html",
+        "-o",
+        "diff.html",
+    ];
+    let Some(report) = report(files, &args, "diff.html", "comparison.js") else {
+        return;
+    };
+    let expected = json!({
+        "loaded_ms": null,
+        "titles": ["Network 1 changed", "Network 4 added", "Device comments"],
+        "light": [],
+        "skip": "Skip to the networks",
+        "skipped_to": "#ladder",
+        "network": "#c1",
+        "seen": true,
+        "paper": "rgb(13, 17, 23)",
+        "dark": [],
+        "narrow": [],
+        "wider_than_screen": false,
+        "pages": 1,
         "requests": [],
         "errors": [],
     });

@@ -11,6 +11,7 @@
 mod circuit;
 mod grid;
 mod master;
+mod nets;
 
 use crate::Read;
 use crate::il::{Reader, field, is_label};

@@ -74,6 +74,32 @@ fn a_master_control_has_a_contact_in_the_rail() {
 }
 
 #[test]
+fn a_note_may_hold_what_drawings_hold() {
+    for note in ["(slow) [2] | a; b", "--( Y7 )--|", "a"] {
+        for end in ["|", "--|", " "] {
+            let read = read(&format!("|--[X0]--(Y0){end} ; {note}\n"));
+            assert!(read.diagnostics.is_empty(), "{note}");
+            assert_eq!(read.program.instrs[1].note(), Some(note));
+        }
+    }
+}
+
+#[test]
+fn a_comment_may_hold_brackets() {
+    let drawing = " │   X000       │\n ├───┤ ├──(Y000)┤\n │参数(N: │  (on)│\n │ (b) [  │     )│\n";
+    assert_eq!(list(drawing), "LD X000, OUT Y000");
+}
+
+#[test]
+fn parallel_branches_keep_their_order() {
+    let drawing = "|--[X0]---------+--(Y0)--|\n|--[X1]--[X2]---+\n|--[X3]---------+\n";
+    assert_eq!(
+        list(drawing),
+        "LD X000, LD X001, AND X002, ORB, OR X003, OUT Y000"
+    );
+}
+
+#[test]
 fn branches_become_blocks() {
     let drawing = "\
 |--[ X000 ]--+--[/ X001]--( M0 )--|

@@ -4,9 +4,10 @@ use proptest::prelude::*;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_catalogue::{Basic, Join, Lower};
 use rungc_ladder::list::{Entry, Listed, instructions};
+use rungc_ladder::sfc::Chart;
 use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw, draw_alike};
-use rungc_ladder::{Ladder, Network, NetworkBody, build, html};
+use rungc_ladder::{Ladder, Network, NetworkBody, build, html, pdf};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Instr, Program};
 use std::path::{Path, PathBuf};
@@ -145,6 +146,10 @@ fn line() -> impl Strategy<Value = String> {
         "NOP",
         "END",
         "STL S0",
+        "STL S20",
+        "SET S20",
+        "OUT S0",
+        "MC N0 M1",
         "RET",
         "P1",
         "FEND",
@@ -250,7 +255,16 @@ proptest! {
 
     #[test]
     fn any_list_reads_back(lines in prop::collection::vec(line(), 0..60)) {
-        assert_inverse(&read(&lines.join("\n")), "random");
+        let program = read(&lines.join("\n"));
+        assert_inverse(&program, "random");
+        with(&program, |resolved, ladder| {
+            let states = program.instrs.iter().any(|instr| instr.mnemonic == "STL");
+            let chart = Chart::of(resolved, ladder);
+            prop_assert_eq!(chart.is_some(), states);
+            chart.map(|chart| (chart.text(), chart.sheet().to_string()));
+            prop_assert!(pdf::document("random", resolved, ladder).starts_with(b"%PDF"));
+            Ok(())
+        })?;
     }
 
     #[test]

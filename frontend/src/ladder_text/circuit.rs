@@ -250,8 +250,6 @@ impl<'a> Circuit<'a> {
                 self.edges.append(&mut group);
                 continue;
             }
-            group.sort_by_key(|edge| self.drawn.symbols[edge.first].row);
-            let first = group[0].first;
             let mut branches = Vec::with_capacity(group.len());
             for edge in group {
                 match <[Part; 1]>::try_from(edge.series) {
@@ -260,6 +258,9 @@ impl<'a> Circuit<'a> {
                     Err(series) => branches.push(series),
                 }
             }
+            // Contacts are joined before those that had to be joined in series first.
+            branches.sort_by_key(|branch| self.drawn.symbols[first(branch)].row);
+            let first = first(&branches[0]);
             let series = vec![Part::Parallel(branches)];
             self.edges.push(Edge {
                 from,

@@ -1,5 +1,6 @@
 //! Drawn lines as a grid: which wires hang together, and which symbols lie between them.
 
+use super::nets::Nets;
 use rungc_syntax::Span;
 use smol_str::SmolStr;
 use std::collections::HashMap;
@@ -123,8 +124,12 @@ impl Block {
 
     /// Takes a line, which starts at `start`.
     pub fn push(&mut self, line: &str, start: u32) {
-        let code = line.rfind(|c: char| "|│┃║┤┫)]".contains(c)).unwrap_or(0);
-        let comment = line[code..].find(';').map(|at| code + at);
+        // It may hold brackets and rails itself.
+        let mut marks = line.match_indices(';').map(|(at, _)| at);
+        let comment = marks.find(|at| {
+            let drawn = line[..*at].trim_end();
+            drawn.ends_with(|c| LINES.contains(c) || "|│┃║┤┫)]".contains(c))
+        });
         let (drawn, note) = line.split_at(comment.unwrap_or(line.len()));
         self.notes
             .push(crate::text::clean(note.trim_start_matches(';')));
@@ -238,6 +243,17 @@ impl Scan<'_> {
         LINES.contains(c) || "+┬┴┼├┤".contains(c)
     }
 
+    /// Whether a wire or another symbol is to the left of a bracket; other brackets are parts of comments.
+    fn is_led_to(&self, row: usize, at: usize) -> bool {
+        let mut before = (0..at).rev();
+        let before = before.find(|column| self.block.at(row, *column) != ' ');
+        before.is_some_and(|column| {
+            let c = self.block.at(row, column);
+            let is_symbol = self.symbol_at.contains_key(&(row, column));
+            is_symbol || LINES.contains(c) || "→|+├┤┼┬┴└┌┣".contains(c)
+        })
+    }
+
     /// The symbol that starts at a cell: its end.
     fn symbol(&mut self, row: usize, at: usize) -> Option<usize> {
         let line = |column: usize| self.block.at(row, column);
@@ -246,8 +262,8 @@ impl Scan<'_> {
             .checked_sub(1)
             .is_some_and(|before| self.is_wire(row, before));
         match first {
-            '(' => return self.enclosed(row, at, ')'),
-            '[' => return self.enclosed(row, at, ']'),
+            '(' if self.is_led_to(row, at) => return self.enclosed(row, at, ')'),
+            '[' if self.is_led_to(row, at) => return self.enclosed(row, at, ']'),
             '┤' | ']' if matches!((first, third), ('┤', '├') | (']', '[')) => {
                 return self.contact(row, at, at + 3, second);
             }
@@ -648,48 +664,4 @@ pub(super) fn is_device(word: &str) -> bool {
         && !letters.is_empty()
         && !digits.is_empty()
         && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
-}
-
-/// Cells of wires that hang together.
-#[derive(Default)]
-struct Nets {
-    numbers: HashMap<(usize, usize), usize>,
-    parents: Vec<usize>,
-}
-
-impl Nets {
-    fn fresh(&mut self) -> usize {
-        self.parents.push(self.parents.len());
-        self.parents.len() - 1
-    }
-
-    /// The wire of a cell.
-    fn cell(&mut self, row: usize, column: usize) -> usize {
-        let known = self.numbers.get(&(row, column)).copied();
-        let number = known.unwrap_or_else(|| {
-            let number = self.fresh();
-            self.numbers.insert((row, column), number);
-            number
-        });
-        self.root(number)
-    }
-
-    fn root(&mut self, mut number: usize) -> usize {
-        while let Some(&parent) = self.parents.get(number).filter(|parent| **parent != number) {
-            let grand = self.parents[parent];
-            self.parents[number] = grand;
-            number = grand;
-        }
-        number
-    }
-
-    fn join(&mut self, a: (usize, usize), b: (usize, usize)) {
-        let (a, b) = (self.cell(a.0, a.1), self.cell(b.0, b.1));
-        self.merge(a, b);
-    }
-
-    fn merge(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a] = b;
-    }
 }
