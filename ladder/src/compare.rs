@@ -102,6 +102,29 @@ impl Change {
         }
     }
 
+    /// The positions of the pictures that show it: one that only moved is shown once.
+    pub(crate) fn shown(self) -> [Option<usize>; 2] {
+        match self {
+            Change::Moved { new, .. } => [None, Some(new)],
+            _ => self.places(),
+        }
+    }
+
+    /// What happened, as a heading.
+    pub(crate) fn title(self) -> String {
+        let verb = match self {
+            Change::Remarked { .. } => "has other statements or notes",
+            _ => self.verb(),
+        };
+        match self.places() {
+            [Some(old), Some(new)] if old != new => {
+                format!("Network {} {verb} (before: {})", new + 1, old + 1)
+            }
+            [_, Some(at)] | [Some(at), None] => format!("Network {} {verb}", at + 1),
+            [None, None] => String::new(),
+        }
+    }
+
     /// What happened, in a word.
     pub fn verb(self) -> &'static str {
         match self {

@@ -340,6 +340,16 @@ fn boxed(label: &str, (left, right): (f64, f64), y: f64, at_rail: bool, marks: &
 }
 
 impl Picture {
+    /// A picture that stays on one page.
+    pub(crate) fn of(size: Point, marks: Vec<Mark>) -> Self {
+        let breaks = Vec::new();
+        Picture {
+            size,
+            marks,
+            breaks,
+        }
+    }
+
     /// Without links, for a picture that is a file of its own.
     pub(crate) fn unlink(&mut self) {
         unlink(&mut self.marks);

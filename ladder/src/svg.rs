@@ -1,7 +1,8 @@
 //! Drawing networks and charts as SVG.
 
+use crate::compare::{Comparison, Drawn};
 use crate::network::Network;
-use crate::picture::{Drafter, Mark, Picture};
+use crate::picture::{Drafter, Mark, Picture, text};
 use crate::sfc::Chart;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::text::one_line;
@@ -33,23 +34,66 @@ impl<'a> Painter<'a> {
 
     /// All these networks in one picture, below each other, with the style that a page would give them.
     pub fn sheet(&self, networks: &[(usize, &Network)]) -> Document {
-        let networks = networks.iter();
-        let pictures = networks.map(|(number, network)| self.drafter.network(*number, network));
-        let mut top = 0.0;
-        let mut width: f64 = 0.0;
-        let mut documents = Vec::new();
-        for picture in pictures {
-            documents.push(document(&picture).set("y", round(top)));
-            top += picture.size.1;
-            width = width.max(picture.size.0);
+        let mut sheet = Sheet::default();
+        for (number, network) in networks {
+            sheet.picture(&self.drafter.network(*number, network));
         }
-        let mut sheet = empty((width, top));
+        sheet.finish()
+    }
+}
+
+/// Pictures below each other.
+#[derive(Default)]
+struct Sheet {
+    documents: Vec<Document>,
+    width: f64,
+    height: f64,
+}
+
+impl Sheet {
+    fn picture(&mut self, picture: &Picture) {
+        let document = document(picture);
+        self.documents.push(document.set("y", round(self.height)));
+        self.height += picture.size.1;
+        self.width = self.width.max(picture.size.0);
+    }
+
+    fn finish(self) -> Document {
+        let mut sheet = empty((self.width, self.height));
         sheet.append(Style::new(STYLE));
-        documents
-            .into_iter()
-            .for_each(|picture| sheet.append(picture));
+        let documents = self.documents.into_iter();
+        documents.for_each(|picture| sheet.append(picture));
         sheet
     }
+}
+
+/// The networks in which two programs differ, as a picture: before with a red bar at the left, now with a green one.
+pub fn comparison(sides: [Drawn; 2], comparison: &Comparison, width: usize) -> Document {
+    let networks = sides.map(|side| (1..).zip(&side.ladder.networks).collect::<Vec<_>>());
+    let drafters = [0, 1].map(|side| Drafter::new(sides[side].resolved, &networks[side], width));
+    let mut sheet = Sheet::default();
+    for change in &comparison.networks {
+        let heading = text("heading", (0.0, 20.0), &change.title());
+        sheet.picture(&Picture::of((400.0, 28.0), vec![heading]));
+        for (side, place) in change.shown().into_iter().enumerate() {
+            let Some(at) = place else { continue };
+            let mut picture = drafters[side].network(at + 1, sides[side].network(at));
+            let bar = Mark::Frame {
+                class: ["old", "new"][side],
+                at: (0.0, 18.0),
+                size: (4.0, picture.size.1 - 20.0),
+                radius: None,
+            };
+            let named = text(
+                "comment",
+                (8.0, picture.size.1 - 8.0),
+                ["before", "now"][side],
+            );
+            picture.marks.extend([bar, named]);
+            sheet.picture(&picture);
+        }
+    }
+    sheet.finish()
 }
 
 impl Chart {
@@ -62,10 +106,9 @@ impl Chart {
     pub fn sheet(&self) -> Document {
         let mut picture = self.picture();
         picture.unlink();
-        let mut sheet = empty(picture.size);
-        sheet.append(Style::new(STYLE));
-        sheet.append(document(&picture));
-        sheet
+        let mut sheet = Sheet::default();
+        sheet.picture(&picture);
+        sheet.finish()
     }
 }
 

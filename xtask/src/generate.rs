@@ -25,7 +25,7 @@ pub enum What {
     Book,
     /// docs/src/commands.md, from --help.
     Commands,
-    /// The diagrams of the book, drawn by the commands in docs/src/machines.md and docs/src/modules.md.
+    /// The diagrams of the book, drawn by the commands on its pages.
     Diagram,
     /// benches/figures.toml, measured with the Arm compiler and QEMU; `cargo test -p rungc-benches` compares.
     Figures,

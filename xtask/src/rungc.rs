@@ -10,10 +10,15 @@ use std::process::Command;
 const EXAMPLES: [&str; 2] = ["examples/programs", "examples/oven"];
 
 /// The pages whose commands draw.
-const PAGES: [&str; 2] = ["docs/src/machines.md", "docs/src/modules.md"];
+const PAGES: [&str; 4] = [
+    "docs/src/machines.md",
+    "docs/src/modules.md",
+    "docs/src/ladder.md",
+    "docs/src/diff.md",
+];
 
 /// Options before the name of a diagram.
-const DRAWING: [&str; 2] = ["--plot", "--scope"];
+const DRAWING: [&str; 3] = ["--plot", "--scope", "-o"];
 
 /// The page on commands: what `rungc help` prints.
 pub fn commands() -> Result<Made, Problem> {
@@ -41,7 +46,7 @@ pub fn commands() -> Result<Made, Problem> {
     Ok(Made::file("docs/src/commands.md", page))
 }
 
-/// The diagrams of the pages on machines and modules: what their commands draw.
+/// The diagrams of these pages: what their commands draw.
 pub fn diagrams() -> Result<Made, Problem> {
     let folder = tempfile::tempdir()?;
     for examples in EXAMPLES {
@@ -66,23 +71,46 @@ pub fn diagrams() -> Result<Made, Problem> {
     Ok(made)
 }
 
-/// What the commands of a page draw.
+/// What the commands of a page draw, with the files that the page shows.
 fn draw(rungc: &Path, folder: &Path, page: &str, made: &mut Made) -> Result<(), Problem> {
     let page = fs::read_to_string(root().join(page))?;
+    for (name, text) in shown(&page) {
+        fs::write(folder.join(name), text)?;
+    }
     let commands = page
         .lines()
         .filter_map(|line| line.strip_prefix("$ rungc "));
     for command in commands {
+        let command = command.split(" || ").next().unwrap_or(command);
         let args: Vec<_> = command.split(' ').collect();
-        let draws = |pair: &&[&str]| DRAWING.contains(&pair[0]);
+        let draws = |pair: &&[&str]| DRAWING.contains(&pair[0]) && pair[1].ends_with(".svg");
         let Some(&[_, file]) = args.windows(2).find(draws) else {
             continue;
         };
-        run(rungc, folder, &args)?;
+        let ran = Command::new(rungc)
+            .args(&args)
+            .current_dir(folder)
+            .output()?;
+        // A comparison that finds a difference ends with 1.
+        if ran.status.code() > Some(1) {
+            let said = String::from_utf8_lossy(&ran.stderr);
+            return Err(format!("{command}: {}\n{said}", ran.status).into());
+        }
         let drawn = fs::read_to_string(folder.join(file))?;
         made.files.push((Path::new("docs/src").join(file), drawn));
     }
     Ok(())
+}
+
+/// The files that a page shows, in fences with their names: name and content.
+fn shown(page: &str) -> Vec<(&str, &str)> {
+    let fences = page.split("\n```").skip(1).step_by(2);
+    let files = fences.filter_map(|fence| {
+        let (info, text) = fence.split_once('\n')?;
+        let (_, name) = info.split_once(' ')?;
+        Some((name, text))
+    });
+    files.collect()
 }
 
 /// Builds the command; gives its place.

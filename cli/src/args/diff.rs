@@ -49,4 +49,6 @@ pub enum DiffFormat {
     Json,
     /// Markdown, for a comment on a pull request.
     Md,
+    /// A picture of the networks that differ, before and now.
+    Svg,
 }

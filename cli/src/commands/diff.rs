@@ -5,6 +5,7 @@ mod json;
 mod text;
 
 use super::subject::{self, Subject};
+use super::view::PICTURE_WIDTH;
 use super::{Context, Failure, Outcome, Result, counted, read_as_written, say, tell, write_file};
 use crate::args::{DiffArgs, DiffFormat, Input};
 use crate::report::{Findings, Reporter};
@@ -13,7 +14,7 @@ use rungc_frontend::Read;
 use rungc_ir::compare::{Behaviour, behaviour};
 use rungc_ir::passes::simplify;
 use rungc_ladder::compare::{Comparison, Drawn, compare};
-use rungc_ladder::{Ladder, build, html};
+use rungc_ladder::{Ladder, build, html, svg};
 use rungc_lower::compile::{CompileOptions, compile, model};
 use rungc_models::Model;
 use rungc_syntax::{DeviceClass, DeviceRun};
@@ -122,6 +123,10 @@ fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, 
         DiffFormat::Human => text::human(&compared, args.width),
         DiffFormat::Md => text::markdown(&compared, args.width),
         DiffFormat::Json => json::object(&compared, differs)?,
+        DiffFormat::Svg => {
+            let sides = [compared.old, compared.new];
+            svg::comparison(sides, &compared.comparison, PICTURE_WIDTH).to_string()
+        }
         DiffFormat::Html => {
             let summary = text::summary(&compared);
             html::comparison(

@@ -22,7 +22,7 @@ use terminal_size::{Width, terminal_size};
 const USUAL_WIDTH: u16 = 120;
 
 /// Characters on a line of a picture.
-const PICTURE_WIDTH: usize = 104;
+pub(super) const PICTURE_WIDTH: usize = 104;
 
 /// Draws programs.
 pub fn run(args: &ViewArgs, cx: Context) -> Result {

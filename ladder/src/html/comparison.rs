@@ -1,7 +1,7 @@
 //! A page that compares two programs: the old and the new picture of each network that differs.
 
 use super::{Escaped, STYLE, WIDTH, write_picture};
-use crate::compare::{Change, Comparison, Differing, Drawn};
+use crate::compare::{Comparison, Differing, Drawn};
 use crate::svg::Painter;
 use std::fmt::{self, Display, Write as _};
 
@@ -37,23 +37,19 @@ fn write_page(
     )?;
     writeln!(out, "<nav aria-label=\"Networks\">\n<ul>")?;
     for (i, change) in comparison.networks.iter().enumerate() {
-        writeln!(out, "<li><a href=\"#c{i}\">{}</a></li>", title(*change))?;
+        writeln!(out, "<li><a href=\"#c{i}\">{}</a></li>", change.title())?;
     }
     writeln!(out, "</ul>\n</nav>\n<main id=\"ladder\" tabindex=\"-1\">")?;
     let networks = sides.map(|side| (1..).zip(&side.ladder.networks).collect::<Vec<_>>());
     let painters = [0, 1].map(|side| Painter::new(sides[side].resolved, &networks[side], WIDTH));
     for (i, change) in comparison.networks.iter().enumerate() {
-        let title = title(*change);
+        let title = change.title();
         writeln!(
             out,
             "<section id=\"c{i}\" aria-label=\"{title}\">\n<h2>{title}</h2>"
         )?;
-        for (side, (class, place)) in ["old", "new"].into_iter().zip(change.places()).enumerate() {
+        for (side, (class, place)) in ["old", "new"].into_iter().zip(change.shown()).enumerate() {
             let Some(at) = place else { continue };
-            let moved = matches!(change, Change::Moved { .. });
-            if moved && side == 0 {
-                continue;
-            }
             writeln!(out, "<div class=\"{class}\">")?;
             for instr in
                 &sides[side].resolved.program.instrs[sides[side].network(at).instrs.clone()]
@@ -76,20 +72,6 @@ fn write_page(
     write_table(out, "Device comments", &comparison.comments)?;
     write_table(out, "Settings", &comparison.parameters)?;
     writeln!(out, "</main>\n</body>\n</html>")
-}
-
-fn title(change: Change) -> String {
-    let verb = match change {
-        Change::Remarked { .. } => "has other statements or notes",
-        _ => change.verb(),
-    };
-    match change.places() {
-        [Some(old), Some(new)] if old != new => {
-            format!("Network {} {verb} (before: {})", new + 1, old + 1)
-        }
-        [_, Some(at)] | [Some(at), None] => format!("Network {} {verb}", at + 1),
-        [None, None] => String::new(),
-    }
 }
 
 fn write_table<K: Display>(out: &mut String, title: &str, rows: &[Differing<K>]) -> fmt::Result {
