@@ -172,6 +172,9 @@ fn build_c(
     let options: Vec<&str> = machine().chain([level.option()]).collect();
     let mut objects = subject.compile(CORTEX_M4F.cc, &options)?;
     objects.program.push(objects.adaptor);
+    if code == Code::C && ladder.kind.calls() {
+        objects.program.push(tools::runtime(Some(&CORTEX_M4F))?);
+    }
     Ok((objects.program, format!("{prefix}_scan")))
 }
 
@@ -215,7 +218,7 @@ pub(crate) fn linker(folder: &Path, image: &Path) -> Command {
 fn link_size(objects: &[PathBuf], function: &str, folder: &Path) -> Result<(u64, u64)> {
     let image = folder.join(format!("{function}.elf"));
     let entry = format!("-Wl,--gc-sections,-e,{function},-u,{function}");
-    tools::run(linker(folder, &image).args(objects).arg(entry))?;
+    tools::run(linker(folder, &image).args(objects).args([&entry, "-lm"]))?;
     sizes(&image)
 }
 
@@ -253,7 +256,7 @@ fn count_instructions(objects: &[PathBuf], prefix: &str, folder: &Path) -> Resul
             .arg(format!("-DSCANS={COUNTED_SCANS}"))
             .args(["startup.c", "board.c", "bare.c"].map(|source| folder.join(source)))
             .args(objects)
-            .arg("-Wl,--gc-sections,-z,noexecstack"),
+            .args(["-lm", "-Wl,--gc-sections,-z,noexecstack"]),
     )?;
     read_counts(&tools::qemu(&image)?)
 }

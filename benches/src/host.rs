@@ -1,6 +1,6 @@
 //! Time on this machine: all implementations of a program in one executable, timed in turns.
 
-use crate::ladder::{Kind, Ladder};
+use crate::ladder::{Called, Kind, Ladder};
 use crate::problem::{Problem, Result};
 use crate::subject::{self, CSubject, Code, RustSubject};
 use crate::table::{Cell, Table};
@@ -55,14 +55,25 @@ impl Timed {
 
     /// How many times as long as `other` it takes: the median of all rounds, since both had their turns in each.
     pub fn ratio(&self, other: &Timed) -> Option<f64> {
+        self.compared(other, |mine, others| mine / others)
+    }
+
+    /// How many nanoseconds longer than `other` a scan takes: the median of all rounds.
+    pub fn longer(&self, other: &Timed) -> Option<f64> {
+        self.compared(other, |mine, others| mine - others)
+    }
+
+    fn compared(&self, other: &Timed, by: impl Fn(f64, f64) -> f64) -> Option<f64> {
         let (mine, others) = (self.result.as_ref().ok()?, other.result.as_ref().ok()?);
-        median(
-            mine.times
-                .iter()
-                .zip(&others.times)
-                .map(|(a, b)| a / b)
-                .collect(),
-        )
+        let pairs = mine.times.iter().zip(&others.times);
+        median(pairs.map(|(a, b)| by(*a, *b)).collect())
+    }
+
+    /// The hand-written C that it is to be compared with: compiled by the same compiler, else by the first.
+    fn hand<'a>(&self, all: &'a [Timed]) -> Option<&'a Timed> {
+        let mut hands = all.iter().filter(|t| t.code == Code::Hand);
+        let first = hands.clone().next();
+        hands.find(|hand| hand.compiler == self.compiler).or(first)
     }
 }
 
@@ -96,7 +107,11 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
     if let Some(i) = builds.iter().position(|b| missing(&b)) {
         return builds.swap_remove(i).objects.map(|_| Vec::new());
     }
-    let lines = run(&builds, folder.path(), effort)?;
+    let runtime = match ladder.kind.calls() {
+        true => Some(tools::runtime_object(folder.path())?),
+        false => None,
+    };
+    let lines = run(&builds, runtime, folder.path(), effort)?;
     let mut lines = lines.into_iter();
     Ok(builds
         .into_iter()
@@ -142,8 +157,13 @@ fn build_rust(ladder: &Ladder, folder: &Path) -> Build {
     }
 }
 
-/// Links what could be built, runs it; what each prints.
-fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Outcome>> {
+/// Links what could be built, and the runtime that it calls, runs it; what each prints.
+fn run(
+    builds: &[Build],
+    runtime: Option<PathBuf>,
+    folder: &Path,
+    effort: Effort,
+) -> Result<Vec<Outcome>> {
     let built: Vec<&Build> = builds.iter().filter(|b| b.objects.is_ok()).collect();
     let Some(linker) = COMPILERS.iter().find(|compiler| tools::is_there(compiler)) else {
         return Err(Problem::Missing(COMPILERS.join(" or ")));
@@ -161,6 +181,7 @@ fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Outcome>> 
             .args(["-std=c99", "-O2", "-o"])
             .args([&program, &folder.join("host.c")])
             .args(objects)
+            .args(runtime)
             .args(["-lpthread", "-ldl", "-lm"]),
     )?;
     let mut command = Command::new(&program);
@@ -213,6 +234,9 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
             "× hand, clang",
         ],
     );
+    if kind.calls() {
+        table.columns.push("beyond hand, ns/call".to_string());
+    }
     for &size in sizes {
         let ladder = Ladder::new(kind, size);
         eprintln!("{}, {} steps ...", kind.name(), ladder.steps);
@@ -241,7 +265,55 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
                         Some(ratio) => Cell::number(ratio, 2),
                         None => "–".into(),
                     }));
+                    if kind.calls() {
+                        let calls = ladder.calls() as f64;
+                        let hand = timed.hand(&all).filter(|_| timed.code != Code::Hand);
+                        let longer = hand.and_then(|hand| timed.longer(hand));
+                        row.push(longer.map_or("–".into(), |ns| Cell::number(ns / calls, 1)));
+                    }
                 }
+            }
+            table.row(row);
+        }
+    }
+    Ok(table)
+}
+
+/// Times each instruction that emitted C calls the runtime for by itself: programs of `count` times the same.
+pub fn calls_table(count: u32, effort: Effort) -> Result<Table> {
+    let mut table = Table::new(
+        format!("Time of a call of the runtime, in programs of {count}"),
+        &[
+            "instruction",
+            "code",
+            "compiler",
+            "ns",
+            "by hand, ns",
+            "beyond, ns",
+        ],
+    );
+    for what in Called::ALL {
+        eprintln!("{} ...", what.name());
+        let ladder = Ladder::of_calls(what, count);
+        let all = time(&ladder, &COMPILERS, true, effort)?;
+        for timed in all.iter().filter(|timed| timed.code != Code::Hand) {
+            let mut row: Vec<Cell> = vec![
+                what.name().into(),
+                timed.code.title().into(),
+                timed.compiler.as_str().into(),
+            ];
+            let hand = timed.hand(&all);
+            let per_call = |ns: Option<f64>| match ns {
+                Some(ns) => Cell::number(ns / f64::from(count), 1),
+                None => "–".into(),
+            };
+            match &timed.result {
+                Err(why) => row.push(why.as_str().into()),
+                Ok(_) => row.extend([
+                    per_call(timed.fastest()),
+                    per_call(hand.and_then(Timed::fastest)),
+                    per_call(hand.and_then(|hand| timed.longer(hand))),
+                ]),
             }
             table.row(row);
         }

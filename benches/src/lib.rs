@@ -12,6 +12,7 @@ pub mod figures;
 pub mod host;
 pub mod interp;
 pub mod ladder;
+pub mod page;
 pub mod problem;
 pub mod pulse_counts;
 pub mod pulses;

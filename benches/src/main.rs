@@ -7,7 +7,7 @@ use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
-use rungc_benches::{checks, embedded, interp, pulse_counts, pulses, tools};
+use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, tools};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -20,7 +20,8 @@ struct Args {
     /// Also write the tables as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Also put the tables into a page, between the lines `<!-- tables -->` and `<!-- end of the tables -->`.
+    /// Also put the tables into a page, between the lines `<!-- tables -->` and `<!-- end of the tables -->`; with
+    /// --only, the others stay.
     #[arg(long, value_name = "FILE")]
     update: Option<PathBuf>,
     /// What to measure; by default everything.
@@ -45,6 +46,8 @@ enum Section {
     Mixed,
     /// Time of a scan with blocks, queues, conversions and floats.
     Process,
+    /// Time of a scan with PID loops and limits, and of a call of the runtime.
+    Control,
     /// Bytes on a microcontroller.
     Size,
     /// Instructions of a scan on a microcontroller.
@@ -66,6 +69,11 @@ impl Section {
             Section::Stations => time(Kind::Stations, quick),
             Section::Mixed => time(Kind::Mixed, quick),
             Section::Process => time(Kind::Process, quick),
+            Section::Control => {
+                let mut tables = time(Kind::Control, quick)?;
+                tables.push(host::calls_table(100, effort(quick))?);
+                Ok(tables)
+            }
             Section::Size => Ok(vec![
                 embedded::size_table(embedded_sizes(quick))?,
                 embedded::image_table()?,
@@ -146,7 +154,10 @@ fn main() -> ExitCode {
     }
     let written = [
         args.json.map(|path| (write_json(&path, &all), path)),
-        args.update.map(|path| (update(&path, &all), path)),
+        args.update.map(|path| {
+            let whole = args.only.is_empty();
+            (update(&path, &all, whole), path)
+        }),
     ];
     for (result, path) in written.into_iter().flatten() {
         if let Err(problem) = result {
@@ -162,19 +173,9 @@ fn write_json(path: &Path, tables: &[Table]) -> std::io::Result<()> {
     std::fs::write(path, text + "\n")
 }
 
-/// Replaces the tables of a page.
-fn update(path: &Path, tables: &[Table]) -> std::io::Result<()> {
-    const BEGIN: &str = "<!-- tables -->\n";
-    const END: &str = "<!-- end of the tables -->\n";
+/// Replaces tables of a page: all of them, or those that have the same titles.
+fn update(path: &Path, tables: &[Table], whole: bool) -> std::io::Result<()> {
     let page = std::fs::read_to_string(path)?;
-    let parts = page.split_once(BEGIN).and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(END)?;
-        Some((before, after))
-    });
-    let Some((before, after)) = parts else {
-        return Err(std::io::Error::other("there is no place for tables"));
-    };
-    let tables: Vec<String> = tables.iter().map(Table::to_string).collect();
-    let tables = tables.join("\n");
-    std::fs::write(path, format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
+    let updated = page::updated(&page, tables, whole).map_err(std::io::Error::other)?;
+    std::fs::write(path, updated)
 }

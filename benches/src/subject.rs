@@ -183,12 +183,16 @@ fn hand(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
         false => format!("(void)now_ms;\n    {prefix}_scan(&plc);"),
         true => format!("{prefix}_scan(&plc, now_ms - last_ms);\n    last_ms = now_ms;"),
     };
+    let reset = match ladder.kind.calls() {
+        true => format!("{prefix}_init(&plc);"),
+        false => "memset(&plc, 0, sizeof plc);".to_string(),
+    };
     let adaptor = CAdaptor {
         prefix,
         header,
         plc_type: "struct plc".to_string(),
         memory: "static uint32_t last_ms;\n",
-        reset: "memset(&plc, 0, sizeof plc);\n    last_ms = 0;".to_string(),
+        reset: format!("{reset}\n    last_ms = 0;"),
         scan,
     };
     let text = adaptor.text(ladder, |device| Some(hand::place(device)))?;

@@ -2,9 +2,11 @@
 
 use crate::problem::{Problem, Result};
 use crate::table::Table;
-use rungc_firmware::target::CORTEX_M4F;
+use rungc_firmware::target::{CORTEX_M4F, Target};
+use rungc_runtime_sources::cache;
+use rungc_runtime_sources::library::{self, Optimise, Recipe};
 use rungc_sim::engines::cortex_m;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -29,9 +31,12 @@ pub fn need(programs: &[&str]) -> Result<()> {
     }
 }
 
+/// Title of [`table`].
+pub const TABLE: &str = "Measured on";
+
 /// The machine, and what there is of tools.
 pub fn table() -> Table {
-    let mut table = Table::new("Measured on", &["what", "version"]);
+    let mut table = Table::new(TABLE, &["what", "version"]);
     table.row(["processor".into(), processor().into()]);
     for program in ["gcc", "clang", "rustc", CORTEX_M4F.cc, QEMU] {
         table.row([program.into(), version(program).into()]);
@@ -156,6 +161,51 @@ pub fn cargo() -> Command {
 /// A cargo that can build for a microcontroller.
 pub fn embedded_cargo(target: &str) -> Result<Command> {
     cortex_m::cargo(target).ok_or_else(|| Problem::Missing(cortex_m::no_rust(target)))
+}
+
+/// The runtime as a static library, as `rungc build` makes it: for this machine, or for a microcontroller.
+pub fn runtime(target: Option<&Target>) -> Result<PathBuf> {
+    let cargo = match target {
+        None => cargo(),
+        Some(target) => embedded_cargo(target.triple)?,
+    };
+    let mut variables = cargo.get_envs();
+    let rustc = variables.find_map(|(name, value)| value.filter(|_| name == "RUSTC"));
+    let recipe = Recipe {
+        cargo: &cargo,
+        rustc: rustc.unwrap_or("rustc".as_ref()),
+        target: target.and_then(Target::rustc_name),
+        optimise: target.map_or(Optimise::Speed, Target::optimise),
+        cargo_args: &[],
+    };
+    let cache = cache::folder().map_err(|error| Problem::File {
+        path: "the cache".into(),
+        error,
+    })?;
+    let announce = || eprintln!("building the runtime ...");
+    library::build(&cache, &recipe, announce).map_err(|error| match error {
+        library::Error::Cargo { cargo, .. } => Problem::Missing(cargo.display().to_string()),
+        library::Error::Failed { said } => Problem::Failed {
+            command: "cargo".to_string(),
+            output: said,
+        },
+        library::Error::Io { path, error } => Problem::File { path, error },
+    })
+}
+
+/// The runtime as an object that defines nothing but its C ABI, so that it can be linked beside a program in Rust.
+pub fn runtime_object(folder: &Path) -> Result<PathBuf> {
+    need(&["gcc", "objcopy"])?;
+    let object = folder.join("runtime.o");
+    run(Command::new("gcc")
+        .args(["-r", "-nostdlib", "-Wl,--whole-archive"])
+        .arg(runtime(None)?)
+        .arg("-o")
+        .arg(&object))?;
+    run(Command::new("objcopy")
+        .args(["--wildcard", "--keep-global-symbol=rungc_*"])
+        .arg(&object))?;
+    Ok(object)
 }
 
 /// What an outer cargo has set is not for the inner one.

@@ -147,7 +147,7 @@ impl Tools {
         // Without a cache it is built each time.
         let cache = cache::folder().unwrap_or_else(|_| folder.join("cache"));
         let recipe = Recipe {
-            cargo: &self.cargo,
+            cargo: &Command::new(&self.cargo),
             rustc: &self.rustc,
             target: self.target.rustc_name(),
             optimise: self.target.optimise(),

@@ -13,8 +13,8 @@ pub const FILE: &str = "librungc_rt.a";
 /// How to build it.
 #[derive(Clone, Debug)]
 pub struct Recipe<'a> {
-    /// The cargo to call.
-    pub cargo: &'a OsStr,
+    /// The cargo to call, with its environment.
+    pub cargo: &'a Command,
     /// What identifies the toolchain.
     pub rustc: &'a OsStr,
     /// rustc's name of the target; `None` is this machine.
@@ -141,10 +141,21 @@ pub fn build(cache: &Path, recipe: &Recipe, building: impl FnOnce()) -> Result<P
     Ok(library)
 }
 
+/// Gives a command the variables that are set, or removed, for another one.
+pub fn copy_environment(from: &Command, to: &mut Command) {
+    for (name, value) in from.get_envs() {
+        match value {
+            Some(value) => to.env(name, value),
+            None => to.env_remove(name),
+        };
+    }
+}
+
 /// Runs cargo in the folder of the sources; gives the library's place.
 fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
     let folder = sources.join("target");
-    let mut cargo = Command::new(recipe.cargo);
+    let mut cargo = Command::new(recipe.cargo.get_program());
+    copy_environment(recipe.cargo, &mut cargo);
     cargo
         .args(["rustc", "--release"])
         .args(strictly(recipe.cargo_args))
@@ -164,7 +175,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
         cargo.args(["--target", target]);
     }
     let output = cargo.output().map_err(|error| Error::Cargo {
-        cargo: recipe.cargo.to_owned(),
+        cargo: recipe.cargo.get_program().to_owned(),
         error,
     })?;
     if !output.status.success() {

@@ -1,8 +1,8 @@
 //! Random programs. The order in which numbers are drawn is part of what a seed means.
 
 use super::{
-    Action, Chain, Contact, Device, FLAGS, Kind, Ladder, Operation, Process, RELAYS, Rung,
-    TERMINALS,
+    Action, Chain, Contact, Control, Device, FLAGS, Kind, Ladder, Operation, Process, RELAYS, Rung,
+    TERMINALS, control,
 };
 use crate::random::Random;
 use rungc_syntax::DeviceClass::{self, M, X, Y};
@@ -32,11 +32,15 @@ pub fn ladder(kind: Kind, steps: u32, seed: u32) -> Ladder {
         outputs: 0,
         timers: 0,
         counters: 0,
+        loops: 0,
     };
-    let rungs = match kind {
+    let mut rungs = match kind {
         Kind::Stations => generator.stations(steps),
-        Kind::Contacts | Kind::Mixed | Kind::Process => generator.rungs(kind, steps),
+        Kind::Contacts | Kind::Mixed | Kind::Process | Kind::Control => {
+            generator.rungs(kind, steps)
+        }
     };
+    rungs.splice(0..0, control::settings_of(generator.loops));
     Ladder {
         kind,
         rungs,
@@ -82,6 +86,8 @@ struct Generator {
     outputs: u32,
     timers: u32,
     counters: u32,
+    /// PID loops.
+    loops: u32,
 }
 
 impl Generator {
@@ -123,6 +129,10 @@ impl Generator {
     fn rungs(&mut self, kind: Kind, steps: u32) -> Vec<Rung> {
         let mut rungs = Vec::new();
         while self.steps + 1 < steps {
+            if kind == Kind::Control && self.random.chance(0.4) {
+                rungs.push(self.control().rung());
+                continue;
+            }
             let chain = self.chain();
             let block = self.random.chance(0.3).then(|| {
                 let block = self.chain();
@@ -137,6 +147,8 @@ impl Generator {
                     self.steps += steps;
                     Action::Process(process)
                 }
+                // Targets and measured values change.
+                Kind::Control if what < 0.3 => self.change(),
                 _ => self.coil(),
             };
             rungs.push(Rung {
@@ -146,6 +158,21 @@ impl Generator {
             });
         }
         rungs
+    }
+
+    /// What `control` has in addition; a loop with its settings.
+    fn control(&mut self) -> Control {
+        let before = self.loops;
+        let (steps, control) = Control::random(&mut self.random, &mut self.loops);
+        self.steps += steps + (self.loops - before) * control::SETTINGS_STEPS;
+        control
+    }
+
+    /// MOV of a constant to a target or a measured value.
+    fn change(&mut self) -> Action {
+        self.steps += 5;
+        let value = self.random.below(1000);
+        Action::Constant(value, control::limited(&mut self.random))
     }
 
     fn chain(&mut self) -> Chain {

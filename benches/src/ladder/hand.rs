@@ -4,7 +4,8 @@
 //! flags.
 
 use super::{Action, Chain, Contact, Device, Ladder, Operation, RELAYS, Rung, TERMINALS};
-use super::{Kind, process};
+use super::{Kind, control, process};
+use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// Rungs of a function.
@@ -19,12 +20,15 @@ const MIXED: &str = include_str!("../../templates/hand_mixed.h");
 /// What `process` uses.
 const PROCESS: &str = include_str!("../../templates/hand_process.h");
 
-/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` also with
-/// the milliseconds since the last scan.
+/// What `control` uses.
+const CONTROL: &str = include_str!("../../templates/hand_control.h");
+
+/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` and `control`
+/// also with the milliseconds since the last scan, in `control` also `void PREFIX_init(struct plc *p)`.
 pub fn header(ladder: &Ladder, prefix: &str) -> String {
     let mut out = String::from("#include <stdbool.h>\n#include <stdint.h>\n#include <string.h>\n");
     let mut devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];");
-    if takes_time(ladder) {
+    if ladder.kind == Kind::Mixed {
         out.push_str(MIXED);
         let edges = ladder.rungs.iter().filter(|r| has_edge(&r.action)).count();
         // Writing to a String does not fail.
@@ -33,6 +37,12 @@ pub fn header(ladder: &Ladder, prefix: &str) -> String {
     if ladder.kind == Kind::Process {
         out.push_str(PROCESS);
         let _ = write!(devices, " int16_t D[{}];", process::REGISTERS);
+    }
+    if ladder.kind == Kind::Control {
+        out.push_str(CONTROL);
+        let (words, loops) = (control::REGISTERS, control::LOOPS);
+        let _ = write!(devices, " int16_t D[{words}]; union loop loop[{loops}];");
+        let _ = writeln!(out, "struct plc;\nvoid {prefix}_init(struct plc *p);");
     }
     let _ = writeln!(out, "struct plc {{ {devices} }};");
     let _ = writeln!(out, "void {prefix}_scan(struct plc *p{});", time(ladder).0);
@@ -44,7 +54,19 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
     let (parameter, argument) = time(ladder);
     let mut out = String::new();
     let mut edges = 0;
-    for (i, rungs) in ladder.rungs.chunks(PART).enumerate() {
+    let is_settings = |rung: &&Rung| matches!(rung.action, Action::Control(c) if c.is_settings());
+    let (settings, rungs): (Vec<&Rung>, Vec<&Rung>) = ladder.rungs.iter().partition(is_settings);
+    if ladder.kind == Kind::Control {
+        let _ = writeln!(
+            out,
+            "void {prefix}_init(struct plc *p) {{\n  memset(p, 0, sizeof *p);"
+        );
+        for rung in settings {
+            let _ = writeln!(out, "  {}", statement(rung, edges));
+        }
+        out.push_str("}\n");
+    }
+    for (i, rungs) in rungs.chunks(PART).enumerate() {
         let _ = writeln!(out, "static void part{i}(struct plc *p{parameter}) {{");
         if takes_time(ladder) {
             out.push_str("  (void)dt;\n");
@@ -57,7 +79,7 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
         out.push_str("}\n");
     }
     let _ = writeln!(out, "void {prefix}_scan(struct plc *p{parameter}) {{");
-    for i in 0..ladder.rungs.chunks(PART).len() {
+    for i in 0..rungs.chunks(PART).len() {
         let _ = writeln!(out, "  part{i}(p{argument});");
     }
     out.push_str("}\n");
@@ -66,7 +88,7 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
 
 /// Whether a scan takes the time: there are timers.
 pub fn takes_time(ladder: &Ladder) -> bool {
-    ladder.kind == Kind::Mixed
+    matches!(ladder.kind, Kind::Mixed | Kind::Control)
 }
 
 /// Parameter and argument for the time since the last scan.
@@ -79,7 +101,10 @@ fn time(ladder: &Ladder) -> (&'static str, &'static str) {
 
 /// Where the struct has a device.
 pub fn place((class, number): Device) -> String {
-    format!("{}[{number}]", class.prefix())
+    match class {
+        DeviceClass::D => control::place(number),
+        _ => format!("{}[{number}]", class.prefix()),
+    }
 }
 
 fn has_edge(action: &Action) -> bool {
@@ -133,6 +158,7 @@ fn statement(rung: &Rung, edge: u32) -> String {
         Action::Set(n) => format!("if ({on}) p->M[{n}] = true;"),
         Action::Reset(n) => format!("if ({on}) p->M[{n}] = false;"),
         Action::Process(process) => process.hand(&on),
+        Action::Control(control) => control.hand(),
     }
 }
 

@@ -72,5 +72,9 @@ fn action(out: &mut String, action: &Action) {
             process.list(out);
             Ok(())
         }
+        Action::Control(control) => {
+            control.list(out);
+            Ok(())
+        }
     };
 }

@@ -6,15 +6,18 @@
 //! | `stations` | the same eight rungs again and again, each time with the devices of the next station, as machines of several equal stations are programmed |
 //! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
 //! | `process` | `contacts` with moves of blocks, shifts, queues, conversions and floats |
+//! | `control` | `contacts` with PID loops and limits, which emitted C calls the runtime for |
 //!
 //! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write
 //! for it.
 
+mod control;
 mod generate;
 pub mod hand;
 mod list;
 mod process;
 
+pub use control::{Called, Control};
 pub use process::Process;
 
 use rungc_syntax::DeviceClass;
@@ -40,11 +43,19 @@ pub enum Kind {
     Mixed,
     /// Blocks, shifts, queues, conversions and floats as well.
     Process,
+    /// PID loops and limits as well.
+    Control,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 4] = [Kind::Contacts, Kind::Stations, Kind::Mixed, Kind::Process];
+    pub const ALL: [Kind; 5] = [
+        Kind::Contacts,
+        Kind::Stations,
+        Kind::Mixed,
+        Kind::Process,
+        Kind::Control,
+    ];
 
     /// As written in tables and names of programs.
     pub fn name(self) -> &'static str {
@@ -53,6 +64,15 @@ impl Kind {
             Kind::Stations => "stations",
             Kind::Mixed => "mixed",
             Kind::Process => "process",
+            Kind::Control => "control",
+        }
+    }
+
+    /// Whether emitted C calls the runtime.
+    pub fn calls(self) -> bool {
+        match self {
+            Kind::Contacts | Kind::Stations | Kind::Mixed | Kind::Process => false,
+            Kind::Control => true,
         }
     }
 }
@@ -109,6 +129,8 @@ pub enum Action {
     Reset(u32),
     /// What `process` has in addition.
     Process(Process),
+    /// What `control` has in addition.
+    Control(Control),
 }
 
 /// What [`Action::Arithmetic`] does.
@@ -162,6 +184,12 @@ impl Ladder {
         list::list(self)
     }
 
+    /// How many instructions of a scan emitted C calls the runtime for.
+    pub fn calls(&self) -> usize {
+        let calls = |rung: &&Rung| matches!(rung.action, Action::Control(c) if !c.is_settings());
+        self.rungs.iter().filter(calls).count()
+    }
+
     /// Bytes that the devices in use take, one for each bit: what a program needs at least.
     pub fn device_bytes(&self) -> u32 {
         let bytes = |class| match class {
@@ -173,10 +201,10 @@ impl Ladder {
         self.used().iter().map(|(class, _)| bytes(*class)).sum()
     }
 
-    /// All devices but inputs, in order: what is compared between implementations.
+    /// All devices but inputs and those of the PLC itself, in order: what is compared between implementations.
     pub fn devices(&self) -> Vec<Device> {
         let mut devices: BTreeSet<Device> = self.used();
-        devices.retain(|(class, _)| *class != DeviceClass::X);
+        devices.retain(|device| device.0 != DeviceClass::X && !control::is_special(*device));
         devices.into_iter().collect()
     }
 
@@ -213,6 +241,7 @@ impl Action {
             Action::Arithmetic(_, registers) => registers.iter().map(|&n| (D, n)).collect(),
             Action::Set(n) | Action::Reset(n) => vec![(M, n)],
             Action::Process(process) => process.devices(),
+            Action::Control(control) => control.devices(),
         }
     }
 }

@@ -7,6 +7,7 @@ use super::build::{self, BuildError, io_error, make_batch, run, write};
 use super::{Engine, EngineKind, Interpreter, Process};
 use rungc_firmware::target;
 use rungc_ir::Module;
+use rungc_runtime_sources::library;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -143,12 +144,7 @@ pub fn build_for<'m>(
 
 /// Lets `make` build the runtime library with this cargo.
 pub fn make_with(make: &mut Command, cargo: &Command) {
-    for (name, value) in cargo.get_envs() {
-        match value {
-            Some(value) => make.env(name, value),
-            None => make.env_remove(name),
-        };
-    }
+    library::copy_environment(cargo, make);
     make.arg(format!("CARGO={}", cargo.get_program().display()));
 }
 
