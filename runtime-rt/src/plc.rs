@@ -195,6 +195,18 @@ pub trait Plc {
         let _ = area;
         self.set_word(class, number, value)
     }
+    /// Reads words side by side, as [`Plc::word_in`] reads each; `None` if one of them does not exist.
+    fn words_in(&self, area: u8, class: Class, first: u32, words: &mut [i16]) -> Option<()> {
+        let mut all = (first..).zip(words);
+        all.try_for_each(|(number, word)| {
+            self.word_in(area, class, number).map(|value| *word = value)
+        })
+    }
+    /// Writes words side by side, as [`Plc::set_word_in`] writes each.
+    fn set_words_in(&mut self, area: u8, class: Class, first: u32, words: &[i16]) -> Option<()> {
+        let mut all = (first..).zip(words);
+        all.try_for_each(|(number, word)| self.set_word_in(area, class, number, *word))
+    }
     /// Current value of a 32-bit counter (C200 and up).
     fn counter32(&self, number: u32) -> Option<i32>;
     /// Sets the current value of a 32-bit counter.

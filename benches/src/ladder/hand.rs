@@ -23,8 +23,8 @@ const PROCESS: &str = include_str!("../../templates/hand_process.h");
 /// What `control` uses.
 const CONTROL: &str = include_str!("../../templates/hand_control.h");
 
-/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` and `control`
-/// also with the milliseconds since the last scan, in `control` also `void PREFIX_init(struct plc *p)`.
+/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` and
+/// `control` also with the milliseconds since the last scan, in `control` also `void PREFIX_init(struct plc *p)`.
 pub fn header(ladder: &Ladder, prefix: &str) -> String {
     let mut out = String::from("#include <stdbool.h>\n#include <stdint.h>\n#include <string.h>\n");
     let mut devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];");

@@ -63,16 +63,29 @@ impl Map {
         unsafe { &*self.layout }
     }
 
-    /// The area that an operand names, if it holds the device; most calls need no more.
+    /// An area, counted from the last one, as operands name it.
     #[inline]
-    fn named(&self, area: u8, class: Class, number: u32) -> Option<Found> {
+    fn area(&self, area: u8) -> Option<&Area> {
         let layout = self.layout();
         let index = layout.area_count.checked_sub(area.into())?;
-        self.at(
-            elements(layout.areas, layout.area_count).get(index)?,
-            class,
-            number,
-        )
+        elements(layout.areas, layout.area_count).get(index)
+    }
+
+    /// The device in the area that an operand names, if that holds it; most calls need no more.
+    #[inline]
+    fn named(&self, area: u8, class: Class, number: u32) -> Option<Found> {
+        self.at(self.area(area)?, class, number)
+    }
+
+    /// Where words begin, if this area holds all of them side by side.
+    fn run(&self, area: u8, class: Class, first: u32, count: usize) -> Option<*mut i16> {
+        let area = self.area(area)?;
+        let last = first.checked_add(u32::try_from(count).ok()?.checked_sub(1)?)?;
+        area.place_of(class, last)?;
+        match self.at(area, class, first)? {
+            Found::At(Kind::Words, at) if area.columns <= 1 => Some(at.cast()),
+            _ => None,
+        }
     }
 
     /// Finds a device, in this area if that holds it.
@@ -248,6 +261,28 @@ impl Plc for Map {
             Some(Found::At(Kind::Words, at)) => change(at, |word| *word = value),
             _ => self.set_any_word(area, class, number, value),
         }
+    }
+
+    fn words_in(&self, area: u8, class: Class, first: u32, words: &mut [i16]) -> Option<()> {
+        if let Some(run) = self.run(area, class, first, words.len()) {
+            // SAFETY: the struct holds as many words there; nothing else uses it during a call.
+            words.copy_from_slice(unsafe { core::slice::from_raw_parts(run, words.len()) });
+            return Some(());
+        }
+        let mut all = (first..).zip(words);
+        all.try_for_each(|(number, word)| {
+            self.word_in(area, class, number).map(|value| *word = value)
+        })
+    }
+
+    fn set_words_in(&mut self, area: u8, class: Class, first: u32, words: &[i16]) -> Option<()> {
+        if let Some(run) = self.run(area, class, first, words.len()) {
+            // SAFETY: as for reading.
+            unsafe { core::slice::from_raw_parts_mut(run, words.len()) }.copy_from_slice(words);
+            return Some(());
+        }
+        let mut all = (first..).zip(words);
+        all.try_for_each(|(number, word)| self.set_word_in(area, class, number, *word))
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {

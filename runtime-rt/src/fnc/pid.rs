@@ -5,30 +5,32 @@
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
+use crate::word;
+use core::ops::RangeInclusive;
 
 /// Offsets in S3 that H1U/H2U and FX share with HM.
 mod at {
-    pub const TS: i32 = 0;
-    pub const ACT: i32 = 1;
-    pub const FILTER: i32 = 2;
-    pub const KP: i32 = 3;
-    pub const TI: i32 = 4;
-    pub const KD: i32 = 5;
-    pub const TD: i32 = 6;
+    pub const TS: usize = 0;
+    pub const ACT: usize = 1;
+    pub const FILTER: usize = 2;
+    pub const KP: usize = 3;
+    pub const TI: usize = 4;
+    pub const KD: usize = 5;
+    pub const TD: usize = 6;
     /// Clearing this word starts control anew.
-    pub const STARTED: i32 = 7;
-    pub const PV1: i32 = 8;
-    pub const PV2: i32 = 10;
-    pub const D1: i32 = 12;
-    pub const MV: i32 = 14;
-    pub const EV1: i32 = 16;
-    pub const ELAPSED: i32 = 18;
-    pub const RAW_PV: i32 = 19;
-    pub const INPUT_RISE: i32 = 20;
-    pub const INPUT_FALL: i32 = 21;
-    pub const OUTPUT_RISE_OR_UPPER: i32 = 22;
-    pub const OUTPUT_FALL_OR_LOWER: i32 = 23;
-    pub const ALARMS: i32 = 24;
+    pub const STARTED: usize = 7;
+    pub const PV1: usize = 8;
+    pub const PV2: usize = 10;
+    pub const D1: usize = 12;
+    pub const MV: usize = 14;
+    pub const EV1: usize = 16;
+    pub const ELAPSED: usize = 18;
+    pub const RAW_PV: usize = 19;
+    pub const INPUT_RISE: usize = 20;
+    pub const INPUT_FALL: usize = 21;
+    pub const OUTPUT_RISE_OR_UPPER: usize = 22;
+    pub const OUTPUT_FALL_OR_LOWER: usize = 23;
+    pub const ALARMS: usize = 24;
 }
 
 /// Bits of ACT.
@@ -45,6 +47,31 @@ mod act {
 const OPERAND_S3: usize = 2;
 const OPERAND_D: usize = 3;
 
+/// Words of S3.
+const WORDS: usize = at::ALARMS + 1;
+
+/// A copy of S3, read and written at once.
+struct Area([i16; WORDS]);
+
+impl Area {
+    fn read(cx: &Cx) -> Result<Area, Fault> {
+        cx.words(OPERAND_S3).map(Area)
+    }
+
+    /// Writes the words after the settings.
+    fn write(&self, cx: &mut Cx) -> Done {
+        cx.set_words(OPERAND_S3, at::STARTED as i32, &self.0[at::STARTED..])
+    }
+
+    fn float(&self, offset: usize) -> f32 {
+        word::float(self.0[offset], self.0[offset + 1])
+    }
+
+    fn set_float(&mut self, offset: usize, value: f32) {
+        [self.0[offset], self.0[offset + 1]] = word::words(value.to_bits() as i32);
+    }
+}
+
 /// The settings of S3, in percent and milliseconds.
 struct Settings {
     ts: u32,
@@ -56,10 +83,10 @@ struct Settings {
     td_ms: f32,
 }
 
-/// Reads the settings; each that is out of range has a separate error (table of errors of §4.3.9).
-fn settings(cx: &Cx, ti_unit_ms: f32, td_unit_ms: f32, kd_max: i16) -> Result<Settings, Fault> {
-    let word = |offset, range: core::ops::RangeInclusive<i16>, code| {
-        let value = cx.word(OPERAND_S3, offset)?;
+/// Takes the settings; each that is out of range has a separate error (table of errors of §4.3.9).
+fn settings(area: &Area, ti_unit_ms: f32, td_unit_ms: f32, kd_max: i16) -> Result<Settings, Fault> {
+    let word = |offset: usize, range: RangeInclusive<i16>, code| {
+        let value = area.0[offset];
         if range.contains(&value) {
             Ok(value)
         } else {
@@ -68,7 +95,7 @@ fn settings(cx: &Cx, ti_unit_ms: f32, td_unit_ms: f32, kd_max: i16) -> Result<Se
     };
     Ok(Settings {
         ts: word(at::TS, 1..=i16::MAX, 6730)?.unsigned_abs().into(),
-        act: cx.word(OPERAND_S3, at::ACT)?,
+        act: area.0[at::ACT],
         filter: f32::from(word(at::FILTER, 0..=99, 6732)?) / 100.0,
         kp: f32::from(word(at::KP, 0..=i16::MAX, 6733)?) / 100.0,
         ti_ms: f32::from(word(at::TI, 0..=i16::MAX, 6734)?) * ti_unit_ms,
@@ -92,79 +119,76 @@ fn held(value: f32, code: u16, error: &mut Option<Fault>) -> f32 {
 
 /// PID S1 S2 S3 D of H1U/H2U, whose firmware has no auto-tuning.
 pub fn pid(cx: &mut Cx) -> Done {
-    control(cx)
+    let area = Area::read(cx)?;
+    control(cx, area)
 }
 
 /// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is
 /// rejected with 6750.
 pub fn pid_tuning(cx: &mut Cx) -> Done {
-    let action = cx.word(OPERAND_S3, at::ACT)?;
+    let area = Area::read(cx)?;
+    let action = area.0[at::ACT];
     if action & act::TUNE_LIMIT_CYCLE != 0 {
         return Err(Fault(6750));
     }
     if action & act::TUNE != 0 {
-        tune(cx)
+        tune(cx, area)
     } else {
-        control(cx)
+        control(cx, area)
     }
 }
 
-/// Adds the time since the last scan; returns whether a sample is due. A sampling time not above the scan time is error
-/// 6740, and each scan is a sample then.
-fn sample_due(cx: &mut Cx, ts: u32, error: &mut Option<Fault>) -> Result<Option<f32>, Fault> {
+/// Adds the time since the last scan; returns the time that the sample stands for, if one is due. A sampling time not
+/// above the scan time is error 6740, and each scan is a sample then.
+fn sample_due(cx: &Cx, area: &mut Area, ts: u32, error: &mut Option<Fault>) -> Option<f32> {
     let dt = cx.plc.sys().dt_ms;
     if dt > 0 && ts <= dt {
         error.get_or_insert(Fault(6740));
-        return Ok(Some(dt as f32));
+        return Some(dt as f32);
     }
-    let elapsed = u32::from(cx.word(OPERAND_S3, at::ELAPSED)? as u16).saturating_add(dt);
+    let elapsed = u32::from(area.0[at::ELAPSED] as u16).saturating_add(dt);
     let due = elapsed >= ts;
     let rest = if due {
         (elapsed - ts).min(ts - 1)
     } else {
         elapsed
     };
-    cx.set_word(
-        OPERAND_S3,
-        at::ELAPSED,
-        rest.min(u32::from(u16::MAX)) as u16 as i16,
-    )?;
-    Ok(due.then_some(ts as f32))
+    area.0[at::ELAPSED] = rest.min(u32::from(u16::MAX)) as u16 as i16;
+    due.then_some(ts as f32)
 }
 
-fn control(cx: &mut Cx) -> Done {
-    let s = settings(cx, 100.0, 10.0, 200)?;
-    cx.check_words(OPERAND_S3, at::ALARMS + 1)?;
-    let target = f32::from(cx.word(0, 0)?);
-    let measured = f32::from(cx.word(1, 0)?);
-    if cx.word(OPERAND_S3, at::STARTED)? == 0 {
-        return start(cx, &s, target, measured);
+fn control(cx: &mut Cx, mut area: Area) -> Done {
+    let s = settings(&area, 100.0, 10.0, 200)?;
+    let (target, measured) = (cx.word(0, 0)?, cx.word(1, 0)?);
+    if area.0[at::STARTED] == 0 {
+        return start(cx, area, &s, target, measured);
     }
     let mut error = None;
-    let Some(ts) = sample_due(cx, s.ts, &mut error)? else {
-        return Ok(());
+    let Some(ts) = sample_due(cx, &mut area, s.ts, &mut error) else {
+        return cx.set_word(OPERAND_S3, at::ELAPSED as i32, area.0[at::ELAPSED]);
     };
-    let pv1 = cx.float(OPERAND_S3, at::PV1)?;
-    let pv2 = cx.float(OPERAND_S3, at::PV2)?;
-    let pv = measured + s.filter * (pv1 - measured);
+    let raw = f32::from(measured);
+    let pv1 = area.float(at::PV1);
+    let pv = raw + s.filter * (pv1 - raw);
     held(pv - pv1, 6742, &mut error);
-    let deviation = held(deviation(&s, target, pv), 6743, &mut error);
+    let deviation = held(deviation(&s, target.into(), pv), 6743, &mut error);
     let integral = if s.ti_ms > 0.0 {
         held(ts / s.ti_ms * deviation, 6744, &mut error)
     } else {
         0.0
     };
-    let derivative = derivative(cx, &s, ts, pv, pv1, pv2, &mut error)?;
-    let change = s.kp * (deviation - cx.float(OPERAND_S3, at::EV1)? + integral + derivative);
-    let mut mv = held(cx.float(OPERAND_S3, at::MV)? + change, 6747, &mut error);
+    let derivative = derivative(&area, &s, ts, pv, &mut error);
+    let change = s.kp * (deviation - area.float(at::EV1) + integral + derivative);
+    let mut mv = held(area.float(at::MV) + change, 6747, &mut error);
     if s.act & act::LIMITS != 0 {
-        let upper = f32::from(cx.word(OPERAND_S3, at::OUTPUT_RISE_OR_UPPER)?);
-        let lower = f32::from(cx.word(OPERAND_S3, at::OUTPUT_FALL_OR_LOWER)?);
+        let upper = f32::from(area.0[at::OUTPUT_RISE_OR_UPPER]);
+        let lower = f32::from(area.0[at::OUTPUT_FALL_OR_LOWER]);
         mv = mv.min(upper).max(lower);
     }
-    alarms(cx, &s, measured, mv)?;
-    store(cx, pv, pv1, derivative, deviation, mv)?;
-    cx.set_word(OPERAND_S3, at::RAW_PV, measured as i16)?;
+    area.set_alarms(&s, raw, mv);
+    area.store([pv, pv1, derivative, mv, deviation]);
+    area.0[at::RAW_PV] = measured;
+    area.write(cx)?;
     cx.set_word(OPERAND_D, 0, libm::roundf(mv) as i16)?;
     error.map_or(Ok(()), Err)
 }
@@ -179,97 +203,77 @@ fn deviation(s: &Settings, target: f32, pv: f32) -> f32 {
     }
 }
 
-fn derivative(
-    cx: &Cx,
-    s: &Settings,
-    ts: f32,
-    pv: f32,
-    pv1: f32,
-    pv2: f32,
-    error: &mut Option<Fault>,
-) -> Result<f32, Fault> {
+fn derivative(area: &Area, s: &Settings, ts: f32, pv: f32, error: &mut Option<Fault>) -> f32 {
     if s.td_ms <= 0.0 {
-        return Ok(0.0);
+        return 0.0;
     }
     let filtered = s.kd * s.td_ms;
-    let curve = pv - 2.0 * pv1 + pv2;
+    let curve = pv - 2.0 * area.float(at::PV1) + area.float(at::PV2);
     let curve = if s.act & act::REVERSE != 0 {
         -curve
     } else {
         curve
     };
     let fresh = held(s.td_ms / (ts + filtered) * curve, 6745, error);
-    Ok(held(
-        fresh + filtered / (ts + filtered) * cx.float(OPERAND_S3, at::D1)?,
+    held(
+        fresh + filtered / (ts + filtered) * area.float(at::D1),
         6746,
         error,
-    ))
+    )
 }
 
 /// First execution: takes the measured value and D over, so that the output begins where it is.
-fn start(cx: &mut Cx, s: &Settings, target: f32, measured: f32) -> Done {
+fn start(cx: &mut Cx, mut area: Area, s: &Settings, target: i16, measured: i16) -> Done {
     let mv = f32::from(cx.word(OPERAND_D, 0)?);
-    store(
-        cx,
-        measured,
-        measured,
-        0.0,
-        deviation(s, target, measured),
-        mv,
-    )?;
-    cx.set_word(OPERAND_S3, at::RAW_PV, measured as i16)?;
-    cx.set_word(OPERAND_S3, at::ELAPSED, 0)?;
-    cx.set_word(OPERAND_S3, at::STARTED, 1)
+    let raw = f32::from(measured);
+    area.store([raw, raw, 0.0, mv, deviation(s, target.into(), raw)]);
+    area.0[at::RAW_PV] = measured;
+    area.0[at::ELAPSED] = 0;
+    area.0[at::STARTED] = 1;
+    area.write(cx)
 }
 
-fn store(cx: &mut Cx, pv: f32, pv1: f32, derivative: f32, deviation: f32, mv: f32) -> Done {
-    cx.set_float(OPERAND_S3, at::PV1, pv)?;
-    cx.set_float(OPERAND_S3, at::PV2, pv1)?;
-    cx.set_float(OPERAND_S3, at::D1, derivative)?;
-    cx.set_float(OPERAND_S3, at::EV1, deviation)?;
-    cx.set_float(OPERAND_S3, at::MV, mv)
-}
+impl Area {
+    /// Keeps what the next sample needs: PV, the one before, the derivative, MV, the deviation.
+    fn store(&mut self, values: [f32; 5]) {
+        let offsets = [at::PV1, at::PV2, at::D1, at::MV, at::EV1];
+        for (offset, value) in offsets.into_iter().zip(values) {
+            self.set_float(offset, value);
+        }
+    }
 
-/// Alarm bits: 0 and 1 for the measured value rising or falling by more than its limit in a sample, 2 and 3 for the
-/// output.
-fn alarms(cx: &mut Cx, s: &Settings, measured: f32, mv: f32) -> Done {
-    let mut bits = 0;
-    let over = |cx: &Cx, change: f32, rise, fall| -> Result<i16, Fault> {
-        let (rise, fall) = (
-            f32::from(cx.word(OPERAND_S3, rise)?),
-            f32::from(cx.word(OPERAND_S3, fall)?),
-        );
-        Ok(i16::from(change > rise) | i16::from(-change > fall) << 1)
-    };
-    if s.act & act::INPUT_ALARM != 0 {
-        let change = measured - f32::from(cx.word(OPERAND_S3, at::RAW_PV)?);
-        bits |= over(cx, change, at::INPUT_RISE, at::INPUT_FALL)?;
+    /// Alarm bits: 0 and 1 for the measured value rising or falling by more than its limit in a sample, 2 and 3 for the
+    /// output.
+    fn set_alarms(&mut self, s: &Settings, measured: f32, mv: f32) {
+        let mut bits = 0;
+        let over = |change: f32, rise: usize, fall: usize| {
+            let (rise, fall) = (f32::from(self.0[rise]), f32::from(self.0[fall]));
+            i16::from(change > rise) | i16::from(-change > fall) << 1
+        };
+        if s.act & act::INPUT_ALARM != 0 {
+            let change = measured - f32::from(self.0[at::RAW_PV]);
+            bits |= over(change, at::INPUT_RISE, at::INPUT_FALL);
+        }
+        if s.act & act::OUTPUT_ALARM != 0 && s.act & act::LIMITS == 0 {
+            let change = mv - self.float(at::MV);
+            bits |= over(change, at::OUTPUT_RISE_OR_UPPER, at::OUTPUT_FALL_OR_LOWER) << 2;
+        }
+        if s.act & (act::INPUT_ALARM | act::OUTPUT_ALARM) != 0 {
+            self.0[at::ALARMS] = bits;
+        }
     }
-    if s.act & act::OUTPUT_ALARM != 0 && s.act & act::LIMITS == 0 {
-        let change = mv - cx.float(OPERAND_S3, at::MV)?;
-        bits |= over(
-            cx,
-            change,
-            at::OUTPUT_RISE_OR_UPPER,
-            at::OUTPUT_FALL_OR_LOWER,
-        )? << 2;
-    }
-    if s.act & (act::INPUT_ALARM | act::OUTPUT_ALARM) != 0 {
-        cx.set_word(OPERAND_S3, at::ALARMS, bits)?;
-    }
-    Ok(())
 }
 
 /// Offsets of the work area while tuning, in place of those of control.
 mod tuning_at {
     /// Measured value at the start.
-    pub const PV0: i32 = 8;
+    pub const PV0: usize = 8;
     /// Time since the start in milliseconds.
-    pub const TIME: i32 = 10;
+    pub const TIME: usize = 10;
     /// Steepest slope so far, per millisecond.
-    pub const SLOPE: i32 = 12;
+    pub const SLOPE: usize = 12;
     /// Where the steepest tangent leaves the start value, in milliseconds.
-    pub const DELAY: i32 = 14;
+    pub const DELAY: usize = 14;
 }
 
 /// Least distance from the target at which tuning may begin.
@@ -302,90 +306,100 @@ pub(crate) fn setting(value: f32) -> i16 {
 /// Auto-tuning by step response: D stays at the step that the program has put there. When the measured value has gone a
 /// third of the way to the target, the steepest slope R and the dead time L give Kp = 1.2 / (R L) of the step, Ti = 2
 /// L, Td = L / 2; ACT bit 4 goes off and control begins.
-fn tune(cx: &mut Cx) -> Done {
-    let ts = cx.word(OPERAND_S3, at::TS)?;
+fn tune(cx: &mut Cx, mut area: Area) -> Done {
+    let ts = area.0[at::TS];
     if ts <= 0 {
         return Err(Fault(6730));
     }
-    cx.check_words(OPERAND_S3, at::ALARMS + 1)?;
     let target = f32::from(cx.word(0, 0)?);
-    let measured = f32::from(cx.word(1, 0)?);
-    if cx.word(OPERAND_S3, at::STARTED)? == 0 {
+    let raw = cx.word(1, 0)?;
+    let measured = f32::from(raw);
+    if area.0[at::STARTED] == 0 {
         if libm::fabsf(target - measured) <= TUNE_MIN_DISTANCE {
             return Err(Fault(6750));
         }
         for offset in [tuning_at::TIME, tuning_at::SLOPE, tuning_at::DELAY] {
-            cx.set_float(OPERAND_S3, offset, 0.0)?;
+            area.set_float(offset, 0.0);
         }
-        cx.set_float(OPERAND_S3, tuning_at::PV0, measured)?;
-        cx.set_word(OPERAND_S3, at::RAW_PV, measured as i16)?;
-        cx.set_word(OPERAND_S3, at::ELAPSED, 0)?;
-        return cx.set_word(OPERAND_S3, at::STARTED, 1);
+        area.set_float(tuning_at::PV0, measured);
+        area.0[at::RAW_PV] = raw;
+        area.0[at::ELAPSED] = 0;
+        area.0[at::STARTED] = 1;
+        return area.write(cx);
     }
     let mut error = None;
-    let Some(step_ms) = sample_due(cx, ts.unsigned_abs().into(), &mut error)? else {
-        return Ok(());
+    let due = sample_due(cx, &mut area, ts.unsigned_abs().into(), &mut error);
+    let Some(step_ms) = due else {
+        return area.write(cx);
     };
-    let start = cx.float(OPERAND_S3, tuning_at::PV0)?;
-    let time = cx.float(OPERAND_S3, tuning_at::TIME)? + step_ms;
-    cx.set_float(OPERAND_S3, tuning_at::TIME, time)?;
+    let start = area.float(tuning_at::PV0);
+    let time = area.float(tuning_at::TIME) + step_ms;
+    area.set_float(tuning_at::TIME, time);
     let towards = if target > start { 1.0 } else { -1.0 };
     let gone = (measured - start) * towards;
-    let slope = (measured - f32::from(cx.word(OPERAND_S3, at::RAW_PV)?)) * towards / step_ms;
-    cx.set_word(OPERAND_S3, at::RAW_PV, measured as i16)?;
-    if slope > cx.float(OPERAND_S3, tuning_at::SLOPE)? {
-        cx.set_float(OPERAND_S3, tuning_at::SLOPE, slope)?;
-        cx.set_float(OPERAND_S3, tuning_at::DELAY, time - gone / slope)?;
+    let slope = (measured - f32::from(area.0[at::RAW_PV])) * towards / step_ms;
+    area.0[at::RAW_PV] = raw;
+    if slope > area.float(tuning_at::SLOPE) {
+        area.set_float(tuning_at::SLOPE, slope);
+        area.set_float(tuning_at::DELAY, time - gone / slope);
     }
+    area.write(cx)?;
     if gone < -TUNE_MIN_DISTANCE {
         return Err(Fault(6751));
     }
     if gone * 3.0 >= libm::fabsf(target - start) {
-        return finish_tuning(cx);
+        return finish_tuning(cx, &area);
     }
     error.map_or(Ok(()), Err)
 }
 
-fn finish_tuning(cx: &mut Cx) -> Done {
+fn finish_tuning(cx: &mut Cx, area: &Area) -> Done {
     let step = libm::fabsf(f32::from(cx.word(OPERAND_D, 0)?));
-    let slope = cx.float(OPERAND_S3, tuning_at::SLOPE)?;
-    let tuned = Tuned::new(step, slope, cx.float(OPERAND_S3, tuning_at::DELAY)?);
-    let action = cx.word(OPERAND_S3, at::ACT)?;
-    cx.set_word(OPERAND_S3, at::KP, setting(tuned.kp * 100.0))?;
-    cx.set_word(OPERAND_S3, at::TI, setting(tuned.ti_ms / 100.0))?;
-    cx.set_word(OPERAND_S3, at::TD, setting(tuned.td_ms / 10.0))?;
-    cx.set_word(OPERAND_S3, at::ACT, action & !act::TUNE)?;
-    cx.set_word(OPERAND_S3, at::STARTED, 0)
+    let tuned = Tuned::new(
+        step,
+        area.float(tuning_at::SLOPE),
+        area.float(tuning_at::DELAY),
+    );
+    for (offset, value) in [
+        (at::KP, setting(tuned.kp * 100.0)),
+        (at::TI, setting(tuned.ti_ms / 100.0)),
+        (at::TD, setting(tuned.td_ms / 10.0)),
+        (at::ACT, area.0[at::ACT] & !act::TUNE),
+        (at::STARTED, 0),
+    ] {
+        cx.set_word(OPERAND_S3, offset as i32, value)?;
+    }
+    Ok(())
 }
 
 /// Offsets of HM's work area; its settings are where FX has them.
 mod hm_at {
-    pub const DEVIATION: i32 = 7;
-    pub const CHANGE: i32 = 9;
-    pub const CURVE: i32 = 11;
-    pub const PV: i32 = 13;
-    pub const DERIVATIVE: i32 = 15;
-    pub const INCREMENT: i32 = 17;
-    pub const OUTPUT: i32 = 19;
-    pub const UPPER_ALARM: i32 = 20;
-    pub const LOWER_ALARM: i32 = 21;
-    pub const UPPER_LIMIT: i32 = 22;
-    pub const LOWER_LIMIT: i32 = 23;
-    pub const ALARMS: i32 = 24;
+    pub const DEVIATION: usize = 7;
+    pub const CHANGE: usize = 9;
+    pub const CURVE: usize = 11;
+    pub const PV: usize = 13;
+    pub const DERIVATIVE: usize = 15;
+    pub const INCREMENT: usize = 17;
+    pub const OUTPUT: usize = 19;
+    pub const UPPER_ALARM: usize = 20;
+    pub const LOWER_ALARM: usize = 21;
+    pub const UPPER_LIMIT: usize = 22;
+    pub const LOWER_LIMIT: usize = 23;
+    pub const ALARMS: usize = 24;
 }
 
 /// PID S1 S2 S3 D of HM: one computation per execution; the program calls it once per sampling time. Times are in
 /// milliseconds, direction 1 (the recommended one) raises the output while the measured value is below the target.
 pub fn pid_hm(cx: &mut Cx) -> Done {
-    let s = settings(cx, 1.0, 1.0, i16::MAX)?;
-    cx.check_words(OPERAND_S3, hm_at::ALARMS + 1)?;
+    let mut area = Area::read(cx)?;
+    let s = settings(&area, 1.0, 1.0, i16::MAX)?;
     let target = f32::from(cx.word(0, 0)?);
     let measured = f32::from(cx.word(1, 0)?);
-    let before = cx.float(OPERAND_S3, hm_at::DEVIATION)?;
+    let before = area.float(hm_at::DEVIATION);
     let pv = if before == 0.0 {
         measured
     } else {
-        measured + s.filter * (cx.float(OPERAND_S3, hm_at::PV)? - measured)
+        measured + s.filter * (area.float(hm_at::PV) - measured)
     };
     let deviation = if s.act & 1 != 0 {
         target - pv
@@ -393,7 +407,7 @@ pub fn pid_hm(cx: &mut Cx) -> Done {
         pv - target
     };
     let change = deviation - before;
-    let curve = change - cx.float(OPERAND_S3, hm_at::CHANGE)?;
+    let curve = change - area.float(hm_at::CHANGE);
     let ts = s.ts as f32;
     let integral = if s.ti_ms > 0.0 {
         ts / s.ti_ms * deviation
@@ -402,20 +416,17 @@ pub fn pid_hm(cx: &mut Cx) -> Done {
     };
     let filtered = s.kd * s.td_ms;
     let derivative = if s.td_ms > 0.0 && s.kd > 0.0 {
-        (s.td_ms * curve + filtered * cx.float(OPERAND_S3, hm_at::DERIVATIVE)?) / (ts + filtered)
+        (s.td_ms * curve + filtered * area.float(hm_at::DERIVATIVE)) / (ts + filtered)
     } else {
         0.0
     };
     let increment = s.kp * (change + integral + derivative);
-    let wanted = f32::from(cx.word(OPERAND_S3, hm_at::OUTPUT)?) + increment;
-    let limit = |cx: &Cx, offset| cx.word(OPERAND_S3, offset).map(f32::from);
-    let (upper, lower) = (
-        limit(cx, hm_at::UPPER_LIMIT)?,
-        limit(cx, hm_at::LOWER_LIMIT)?,
-    );
+    let wanted = f32::from(area.0[hm_at::OUTPUT]) + increment;
+    let limit = |offset: usize| f32::from(area.0[offset]);
+    let (upper, lower) = (limit(hm_at::UPPER_LIMIT), limit(hm_at::LOWER_LIMIT));
     let output = wanted.min(upper).max(lower).clamp(-32768.0, 32767.0);
-    let alarms = i16::from(output >= limit(cx, hm_at::UPPER_ALARM)?)
-        | i16::from(output <= limit(cx, hm_at::LOWER_ALARM)?) << 1
+    let alarms = i16::from(output >= limit(hm_at::UPPER_ALARM))
+        | i16::from(output <= limit(hm_at::LOWER_ALARM)) << 1
         | i16::from(wanted >= upper) << 2
         | i16::from(wanted <= lower) << 3;
     for (offset, value) in [
@@ -426,11 +437,13 @@ pub fn pid_hm(cx: &mut Cx) -> Done {
         (hm_at::DERIVATIVE, derivative),
         (hm_at::INCREMENT, increment),
     ] {
-        cx.set_float(OPERAND_S3, offset, value)?;
+        area.set_float(offset, value);
     }
-    cx.set_word(OPERAND_S3, hm_at::ALARMS, alarms)?;
-    cx.set_word(OPERAND_S3, hm_at::OUTPUT, libm::roundf(output) as i16)?;
-    cx.set_word(OPERAND_D, 0, libm::roundf(output) as i16)
+    let output = libm::roundf(output) as i16;
+    area.0[hm_at::ALARMS] = alarms;
+    area.0[hm_at::OUTPUT] = output;
+    area.write(cx)?;
+    cx.set_word(OPERAND_D, 0, output)
 }
 
 #[cfg(test)]
