@@ -178,6 +178,11 @@ const fn serial(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .todo(SERIAL)
 }
 
+/// An instruction that `[canlink]` of a project becomes.
+const fn canlink(name: &'static str, title: &'static str) -> Inst {
+    row(name, title, "h1u-h2u-programming §5.9").on(INOVANCE)
+}
+
 const fn modbus_hm(name: &'static str, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "hm-motion-controller §7")
         .forms(W16_P)
@@ -300,6 +305,18 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[any("S1"), any("S2"), dst("D", DATA).len(4), number("n", 8)])
         .call(RtFn::Canrx)
         .text("Receives n bytes with the identifier in S1 and S2 to D, high byte first."),
+    canlink("CANNET", "CANlink: this station")
+        .takes(&[any("S1").limits(1, 63), any("S2").limits(1, 63), any("S3").limits(0, 20_000)])
+        .call(RtFn::Cannet)
+        .text("This PLC is station S1 of a CANlink network whose master is station S2; S3 ms between heartbeats, 0: none."),
+    canlink("CANNODE", "CANlink: another station")
+        .takes(&[any("S1").limits(1, 63), any("S2").limits(0, 3)])
+        .call(RtFn::Cannode)
+        .text("What station S1 is: bit 0 of S2, a slave that the master watches; bit 1, one whose frames to all are taken."),
+    canlink("CANPUT", "CANlink: send registers")
+        .takes(&[any("S1").limits(0, 30_000), src("D", Classes::D).per(4), any("S2"), any("S3"), number("n", 64)])
+        .call(RtFn::Canput)
+        .text("Sends n registers from D on to register S3 of station S2 (0: all that listen), each S1 ms, or in each scan."),
     serial("MODBUS2", 93, "Modbus master on a port")
         .steps(11, 11)
         .on(INOVANCE)

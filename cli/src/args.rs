@@ -387,8 +387,8 @@ pub struct ServeArgs {
     /// opened again.
     #[arg(long, value_name = "PORT=DEVICE")]
     pub serial: Vec<Line>,
-    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an adapter that speaks
-    /// SLCAN, with the bit rate in kbit/s (500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
+    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an adapter that
+    /// speaks SLCAN, with the bit rate in kbit/s (500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
     #[arg(long, value_parser = Line::can, value_name = "BUS")]
     pub can: Option<Line>,
     /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`

@@ -1,7 +1,7 @@
 //! The serial ports that a program uses or sets up, or that a host opens.
 
 use super::Lowerer;
-use rungc_rt::comm::{CAN_PORT, PortWiring};
+use rungc_rt::comm::{CAN_PORT, PortWiring, canlink};
 use rungc_rt::{Needs, RtFn};
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
@@ -67,6 +67,10 @@ impl Lowerer<'_> {
                 flags.extend(set.registers().map(|n| (DeviceClass::D, n.number())));
                 flags.extend(set.relays().map(|n| (DeviceClass::M, n.number())));
             }
+        }
+        if self.port_functions.contains(&RtFn::Cannet) {
+            flags.extend(canlink::REGISTERS.map(|n| (DeviceClass::D, n.number())));
+            flags.extend(canlink::RELAYS.map(|n| (DeviceClass::M, n.number())));
         }
         flags.extend(ERRORS.map(|n| (DeviceClass::D, n)));
         flags.extend(ERRORS.map(|n| (DeviceClass::M, n)));

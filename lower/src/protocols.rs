@@ -45,7 +45,11 @@ impl Lowerer<'_> {
     /// What the values of its registers and relays can choose for a port.
     fn chosen(&self, wiring: &PortWiring, wanted: &Wanted) -> Protocols {
         if wiring.choice == Choice::Can {
-            return Protocols::of(&[Protocol::Can]);
+            let canlink = match self.port_functions.contains(&RtFn::Cannet) {
+                true => Protocols::CANLINK,
+                false => Protocols::NONE,
+            };
+            return Protocols::of(&[Protocol::Can]).or(canlink);
         }
         let values = self.values(wiring.protocol, wanted);
         let Some((numbers, formats)) = values.zip(self.values(wiring.format, wanted)) else {

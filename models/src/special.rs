@@ -314,7 +314,7 @@ pub(crate) const SUMMED: Reason = because(
 );
 pub(crate) const CANLINK: Reason = because(
     Missed::ByAll,
-    "no manual prints the frames and the configuration of CANlink; CANTX and CANRX exchange frames of the program's own",
+    "no manual prints the frames of CANlink; `[canlink]` of rungc.toml makes a station of it among programs of rungc, without this",
 );
 pub(crate) const N_SERIES: Reason = because(
     Missed::ByAll,
@@ -459,7 +459,9 @@ mod tests {
         );
         let ports = Some(Status::Instructions("serial ports"));
         assert_eq!(of(ModelId::H1u, M, 8128), ports);
-        for number in [8282, 8307, 8308] {
+        let canlink = Some(Status::Instructions("CANlink"));
+        assert_eq!(of(ModelId::H2u, D, 8282), canlink);
+        for number in [8307, 8308] {
             assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CANLINK)));
         }
         for number in [8220, 8239] {

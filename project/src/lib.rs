@@ -6,6 +6,7 @@
 //! This crate must not know output languages. Start reading at [`Project`].
 #![deny(missing_docs)]
 
+pub mod canlink;
 pub mod device;
 pub mod modbus;
 pub mod module;
@@ -58,6 +59,8 @@ pub struct Project {
     pub index: Vec<Bound>,
     /// `[[modbus]]`: the rows of the Modbus table.
     pub modbus: Vec<modbus::Row>,
+    /// `[canlink]`: this PLC as a station of CANlink.
+    pub canlink: Option<canlink::Station>,
     /// `[[module]]`: the special modules that are fitted.
     pub modules: Vec<module::Row>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is

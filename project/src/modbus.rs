@@ -117,15 +117,10 @@ impl Project {
             let help = "remove `[[modbus]]`, or choose the model h1u or h2u";
             return Err(self.mistake(why.help(help)));
         }
-        let mut instrs = program.instrs.iter();
-        let ends = |instr: &Instr| matches!(instr.mnemonic.as_str(), "FEND" | "END");
-        // A program without an end is not compiled.
-        let Some(end) = instrs.position(ends) else {
-            return Ok(());
-        };
-        let span = program.instrs[end].span;
-        let rows = self.modbus.iter().flat_map(|row| row.instrs(span));
-        program.instrs.splice(end..end, rows);
+        let rows = self.modbus.iter();
+        self.add_at_end(program, |span| {
+            rows.flat_map(|row| row.instrs(span)).collect()
+        });
         Ok(())
     }
 }

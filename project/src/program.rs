@@ -4,7 +4,7 @@ use crate::{Error, Project, Range};
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
 use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceRun, Program, codes};
+use rungc_syntax::{Device, DeviceRun, Instr, Program, Span, codes};
 use std::path::Path;
 
 impl Project {
@@ -24,12 +24,13 @@ impl Project {
     }
 
     /// Gives the program of `file` the latched devices and special modules of the settings and, if the project is about
-    /// it, the Modbus table. What the model does not have is a mistake.
+    /// it, the Modbus table and CANlink. What the model does not have is a mistake.
     pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
         self.check_served(model)?;
         self.fit_modules(program, model)?;
         if self.is_about(file) {
             self.add_table(program, model)?;
+            self.add_station(program, model)?;
         }
         if self.latched.is_empty() {
             return Ok(());
@@ -48,6 +49,20 @@ impl Project {
         });
         parameters.latched = Some(own.chain(others).collect());
         Ok(())
+    }
+
+    /// Adds instructions to the end of the main program. A program without an end is not compiled.
+    pub(crate) fn add_at_end(
+        &self,
+        program: &mut Program,
+        instrs: impl FnOnce(Span) -> Vec<Instr>,
+    ) {
+        let ends = |instr: &Instr| matches!(instr.mnemonic.as_str(), "FEND" | "END");
+        let Some(end) = program.instrs.iter().position(ends) else {
+            return;
+        };
+        let span = program.instrs[end].span;
+        program.instrs.splice(end..end, instrs(span));
     }
 
     fn can_latch(&self, run: &Range, model: &Model) -> Result<(), Error> {

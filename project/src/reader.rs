@@ -1,11 +1,13 @@
 //! From TOML to [`Project`], every mistake with its place.
 
+mod canlink;
 mod module;
 mod plcopen;
 mod serve;
 
 use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
+use canlink::CANLINK;
 use encoding_rs::Encoding;
 use module::MODULE;
 use rungc_models::{Model, ModelId, Plc};
@@ -17,7 +19,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 12] = [
+const TABLES: [(&str, &[&str]); 13] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -29,6 +31,7 @@ const TABLES: [(&str, &[&str]); 12] = [
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
     (MODBUS, &[]),
+    (CANLINK, canlink::KEYS),
     (MODULE, &[]),
 ];
 
@@ -157,6 +160,7 @@ impl Reader {
                 "retain" => project.retain = self.path(table, "file"),
                 "serve" => self.serve(table, project),
                 "plcopen" => self.plcopen(table, project),
+                CANLINK => self.canlink(at, table, project),
                 _ => self.latched(table, project),
             }
         }
@@ -180,6 +184,14 @@ impl Reader {
         if let (Some(row), None) = (project.modbus.first(), &project.program) {
             let message = "`[[modbus]]` applies to the project's program, but there is none";
             self.wrong(row.span, message, "add `program = \"…\"` to `[project]`");
+        }
+        if let (Some(station), None) = (&project.canlink, &project.program) {
+            let message = "`[canlink]` applies to the project's program, but there is none";
+            self.wrong(
+                station.span,
+                message,
+                "add `program = \"…\"` to `[project]`",
+            );
         }
         if let (Some(at), None) = (output, &project.build.emit) {
             let message = "`output` requires `emit`";

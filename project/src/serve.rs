@@ -120,8 +120,8 @@ impl LineEnd {
         }
     }
 
-    /// Reads what the CAN card is connected to: `can0`, or `slcan:/dev/ttyACM0`, where the rest is the end of a line and may
-    /// have a rate in kbit/s after it: `slcan:/dev/ttyACM0,250`.
+    /// Reads what the CAN card is connected to: `can0`, or `slcan:/dev/ttyACM0`, where the rest is the end of a line
+    /// and may have a rate in kbit/s after it: `slcan:/dev/ttyACM0,250`.
     ///
     /// # Errors
     /// How it is to be written.
@@ -131,7 +131,9 @@ impl LineEnd {
                 && !text.contains(|c: char| c == '/' || c.is_whitespace());
             return match fits {
                 true => Ok(LineEnd::CanInterface(text.to_string())),
-                false => Err("a bus is a CAN interface of this machine (`can0`), or an adapter: `slcan:/dev/ttyACM0`".into()),
+                false => Err(
+                    "a bus is a CAN interface (`can0`), or an adapter: `slcan:/dev/ttyACM0`".into(),
+                ),
             };
         };
         let (end, rate) = match adapter.rsplit_once(',') {

@@ -395,6 +395,19 @@ proptest! {
     }
 }
 
+/// Instructions as a list shows them.
+fn shown(program: &rungc_syntax::Program) -> Vec<String> {
+    let shown = |instr: &rungc_syntax::Instr| {
+        let operands = instr
+            .operands
+            .iter()
+            .map(|operand| operand.kind.to_string());
+        let words = std::iter::once(instr.mnemonic.to_string()).chain(operands);
+        words.collect::<Vec<_>>().join(" ")
+    };
+    program.instrs.iter().map(shown).collect()
+}
+
 #[test]
 fn rows_of_the_modbus_table_become_instructions() {
     let text = r#"[project]
@@ -420,15 +433,7 @@ trigger = "M10"
     let mut program = rungc_frontend::read_text("p.il", "LD X000\nOUT Y000\nEND\n").program;
     let (file, model) = (folder.join("read.rs"), Model::get(ModelId::H2u));
     project.complete(&file, &mut program, model).unwrap();
-    let shown = |instr: &rungc_syntax::Instr| {
-        let operands = instr
-            .operands
-            .iter()
-            .map(|operand| operand.kind.to_string());
-        let words = std::iter::once(instr.mnemonic.to_string()).chain(operands);
-        words.collect::<Vec<_>>().join(" ")
-    };
-    let shown: Vec<_> = program.instrs.iter().map(shown).collect();
+    let shown = shown(&program);
     assert_eq!(
         shown,
         [
@@ -574,4 +579,78 @@ fn plcopen() {
         ]
         .concat()
     );
+}
+
+#[test]
+fn a_station_of_canlink_becomes_instructions() {
+    let entry = |keys: &str| format!("[[canlink.send]]\nfrom = \"D10\"\n{keys}\n");
+    let master = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 1\nheartbeat = 500\nslaves = [2, 3]\nlisten = [3]\n";
+    let entries = [
+        "together = \"M1\"\nto = 2\nregister = 5\ncount = 2",
+        "event = \"M100\"\nto = 3",
+        "every = 50",
+        "event = \"M100\"\nto = 2",
+        "sync = true\nto = 2",
+    ];
+    let text = master.to_string() + &entries.map(entry).concat();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let completed = |text: &str| {
+        let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+        let mut program = rungc_frontend::read_text("p.il", "LD X000\nOUT Y000\nEND\n").program;
+        let (file, model) = (folder.join("read.rs"), Model::get(ModelId::H2u));
+        project.complete(&file, &mut program, model).unwrap();
+        shown(&program)
+    };
+    insta::assert_snapshot!("canlink_master", completed(&text).join("\n"));
+    let slave = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 2\n";
+    insta::assert_snapshot!("canlink_slave", completed(slave).join("\n"));
+}
+
+#[test]
+fn mistakes_in_a_network_of_canlink() {
+    let of_slave = |entry: &str| format!("[canlink]\nstation = 2\n[[canlink.send]]\n{entry}\n");
+    let many = "[[canlink.send]]\nevery = 5\nfrom = \"D0\"\n".repeat(17);
+    let relays = |count: usize, each: usize| {
+        let relay = |n| format!("[[canlink.send]]\ntogether = \"M{n}\"\nfrom = \"D0\"\n");
+        let all: Vec<_> = (0..count).map(|n| relay(n).repeat(each)).collect();
+        format!("[canlink]\nstation = 1\n{}", all.concat())
+    };
+    let texts = [
+        "[canlink]\nmaster = 1".to_string(),
+        "[canlink]\nstation = 64\nheartbeat = 5".to_string(),
+        "[canlink]\nstation = 2\nslaves = [3]\nlisten = [2]".to_string(),
+        "[canlink]\nstation = 1\nslaves = [0]\nlisten = 3".to_string(),
+        "[canlink]\nstation = 1\nlisten = [2, 3, 4, 5, 6, 7, 8, 9, 10]".to_string(),
+        of_slave("from = \"D0\""),
+        of_slave("every = 5\nsync = true\nfrom = \"D0\""),
+        of_slave("sync = false\nfrom = \"D0\""),
+        of_slave("event = \"X0\"\nfrom = \"D0\""),
+        of_slave("every = 5"),
+        of_slave("every = 5\nfrom = \"D7799\"\ncount = 2"),
+        of_slave("every = 5\nfrom = \"D0\"\nregister = 7800"),
+        of_slave("together = \"M0\"\nfrom = \"D0\""),
+        format!("[canlink]\nstation = 2\n{many}"),
+        relays(9, 1),
+        relays(1, 17),
+    ];
+    let mut found = String::new();
+    for text in texts {
+        let text = format!("[project]\nprogram = \"p.il\"\n{text}\n");
+        found += &mistakes(text.trim_end());
+    }
+    insta::assert_snapshot!(found);
+    let text = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 2\n";
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+    let of_fx = project.complete(
+        &folder.join("read.rs"),
+        &mut program,
+        Model::get(ModelId::Fx3u),
+    );
+    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+        panic!("FX3U has no CANlink");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no CANlink"]);
 }

@@ -231,6 +231,9 @@ registry! {
     Mwrds = modbus::mwrds(s1, s2, s3, d1, d2) [state, always, names_port];
     Cantx = can::cantx(s1, s2, d, n) [hal, can];
     Canrx = can::canrx(s1, s2, d, n) [can];
+    Cannet = canlink::cannet(s1, s2, s3) [hal, can];
+    Cannode = canlink::cannode(s1, s2) [can];
+    Canput = canlink::canput(s1, d, s2, s3, n) [state, always, hal, can];
     Uinit = serial::uinit(s1, s2, d1, d2) [names_port];
     Usend = serial::usend(s1, s2, d) [names_port];
     Urcv = serial::urcv(s1, s2, d) [names_port];

@@ -112,6 +112,7 @@ export_constants! {
     "rungc_codec_computer_link" = codec::COMPUTER_LINK;
     "rungc_codec_link" = codec::LINK;
     "rungc_codec_can" = codec::CAN;
+    "rungc_codec_canlink" = codec::CANLINK;
 }
 
 export_constants! {

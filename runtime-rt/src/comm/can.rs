@@ -119,12 +119,12 @@ impl Session<'_> {
         let mut is_there = false;
         let is_on = self.status.protocol == Protocol::Can;
         let is_bus = self.hal.can_bus().is_some();
-        if let Some(bus) = self.hal.can_bus() {
-            while let Some(frame) = bus.receive() {
-                if is_on {
-                    self.status.can.receive(frame);
-                }
+        while let Some(frame) = self.hal.can_bus().and_then(|bus| bus.receive()) {
+            if is_on {
+                self.take_from_bus(frame);
             }
+        }
+        if let Some(bus) = self.hal.can_bus() {
             sends = bus.is_sending();
             is_there = true;
         } else if let Some((port, now_us)) = self.serial() {
@@ -136,6 +136,13 @@ impl Session<'_> {
             M_SENDS.set(self.plc, false);
         }
         is_bus
+    }
+
+    /// A frame has come: one of CANlink, if the program is a station of it, or one for an instruction that waits.
+    pub(super) fn take_from_bus(&mut self, frame: CanFrame) {
+        if !self.take_canlink(&frame) {
+            self.status.can.receive(frame);
+        }
     }
 }
 

@@ -5,7 +5,9 @@ use super::modbus::{self, Framing, LONGEST_RTU};
 use super::port::{FRAME, Session, Status};
 use super::slaves::{Slave, role};
 use super::wiring::{PortWiring, note_programming_port};
-use super::{Cut, LineFault, Protocol, Protocols, can, computer_link, fx_port, qlink};
+use super::{
+    CanFrame, Cut, LineFault, Protocol, Protocols, can, canlink, computer_link, fx_port, qlink,
+};
 use crate::plc::Plc;
 
 /// The format of characters on the way to a CAN adapter; USB adapters ignore it.
@@ -26,6 +28,8 @@ pub struct Codec {
     take: for<'a, 'b> fn(&'a mut Session<'b>, usize),
     /// Takes a character, in protocols that have no frames.
     character: Option<for<'a, 'b> fn(&'a mut Session<'b>, Received)>,
+    /// Takes a frame of a CAN bus; false if it is not for this protocol.
+    bus: fn(&mut dyn Plc, &CanFrame) -> bool,
     /// Does what is to be done by now: at the end of each call.
     advance: for<'a, 'b> fn(&'a mut Session<'b>),
     /// A frame has been sent.
@@ -45,6 +49,7 @@ impl Codec {
             cut: |_, _, _| Cut::Drop,
             take: |_, _| {},
             character: None,
+            bus: |_, _| false,
             advance: |_| {},
             sent: |_| {},
             line: |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false),
@@ -123,6 +128,11 @@ impl Codec {
             take(session, character);
         }
         self.character.is_some()
+    }
+
+    /// Takes a frame of a CAN bus; false if it is not for this protocol.
+    pub(super) fn take_from_bus(&self, plc: &mut dyn Plc, frame: &CanFrame) -> bool {
+        (self.bus)(plc, frame)
     }
 
     pub(super) fn advance(&self, session: &mut Session) {
@@ -271,6 +281,12 @@ pub const CAN: Codec = Codec {
     ..Codec::new("can", Protocols::of(&[Protocol::Can]))
 };
 
+/// CANlink, beside frames of the program's own.
+pub const CANLINK: Codec = Codec {
+    bus: canlink::take,
+    ..Codec::new("canlink", Protocols::CANLINK)
+};
+
 /// All of them.
 pub const ALL: &[&Codec] = &[
     &FREE,
@@ -283,4 +299,5 @@ pub const ALL: &[&Codec] = &[
     &COMPUTER_LINK,
     &LINK,
     &CAN,
+    &CANLINK,
 ];

@@ -52,10 +52,11 @@
 //! | `computer_link.rs` | computer link, BD protocol of L01S |
 //! | `mc.rs` | MC protocol 1E and 3E |
 //! | `link.rs` | links between PLCs: parallel link, N:N link; polling by HM as a computer link's master |
-//! | `qlink.rs`, `can.rs` | QLink, CAN |
+//! | `qlink.rs`, `can.rs`, `canlink.rs` | QLink, CAN, CANlink |
 //! | `service.rs` | what servers over TCP speak; a connection to one |
 
 pub(crate) mod can;
+pub mod canlink;
 pub mod codec;
 pub mod computer_link;
 mod frame;

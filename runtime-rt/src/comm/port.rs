@@ -538,7 +538,7 @@ impl Session<'_> {
         let port = self.plc.port(self.wiring.number);
         let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
         if let Some(frame) = frame.and_then(CanFrame::parse) {
-            self.status.can.receive(frame);
+            self.take_from_bus(frame);
         }
     }
 

@@ -16,6 +16,9 @@ impl Protocols {
     /// QLink, which slaves by Modbus RTU of H1U and H2U also answer.
     pub const QLINK: Self = Protocols(1 << 31);
 
+    /// CANlink, on the CAN card of a program that is a station of it.
+    pub const CANLINK: Self = Protocols(1 << 30);
+
     /// Those of links that PLCs keep up by themselves.
     pub const LINKS: Self = Protocols::of(&[
         Protocol::ComputerLinkMaster,
@@ -38,7 +41,9 @@ impl Protocols {
     .or(Self::QLINK);
 
     /// Those that keep something from one frame to the next.
-    const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort]).or(Self::QLINK);
+    const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort])
+        .or(Self::QLINK)
+        .or(Self::CANLINK);
 
     /// Those whose longest frame is that of Modbus RTU, or shorter, or that have no frames.
     const SHORT: Self = Protocols::of(&[
@@ -50,8 +55,8 @@ impl Protocols {
         Protocol::Can,
     ]);
 
-    /// All of them.
-    pub const ALL: Self = Protocols(u32::MAX);
+    /// All that registers may choose.
+    pub const ALL: Self = Protocols(u32::MAX & !Self::CANLINK.0);
 
     /// The set of these.
     pub const fn of(protocols: &[Protocol]) -> Self {
@@ -88,7 +93,7 @@ impl Protocols {
 
     /// Characters of the longest frame.
     pub const fn longest_frame(self) -> usize {
-        match self.0 & !Self::SHORT.0 {
+        match self.0 & !Self::SHORT.or(Self::CANLINK).0 {
             0 => LONGEST_RTU,
             _ => FRAME,
         }

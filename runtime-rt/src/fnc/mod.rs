@@ -11,6 +11,7 @@ pub mod axis_jog;
 mod axis_registers;
 pub mod block;
 pub mod can;
+pub mod canlink;
 pub mod cassette;
 pub mod clock;
 pub mod cut;

@@ -57,6 +57,13 @@ super::codes! {
     wrong: "LD M8002\nMOV HC1 D8270\nMOV K1 D8271\nMOV H2 D8276\nEND\n",
     right: "LD M8002\nMOV H81 D8270\nMOV K1 D8271\nMOV H2 D8276\nEND\n";
 
+    CANLINK_REGISTERS = "W0701" "canlink-registers" Warning None,
+    "a program of CANlink that writes registers of the network",
+    "On a station of CANlink, D7800 to D7863 are the states of the stations. The system writes them in each scan, and the manual forbids a master's program to write D7000 to D7999.",
+    model: "h2u",
+    wrong: "LD M8000\nCANNET K1 K1 K500\nLD X0\nMOV K2 D7802\nEND\n",
+    right: "LD M8000\nCANNET K1 K1 K500\nLD X0\nMOV D7802 D0\nEND\n";
+
     OWN_FRAMES = "N0601" "own-frames" Note None,
     "a link whose frames the manuals do not print",
     "The manuals describe the registers and the effect of this link, but not its frames. rungc uses its own frames, so all partners have to run programs of rungc: a compiled program cannot replace one PLC among others. docs/src/links.md describes the frames.",

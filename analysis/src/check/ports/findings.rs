@@ -3,10 +3,12 @@
 use super::super::Code;
 use super::facts::{Facts, Held, Uinit, Write, d, m};
 use super::{Use, has_station, port_of, use_of};
+use crate::accesses;
+use rungc_catalogue::Lower;
 use rungc_models::ModelId;
 use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
 use rungc_rt::{Ports, RtFn};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use std::ops::RangeInclusive;
 
 /// Checks the ports that a program uses or sets up.
@@ -34,6 +36,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
         }
     }
     parallel(code, &facts, out);
+    canlink(code, out);
 }
 
 /// A port that a program uses or sets up.
@@ -347,6 +350,40 @@ impl Port<'_> {
             Some(place) => diagnostic.other(self.code.span(place), "the port is set up here"),
             None => diagnostic,
         }
+    }
+}
+
+/// A station of CANlink: its frames are our own, and some registers are the network's (h1u-h2u-programming §5.9.8).
+fn canlink(code: &Code, out: &mut Diagnostics) {
+    const RESERVED: RangeInclusive<u32> = 7000..=7999;
+    let is_station = |&i: &usize| matches!(code.lower(i), Some(Lower::Call(RtFn::Cannet)));
+    let Some(station) = (0..code.len).find(is_station) else {
+        return;
+    };
+    let message = "the CAN card is on CANlink: its partners have to run programs of rungc, too";
+    let note = codes::OWN_FRAMES
+        .at(code.span(station), message)
+        .label("the manuals do not print the frames of CANlink")
+        .help("docs/src/links.md describes the frames");
+    out.push(note);
+    for i in 0..code.len {
+        let mut writes = accesses::of(code.resolved, i).filter(accesses::Access::writes);
+        let Some(access) = writes.find(|access| {
+            let Device { class, number } = access.first;
+            let last = number.saturating_add(access.count.unwrap_or(1).saturating_sub(1));
+            class == DeviceClass::D && number <= *RESERVED.end() && last >= *RESERVED.start()
+        }) else {
+            continue;
+        };
+        let message = format!(
+            "`{}` is a register of the network on a station of CANlink",
+            access.first
+        );
+        let warning = codes::CANLINK_REGISTERS
+            .at(code.span(i), message)
+            .label("written here")
+            .help("use registers below D7000");
+        out.push(warning);
     }
 }
 

@@ -43,8 +43,8 @@ impl Interface {
         Ok(text.as_slice().len())
     }
 
-    /// Sends the whole frames at the beginning of `bytes`; how many characters have been dealt with. What is not a frame is
-    /// skipped.
+    /// Sends the whole frames at the beginning of `bytes`; how many characters have been dealt with. What is not a
+    /// frame is skipped.
     ///
     /// # Errors
     /// What the system says, if no frame went out.
