@@ -13,9 +13,10 @@ use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, Names, ReadOptions};
-use rungc_models::{ModelId, Plc};
+use rungc_lower::compile::CompileOptions;
+use rungc_models::{Model, ModelId, Plc};
 use rungc_project::Check;
-use rungc_project::serve::{Line, address};
+use rungc_project::serve::{FxEnd, Line, Serve, address};
 use rungc_syntax::{Device, DeviceClass};
 use std::net::SocketAddr;
 use std::ops::RangeInclusive;
@@ -378,9 +379,10 @@ pub struct ServeArgs {
     /// Serve all devices by MC protocol (frames 1E and 3E, binary), as --modbus-tcp does.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub mc: Vec<SocketAddr>,
-    /// Serve all devices by the programming port's protocol, as --modbus-tcp does.
-    #[arg(long, value_parser = address, value_name = "ADDRESS")]
-    pub fx: Vec<SocketAddr>,
+    /// Serve all devices by the programming port's protocol, as --modbus-tcp does; or, at the programming port itself,
+    /// on a line as after --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
+    #[arg(long, value_name = "ADDRESS or DEVICE")]
+    pub fx: Vec<FxEnd>,
     /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that
     /// clients open (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket
     /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. What vanishes is
@@ -403,12 +405,30 @@ impl ServeArgs {
         !(self.modbus_tcp.is_empty()
             && self.mc.is_empty()
             && self.fx.is_empty()
-            && self.lines().next().is_none())
+            && self.named_lines().next().is_none())
     }
 
-    /// The lines of all ports: serial ports, and the CAN card.
-    pub fn lines(&self) -> impl Iterator<Item = &Line> {
+    /// The lines of ports that are named: serial ports, and the CAN card.
+    pub fn named_lines(&self) -> impl Iterator<Item = &Line> {
         self.serial.iter().chain(&self.can)
+    }
+
+    /// The options with which a program is compiled that these servers and lines serve.
+    pub fn opened(&self, options: CompileOptions) -> CompileOptions {
+        let is_line = |end: &FxEnd| matches!(end, FxEnd::Line(_));
+        CompileOptions {
+            // Clients may ask for any device.
+            observe_all: self.any(),
+            ports: self.named_lines().map(|line| line.port).collect(),
+            programmer: self.fx.iter().any(is_line),
+            ..options
+        }
+    }
+
+    /// The lines of all ports of a model: the named ones, and the programming port.
+    pub fn lines(&self, model: &Model) -> Vec<Line> {
+        let of_fx = Serve::fx_lines(&self.fx, model);
+        self.named_lines().cloned().chain(of_fx).collect()
     }
 }
 

@@ -267,6 +267,32 @@ fn serves(program: &Path) {
     assert_eq!(host.child.wait().unwrap().code(), Some(0));
 }
 
+/// The programming port answers on a separate line, and Ctrl-C ends the run with the table of connections.
+fn answers_a_programmer_until_interrupted(program: &Path, line: &str, client: Option<&Path>) {
+    let mut host = Host::start(Command::new(program).args(["--fx", line, "--modbus-tcp", "0"]));
+    let path = host.says("COM0 at ");
+    let client = client.map_or(path, |client| client.display().to_string());
+    let modbus = host.says("Modbus TCP at ");
+    let mut port = serial2::SerialPort::open(client, 9600).unwrap();
+    port.set_read_timeout(Duration::from_secs(4)).unwrap();
+    let mut answer = [0];
+    let end = Instant::now() + PATIENCE;
+    while port
+        .write_all(b"\x05")
+        .and_then(|()| port.read_exact(&mut answer))
+        .is_err()
+    {
+        assert!(Instant::now() < end, "the programming port never answers");
+    }
+    assert_eq!(answer, [6]);
+    let pid = host.child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &pid]).status().unwrap();
+    assert!(kill.success());
+    let row = host.says(&format!("{modbus:<21}  "));
+    assert!(row.contains("Modbus TCP"), "{row}");
+    assert_eq!(host.child.wait().unwrap().code(), Some(0));
+}
+
 /// A line that vanishes is opened again.
 fn reconnects(program: &Path, folder: &Path) {
     let [ours, theirs] = ["far", "near"].map(|name| folder.join(name));
@@ -305,6 +331,7 @@ fn an_executable_in_c_serves_over_tcp_and_reconnects() {
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("an address is written 127.0.0.1:5020"));
+    answers_a_programmer_until_interrupted(&program, "pty", None);
     if has(&["mbpoll", "socat"]) {
         reconnects(&program, folder.path());
     }
@@ -318,6 +345,10 @@ fn an_executable_in_rust_serves_over_tcp_and_reconnects() {
     serves(&program);
     if has(&["mbpoll", "socat", "stty"]) {
         reconnects(&program, folder.path());
+        let [ours, theirs] = ["port", "programmer"].map(|name| folder.path().join(name));
+        let _cable = cable(&ours, &theirs);
+        let line = ours.display().to_string();
+        answers_a_programmer_until_interrupted(&program, &line, Some(&theirs));
     }
 }
 

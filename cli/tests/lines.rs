@@ -49,6 +49,41 @@ fn a_client_on_a_pseudo_terminal_reads_and_writes() {
     assert_eq!(ask(&port, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
 }
 
+/// Everything that a run can open at once, as `rungc run --help` says it: the programming port answers on a separate
+/// line. An adapter is a pseudo-terminal of `socat`.
+#[test]
+fn a_run_opens_lines_and_servers_at_once() {
+    if Command::new("socat").arg("-V").output().is_err() {
+        eprintln!("skipped: there is no socat (apt-get install socat)");
+        return;
+    }
+    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
+    let ends = ["ttyUSB0", "other"].map(|name| {
+        let link = folder.path().join(name);
+        format!("pty,rawer,link={}", link.display())
+    });
+    let mut socat = Command::new("socat").args(ends).spawn().unwrap();
+    while !folder.path().join("other").exists() {
+        thread::sleep(Duration::from_millis(10));
+    }
+    let args = "--serial COM1=ttyUSB0 --serial COM2=pty --modbus-tcp 127.0.0.1:0 --mc 127.0.0.1:0 --fx pty";
+    let args: Vec<_> = args.split(' ').collect();
+    let mut run = Run::start(folder.path(), "h2u", &args);
+    run.opens(5);
+    let mut programmer = SerialPort::open(run.line("COM0"), 9600).unwrap();
+    programmer.set_read_timeout(Duration::from_secs(4)).unwrap();
+    assert_eq!(ask(&programmer, b"\x05", 1), b"\x06");
+    let mut adapter = SerialPort::open(folder.path().join("other"), 9600).unwrap();
+    adapter.set_read_timeout(Duration::from_secs(4)).unwrap();
+    let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
+    assert_eq!(ask(&adapter, &write_d0, 8), write_d0);
+    assert_ne!(run.port("Modbus TCP"), run.port("MC protocol"));
+    assert!(!run.line("COM2").is_empty());
+    drop(run);
+    socat.kill().unwrap();
+    socat.wait().unwrap();
+}
+
 /// Asks over a connection until it is answered in time.
 fn ask_stream(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> {
     stream
@@ -64,7 +99,6 @@ fn ask_stream(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> 
     panic!("no answer to {request:02x?}");
 }
 
-/// A gateway that is restarted: the line is connected again, and each change is reported once.
 /// The next client of a socket, which has to come soon.
 fn accepted(listener: &TcpListener) -> TcpStream {
     listener.set_nonblocking(true).unwrap();
@@ -84,6 +118,7 @@ fn accepted(listener: &TcpListener) -> TcpStream {
     }
 }
 
+/// A gateway that is restarted: the line is connected again, and each change is reported once.
 #[test]
 fn a_vanished_gateway_is_connected_again() {
     let folder = folder(&[("p.il", SLAVE.as_bytes())]);
@@ -174,6 +209,16 @@ fn lines_that_cannot_be_opened() {
     assert!(
         message.contains("has no port COM7; its ports are COM0, COM1"),
         "{message}"
+    );
+    let output = rungc(
+        folder.path(),
+        &[
+            "run", "p.il", "--model", "h2u", "--serial", "COM0=pty", "--fx", "pty",
+        ],
+    );
+    assert_eq!(
+        text(&output.stderr).trim_end(),
+        "rungc: COM0 is connected to two lines"
     );
     let message = fails("COM1=no-such-tty");
     assert!(

@@ -60,6 +60,8 @@ const RTU_SLAVE: &str = "LD M8002\nMOV H2 D8126\nMOV H81 D8120\nMOV K1 D8121\nEN
 const ASCII_SLAVE: &str = "LD M8002\nMOV H3 D8126\nMOV H81 D8120\nMOV K1 D8121\nEND\n";
 const RTU_MASTER: &str = "LD M8002\nMOV H20 D8126\nMOV H81 D8120\nMOV K1000 D8129\nLD M8000\nMODBUS H0103 H0 K125 D200\nEND\n";
 const LINK: &str = "LD M8002\nMOV H6 D8126\nMOV H81 D8120\nMOV K0 D8121\nEND\n";
+const RS: &str = "LD M8002\nMOV H0 D8126\nMOV H81 D8120\nLD M8000\nRS D0 K0 D100 K250\nEND\n";
+const NN_SLAVE: &str = "LD M8002\nMOV H4 D8126\nMOV K1 D8176\nLD M8000\nOUT M1064\nEND\n";
 const PROGRAMMING_PORT: &str = "LD M8002\nMOV H1 D8126\nEND\n";
 
 fn rows() -> Vec<Row> {
@@ -112,6 +114,13 @@ fn rows() -> Vec<Row> {
             b"\x0500FFWR0D000040".to_vec(),
             262,
         ),
+        row("RS, 250 characters received", RS, vec![0x5a; 250], 0),
+        row(
+            "N:N link, a block received and one sent",
+            NN_SLAVE,
+            round(),
+            56,
+        ),
         row(
             "programming port, 64 bytes read",
             PROGRAMMING_PORT,
@@ -119,6 +128,22 @@ fn rows() -> Vec<Row> {
             132,
         ),
     ]
+}
+
+/// A text between STX and its sum, as stations of a link send it.
+fn linked(text: &str) -> Vec<u8> {
+    let mut frame = format!("\x02{text}\x03").into_bytes();
+    let sum = frame[1..]
+        .iter()
+        .fold(0u8, |sum, &byte| sum.wrapping_add(byte));
+    frame.extend(format!("{sum:02X}").bytes());
+    frame
+}
+
+/// A round of an N:N link in the mode with the largest blocks: the block of the master and its request to station 1.
+fn round() -> Vec<u8> {
+    let block = "5A5A".repeat(4 + 8);
+    [linked(&format!("D012{block}")), linked("P1120000")].concat()
 }
 
 /// The numbers that the page states in a row of a table.
@@ -236,7 +261,7 @@ fn a_modbus_slave_adds_no_more_than_the_book_says() {
         return leave_out(&no_rust(TARGET));
     };
     let folder = folder(&[]);
-    for (backend, name) in [("c", "image from C")] {
+    for (backend, name) in [("c", "image from C"), ("rust", "image from Rust")] {
         let [plain, slave] =
             [WITHOUT_PORT, WITH_PORT].map(|program| size(folder.path(), program, backend, &cargo));
         let stated = stated(name);

@@ -112,5 +112,9 @@ fn an_editor_wants_to_write_a_program_to_an_fx1s() {
 
 #[test]
 fn an_editor_wants_to_write_a_program_to_an_fx1n() {
-    replay(include_str!("clients/sessions/fx1n-write.txt"), "h2u", true);
+    replay(
+        include_str!("clients/sessions/fx1n-write.txt"),
+        "fx1n",
+        true,
+    );
 }

@@ -87,6 +87,16 @@ ADD D0 K7 D10
 END
 ";
 
+/// The slave with more registers than it names.
+const PROJECT: &str = "\
+[project]
+program = \"slave.il\"
+model = \"h2u\"
+
+[serve]
+D = \"D0-D511\"
+";
+
 /// A microcontroller that QEMU emulates, with its board's description.
 struct Machine {
     name: &'static str,
@@ -116,25 +126,33 @@ const M4_IN_RUST: Machine = Machine {
 };
 
 impl Machine {
-    /// An image of a program; `None` if there is no Rust for it, and the test is to be left out.
+    /// An image of a program of H2U; `None` if there is no Rust for it, and the test is to be left out.
     fn image(&self, folder: &Path, program: &str) -> Option<PathBuf> {
+        let image = format!("{program}-{}.elf", self.name);
+        self.build(folder, &[program, "--model", "h2u"], &image)?;
+        Some(folder.join(image))
+    }
+
+    /// Builds an image; what was said of it.
+    fn build(&self, folder: &Path, what: &[&str], image: &str) -> Option<String> {
         let Some(cargo) = cargo(self.target) else {
             leave_out(&no_rust(self.target));
             return None;
         };
         let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
-        let image = folder.join(format!("{program}-{}.elf", self.name));
         let mut build = tools::with_cargo(&cargo);
         build
-            .args(["build", program, "--model", "h2u", "--emit", "elf"])
+            .arg("build")
+            .args(what)
+            .args(["--emit", "elf"])
             .args(["--backend", self.backend, "--board"])
             .arg(board.join(self.board))
-            .arg("-o")
-            .arg(&image)
+            .args(["-o", image])
             .current_dir(folder);
         let output = build.output().unwrap();
         assert!(output.status.success(), "{}", text(&output.stderr));
-        Some(image)
+        let said = [output.stderr, output.stdout];
+        Some(said.map(|said| text(&said).to_string()).concat())
     }
 
     /// Starts an image, with COM1 at a character device of QEMU's.
@@ -198,49 +216,100 @@ impl Drop for Running {
     }
 }
 
-/// Calls mbpoll until it succeeds: on a loaded machine a request may arrive with a pause in it, which cuts the frame.
-fn poll(args: &[&str]) -> String {
+/// Calls mbpoll until it prints `wanted`: on a loaded machine a request may arrive with a pause in it, which cuts the
+/// frame.
+fn poll(args: &[&str], wanted: &str) -> String {
     let line = [
-        "-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-o", "2", "-r", "1", "-1", "-t", "4",
+        "-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-o", "2", "-1", "-t", "4",
     ];
-    let mut output = None;
+    let mut printed = String::new();
     for _ in 0..10 {
         let mut command = Command::new("mbpoll");
         let once = command.args(line).args(args).output().unwrap();
-        if once.status.success() {
-            return text(&once.stdout).to_string();
+        printed = [once.stdout, once.stderr]
+            .map(|said| text(&said).to_string())
+            .concat();
+        if printed.contains(wanted) {
+            return printed;
         }
-        output = Some(once);
     }
-    panic!(
-        "{}",
-        output.map_or(String::new(), |o| text(&o.stderr).to_string())
-    );
+    panic!("{wanted}: {printed}");
+}
+
+/// Whether the tools are there that build an image and ask it.
+fn can_poll() -> bool {
+    let there = tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]);
+    if there && Command::new("mbpoll").arg("-V").output().is_err() {
+        leave_out("mbpoll");
+        return false;
+    }
+    there
+}
+
+impl Running {
+    /// Where the line is that QEMU has made.
+    fn line(&self) -> String {
+        let path = self.after("redirected to ");
+        path.split(' ').next().unwrap_or_default().to_string()
+    }
 }
 
 fn answers_mbpoll(machine: &Machine) {
-    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+    if !can_poll() {
         return;
-    }
-    if Command::new("mbpoll").arg("-V").output().is_err() {
-        return leave_out("mbpoll");
     }
     let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
     let Some(image) = machine.image(folder.path(), "slave.il") else {
         return;
     };
     let running = machine.start(&image, "pty");
-    let path = running.after("redirected to ");
-    let path = path.split(' ').next().unwrap();
+    let path = running.line();
     // Two values are written, and three are read.
-    poll(&[path, "20", "22"]);
-    let mut shown = String::new();
-    let end = Instant::now() + Duration::from_secs(30);
-    while !shown.contains("[3]: \t42") && Instant::now() < end {
-        shown = poll(&["-c", "3", path]);
-    }
+    poll(&["-r", "1", &path, "20", "22"], "Written 2 references");
+    let shown = poll(&["-r", "1", "-c", "3", &path], "[3]: \t42");
     assert!(shown.contains("[1]: \t20"), "{shown}");
-    assert!(shown.contains("[3]: \t42"), "{shown}");
+    // D3 is not in the program.
+    poll(&["-r", "4", &path], "Illegal data address");
+}
+
+/// Registers that `[serve]` adds are there, others are rejected, and the image's report counts them.
+fn serves_the_ranges_of_the_project(machine: &Machine) {
+    if !can_poll() {
+        return;
+    }
+    let files: [(&str, &[u8]); 2] = [
+        ("slave.il", SLAVE.as_bytes()),
+        ("rungc.toml", PROJECT.as_bytes()),
+    ];
+    let folder = folder(&files);
+    // Only images from C are measured.
+    let measures = machine.backend == "c";
+    let what: &[&str] = if measures { &["--report"] } else { &[] };
+    let Some(said) = machine.build(folder.path(), what, "slave.elf") else {
+        return;
+    };
+    assert!(
+        said.contains("D0-D511; requests for others are rejected"),
+        "{said}"
+    );
+    assert!(!measures || said.contains("bytes for 52"), "{said}");
+    let running = machine.start(&folder.path().join("slave.elf"), "pty");
+    let path = running.line();
+    poll(&["-r", "512", &path, "1234"], "Written 1 references");
+    poll(&["-r", "512", &path], "[512]: \t1234");
+    poll(&["-r", "513", &path], "Illegal data address");
+    poll(&["-r", "512", &path, "5", "6"], "Illegal data address");
+    poll(&["-r", "512", &path], "[512]: \t1234");
+}
+
+#[test]
+fn an_image_in_c_serves_the_ranges_of_the_project() {
+    serves_the_ranges_of_the_project(&M3_IN_C);
+}
+
+#[test]
+fn an_image_in_rust_serves_the_ranges_of_the_project() {
+    serves_the_ranges_of_the_project(&M4_IN_RUST);
 }
 
 #[test]

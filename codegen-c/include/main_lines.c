@@ -212,6 +212,31 @@ static bool open_pseudo_terminal(serial_line *line)
     return tcsetattr(line->client_end, TCSANOW, &settings) == 0;
 }
 
+/* Connects a serial port to `/dev/ttyUSB0` or `pty`. */
+static bool connect_line(uint8_t port, const char *path)
+{
+    serial_line *const line = line_of(port);
+
+    if (line == NULL) {
+        fprintf(stderr, "PROGRAM: the program has no port COM%u\n", port);
+        return false;
+    }
+    if (line->path != NULL) {
+        fprintf(stderr, "PROGRAM: COM%u is connected to two lines\n", port);
+        return false;
+    }
+    line->path = path;
+    if (strcmp(path, "pty") != 0) {
+        line->file = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+    }
+    if (strcmp(path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
+        fprintf(stderr, "PROGRAM: COM%u=%s: %s\n", port, path, strerror(errno));
+        return false;
+    }
+    fprintf(stderr, "PROGRAM: COM%u at %s\n", port, line->path);
+    return true;
+}
+
 /* Connects a serial port as `COM1=/dev/ttyUSB0` or `COM1=pty` says. */
 static bool open_line(const char *what)
 {
@@ -222,20 +247,6 @@ static bool open_line(const char *what)
         fprintf(stderr, "PROGRAM: --serial %s: a line is written COM1=/dev/ttyUSB0 or COM1=pty\n", what);
         return false;
     }
-    serial_line *const line = line_of((uint8_t)port);
-    if (line == NULL) {
-        fprintf(stderr, "PROGRAM: --serial %s: the program has no port COM%lu\n", what, port);
-        return false;
-    }
-    line->path = end + 1;
-    if (strcmp(line->path, "pty") != 0) {
-        line->file = open(line->path, O_RDWR | O_NOCTTY | O_NONBLOCK);
-    }
-    if (strcmp(line->path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
-        fprintf(stderr, "PROGRAM: --serial %s: %s\n", what, strerror(errno));
-        return false;
-    }
-    fprintf(stderr, "PROGRAM: COM%lu at %s\n", port, line->path);
-    return true;
+    return connect_line((uint8_t)port, end + 1);
 }
 

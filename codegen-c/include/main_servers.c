@@ -126,6 +126,12 @@ static bool open_server(rungc_speaks speaks, const char *name, const char *text)
     return true;
 }
 
+/* Whether a text is the end of a line rather than an address. */
+static bool is_line(const char *text)
+{
+    return strcmp(text, "pty") == 0 || strchr(text, '/') != NULL;
+}
+
 /* The row of a client in the table; those that do not fit share the last one. */
 static tcp_client *client_of(size_t server, const char *address)
 {

@@ -595,6 +595,10 @@ typedef struct rungc_port_place {
      */
     uint8_t number;
     /**
+     * Whether there is memory for the progress of its protocols.
+     */
+    bool has_progress;
+    /**
      * Whether there is memory for what its protocols keep.
      */
     bool keeps;

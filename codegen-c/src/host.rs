@@ -320,10 +320,10 @@ fn options(module: &Module, host: &Host) -> String {
         let call = match option.takes {
             Takes::Line => "open_line(argv[++i])".to_string(),
             Takes::Retained => "keep_in(argv[++i])".to_string(),
-            Takes::Address(speaks) => {
-                let name = speaks.name();
-                let speaks = constant(speaks);
-                format!("open_server(RUNGC_SPEAKS_{speaks}, \"{name}\", argv[++i])")
+            Takes::Address(speaks) => open_server(speaks),
+            Takes::AddressOrLine(speaks, port) => {
+                let open = open_server(speaks);
+                format!("(is_line(argv[i + 1]) ? connect_line({port}, argv[++i]) : {open})")
             }
         };
         format!(
@@ -333,6 +333,12 @@ fn options(module: &Module, host: &Host) -> String {
         )
     });
     options.collect()
+}
+
+/// The call that opens a server.
+fn open_server(speaks: Speaks) -> String {
+    let (name, speaks) = (speaks.name(), constant(speaks));
+    format!("open_server(RUNGC_SPEAKS_{speaks}, \"{name}\", argv[++i])")
 }
 
 /// What the header of the runtime calls a protocol.

@@ -53,9 +53,10 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
     if module.has_ports() {
         let places = module.serial_ports().map(|(number, protocols)| {
             let length = protocols.longest_frame();
+            let progress = protocols.has_progress();
             let keeps = protocols.keeps_memory();
             let family = module.model.ports.name();
-            format!("{{&rungc_port_{family}_{number}, offsetof({name}_plc, com{number}), {length}, {number}, {keeps}}}")
+            format!("{{&rungc_port_{family}_{number}, offsetof({name}_plc, com{number}), {length}, {number}, {progress}, {keeps}}}")
         });
         let codecs = module
             .codecs()

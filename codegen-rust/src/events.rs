@@ -181,7 +181,7 @@ impl Generator<'_> {
                 fn modbus(&self) -> &'static #comm::modbus::Profile { &#comm::modbus::#profile }
             }
         });
-        let (class, runs) = (self.rt("Class"), self.rt("Runs"));
+        let (class, runs, run) = (self.rt("Class"), self.rt("Runs"), self.rt("StoredRun"));
         let areas = self.module.layout.areas.iter();
         let areas = areas.map(|area| (area.class, area.first, area.first + area.count - 1));
         let rows: Vec<_> = areas.collect();
@@ -204,8 +204,8 @@ impl Generator<'_> {
                 &[#(#codecs),*]
             }
             fn ports(&self) -> #ports { #ports::#family }
-            fn stores(&self, class: #class, number: u32) -> bool {
-                #runs(&[#(#rows),*]).has(class, number)
+            fn stored_run(&self, class: #class, number: u32) -> Option<#run> {
+                #runs(&[#(#rows),*]).stored_run(class, number)
             }
             fn type_code(&self) -> u16 { #type_code }
         })

@@ -6,6 +6,7 @@ use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_ir::node::Origin;
 use rungc_models::plc_errors;
+use rungc_rt::comm::service::Speaks;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
 use std::collections::BTreeSet;
@@ -19,6 +20,9 @@ const LINES: &str = include_str!("../templates/lines.rs");
 
 /// What opens servers.
 const SERVERS: &str = include_str!("../templates/servers.rs");
+
+/// What lets a run end in order when it is interrupted.
+const SIGNALS: &str = include_str!("../templates/signals.rs");
 
 /// What keeps latched devices in a file.
 const RETAIN: &str = include_str!("../templates/retain.rs");
@@ -67,8 +71,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         true => plc_errors::PLC_ERRORS,
         false => &[],
     };
-    let errors: String = errors
-        .iter()
+    let rows = errors.iter();
+    let errors: String = rows
         .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
         .collect();
     let (period, overrun) = match cycle::constant_scan(module, &generator.storage) {
@@ -79,12 +83,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         true => (SET_CLOCK, LOCAL_TIME),
         false => ("", ""),
     };
-    let exchange = match module.has_ports() {
-        true => {
-            "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n"
-        }
-        false => "",
-    };
+    let exchange = if module.has_ports() { EXCHANGE } else { "" };
     let keeps = cycle::keeps_any(module);
     let [save, end] = if keeps { SAVE } else { [""; 2] };
     let (poll, connections) = match servers {
@@ -106,17 +105,21 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("USES;\n", &uses(generator, crate_name, servers))
         .replace("    REPORT;\n", report)
         .replace("ON_ERROR;\n", on_error);
-    if module.has_ports() {
-        code.push_str(LINES);
-    }
-    if servers {
-        code.push_str(SERVERS);
-    }
-    if keeps {
-        code.push_str(RETAIN);
-    }
+    // There is something to do at the end.
+    let in_order = servers || keeps;
+    let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
+    let ports = module.has_ports();
+    let parts = [
+        (ports, LINES),
+        (servers, SERVERS),
+        (keeps, RETAIN),
+        (in_order, SIGNALS),
+    ];
+    code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
     code.replace("        PERIOD;\n", period)
         .replace("    OVERRUN;\n", overrun)
+        .replace("    CATCH;\n", catch)
+        .replace("        STOPPED;\n", stopped)
         .replace("    CLOCK;\n", set)
         .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
@@ -212,8 +215,15 @@ fn open(module: &Module, host: &Host) -> String {
             Takes::Retained => {
                 "RetainFile::begin(&value, &mut plc, |text| eprintln!(\"{text}\")).map(|file| kept = Some(file))".to_string()
             }
-            Takes::Address(speaks) => {
-                format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
+            Takes::Address(speaks) => open_server(speaks),
+            Takes::AddressOrLine(speaks, port) => {
+                let open = open_server(speaks);
+                format!(
+                    "match is_line(&value) {{
+                true => Line::of_port(&mut plc, {port}, &value).map(|line| lines.push(line)),
+                false => {open},
+            }}"
+                )
             }
         };
         format!("            {:?} => {does},\n", option.name)
@@ -222,6 +232,11 @@ fn open(module: &Module, host: &Host) -> String {
     text + "    for (option, value) in options() {\n        let done = match option.as_str() {\n"
         + &arms
         + OPENED
+}
+
+/// The call that opens a server.
+fn open_server(speaks: Speaks) -> String {
+    format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
 }
 
 /// How the loop over options ends.
@@ -247,6 +262,16 @@ const SAVE: [&str; 2] = [
     }
 ",
 ];
+
+/// Before the first scan, and before each: a signal ends the run in order.
+const INTERRUPTED: [&str; 2] = [
+    "    signals::catch();\n",
+    "        if signals::stopped() {\n            break;\n        }\n",
+];
+
+/// What has come over the lines reaches the ports.
+const EXCHANGE: &str =
+    "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
 
 /// Clients are answered between two scans.
 const POLL: &str = "        if let Some(running) = servers.poll(&mut plc) {

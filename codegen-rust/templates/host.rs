@@ -39,7 +39,9 @@ fn main() {
     let mut stop = Stop::default();
     REPORT;
     OVERRUN;
+    CATCH;
     'run: loop {
+        STOPPED;
         let begin = Instant::now();
         let now_ms = (begin - start).as_millis() as u32;
         for line in commands.try_iter().take(COMMANDS_PER_SCAN) {

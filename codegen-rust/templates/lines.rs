@@ -54,6 +54,11 @@ impl Line {
             .split_once('=')
             .and_then(|(port, path)| Some((port.strip_prefix("COM")?.parse().ok()?, path)))
             .ok_or("a line is written COM1=/dev/ttyUSB0")?;
+        Line::of_port(plc, port, path)
+    }
+
+    /// A port's line to the device at a path.
+    fn of_port(plc: &mut TYPE, port: u8, path: &str) -> Result<Line, String> {
         if plc.port(port).is_none() {
             return Err(format!("the program has no port COM{port}"));
         }

@@ -1,4 +1,9 @@
 
+/// Whether a value is the end of a line rather than an address.
+fn is_line(value: &str) -> bool {
+    value.contains('/')
+}
+
 /// Opens the server that an option names: `--modbus-tcp 5020`.
 fn open_server(servers: &mut Servers, speaks: Speaks, value: &str) -> Result<(), String> {
     let at = address(value).ok_or("an address is written 127.0.0.1:5020, [::1]:5020 or 5020")?;

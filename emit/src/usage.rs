@@ -25,6 +25,8 @@ pub enum Takes {
     Line,
     /// The address of a server.
     Address(Speaks),
+    /// That of one that speaks what this port does: or what the port is connected to.
+    AddressOrLine(Speaks, u8),
     /// The file that keeps latched devices from run to run.
     Retained,
 }
@@ -44,9 +46,14 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
         name: "--serial",
         takes: Takes::Line,
     };
+    let programmer = module.model.ports.of_programmer();
+    let programmer = programmer.filter(|port| module.ports.contains(port));
     let servers = Speaks::all().map(|speaks| Valued {
         name: speaks.option(),
-        takes: Takes::Address(speaks),
+        takes: match programmer {
+            Some(port) if speaks == Speaks::ProgrammingPort => Takes::AddressOrLine(speaks, port),
+            _ => Takes::Address(speaks),
+        },
     });
     let line = module.has_ports().then_some(line);
     let retain = keeps_any(module).then_some(Valued {
@@ -87,10 +94,21 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                 &format!("{name} FILE"),
                 "keep latched devices in this file from run to run",
             ),
-            Takes::Address(speaks) => option(
-                &format!("{name} ADDRESS"),
-                &format!("serve all devices over TCP: {}", speaks.name()),
-            ),
+            Takes::Address(speaks) | Takes::AddressOrLine(speaks, _) => {
+                let or_line = match takes {
+                    Takes::AddressOrLine(_, port) => {
+                        format!(
+                            "; or connect COM{port}: {name} {}",
+                            host.lines.join(&format!(", {name} "))
+                        )
+                    }
+                    _ => String::new(),
+                };
+                option(
+                    &format!("{name} ADDRESS"),
+                    &format!("serve all devices over TCP: {}{or_line}", speaks.name()),
+                );
+            }
         }
     }
     option("-h, --help", "print this");

@@ -7,6 +7,7 @@ mod rust;
 use crate::board::{Board, Retain, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
+use rungc_rt::comm::Protocol;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::fmt::Write;
@@ -76,6 +77,12 @@ impl Image<'_> {
         ports
             .filter(|serial| self.module.ports.contains(&serial.port))
             .collect()
+    }
+
+    /// Whether no port listens while it sends, as free protocols do: then both directions share memory.
+    fn takes_turns(&self) -> bool {
+        let mut ports = self.module.serial_ports();
+        ports.all(|(_, protocols)| !protocols.contains(Protocol::Free))
     }
 
     /// Outputs that are printed: number, name, and the text after the state, a comment. Those that send pulses would be

@@ -1,10 +1,15 @@
-/* What waits between the interrupt of a UART and the main loop. */
+/* What waits between the interrupt of a UART and the main loop/* HOW */. */
 typedef struct {
-    rungc_characters received;
-    uint8_t to_send[SEND];
-    volatile uint16_t first; /* the next character to be sent; changes where no interrupt comes */
-    volatile uint16_t end;   /* where the next one goes; the main loop's */
-    uint8_t mask;            /* the bits of a character */
+    /* SHARE */ {
+        rungc_characters received;
+        struct {
+            uint8_t bytes[SEND];
+            volatile uint16_t first; /* the next one to be sent; changes where no interrupt comes, as the next two do */
+            volatile uint16_t end;   /* where the next one goes */
+        } out;
+    };
+    volatile bool sends;
+    uint8_t mask; /* the bits of a character */
 } queues;
 
 /* A serial port: the interrupt of its UART notes what comes in, with its time, and sends. */
@@ -29,24 +34,41 @@ static void unmask_interrupts(uint32_t masked)
     __asm__ volatile("msr primask, %0" ::"r"(masked) : "memory");
 }
 
-/* TIME *//* UART *//* Hands over as many characters as the UART takes, and switches the driver of the line. */
+/* Whether what comes is noted. */
+static bool listens(const queues *q)
+{
+    /* LISTENS */
+}
+
+/* TIME *//* UART *//* How many characters wait to be sent. */
+static uint32_t to_send(const queues *q)
+{
+    return q->sends ? (q->out.end + SEND - q->out.first) % SEND : 0u;
+}
+
+/* Hands over as many characters as the UART takes, and switches the driver of the line. */
 static void pump(const uart *u)
 {
     queues *const q = u->waiting;
-    bool sending = q->first != q->end;
 
-    if (sending && u->drive != NULL) {
+    if (to_send(q) > 0u && u->drive != NULL) {
         u->drive(true);
     }
-    while (sending && has_room(u)) {
-        REGISTER(u->at + OUT) = q->to_send[q->first];
-        q->first = (uint16_t)((q->first + 1u) % SEND);
-        sending = q->first != q->end;
+    while (to_send(q) > 0u && has_room(u)) {
+        REGISTER(u->at + OUT) = q->out.bytes[q->out.first];
+        q->out.first = (uint16_t)((q->out.first + 1u) % SEND);
     }
+    const bool sending = to_send(q) > 0u;
     const bool last = !sending && !has_sent(u);
     expect(u, sending, last);
-    if (!sending && !last && u->drive != NULL) {
+    if (sending || last) {
+        return;
+    }
+    if (u->drive != NULL) {
         u->drive(false);
+    }
+    if (q->sends) {
+/* LISTEN */        q->sends = false;
     }
 }
 
@@ -57,7 +79,9 @@ static void serve(const uart *u)
     uint8_t byte;
 
     while (next_character(u, &byte, &fault)) {
-        rungc_note_character(&u->waiting->received, fine_us(), byte & u->waiting->mask, fault);
+        if (listens(u->waiting)) {
+            rungc_note_character(&u->waiting->received, fine_us(), byte & u->waiting->mask, fault);
+        }
     }
     pump(u);
 }
@@ -89,7 +113,7 @@ static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received
     const uart *const u = uart_of(port);
 
     (void)context;
-    if (u == NULL || !rungc_take_character(&u->waiting->received, now_us + begin_us, received)) {
+    if (u == NULL || !listens(u->waiting) || !rungc_take_character(&u->waiting->received, now_us + begin_us, received)) {
         return false;
     }
     received->at_us -= begin_us;
@@ -102,15 +126,24 @@ static bool send(void *context, uint8_t port, uint8_t byte, uint32_t now_us)
 
     (void)context;
     (void)now_us;
-    if (u == NULL || (u->waiting->end + 1u) % SEND == u->waiting->first) {
+    if (u == NULL) {
         return false;
     }
-    u->waiting->to_send[u->waiting->end] = byte;
-    u->waiting->end = (uint16_t)((u->waiting->end + 1u) % SEND);
+    queues *const q = u->waiting;
     const uint32_t masked = mask_interrupts();
+    const bool is_taken = to_send(q) < SEND - 1u;
+    if (!q->sends) {
+        q->out.first = 0;
+        q->out.end = 0;
+        q->sends = true;
+    }
+    if (is_taken) {
+        q->out.bytes[q->out.end] = byte;
+        q->out.end = (uint16_t)((q->out.end + 1u) % SEND);
+    }
     pump(u);
     unmask_interrupts(masked);
-    return true;
+    return is_taken;
 }
 
 static uint16_t unsent(void *context, uint8_t port, uint32_t now_us)
@@ -124,7 +157,7 @@ static uint16_t unsent(void *context, uint8_t port, uint32_t now_us)
     }
     const uint32_t masked = mask_interrupts();
     pump(u);
-    const uint32_t waiting = (u->waiting->end + SEND - u->waiting->first) % SEND + (has_sent(u) ? 0u : 1u);
+    const uint32_t waiting = to_send(u->waiting) + (has_sent(u) ? 0u : 1u);
     unmask_interrupts(masked);
     return (uint16_t)waiting;
 }

@@ -1,6 +1,5 @@
-/// How many characters of each direction wait, plus one.
-const RECEIVE: usize = /* RECEIVE */;
-const SEND: usize = /* SEND */;
+/// What waits between the interrupt of a UART and the main loop/* HOW */.
+type Waiting = /* QUEUE */;
 
 /// A serial port: the interrupt of its UART notes what comes in, with its time, and sends.
 struct Uart {
@@ -12,62 +11,47 @@ struct Uart {
     clock_hz: u32,
     /// Switches the driver of an RS-485 line.
     drive: fn(bool),
-    queues: &'static Queues,
+    line: &'static Line,
 }
 
-/// What waits between the interrupt of a UART and the main loop. All of it begins as 0, so that none of it is in flash.
-struct Queues {
+/// What changes of a port. All of it begins as 0, so that none of it is in flash.
+struct Line {
     /// The bits that a character does not have.
     unused: AtomicU8,
-    received: CharQueue<RECEIVE>,
-    to_send: [AtomicU8; SEND],
-    /// The next character to be sent; changes where no interrupt comes.
-    first: AtomicUsize,
-    /// Where the next one goes; the main loop's.
-    end: AtomicUsize,
+    waiting: Waiting,
 }
 
-impl Queues {
-    const EMPTY: Self = Queues {
-        unused: AtomicU8::new(0),
-        received: CharQueue::new(),
-        to_send: [const { AtomicU8::new(0) }; SEND],
-        first: AtomicUsize::new(0),
-        end: AtomicUsize::new(0),
-    };
+impl Line {
+    const EMPTY: Self = Line { unused: AtomicU8::new(0), waiting: Waiting::new() };
 }
 
 /* UART */impl Uart {
-    /// How many characters wait to be sent.
-    fn waiting(&self) -> usize {
-        let queues = self.queues;
-        (queues.end.load(Ordering::Relaxed) + SEND - queues.first.load(Ordering::Relaxed)) % SEND
-    }
-
     /// Hands over as many characters as the UART takes, and switches the driver of the line.
     fn pump(&self) {
-        if self.waiting() > 0 {
+        let waiting = &self.line.waiting;
+        if waiting.waiting() > 0 {
             (self.drive)(true);
         }
-        while self.waiting() > 0 && self.has_room() {
-            let first = self.queues.first.load(Ordering::Relaxed);
-            write(self.at + OUT, self.queues.to_send[first % SEND].load(Ordering::Relaxed).into());
-            self.queues.first.store((first + 1) % SEND, Ordering::Relaxed);
+        while self.has_room()
+            && let Some(byte) = waiting.pop()
+        {
+            write(self.at + OUT, byte.into());
         }
-        let sending = self.waiting() > 0;
+        let sending = waiting.waiting() > 0;
         let last = !sending && !self.has_sent();
         self.expect(sending, last);
         if !sending && !last {
             (self.drive)(false);
+            waiting.listen();
         }
     }
 
     /// The interrupt.
     fn serve(&self) {
         while let Some((byte, fault)) = self.next_character() {
-            self.queues.received.note(Received {
+            self.line.waiting.note(Received {
                 at_us: fine_us(),
-                byte: byte & !self.queues.unused.load(Ordering::Relaxed),
+                byte: byte & !self.line.unused.load(Ordering::Relaxed),
                 fault,
             });
         }
@@ -78,31 +62,27 @@ impl Queues {
 impl SerialPort for &'static Uart {
     fn set_format(&mut self, format: LineFormat) {
         if format.bits_per_second != 0 {
-            self.queues.unused.store(!format.mask(), Ordering::Relaxed);
+            self.line.unused.store(!format.mask(), Ordering::Relaxed);
             self.set_up(format);
         }
     }
 
     fn receive(&mut self, now_us: u32) -> Option<Received> {
-        self.queues.received.take(now_us)
+        self.line.waiting.take(now_us)
     }
 
     fn send(&mut self, byte: u8, _now_us: u32) -> bool {
-        let end = self.queues.end.load(Ordering::Relaxed);
-        let next = (end + 1) % SEND;
-        if next == self.queues.first.load(Ordering::Relaxed) {
-            return false;
-        }
-        self.queues.to_send[end % SEND].store(byte, Ordering::Relaxed);
-        self.queues.end.store(next, Ordering::Relaxed);
-        without_interrupts(|| self.pump());
-        true
+        without_interrupts(|| {
+            let is_taken = self.line.waiting.push(byte);
+            self.pump();
+            is_taken
+        })
     }
 
     fn unsent(&mut self, _now_us: u32) -> u16 {
         without_interrupts(|| {
             self.pump();
-            (self.waiting() + usize::from(!self.has_sent())) as u16
+            self.line.waiting.waiting() + u16::from(!self.has_sent())
         })
     }
 }

@@ -27,6 +27,8 @@ pub struct CompileOptions {
     /// Serial ports that the host opens, in addition to those that the program uses; numbers that the model does not
     /// have mean nothing.
     pub ports: Vec<u8>,
+    /// The host opens the model's port for programmers and HMIs.
+    pub programmer: bool,
     /// Slaves by Modbus RTU do not answer QLink, which takes memory.
     pub without_qlink: bool,
     /// What operands with an index can reach.
@@ -123,12 +125,14 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let module = if diagnostics.has_errors() || !program.is_complete() {
         None
     } else {
+        let mut ports = options.ports.clone();
+        ports.extend(model.ports.of_programmer().filter(|_| options.programmer));
         let options = LowerOptions {
             name: options.name.clone(),
             wanted: Wanted {
                 observe: options.observe.clone(),
                 observe_all: options.observe_all,
-                ports: options.ports.clone(),
+                ports,
                 without_qlink: options.without_qlink,
             },
             bounds: options.bounds.clone(),

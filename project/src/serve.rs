@@ -16,8 +16,8 @@ pub struct Serve {
     pub modbus_tcp: Vec<SocketAddr>,
     /// Addresses at which all devices are served by MC protocol.
     pub mc: Vec<SocketAddr>,
-    /// Addresses at which all devices are served by the programming port's protocol.
-    pub fx: Vec<SocketAddr>,
+    /// Where all devices are served by the programming port's protocol.
+    pub fx: Vec<FxEnd>,
     /// What the serial ports are connected to.
     pub serial: Vec<SerialLine>,
     /// Devices that an emitted program stores, so that its ports serve them, in addition to those that the program
@@ -230,6 +230,45 @@ fn rates() -> String {
 }
 
 /// The number of a serial port from its name, `COM1`.
+/// Where the programming port's protocol is served.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum FxEnd {
+    /// At an address of this machine, over TCP.
+    Address(SocketAddr),
+    /// At the programming port itself, which is connected to this.
+    Line(LineEnd),
+}
+
+impl FromStr for FxEnd {
+    type Err = String;
+
+    /// Reads an address, or the end of a line as after `COM0=`; a path contains a `/`, or is `COM3` as on Windows.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let is_path = text.contains(['/', '\\']) || port(text).is_some();
+        match address(text) {
+            Ok(address) => Ok(FxEnd::Address(address)),
+            Err(_) if is_path || text == "pty" || text.starts_with("tcp") => {
+                LineEnd::parse(text).map(FxEnd::Line)
+            }
+            Err(why) => Err(format!("{why}; a line, `pty` or `/dev/ttyUSB0`")),
+        }
+    }
+}
+
+impl Serve {
+    /// The lines of the programming port of a model that `fx` names.
+    pub fn fx_lines(fx: &[FxEnd], model: &Model) -> Vec<Line> {
+        let ends = fx.iter().filter_map(|end| match end {
+            FxEnd::Line(end) => Some(end.clone()),
+            FxEnd::Address(_) => None,
+        });
+        let port = model.ports.of_programmer();
+        ends.filter_map(|end| Some(Line { port: port?, end }))
+            .collect()
+    }
+}
+
+/// The number of a port from its name, `COM1`.
 pub(crate) fn port(name: &str) -> Option<u8> {
     let number = name.strip_prefix("COM")?.parse().ok();
     number.filter(|&number| number != CAN_PORT)
@@ -284,6 +323,21 @@ impl Project {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_programming_port_is_an_address_or_a_line() {
+        let fx = |text: &str| text.parse::<FxEnd>();
+        let here = |port| Ok(FxEnd::Address(([127, 0, 0, 1], port).into()));
+        assert_eq!(fx("5556"), here(5556));
+        assert_eq!(fx("127.0.0.1:5556"), here(5556));
+        assert_eq!(fx("pty"), Ok(FxEnd::Line(LineEnd::Pty)));
+        let usb = LineEnd::Path("/dev/ttyUSB0".into());
+        assert_eq!(fx("/dev/ttyUSB0"), Ok(FxEnd::Line(usb)));
+        assert_eq!(fx("COM3"), Ok(FxEnd::Line(LineEnd::Path("COM3".into()))));
+        for wrong in ["", "tty", "tcp:", "127.0.0.1:70000", "localhost:x"] {
+            assert!(fx(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn lines_and_their_ends() {

@@ -87,6 +87,7 @@
 pub use crate::char_queue::CharQueue;
 pub use crate::edge_queue::EdgeQueue;
 use crate::hal::Hal;
+pub use crate::line_queues::{BothQueues, TurnQueue};
 use crate::plc::Class;
 use crate::program::Program;
 pub use crate::pulse_side::{SharedAxes, send_pulses};

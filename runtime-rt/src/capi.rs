@@ -20,7 +20,7 @@ mod servers;
 
 use crate::comm::codec::Codec;
 use crate::comm::modbus::Profile;
-use crate::comm::{CanFrame, LineFormat, PortMut, PortWiring, Ports, Received, Status};
+use crate::comm::{CanFrame, LineFormat, PortMut, PortWiring, Ports, Progress, Received, Status};
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::hal::Clock;
@@ -172,6 +172,8 @@ pub struct PortPlace {
     pub length: u16,
     /// Its number in the model's manual.
     pub number: u8,
+    /// Whether there is memory for the progress of its protocols.
+    pub has_progress: bool,
     /// Whether there is memory for what its protocols keep.
     pub keeps: bool,
 }
@@ -186,9 +188,14 @@ impl PortPlace {
         // SAFETY: see above; a port is as `Port` is laid out.
         unsafe {
             let status = plc.cast::<u8>().add(self.offset);
-            let buffer = status.add(size_of::<Status>());
+            let progress = status.add(size_of::<Status>());
+            let buffer = match self.has_progress {
+                true => progress.add(size_of::<Progress>()),
+                false => progress,
+            };
             PortMut {
                 status: &mut *status.cast(),
+                progress: self.has_progress.then(|| &mut *progress.cast()),
                 buffer: core::slice::from_raw_parts_mut(buffer, length),
                 memory: self.keeps.then(|| &mut *buffer.add(length).cast()),
             }

@@ -1,7 +1,7 @@
 //! A queue of characters between the interrupt of a UART and the main loop.
 
 use crate::comm::{CharFault, Received};
-use core::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU16, AtomicU32, Ordering};
 
 /// Bits of a slot: a character's value, what is wrong with it, and when it came.
 const FAULT: u32 = 8;
@@ -27,23 +27,26 @@ const TIMES: u32 = 1 << (32 - TIME);
 /// ```
 #[derive(Debug)]
 pub struct CharQueue<const N: usize> {
-    slots: [AtomicU32; N],
+    pub(crate) slots: [AtomicU32; N],
     /// Where the oldest character is; the main loop's.
-    first: AtomicUsize,
+    pub(crate) first: AtomicU16,
     /// Where the next one goes; the interrupt's.
-    end: AtomicUsize,
+    pub(crate) end: AtomicU16,
     /// A character found no room, and none came after it; the interrupt's.
-    lost: AtomicBool,
+    pub(crate) lost: AtomicBool,
 }
 
 impl<const N: usize> CharQueue<N> {
     /// An empty one.
     pub const fn new() -> Self {
-        const { assert!(N > 1, "a queue has room for a character") }
+        const {
+            assert!(N > 1, "a queue has room for a character");
+            assert!(N <= u16::MAX as usize / 4, "a queue counts by 16 bits");
+        }
         CharQueue {
             slots: [const { AtomicU32::new(0) }; N],
-            first: AtomicUsize::new(0),
-            end: AtomicUsize::new(0),
+            first: AtomicU16::new(0),
+            end: AtomicU16::new(0),
             lost: AtomicBool::new(false),
         }
     }
@@ -52,7 +55,7 @@ impl<const N: usize> CharQueue<N> {
     /// fault [`CharFault::Overrun`].
     pub fn note(&self, character: Received) -> bool {
         let end = self.end.load(Ordering::Relaxed);
-        let next = (end + 1) % N;
+        let next = (end + 1) % N as u16;
         if next == self.first.load(Ordering::Acquire) {
             self.lost.store(true, Ordering::Relaxed);
             return false;
@@ -63,7 +66,7 @@ impl<const N: usize> CharQueue<N> {
         };
         self.lost.store(false, Ordering::Relaxed);
         let word = character.at_us << TIME | (fault as u32) << FAULT | u32::from(character.byte);
-        self.slots[end].store(word, Ordering::Relaxed);
+        self.slots[usize::from(end)].store(word, Ordering::Relaxed);
         self.end.store(next, Ordering::Release);
         true
     }
@@ -74,12 +77,12 @@ impl<const N: usize> CharQueue<N> {
         if first == self.end.load(Ordering::Acquire) {
             return None;
         }
-        let word = self.slots[first].load(Ordering::Relaxed);
+        let word = self.slots[usize::from(first)].load(Ordering::Relaxed);
         let age_us = now_us.wrapping_sub(word >> TIME) % TIMES;
         if age_us >= TIMES / 2 {
             return None;
         }
-        self.first.store((first + 1) % N, Ordering::Release);
+        self.first.store((first + 1) % N as u16, Ordering::Release);
         Some(Received {
             at_us: now_us.wrapping_sub(age_us),
             byte: word as u8,

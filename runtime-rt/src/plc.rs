@@ -162,6 +162,15 @@ impl Site {
     }
 }
 
+/// Devices of consecutive numbers that a program stores in one piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StoredRun {
+    /// How many; at least 1.
+    pub count: u32,
+    /// Where, for [`Plc::bit_in`] and the like; 0: nowhere in particular.
+    pub area: u8,
+}
+
 /// The devices of a PLC.
 ///
 /// `None` means that the model has no such device: the instruction faults with 6706. A special M or D that the model has but the
@@ -211,10 +220,14 @@ pub trait Plc {
     fn counter32(&self, number: u32) -> Option<i32>;
     /// Sets the current value of a 32-bit counter.
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
-    /// Whether a device that the model has is stored, so that partners on a line may ask for it.
-    fn stores(&self, class: Class, number: u32) -> bool {
+    /// The devices from this one on that are stored in one piece, so that partners on a line may ask for them; `None` if this one is not
+    /// stored. Of a device that the model does not have, it may say anything.
+    fn stored_run(&self, class: Class, number: u32) -> Option<StoredRun> {
         let _ = (class, number);
-        true
+        Some(StoredRun {
+            count: u32::MAX,
+            area: 0,
+        })
     }
     /// Private memory of an instruction.
     fn state(&mut self, slot: u16) -> &mut State;

@@ -1,6 +1,6 @@
 //! Which devices a model has, for code that knows them by number only.
 
-use crate::plc::Class;
+use crate::plc::{Class, StoredRun};
 
 /// First special relay and first special register.
 pub const FIRST_SPECIAL: u32 = 8000;
@@ -27,6 +27,17 @@ impl Runs {
         self.0
             .iter()
             .any(|&(c, from, to)| c == class && from <= number && number <= to)
+    }
+
+    /// What [`crate::Plc::stored_run`] says where these are the devices that are stored.
+    pub fn stored_run(self, class: Class, number: u32) -> Option<StoredRun> {
+        let mut runs = self.0.iter();
+        let holds = |run: &&(Class, u32, u32)| run.0 == class && (run.1..=run.2).contains(&number);
+        let &(_, _, last) = runs.find(holds)?;
+        Some(StoredRun {
+            count: last - number + 1,
+            area: 0,
+        })
     }
 
     /// What [`crate::Plc::bit`] says of a device that is not stored: off if the model has it.
@@ -77,6 +88,15 @@ mod tests {
         assert!(!RUNS.hold(Class::D, -1, 1));
         assert!(!RUNS.hold(Class::D, i32::MAX, u32::MAX));
         assert!(RUNS.hold(Class::D, 8255, 1));
+    }
+
+    #[test]
+    fn a_stored_run_ends_with_its_row() {
+        let count = |class, number| RUNS.stored_run(class, number).map(|run| run.count);
+        assert_eq!(count(Class::D, 0), Some(200));
+        assert_eq!(count(Class::D, 199), Some(1));
+        assert_eq!(count(Class::D, 200), None);
+        assert_eq!(count(Class::C, 230), Some(5));
     }
 
     #[test]

@@ -10,9 +10,9 @@ use super::Code;
 use crate::resolve::Resolved;
 pub(super) use findings::check;
 use rungc_catalogue::Lower;
-use rungc_rt::comm::{Choice, LineFormat, Parity, PortWiring, Protocol};
-use rungc_rt::{Ports, RtFn};
-use rungc_syntax::order;
+use rungc_rt::RtFn;
+use rungc_rt::comm::{Choice, D_ADPRW_PORT, LineFormat, Parity, PortWiring, Protocol};
+use rungc_syntax::{Device, order};
 use std::fmt;
 
 /// What a program makes of a serial port.
@@ -67,9 +67,8 @@ impl Setup {
 pub fn setups(resolved: &Resolved) -> Vec<Setup> {
     let code = Code::new(resolved);
     let facts = facts::Facts::new(&code);
-    let ports = code.model().ports;
-    let used = order::set((0..code.len).flat_map(|i| port_of(&code, i, ports)));
-    let wirings = ports.all().iter();
+    let used = order::set((0..code.len).flat_map(|i| port_of(&code, i, &facts)));
+    let wirings = code.model().ports.all().iter();
     let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
     let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));
     wirings.map(|wiring| setup(&facts, wiring)).collect()
@@ -128,12 +127,35 @@ fn use_of(code: &Code, i: usize) -> Option<(RtFn, Use)> {
     Some((function, of))
 }
 
-/// The port that an instruction uses, if that is certain.
-fn port_of(code: &Code, i: usize, ports: Ports) -> Option<u8> {
+/// The register that says which port an instruction of L01S works on: the one before the data of RD3A and WR3A.
+fn port_register(code: &Code, i: usize) -> Option<Device> {
     let (function, _) = use_of(code, i)?;
+    match function {
+        RtFn::Adprw => Some(facts::d(D_ADPRW_PORT)),
+        RtFn::Rd3aModbus | RtFn::Wr3aModbus => {
+            let Device { class, number } = code.device(i, 2)?;
+            let number = number.checked_sub(1)?;
+            Some(Device { class, number })
+        }
+        _ => None,
+    }
+}
+
+/// The port that an instruction uses, if that is certain.
+fn port_of(code: &Code, i: usize, facts: &facts::Facts) -> Option<u8> {
+    let (function, _) = use_of(code, i)?;
+    let ports = code.model().ports;
     let needs = function.needs();
     if needs.port {
         return Some(ports.of_rs());
+    }
+    if let Some(register) = port_register(code, i) {
+        return match facts.held(register) {
+            facts::Held::Constant(port) => ports.named(port.into()),
+            // Other registers than the special one may be written by an HMI.
+            facts::Held::Default(port) if function == RtFn::Adprw => ports.named(port.into()),
+            facts::Held::Default(_) | facts::Held::Unknown => None,
+        };
     }
     let operand = code.instr(i).operands.last()?.kind.constant()?;
     let named = i32::try_from(operand).ok().filter(|_| needs.names_port)?;

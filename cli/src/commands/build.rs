@@ -62,6 +62,7 @@ fn build(
         name: Some(name.clone()),
         optimise: !plan.no_opt,
         observe_all: plan.servers,
+        programmer: plan.servers,
         ports: image.iter().flat_map(ForImage::ports).collect(),
         without_qlink: image.as_ref().is_some_and(|image| !image.answers_qlink()),
         ..subject.options()
@@ -105,7 +106,7 @@ fn build(
     }
     if reporter.is_for_people() {
         let lines = compiled.ports.iter().map(ports::line);
-        let served = ports::served(&compiled.ports, plan.emit, subject);
+        let served = ports::served(&compiled.ports, plan, subject);
         lines.chain(served).for_each(|line| cx.note(&line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {

@@ -1,7 +1,7 @@
 //! What is said of a program's serial ports.
 
 use super::subject::Subject;
-use crate::args::Emit;
+use crate::args::{Emit, Plan};
 use rungc_analysis::check::ports::Setup;
 use rungc_project::Range;
 
@@ -12,8 +12,9 @@ pub fn line(port: &Setup) -> String {
 
 /// What the ports of an emitted program serve, as a line; `None` if none of them serves devices, or if the form of
 /// output has no ports.
-pub fn served(ports: &[Setup], emit: Option<Emit>, subject: &Subject) -> Option<String> {
-    let emits = emit.is_some_and(|emit| emit != Emit::Ir);
+pub fn served(ports: &[Setup], plan: &Plan, subject: &Subject) -> Option<String> {
+    // With servers, everything is stored.
+    let emits = plan.emit.is_some_and(|emit| emit != Emit::Ir) && !plan.servers;
     if !emits || !ports.iter().any(Setup::serves) {
         return None;
     }

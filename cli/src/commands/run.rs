@@ -96,10 +96,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
         observe: used.chain(wired).chain(sampled).collect(),
-        // Clients may ask for any device.
-        observe_all: args.serve.any(),
-        ports: args.serve.lines().map(|line| line.port).collect(),
-        ..subject.options()
+        ..args.serve.opened(subject.options())
     };
     let compiled = compile(&read.program, &options);
     let findings = findings(subject, &read, &compiled);

@@ -35,12 +35,14 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
 impl ServeArgs {
     /// The same completed by settings. What the command line says of a protocol or of a port takes precedence.
     fn or(&self, settings: &Serve) -> ServeArgs {
-        let given = |own: &[_], usual: &[_]| match own {
-            [] => usual.to_vec(),
-            own => own.to_vec(),
-        };
+        fn given<T: Clone>(own: &[T], usual: &[T]) -> Vec<T> {
+            match own {
+                [] => usual.to_vec(),
+                own => own.to_vec(),
+            }
+        }
         let usual = settings.serial.iter().map(|SerialLine { line, .. }| line);
-        let usual = usual.filter(|line| self.lines().all(|own| own.port != line.port));
+        let usual = usual.filter(|line| self.named_lines().all(|own| own.port != line.port));
         ServeArgs {
             modbus_tcp: given(&self.modbus_tcp, &settings.modbus_tcp),
             mc: given(&self.mc, &settings.mc),

@@ -37,18 +37,23 @@ impl Run {
         }
         args.extend(buses.iter().flat_map(|_| ["--can", "slcan:pty"]));
         let mut run = Run::start(folder, model, &args);
-        while run.open.len() < servers.len() + lines.len() {
-            let line = run.said.recv_timeout(PATIENCE);
+        run.opens(servers.len() + lines.len());
+        run
+    }
+
+    /// Waits until it has opened this many servers and lines.
+    pub fn opens(&mut self, count: usize) {
+        while self.open.len() < count {
+            let line = self.said.recv_timeout(PATIENCE);
             let line = line.expect("the run opens everything");
             let told = line.strip_prefix("rungc: ");
             if let Some((what, place)) = told.and_then(|told| told.split_once(" at ")) {
-                run.open.push((what.to_owned(), place.to_owned()));
+                self.open.push((what.to_owned(), place.to_owned()));
             }
         }
-        if !lines.is_empty() {
+        if self.open.iter().any(|(what, _)| what.starts_with("COM")) {
             thread::sleep(FIRST_SCANS);
         }
-        run
     }
 
     /// Runs `p.il` of this folder with more options, and waits for nothing.

@@ -121,10 +121,17 @@ impl Generator<'_> {
     fn port(&mut self, protocols: Protocols) -> (TokenStream, TokenStream) {
         let (port, comm) = (self.rt("Port"), self.rt("comm"));
         let length = Literal::usize_unsuffixed(protocols.longest_frame());
+        let progress = match protocols.has_progress() {
+            true => quote!(#comm::Progress),
+            false => quote!(#comm::Without),
+        };
         let memory = match protocols.keeps_memory() {
             true => quote!(#comm::Memory),
-            false => quote!(#comm::NoMemory),
+            false => quote!(#comm::Without),
         };
-        (quote!(#port<#length, #memory>), quote!(#port::new()))
+        (
+            quote!(#port<#length, #progress, #memory>),
+            quote!(#port::new()),
+        )
     }
 }

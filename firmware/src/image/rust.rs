@@ -191,10 +191,10 @@ fn main(image: &Image) -> String {
 
 /// What the image takes from the runtime for its serial ports.
 fn serial_uses(image: &Image) -> String {
-    let uses = serial::USES;
+    let uses = serial::uses(image);
     match image.serial().first().map(|serial| serial.uart) {
         Some(Uart::Stm32 | Uart::Stm32f7) => format!("{uses}use rungc_rt::comm::Parity;\n"),
-        Some(Uart::Cmsdk) => uses.to_string(),
+        Some(Uart::Cmsdk) => uses,
         None => String::new(),
     }
 }

@@ -1,9 +1,8 @@
 //! `[serve]`.
 
 use super::{Reader, SERVED, Value, span};
-use crate::serve::{self, Line, LineEnd, SerialLine};
+use crate::serve::{self, FxEnd, Line, LineEnd, SerialLine};
 use crate::{Named, Project};
-use std::net::SocketAddr;
 use toml::de::DeTable;
 
 /// Keys of addresses.
@@ -24,10 +23,10 @@ impl Reader {
             .chain(classes)
             .collect();
         self.known("serve", table, &keys);
-        let [modbus_tcp, mc, fx] = ADDRESSES.map(|key| self.addresses(table, key));
-        project.serve.modbus_tcp = modbus_tcp;
-        project.serve.mc = mc;
-        project.serve.fx = fx;
+        let [modbus_tcp, mc, fx] = ADDRESSES;
+        project.serve.modbus_tcp = self.ends(table, modbus_tcp, serve::address);
+        project.serve.mc = self.ends(table, mc, serve::address);
+        project.serve.fx = self.ends(table, fx, str::parse::<FxEnd>);
         if let Some(value) = table.get(SERIAL) {
             self.lines(value, project);
         }
@@ -48,8 +47,13 @@ impl Reader {
         }
     }
 
-    /// The addresses of a server: one, or a list of them.
-    fn addresses(&mut self, table: &DeTable<'_>, key: &str) -> Vec<SocketAddr> {
+    /// Where a protocol is served: at one place, or at those of a list.
+    fn ends<T>(
+        &mut self,
+        table: &DeTable<'_>,
+        key: &str,
+        read: impl Fn(&str) -> Result<T, String>,
+    ) -> Vec<T> {
         let Some(value) = table.get(key) else {
             return Vec::new();
         };
@@ -69,7 +73,7 @@ impl Reader {
         }
         let mut addresses = Vec::new();
         for named in named {
-            match serve::address(&named.text) {
+            match read(&named.text) {
                 Ok(address) => addresses.push(address),
                 Err(why) => {
                     let message = format!("`{}` is not an address", named.text);

@@ -5,7 +5,7 @@ use super::{Map, Request};
 use crate::axis::{advance, millihertz, pass, pulse_timer};
 use crate::comm::codec::{self, Codec};
 use crate::comm::modbus::{self, Profile};
-use crate::comm::{Port, PortWiring, Ports, Status, advance as advance_ports};
+use crate::comm::{Port, PortWiring, Ports, Progress, Status, advance as advance_ports};
 use crate::cx::{fetch, send};
 use crate::hal::Hal;
 use crate::operand::Operand;
@@ -152,7 +152,11 @@ export_constants! {
 }
 
 /// A program holds ports as words of 32 bits.
-const _: () = assert!(align_of::<Port>() <= 4 && size_of::<Status>().is_multiple_of(4));
+const _: () = assert!(
+    align_of::<Port>() <= 4
+        && size_of::<Status>().is_multiple_of(4)
+        && size_of::<Progress>().is_multiple_of(4)
+);
 
 /// Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
 #[unsafe(no_mangle)]

@@ -9,10 +9,12 @@ use crate::comm::{PortMut, PortWiring, Ports};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::operand::Operand;
-use crate::plc::{Class, Plc, Site, State, Sys};
+use crate::plc::{Class, Plc, Site, State, StoredRun, Sys};
 use crate::runs::FIRST_COUNTER32;
 use crate::timing::{Counter16, Counter32, Timer};
 use crate::wiring::Pulses;
+use core::mem::offset_of;
+use core::ptr::null_mut;
 
 /// Where a device is.
 enum Found {
@@ -63,12 +65,17 @@ impl Map {
         unsafe { &*self.layout }
     }
 
+    /// Where its devices are, sorted.
+    fn areas(&self) -> &[Area] {
+        let layout = self.layout();
+        elements(layout.areas, layout.area_count)
+    }
+
     /// An area, counted from the last one, as operands name it.
     #[inline]
     fn area(&self, area: u8) -> Option<&Area> {
-        let layout = self.layout();
-        let index = layout.area_count.checked_sub(area.into())?;
-        elements(layout.areas, layout.area_count).get(index)
+        let areas = self.areas();
+        areas.get(areas.len().checked_sub(area.into())?)
     }
 
     /// The device in the area that an operand names, if that holds it; most calls need no more.
@@ -115,24 +122,32 @@ impl Map {
         }))
     }
 
+    /// The area that a device is in, if it is in any.
+    fn index_of(&self, class: Class, number: u32) -> Option<usize> {
+        let areas = self.areas();
+        let after = areas.partition_point(|a| (a.class, a.first) <= (class, number));
+        let index = after.checked_sub(1)?;
+        areas[index].place_of(class, number).map(|_| index)
+    }
+
+    /// The index register that a special register is another name of.
+    fn alias(&self, class: Class, number: u32) -> Option<(Class, u32)> {
+        let layout = self.layout();
+        let mut aliases = elements(layout.aliases, layout.alias_count).iter();
+        let alias = aliases.find(|a| class == Class::D && a.number == number)?;
+        (alias.class != Class::D).then_some((alias.class, alias.index))
+    }
+
     #[cold]
     fn find(&self, class: Class, number: u32) -> Found {
-        let layout = self.layout();
-        let areas = elements(layout.areas, layout.area_count);
-        let after = areas.partition_point(|a| (a.class, a.first) <= (class, number));
-        let area = after.checked_sub(1).and_then(|i| areas.get(i));
-        if let Some(found) = area.and_then(|area| self.at(area, class, number)) {
+        let area = self.index_of(class, number);
+        if let Some(found) = area.and_then(|i| self.at(&self.areas()[i], class, number)) {
             return found;
         }
-        if class == Class::D {
-            let aliases = elements(layout.aliases, layout.alias_count);
-            if let Some(alias) = aliases
-                .iter()
-                .find(|a| a.number == number && a.class != Class::D)
-            {
-                return self.find(alias.class, alias.index);
-            }
+        if let Some((class, number)) = self.alias(class, number) {
+            return self.find(class, number);
         }
+        let layout = self.layout();
         let ranges = elements(layout.ranges, layout.range_count);
         let after = ranges.partition_point(|r| (r.class, r.first) <= (class, number));
         let range = after.checked_sub(1).and_then(|i| ranges.get(i));
@@ -142,26 +157,41 @@ impl Map {
         }
     }
 
-    /// A word, however it is stored.
-    fn any_word(&self, area: u8, class: Class, number: u32) -> Option<i16> {
-        match self.find_in(area, class, number) {
-            Found::At(Kind::Words, at) => Some(read(at)),
-            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).value),
-            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).value),
-            Found::Elsewhere if is_word(class, number) => Some(0),
-            _ => None,
-        }
+    /// The word of a device, however it is stored; NULL if the program does not look at it.
+    fn word_place(&self, area: u8, class: Class, number: u32) -> Option<*mut i16> {
+        let (at, offset) = match self.find_in(area, class, number) {
+            Found::At(Kind::Words, at) => (at, 0),
+            Found::At(Kind::Timers, at) => (at, offset_of!(Timer, value)),
+            Found::At(Kind::Counters16, at) => (at, offset_of!(Counter16, value)),
+            Found::Elsewhere if is_word(class, number) => return Some(null_mut()),
+            _ => return None,
+        };
+        // SAFETY: the field of an element that `find` points to, and in which C places it as Rust does.
+        Some(unsafe { at.add(offset) }.cast())
     }
 
-    /// Writes one.
-    fn set_any_word(&mut self, area: u8, class: Class, number: u32, value: i16) -> Option<()> {
-        match self.find_in(area, class, number) {
-            Found::At(Kind::Words, at) => change(at, |word| *word = value),
-            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.value = value),
-            Found::At(Kind::Counters16, at) => {
-                change(at, |counter: &mut Counter16| counter.value = value)
+    /// The state of a device, likewise.
+    fn bit_place(&self, area: u8, class: Class, number: u32) -> Option<*mut bool> {
+        let (at, offset) = match self.find_in(area, class, number) {
+            Found::At(Kind::Bits, at) => (at, 0),
+            Found::At(Kind::Timers, at) => (at, offset_of!(Timer, done)),
+            Found::At(Kind::Counters16, at) => (at, offset_of!(Counter16, done)),
+            Found::At(Kind::Counters32, at) => (at, offset_of!(Counter32, done)),
+            Found::Elsewhere if is_bit(class) => return Some(null_mut()),
+            _ => return None,
+        };
+        // SAFETY: as for words.
+        Some(unsafe { at.add(offset) }.cast())
+    }
+
+    /// The 32-bit value of a counter, likewise.
+    fn counter_place(&self, number: u32) -> Option<*mut i32> {
+        match self.find(Class::C, number) {
+            // SAFETY: as for words.
+            Found::At(Kind::Counters32, at) => {
+                Some(unsafe { at.add(offset_of!(Counter32, value)) }.cast())
             }
-            Found::Elsewhere if is_word(class, number) => Some(()),
+            Found::Elsewhere if number >= FIRST_COUNTER32 => Some(null_mut()),
             _ => None,
         }
     }
@@ -191,11 +221,18 @@ impl Map {
     }
 }
 
-/// Reads an element of the program's struct.
-fn read<T: Copy>(at: *mut u8) -> T {
-    // SAFETY: `find` gives a pointer to an element of the kind that the caller reads, aligned as the C compiler placed
-    // it.
-    unsafe { at.cast::<T>().read() }
+/// What a place in the program's struct holds; 0 or off where there is none.
+fn read<T: Copy + Default>(at: *mut T) -> T {
+    // SAFETY: NULL, or what the program's struct holds there, as the C compiler placed it.
+    unsafe { at.as_ref() }.copied().unwrap_or_default()
+}
+
+/// Writes to a place in the program's struct, if there is one.
+fn write<T>(at: *mut T, value: T) {
+    // SAFETY: as for `read`; nothing else uses the struct during a call.
+    if let Some(place) = unsafe { at.as_mut() } {
+        *place = value;
+    }
 }
 
 /// Changes an element of the program's struct.
@@ -215,51 +252,40 @@ impl Plc for Map {
     }
 
     fn word(&self, class: Class, number: u32) -> Option<i16> {
-        self.any_word(0, class, number)
+        self.word_place(0, class, number).map(read)
     }
 
     fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
-        self.set_any_word(0, class, number, value)
+        let at = self.word_place(0, class, number)?;
+        write(at, value);
+        Some(())
     }
 
     fn bit_in(&self, area: u8, class: Class, number: u32) -> Option<bool> {
-        match self.find_in(area, class, number) {
-            Found::At(Kind::Bits, at) => Some(read(at)),
-            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).done),
-            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).done),
-            Found::At(Kind::Counters32, at) => Some(read::<Counter32>(at).done),
-            Found::Elsewhere if is_bit(class) => Some(false),
-            _ => None,
-        }
+        self.bit_place(area, class, number).map(read)
     }
 
     fn set_bit_in(&mut self, area: u8, class: Class, number: u32, value: bool) -> Option<()> {
-        match self.find_in(area, class, number) {
-            Found::At(Kind::Bits, at) => change(at, |bit| *bit = value),
-            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.done = value),
-            Found::At(Kind::Counters16, at) => {
-                change(at, |counter: &mut Counter16| counter.done = value)
-            }
-            Found::At(Kind::Counters32, at) => {
-                change(at, |counter: &mut Counter32| counter.done = value)
-            }
-            Found::Elsewhere if is_bit(class) => Some(()),
-            _ => None,
-        }
+        let at = self.bit_place(area, class, number)?;
+        write(at, value);
+        Some(())
     }
 
     // Most operands are registers in the area that they name.
     fn word_in(&self, area: u8, class: Class, number: u32) -> Option<i16> {
         match self.named(area, class, number) {
-            Some(Found::At(Kind::Words, at)) => Some(read(at)),
-            _ => self.any_word(area, class, number),
+            Some(Found::At(Kind::Words, at)) => Some(read(at.cast())),
+            _ => self.word(class, number),
         }
     }
 
     fn set_word_in(&mut self, area: u8, class: Class, number: u32, value: i16) -> Option<()> {
         match self.named(area, class, number) {
-            Some(Found::At(Kind::Words, at)) => change(at, |word| *word = value),
-            _ => self.set_any_word(area, class, number, value),
+            Some(Found::At(Kind::Words, at)) => {
+                write(at.cast(), value);
+                Some(())
+            }
+            _ => self.set_word(class, number, value),
         }
     }
 
@@ -286,25 +312,31 @@ impl Plc for Map {
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {
-        match self.find(Class::C, number) {
-            Found::At(Kind::Counters32, at) => Some(read::<Counter32>(at).value),
-            Found::Elsewhere if number >= FIRST_COUNTER32 => Some(0),
-            _ => None,
-        }
+        self.counter_place(number).map(read)
     }
 
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
-        match self.find(Class::C, number) {
-            Found::At(Kind::Counters32, at) => {
-                change(at, |counter: &mut Counter32| counter.value = value)
-            }
-            Found::Elsewhere if number >= FIRST_COUNTER32 => Some(()),
-            _ => None,
-        }
+        let at = self.counter_place(number)?;
+        write(at, value);
+        Some(())
     }
 
-    fn stores(&self, class: Class, number: u32) -> bool {
-        matches!(self.find(class, number), Found::At(..))
+    fn stored_run(&self, class: Class, number: u32) -> Option<StoredRun> {
+        if let Some((class, number)) = self.alias(class, number) {
+            let run = self.stored_run(class, number)?;
+            return Some(StoredRun { count: 1, ..run });
+        }
+        let index = self.index_of(class, number)?;
+        let areas = self.areas();
+        let area = &areas[index];
+        // Devices in columns are found one by one.
+        let count = match area.columns {
+            0 | 1 => area.first + area.count - number,
+            _ => 1,
+        };
+        // Areas that an operand names are counted from the last.
+        let area = u8::try_from(areas.len() - index).unwrap_or(0);
+        Some(StoredRun { count, area })
     }
 
     fn state(&mut self, slot: u16) -> &mut State {
@@ -481,18 +513,8 @@ mod tests {
     #[test]
     fn a_device_is_found_whatever_area_the_operand_names() {
         let areas = [
-            area(
-                Class::M,
-                Kind::Bits,
-                10,
-                core::mem::offset_of!(Devices, m10),
-            ),
-            area(
-                Class::D,
-                Kind::Words,
-                20,
-                core::mem::offset_of!(Devices, d20),
-            ),
+            area(Class::M, Kind::Bits, 10, offset_of!(Devices, m10)),
+            area(Class::D, Kind::Words, 20, offset_of!(Devices, d20)),
         ];
         let ranges = [Range {
             class: Class::D,
@@ -504,7 +526,7 @@ mod tests {
             area_count: areas.len(),
             ranges: ranges.as_ptr(),
             range_count: ranges.len(),
-            on_error: core::mem::offset_of!(Devices, on_error),
+            on_error: offset_of!(Devices, on_error),
             // SAFETY: everything else of a layout may be zero: null pointers of no elements, offsets, numbers.
             ..unsafe { core::mem::zeroed() }
         };
@@ -532,6 +554,14 @@ mod tests {
             );
             assert_eq!(map.bit(Class::M, 12), Some(named % 2 == 0));
         }
+        let stored = |class, number| map.stored_run(class, number);
+        assert_eq!(
+            stored(Class::D, 21),
+            Some(StoredRun { count: 2, area: 1 }),
+            "the last area is 1"
+        );
+        assert_eq!(stored(Class::M, 10), Some(StoredRun { count: 3, area: 2 }));
+        assert_eq!(stored(Class::D, 23), None);
         map.note_error(6706, 12);
         assert_eq!(REPORTED.load(Ordering::Relaxed), 6706 | 12 << 16);
     }

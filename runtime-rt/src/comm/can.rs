@@ -141,7 +141,7 @@ impl Session<'_> {
     /// A frame has come: one of CANlink, if the program is a station of it, or one for an instruction that waits.
     pub(super) fn take_from_bus(&mut self, frame: CanFrame) {
         if !self.take_canlink(&frame) {
-            self.status.can.receive(frame);
+            self.progress.can.receive(frame);
         }
     }
 }
@@ -359,10 +359,10 @@ mod tests {
         M_SENDS.set(&mut plc, true);
         crate::comm::advance(&mut plc, &mut bus, 0);
         assert!(M_SENDS.is_on(&plc) && !M_MISSING.is_on(&plc));
-        let can = |plc: &mut Double| plc.port(CAN_PORT).unwrap().status.can;
+        let can = |plc: &mut Double| plc.port(CAN_PORT).unwrap().progress.unwrap().can;
         let mut turn = can(&mut plc);
         assert_eq!(turn.visit(1, 0x300, 0, TURN_US), None);
-        plc.port(CAN_PORT).unwrap().status.can = turn;
+        plc.port(CAN_PORT).unwrap().progress.unwrap().can = turn;
         bus.come = std::vec![frame(0x300), frame(0x301)];
         bus.sent = None;
         crate::comm::advance(&mut plc, &mut bus, 1000);

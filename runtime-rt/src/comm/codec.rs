@@ -2,7 +2,8 @@
 
 use super::line::{LineFormat, Received};
 use super::modbus::{self, Framing, LONGEST_RTU};
-use super::port::{FRAME, Session, Status};
+use super::parts::{Progress, Status};
+use super::port::{FRAME, Session};
 use super::slaves::{Slave, role};
 use super::wiring::{PortWiring, note_programming_port};
 use super::{
@@ -23,7 +24,7 @@ pub struct Codec {
     name: &'static str,
     protocols: Protocols,
     /// Whether the characters received so far are a frame, if it is not silence that ends them.
-    cut: fn(&Status, Slave, &[u8]) -> Cut,
+    cut: fn(&Status, &Progress, Slave, &[u8]) -> Cut,
     /// Takes a frame of this many characters.
     take: for<'a, 'b> fn(&'a mut Session<'b>, usize),
     /// Takes a character, in protocols that have no frames.
@@ -46,7 +47,7 @@ impl Codec {
         Codec {
             name,
             protocols,
-            cut: |_, _, _| Cut::Drop,
+            cut: |_, _, _, _| Cut::Drop,
             take: |_, _| {},
             character: None,
             bus: |_, _| false,
@@ -114,8 +115,14 @@ impl Codec {
         self.character.is_some()
     }
 
-    pub(super) fn cut(&self, status: &Status, slave: Slave, received: &[u8]) -> Cut {
-        (self.cut)(status, slave, received)
+    pub(super) fn cut(
+        &self,
+        status: &Status,
+        progress: &Progress,
+        slave: Slave,
+        received: &[u8],
+    ) -> Cut {
+        (self.cut)(status, progress, slave, received)
     }
 
     pub(super) fn take(&self, session: &mut Session, received: usize) {
@@ -156,12 +163,15 @@ pub const FREE: Codec = Codec {
 pub const PROGRAMMING_PORT: Codec = Codec {
     line: |wiring, _, _, _| LineFormat::seven_even(9600, wiring.one_pair),
     note: |_, plc, _, fault| note_programming_port(plc, fault),
-    cut: |_, _, received| fx_port::cut(received),
+    cut: |_, _, _, received| fx_port::cut(received),
     take: |session, received| {
+        let mut asked = None;
         session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
             let settings = slave.family.programming_port();
+            asked = fx_port::text_of(request).ok().and_then(fx_port::rate);
             fx_port::answer(settings, memory, request, map, reply)
         });
+        session.status.rate = asked.unwrap_or(session.status.rate);
     },
     ..Codec::new(
         "programming_port",
@@ -186,7 +196,7 @@ pub const MODBUS_RTU: Codec = Codec {
 
 /// QLink, which a slave by Modbus RTU of H1U and H2U answers, too.
 pub const QLINK: Codec = Codec {
-    cut: |_, slave, received| match slave.has_qlink() && qlink::is_qlink(received) {
+    cut: |_, _, slave, received| match slave.has_qlink() && qlink::is_qlink(received) {
         true => Cut::Whole,
         false => Cut::Drop,
     },
@@ -208,7 +218,7 @@ pub const QLINK: Codec = Codec {
 
 /// A slave by Modbus ASCII.
 pub const MODBUS_ASCII: Codec = Codec {
-    cut: |_, _, received| modbus::cut_ascii(received),
+    cut: |_, _, _, received| modbus::cut_ascii(received),
     take: |session, received| {
         session.answer::<FRAME>(received, |slave, request, _, map, reply| {
             modbus::answer_ascii(&slave.modbus(Framing::Ascii), request, map, reply)
@@ -234,7 +244,7 @@ pub const MASTER_RTU: Codec = Codec {
 
 /// A master by Modbus ASCII.
 pub const MASTER_ASCII: Codec = Codec {
-    cut: |_, _, received| modbus::cut_ascii(received),
+    cut: |_, _, _, received| modbus::cut_ascii(received),
     take: |session, received| session.take_answer::<FRAME>(Framing::Ascii, received),
     advance: |session| session.advance_master::<FRAME>(Framing::Ascii),
     ..Codec::of_modbus(
@@ -246,7 +256,7 @@ pub const MASTER_ASCII: Codec = Codec {
 
 /// A slave of a computer link.
 pub const COMPUTER_LINK: Codec = Codec {
-    cut: |_, slave, received| computer_link::cut(slave.computer_link(), received),
+    cut: |_, _, slave, received| computer_link::cut(slave.computer_link(), received),
     take: |session, received| {
         session.answer::<FRAME>(received, |slave, request, remote, map, reply| {
             computer_link::answer(slave.computer_link(), remote, request, map, reply)
@@ -264,8 +274,8 @@ pub const LINK: Codec = Codec {
         _ => wiring.linked(plc, protocol),
     },
     note: |wiring, plc, protocol, fault| wiring.note_of_link(plc, protocol, fault),
-    cut: |status, _, received| match role(status.protocol, status.uinit[2]) {
-        Some(role) => status.link.cut(role, received),
+    cut: |status, progress, _, received| match role(status.protocol, status.uinit[2]) {
+        Some(role) => progress.link.cut(role, received),
         None => Cut::Drop,
     },
     take: |session, received| session.take_linked(received),
@@ -276,7 +286,7 @@ pub const LINK: Codec = Codec {
 /// Frames of CAN.
 pub const CAN: Codec = Codec {
     line: |_, _, _, _| ADAPTER,
-    cut: |_, _, received| can::cut(received),
+    cut: |_, _, _, received| can::cut(received),
     take: |session, received| session.take_can(received),
     ..Codec::new("can", Protocols::of(&[Protocol::Can]))
 };

@@ -142,6 +142,22 @@ pub fn text_of(request: &[u8]) -> Result<&[u8], LineFault> {
     }
 }
 
+/// The bit rate that a request asks for, in hundreds of bits per second: command `A` and a digit. It holds once the
+/// request has been answered.
+pub fn rate(text: &[u8]) -> Option<u16> {
+    let [b'A', digit] = text else {
+        return None;
+    };
+    Some(match digit {
+        b'0' => 96,
+        b'1' => 192,
+        b'2' => 384,
+        b'3' => 576,
+        b'5' => 1152,
+        _ => return None,
+    })
+}
+
 /// What is sent back for a request.
 enum Answer {
     /// What the reply holds from STX on.
@@ -220,6 +236,7 @@ impl Server<'_> {
             }
             // Where the program ends, as tools ask before they read it.
             [b'F', b'8'] => Ok(self.find_in_program(PROGRAM, END, reply)),
+            _ if rate(text).is_some() => Ok(Answer::Done),
             // Clear and write of program memory, identity challenge, end of a download.
             [b'E', b'1', b'1', ..]
             | [b'E', b'6', b'1' | b'2' | b'4' | b'7']

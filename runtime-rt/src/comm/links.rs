@@ -29,7 +29,10 @@ impl Session<'_> {
         let buffer = self.copy_frame::<FRAME>(received);
         let mut map = Served::new(self.plc, 0);
         let frame = buffer.get(..received).unwrap_or_default();
-        let taken = self.status.link.receive(role, frame, self.now_us, &mut map);
+        let taken = self
+            .progress
+            .link
+            .receive(role, frame, self.now_us, &mut map);
         if let Err(fault) = taken {
             self.note(fault);
         }
@@ -47,7 +50,7 @@ impl Session<'_> {
         let mut frame = Frame::new(&mut bytes);
         let mut map = Served::new(self.plc, 0);
         let polled = self
-            .status
+            .progress
             .link
             .poll(role, self.now_us, &mut map, &mut frame);
         let length = frame.len();

@@ -1,6 +1,7 @@
 //! The PLC's devices as codecs see them.
 
-use crate::plc::{Class, Plc};
+use crate::plc::{Class, Plc, StoredRun};
+use core::cell::Cell;
 
 /// The devices of a PLC as its partners on a line see them.
 ///
@@ -53,6 +54,8 @@ pub struct Served<'a> {
     plc: &'a mut dyn Plc,
     type_code: u16,
     request: Option<bool>,
+    /// Class, first device and place of the devices that were asked for last: most frames are about a run of them.
+    last: Cell<(Class, u32, StoredRun)>,
 }
 
 impl<'a> Served<'a> {
@@ -62,6 +65,7 @@ impl<'a> Served<'a> {
             plc,
             type_code,
             request: None,
+            last: Cell::new((Class::X, 0, StoredRun { count: 0, area: 0 })),
         }
     }
 
@@ -72,31 +76,37 @@ impl<'a> Served<'a> {
 }
 
 impl Served<'_> {
-    /// Rejects what is not stored.
-    fn stored(&self, class: Class, number: u32) -> Option<()> {
-        self.plc.stores(class, number).then_some(())
+    /// Where a device is stored; rejects one that is not.
+    fn stored(&self, class: Class, number: u32) -> Option<u8> {
+        let (last_class, first, run) = self.last.get();
+        if last_class == class && number.wrapping_sub(first) < run.count {
+            return Some(run.area);
+        }
+        let run = self.plc.stored_run(class, number)?;
+        self.last.set((class, number, run));
+        Some(run.area)
     }
 }
 
 impl Map for Served<'_> {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
-        self.stored(class, number)?;
-        self.plc.bit(class, number)
+        let area = self.stored(class, number)?;
+        self.plc.bit_in(area, class, number)
     }
 
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
-        self.stored(class, number)?;
-        self.plc.set_bit(class, number, value)
+        let area = self.stored(class, number)?;
+        self.plc.set_bit_in(area, class, number, value)
     }
 
     fn word(&self, class: Class, number: u32) -> Option<i16> {
-        self.stored(class, number)?;
-        self.plc.word(class, number)
+        let area = self.stored(class, number)?;
+        self.plc.word_in(area, class, number)
     }
 
     fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
-        self.stored(class, number)?;
-        self.plc.set_word(class, number, value)
+        let area = self.stored(class, number)?;
+        self.plc.set_word_in(area, class, number, value)
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {

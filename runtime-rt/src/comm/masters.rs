@@ -18,19 +18,23 @@ impl Session<'_> {
     /// Sends what is to be sent, and takes notice of time.
     pub(super) fn advance_master<const LENGTH: usize>(&mut self, framing: Framing) {
         self.forget_errors();
-        if self.status.exchange.is_sending() && !self.status.sending {
-            self.status.exchange.sent(self.now_us);
+        if self.progress.exchange.is_sending() && !self.status.sending {
+            self.progress.exchange.sent(self.now_us);
         }
-        let receiving = self.status.open;
-        let tries = self.status.exchange.tries();
-        if self.status.exchange.is_late(self.now_us, receiving) {
+        let waiting = self.progress.exchange.is_waiting();
+        let receiving = self.status.open && (!waiting || self.answer_may_end(LENGTH));
+        let tries = self.progress.exchange.tries();
+        if self.progress.exchange.is_late(self.now_us, receiving) {
             self.note_exchange(LineFault::TimeOut, None);
         }
-        if self.status.exchange.tries() != tries {
+        if waiting && !self.progress.exchange.is_waiting() {
+            self.drop_frame();
+        }
+        if self.progress.exchange.tries() != tries {
             self.show_tries();
         }
         let free = !self.status.sending && !receiving;
-        let Some(job) = self.status.exchange.to_send().filter(|_| free) else {
+        let Some(job) = self.progress.exchange.to_send().filter(|_| free) else {
             return;
         };
         let mut bytes = [0; LENGTH];
@@ -40,7 +44,7 @@ impl Session<'_> {
         match modbus::request(framing, &limits, &job, &map, &mut frame) {
             Ok(()) => {
                 let length = frame.len();
-                self.status.exchange.sending();
+                self.progress.exchange.sending();
                 self.begin_sending(&bytes[..length], 0);
                 let modbus = self.wiring.modbus;
                 let silence_us = modbus.map_or(0, |modbus| modbus.silence_us(self.plc));
@@ -49,17 +53,27 @@ impl Session<'_> {
                 self.status.due_us = if waits { due_us } else { self.now_us };
             }
             Err(fault) => {
-                self.status.exchange.fail();
+                self.progress.exchange.fail();
                 self.note_exchange(fault, None);
             }
         }
+    }
+
+    /// Whether an answer that has begun may still end well: it has a whole time-out for each next character, and the
+    /// time of the longest frame, of `longest` characters, beside that for its beginning.
+    fn answer_may_end(&self, longest: usize) -> bool {
+        let exchange = &self.progress.exchange;
+        let quiet_us = self.now_us.wrapping_sub(self.status.last_us);
+        let frame_us = self.status.format.character_us() * longest as u32;
+        let limit_us = exchange.time_out_us().saturating_add(frame_us);
+        quiet_us < exchange.time_out_us() && exchange.waited_us(self.now_us) < limit_us
     }
 
     /// Shows how often the request has been sent again (FX3).
     fn show_tries(&mut self) {
         if let Some(modbus) = self.wiring.modbus {
             modbus.tried().set(self.plc, true);
-            let tries = self.status.exchange.tries();
+            let tries = self.progress.exchange.tries();
             modbus.tries().set(self.plc, tries.into());
         }
     }
@@ -69,7 +83,7 @@ impl Session<'_> {
         let begins = self.plc.sys().running && self.plc.sys().first_scan;
         if let Some(modbus) = self.wiring.modbus
             && begins
-            && self.status.exchange.is_free()
+            && self.progress.exchange.is_free()
         {
             modbus.clear(self.plc);
         }
@@ -83,7 +97,7 @@ impl Session<'_> {
             return self.note(fault);
         };
         if !modbus.kept().is_on(self.plc) {
-            let step = self.status.exchange.owner().wrapping_sub(1);
+            let step = self.progress.exchange.owner().wrapping_sub(1);
             modbus.failed_step().set(self.plc, step as u16);
         }
         match refusal.map(u16::from_be_bytes) {
@@ -96,9 +110,9 @@ impl Session<'_> {
     pub(super) fn take_answer<const LENGTH: usize>(&mut self, framing: Framing, received: usize) {
         let buffer = self.copy_frame::<LENGTH>(received);
         let frame = buffer.get(..received).unwrap_or_default();
-        let refusal = modbus::refusal(framing, self.status.exchange.job(), frame);
+        let refusal = modbus::refusal(framing, self.progress.exchange.job(), frame);
         let mut map = Served::new(self.plc, 0);
-        let taken = self.status.exchange.receive(framing, frame, &mut map);
+        let taken = self.progress.exchange.receive(framing, frame, &mut map);
         if let Err(fault) = taken {
             self.note_exchange(fault, refusal);
         }

@@ -41,6 +41,7 @@
 //! | `frame.rs` | [`Frame`]: a buffer of fixed capacity; digits and sums |
 //! | `line.rs` | format words, character times, line errors |
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
+//! | `parts.rs` | [`Port`]: what a port consists of in memory |
 //! | `port.rs` | the state machine of one port |
 //! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
 //! | `protocols.rs` | sets of protocols, and how much memory they take |
@@ -70,6 +71,7 @@ mod masters;
 pub mod mc;
 mod memory;
 pub mod modbus;
+mod parts;
 mod port;
 #[cfg(test)]
 mod port_tests;
@@ -87,10 +89,11 @@ pub use free::{Free, Transfer};
 pub use line::{CharFault, LineFormat, Parity, Received};
 pub use map::{Map, Served};
 pub use memory::Memory;
-pub use port::{FRAME, Keeps, NoMemory, Port, PortMut, Status, advance};
+pub use parts::{Part, Port, PortMut, Progress, Status, Without};
+pub use port::{FRAME, advance};
 pub use protocols::Protocols;
 pub(crate) use wiring::note_missing;
-pub use wiring::{Choice, PortWiring, Ports, Protocol};
+pub use wiring::{Choice, D_ADPRW_PORT, PortWiring, Ports, Protocol};
 
 /// What the characters received so far are, in a protocol whose frames have a length or an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,7 +116,7 @@ pub enum LineFault {
     Station,
     /// The frame is too short or too long (63x1).
     Length,
-    /// A device that is not there, or another address than asked for (63x2, 6376).
+    /// A device that is not there, or another address than asked for (63x2).
     Address,
     /// The sum is wrong (63x3, 6303, 6203).
     Sum,

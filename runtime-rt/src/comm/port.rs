@@ -1,15 +1,14 @@
 //! The state machine of one port, beside the scan.
 
-use super::can::{CanFrame, CanTurn};
+use super::can::CanFrame;
 use super::codec::Codec;
 use super::computer_link::Remote;
-use super::free::Free;
-use super::line::{CharFault, LineFormat, Received};
-use super::link::Link;
-use super::modbus::Exchange;
+use super::line::{CharFault, Received};
+use super::modbus::LONGEST_RTU;
+use super::parts::{Progress, Status};
 use super::protocols::Protocols;
 use super::slaves::Slave;
-use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
+use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, value};
 use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
 use crate::plc::{Plc, Sys};
@@ -29,161 +28,14 @@ const LINK_GIVEN_UP_US: u32 = 50_000;
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
 const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
-/// What a port is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(C)]
-pub struct Status {
-    /// What it speaks.
-    pub protocol: Protocol,
-    /// The first scan in RUN is over: what the port speaks stays until STOP.
-    pub bound: bool,
-    /// Characters of a frame have come, and the silence that ends it has not.
-    pub open: bool,
-    /// A character of the frame was wrong: it is not answered.
-    pub spoiled: bool,
-    /// A frame is being sent, or waits to be.
-    pub sending: bool,
-    /// The last settings of the hardware.
-    pub format: LineFormat,
-    /// What UINIT has set up: protocol and station, format, first register of the work area.
-    pub uinit: [u16; 3],
-    /// Characters received.
-    pub received: u16,
-    /// Characters to send.
-    pub to_send: u16,
-    /// Characters of them that the hardware has taken.
-    pub taken: u16,
-    /// When the last character was in.
-    pub last_us: u32,
-    /// When a frame begins to be sent.
-    pub due_us: u32,
-    /// RS, RS2, USEND, URCV.
-    pub free: Free,
-    /// Links between PLCs.
-    pub link: Link,
-    /// Which instruction waits for a frame on CAN.
-    pub can: CanTurn,
-    /// RUN and STOP by computer link.
-    pub remote: Remote,
-    /// Instructions of a Modbus master.
-    pub exchange: Exchange,
-}
-
-impl Status {
-    /// A port that has not been set up.
-    pub const fn new() -> Self {
-        Status {
-            protocol: Protocol::Off,
-            bound: false,
-            open: false,
-            spoiled: false,
-            sending: false,
-            format: LineFormat {
-                data_bits: 0,
-                stop_bits: 0,
-                ..LineFormat::new()
-            },
-            uinit: [0; 3],
-            received: 0,
-            to_send: 0,
-            taken: 0,
-            last_us: 0,
-            due_us: 0,
-            free: Free::new(),
-            link: Link::new(),
-            can: CanTurn::new(),
-            remote: Remote::new(),
-            exchange: Exchange::new(),
-        }
-    }
-}
-
-/// A serial port in a program's memory, with room for a frame of `LENGTH` characters and for what its protocols keep:
-/// [`Memory`] or [`NoMemory`]. All zero is one that has not been set up.
-#[derive(Clone, Debug)]
-#[repr(C)]
-pub struct Port<const LENGTH: usize = FRAME, K = Memory> {
-    /// What it is doing.
-    pub status: Status,
-    /// The frame that is received or sent.
-    pub buffer: [u8; LENGTH],
-    /// What a slave keeps.
-    pub memory: K,
-}
-
-/// No protocol of the port keeps anything from one frame to the next.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct NoMemory;
-
-/// What a port has to keep something in from one frame to the next.
-pub trait Keeps {
-    /// Nothing is kept.
-    const NOTHING: Self;
-
-    /// The memory, if there is one.
-    fn memory(&mut self) -> Option<&mut Memory>;
-}
-
-impl Keeps for Memory {
-    const NOTHING: Self = Memory::new();
-
-    fn memory(&mut self) -> Option<&mut Memory> {
-        Some(self)
-    }
-}
-
-impl Keeps for NoMemory {
-    const NOTHING: Self = NoMemory;
-
-    fn memory(&mut self) -> Option<&mut Memory> {
-        None
-    }
-}
-
-impl<const LENGTH: usize, K: Keeps> Default for Port<LENGTH, K> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<const LENGTH: usize, K: Keeps> Port<LENGTH, K> {
-    /// A port that has not been set up.
-    pub const fn new() -> Self {
-        Port {
-            status: Status::new(),
-            buffer: [0; LENGTH],
-            memory: K::NOTHING,
-        }
-    }
-
-    /// The port, whatever it has room for.
-    pub fn parts(&mut self) -> PortMut<'_> {
-        PortMut {
-            status: &mut self.status,
-            buffer: &mut self.buffer,
-            memory: self.memory.memory(),
-        }
-    }
-}
-
-/// A serial port in a program's memory, whatever it has room for.
-#[derive(Debug)]
-pub struct PortMut<'a> {
-    /// What it is doing.
-    pub status: &'a mut Status,
-    /// The frame that is received or sent.
-    pub buffer: &'a mut [u8],
-    /// What a slave keeps, if its protocols keep anything.
-    pub memory: Option<&'a mut Memory>,
-}
-
 /// One port while it is advanced.
 pub(super) struct Session<'a> {
     pub(super) plc: &'a mut dyn Plc,
     pub(super) hal: &'a mut dyn Hal,
     pub(super) wiring: &'static PortWiring,
     pub(super) status: Status,
+    /// As it begins, where the port has no memory for it.
+    pub(super) progress: Progress,
     pub(super) now_us: u32,
     /// RUN or STOP, if a frame has asked for it.
     request: Option<bool>,
@@ -211,13 +63,21 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
             hal,
             wiring,
             status,
+            progress: Progress::new(),
             now_us,
             request: None,
         };
+        let port = session.plc.port(wiring.number);
+        if let Some(progress) = port.and_then(|port| port.progress) {
+            keep(&mut session.progress, progress);
+        }
         session.run();
         request = request.or(session.request);
         if let Some(port) = session.plc.port(wiring.number) {
             keep(port.status, &session.status);
+            if let Some(place) = port.progress {
+                keep(place, &session.progress);
+            }
         }
     }
     request
@@ -226,8 +86,8 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
 /// A separate function says that the two do not overlap: else it is done by `memmove`, which is larger than all else
 /// here.
 #[inline(never)]
-fn keep(place: &mut Status, status: &Status) {
-    *place = *status;
+fn keep<T: Copy>(place: &mut T, value: &T) {
+    *place = *value;
 }
 
 impl Session<'_> {
@@ -290,24 +150,29 @@ impl Session<'_> {
             self.status.protocol = protocol;
             self.drop_frame();
             self.status.sending = false;
-            self.status.free = Free::new();
-            self.status.link = Link::new();
-            self.status.can = CanTurn::new();
+            self.status.rate = 0;
+            self.progress = Progress::new();
             self.forget();
-            self.status.exchange = Exchange::new();
         }
     }
 
     /// Tells the hardware the format of the line; false if there is no hardware.
     fn set_up(&mut self) -> bool {
         let status = self.status;
-        let format = match self.codec() {
+        let mut format = match self.codec() {
             Some(codec) => codec.line(self.wiring, self.plc, status.protocol, status.uinit),
             None => self.wiring.own_line(self.plc, status.uinit, false),
         };
+        if status.rate != 0 {
+            format.bits_per_second = u32::from(status.rate) * 100;
+        }
         let Some((port, _)) = self.serial() else {
             return false;
         };
+        // The answer to a request for another rate still has the old one.
+        if status.sending && status.rate != 0 {
+            return true;
+        }
         if format != status.format {
             port.set_format(format);
             self.status.format = format;
@@ -364,24 +229,36 @@ impl Session<'_> {
         self.status.last_us = character.at_us;
         if character.fault != CharFault::None {
             self.note(LineFault::Character);
+            self.status.rate = 0;
             self.status.spoiled = true;
             return false;
         }
         let at = usize::from(self.status.received);
         let byte = character.byte & self.status.format.mask();
         let port = self.plc.port(self.wiring.number);
-        match port.and_then(|port| port.buffer.get_mut(at)) {
+        // A port of several protocols has room for more.
+        let fits = !self.status.protocol.ends_by_silence() || at < LONGEST_RTU;
+        let place = port.filter(|_| fits);
+        match place.and_then(|port| port.buffer.get_mut(at)) {
             Some(place) => {
                 *place = byte;
                 self.status.received += 1;
                 true
             }
+            None if at == 0 => {
+                self.status.spoiled = true;
+                false
+            }
             // No frame is as long. One that silence ends continues until then; else this character may begin another.
-            None if at == 0 || self.status.protocol.ends_by_silence() => {
+            None if self.status.protocol.ends_by_silence() => {
+                if !self.status.spoiled {
+                    self.note(LineFault::Overflow);
+                }
                 self.status.spoiled = true;
                 false
             }
             None => {
+                self.note(LineFault::Overflow);
                 self.drop_frame();
                 self.store(character)
             }
@@ -396,7 +273,9 @@ impl Session<'_> {
             return;
         };
         let frame = port.buffer.get(..received).unwrap_or_default();
-        let cut = codec.map_or(Cut::Drop, |codec| codec.cut(&self.status, slave, frame));
+        let cut = codec.map_or(Cut::Drop, |codec| {
+            codec.cut(&self.status, &self.progress, slave, frame)
+        });
         match cut {
             Cut::More => {}
             Cut::Whole if self.status.spoiled => self.drop_frame(),
@@ -428,7 +307,7 @@ impl Session<'_> {
     }
 
     /// Forgets what has been received.
-    fn drop_frame(&mut self) {
+    pub(super) fn drop_frame(&mut self) {
         self.status.received = 0;
         self.status.open = false;
         self.status.spoiled = false;
@@ -488,7 +367,9 @@ impl Session<'_> {
         let slave = self.slave();
         let port = self.plc.port(self.wiring.number);
         let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
-        frame.is_some_and(|frame| codec.cut(&self.status, slave, frame) == Cut::Whole)
+        frame.is_some_and(|frame| {
+            codec.cut(&self.status, &self.progress, slave, frame) == Cut::Whole
+        })
     }
 
     /// Answers a frame, none of which has more than `LENGTH` characters.

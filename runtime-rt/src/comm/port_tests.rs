@@ -78,6 +78,31 @@ fn a_slave_answers_after_silence_and_takes_the_next_frame() {
     assert_eq!(sent(&mut plc, 100_000).len(), 7);
 }
 
+/// A programmer asks for 115,200 bit/s: the answer comes at the old rate; a character that is wrong brings that back.
+#[test]
+fn a_programmer_chooses_the_rate() {
+    let mut plc = plc(1, 0);
+    let rate = |plc: &mut Double| plc.hal.line(1).unwrap().format().bits_per_second;
+    let end_us = feed(&mut plc, 0, b"\x02A5\x0379");
+    pass(&mut plc, 0, end_us + 500);
+    assert_eq!(rate(&mut plc), 9600);
+    pass(&mut plc, end_us, end_us + 5000);
+    assert_eq!(sent(&mut plc, end_us + 5000), [6]);
+    assert_eq!(rate(&mut plc), 115_200);
+    let refused_us = feed(&mut plc, end_us + 6000, b"\x02A4\x0378");
+    pass(&mut plc, end_us + 5000, refused_us + 5000);
+    assert_eq!(sent(&mut plc, refused_us + 5000), [0x15]);
+    assert_eq!(rate(&mut plc), 115_200);
+    let wrong = Received {
+        at_us: refused_us + 6000,
+        byte: 0x55,
+        fault: CharFault::Framing,
+    };
+    plc.hal.line(1).unwrap().feed(wrong).unwrap();
+    pass(&mut plc, refused_us + 5000, refused_us + 9000);
+    assert_eq!(rate(&mut plc), 9600);
+}
+
 #[test]
 fn what_comes_while_a_half_duplex_port_sends_is_not_received() {
     let mut plc = plc(2, 0x81);

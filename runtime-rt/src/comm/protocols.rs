@@ -2,7 +2,8 @@
 
 use super::memory::Memory;
 use super::modbus::LONGEST_RTU;
-use super::port::{FRAME, Status};
+use super::parts::{Progress, Status};
+use super::port::FRAME;
 use super::wiring::Protocol;
 
 /// A set of protocols.
@@ -44,6 +45,16 @@ impl Protocols {
     const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort])
         .or(Self::QLINK)
         .or(Self::CANLINK);
+
+    /// Those that do more than answer, and so are in the midst of something between two calls.
+    const WITH_PROGRESS: Self = Protocols::of(&[
+        Protocol::Free,
+        Protocol::MasterRtu,
+        Protocol::MasterAscii,
+        Protocol::MasterTable,
+        Protocol::Can,
+    ])
+    .or(Self::LINKS);
 
     /// Those whose longest frame is that of Modbus RTU, or shorter, or that have no frames.
     const SHORT: Self = Protocols::of(&[
@@ -104,14 +115,22 @@ impl Protocols {
         self.meets(Self::WITH_MEMORY)
     }
 
+    /// Whether one of them does more than answer ([`Progress`]).
+    pub const fn has_progress(self) -> bool {
+        self.meets(Self::WITH_PROGRESS)
+    }
+
     /// Bytes of a port that speaks them in a program's memory.
     pub const fn port_size(self) -> usize {
-        let memory = if self.keeps_memory() {
-            size_of::<Memory>()
-        } else {
-            0
+        let progress = match self.has_progress() {
+            true => size_of::<Progress>(),
+            false => 0,
         };
-        size_of::<Status>() + self.longest_frame() + memory
+        let memory = match self.keeps_memory() {
+            true => size_of::<Memory>(),
+            false => 0,
+        };
+        size_of::<Status>() + progress + self.longest_frame() + memory
     }
 }
 

@@ -260,6 +260,9 @@ pub(super) const M_PARALLEL_SLAVE: Relay = Relay(8071);
 /// Ports 2 and 3 of L01S are set up by their registers rather than programming ports (l01s-programming §9).
 const M_PORT_2_SET_UP: Relay = Relay(8196);
 const M_PORT_3_SET_UP: Relay = Relay(8192);
+/// Which port ADPRW of L01S works on: 0 for port 2, 1 for port 3 (l01s-programming §8.1.2).
+pub const D_ADPRW_PORT: Register = Register(8397);
+
 /// Port 2 of L01S speaks Modbus.
 const M_PORT_2_MODBUS: Relay = Relay(8125);
 
@@ -344,6 +347,11 @@ impl Ports {
             Ports::L01s => 2,
             _ => 1,
         }
+    }
+
+    /// The port for programmers and HMIs, the first one; `None` if the model has none.
+    pub fn of_programmer(self) -> Option<u8> {
+        self.all().first().map(|port| port.number)
     }
 
     /// The port that an operand of an instruction names: n1 of RS2 and MODBUS2, D2 of UINIT and similar instructions.
@@ -647,7 +655,6 @@ impl LineFault {
             LineFault::Sum => 3,
             LineFault::Command => 5,
             LineFault::TimeOut => 6,
-            LineFault::Address => 76,
             _ => 4,
         }
     }

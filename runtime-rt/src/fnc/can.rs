@@ -3,7 +3,7 @@
 use crate::comm::can::{
     self, D_DATA, D_LENGTH, M_LATE, M_RECEIVED, M_SEND_FAILED, M_SENDS, M_WAITS, turn_us,
 };
-use crate::comm::{CAN_PORT, CanFrame, Protocol};
+use crate::comm::{CAN_PORT, CanFrame, Progress, Protocol};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 
@@ -68,12 +68,13 @@ pub fn canrx(cx: &mut Cx) -> Done {
         return Ok(());
     }
     let turn_us = turn_us(cx.plc);
-    let Some(port) = cx.plc.port(CAN_PORT) else {
+    let port = cx.plc.port(CAN_PORT);
+    let Some(Progress { can, .. }) = port.and_then(|port| port.progress) else {
         return Ok(());
     };
-    let late = port.status.can.is_late(now_us, turn_us);
-    let frame = port.status.can.visit(owner, id, now_us, turn_us);
-    let waits = port.status.can.waits();
+    let late = can.is_late(now_us, turn_us);
+    let frame = can.visit(owner, id, now_us, turn_us);
+    let waits = can.waits();
     M_WAITS.set(cx.plc, waits);
     let Some(frame) = frame else {
         if late {

@@ -6,13 +6,13 @@
 //!
 //! [`Exchange`]: crate::comm::modbus::Exchange
 
-use crate::comm::PortWiring;
-use crate::comm::modbus::{Buffer, End, Job, Layout, Visit};
+use crate::comm::modbus::{Buffer, End, Exchange, Job, Layout, Visit};
+use crate::comm::{D_ADPRW_PORT, PortWiring, Progress};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::plc::Sys;
-use crate::special::{M_COMPLETE, Register, Relay};
+use crate::special::{M_COMPLETE, Relay};
 
 /// What came of an instruction that the scan has reached.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,9 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
         }
         return Ok(Turn::None);
     }
-    let exchange = &mut port.status.exchange;
+    let Some(Progress { exchange, .. }) = port.progress else {
+        return Ok(Turn::None);
+    };
     match exchange.visit(owner, driven) {
         Visit::Pass => Ok(Turn::None),
         Visit::Over(end) => {
@@ -70,13 +72,18 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
                 false => modbus.map_or(0, |modbus| modbus.after_broadcast_us(cx.plc)),
             };
             let retries = modbus.map_or(0, |modbus| modbus.retries(cx.plc));
-            if let Some(port) = cx.plc.port(number) {
-                let exchange = &mut port.status.exchange;
+            if let Some(exchange) = exchange_of(cx, number) {
                 exchange.begin(owner, job, time_out_us, retries);
             }
             Ok(Turn::Begun)
         }
     }
+}
+
+/// What a port does for the instructions of a master.
+fn exchange_of<'a>(cx: &'a mut Cx, number: u8) -> Option<&'a mut Exchange> {
+    let progress = cx.plc.port(number)?.progress?;
+    Some(&mut progress.exchange)
 }
 
 /// The special devices that a port has now.
@@ -207,9 +214,7 @@ fn adprw_job(cx: &Cx) -> Result<Job, Fault> {
 /// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program
 /// resets it or the next one is executed.
 pub fn adprw(cx: &mut Cx) -> Done {
-    /// Which port: 0 for port 2, 1 for port 3.
-    const D_PORT: Register = Register(8397);
-    let port = D_PORT.value(cx.plc) as i16;
+    let port = D_ADPRW_PORT.value(cx.plc) as i16;
     let Some(number) = l01s_port(cx, port)? else {
         return Ok(());
     };
@@ -250,8 +255,7 @@ pub fn adprw_fx3(cx: &mut Cx) -> Done {
         Turn::None => {}
     }
     let scan = cx.plc.sys().scan;
-    let port = cx.plc.port(number);
-    let told = port.map_or(0, |port| port.status.exchange.told);
+    let told = exchange_of(cx, number).map_or(0, |exchange| exchange.told);
     // Scans are numbered by odd numbers.
     let ended_before = told != 0 && scan.wrapping_sub(told) == 2;
     match turn {
@@ -332,10 +336,7 @@ fn l01s(cx: &mut Cx, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
         return Ok(());
     };
     let scan = cx.plc.sys().scan;
-    let told = cx
-        .plc
-        .port(number)
-        .map_or(0, |port| port.status.exchange.told);
+    let told = exchange_of(cx, number).map_or(0, |exchange| exchange.told);
     if told != 0 && told != scan {
         show(cx, number, |wiring| wiring.answered, false);
         show(cx, number, |wiring| wiring.late, false);
@@ -368,8 +369,8 @@ fn hm(cx: &mut Cx, port: usize, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
     let (step, driven) = (cx.site.step, cx.site.drive);
     cx.site.drive = driven || cx.state().0[WAITS] != 0;
     let turn = work(cx, number, job);
-    let port = cx.plc.port(number);
-    let taken = port.is_some_and(|port| port.status.exchange.works_for_another(owner(step)));
+    let exchange = exchange_of(cx, number);
+    let taken = exchange.is_some_and(|exchange| exchange.works_for_another(owner(step)));
     let waits = cx.site.drive && taken && turn == Ok(Turn::None);
     cx.site.drive = driven;
     cx.state().0[WAITS] = waits.into();

@@ -174,16 +174,21 @@ fn packs(cx: &Cx, number: u8) -> bool {
 /// What a free protocol sends and receives on a port, as long as it is driven.
 fn transfer(cx: &mut Cx, number: u8) -> Done {
     let owner = cx.site.step + 1;
-    let Some(status) = cx.plc.port(number).map(|port| *port.status) else {
+    let Some(port) = cx.plc.port(number) else {
         return Ok(());
     };
+    let status = *port.status;
+    let owned_by = match port.progress {
+        Some(progress) => &mut progress.free.owner,
+        None => &mut 0,
+    };
     if !cx.site.drive {
-        if let Some(port) = cx.plc.port(number).filter(|_| status.free.owner == owner) {
-            port.status.free.owner = 0;
+        if *owned_by == owner {
+            *owned_by = 0;
         }
         return Ok(());
     }
-    if status.free.owner != 0 && status.free.owner != owner {
+    if *owned_by != 0 && *owned_by != owner {
         return Ok(());
     }
     if status.protocol != Protocol::Free {
@@ -201,9 +206,9 @@ fn transfer(cx: &mut Cx, number: u8) -> Done {
         [source, _, target, ..] => (*source, *target),
         _ => return Err(Fault::DEVICE),
     };
-    if let Some(port) = cx.plc.port(number) {
-        port.status.free.owner = owner;
-        port.status.free.transfer = Transfer {
+    if let Some(progress) = cx.plc.port(number).and_then(|port| port.progress) {
+        progress.free.owner = owner;
+        progress.free.transfer = Transfer {
             source: source.value as u32,
             target: target.value as u32,
             send: send as u16,

@@ -50,6 +50,13 @@ super::codes! {
     wrong: "LD M8002\nMOV H2 D8126\nMOV H1 D8120\nEND\n",
     right: "LD M8002\nMOV H2 D8126\nMOV H81 D8120\nEND\n";
 
+    PORT_SET_BY_INDEX = "W0690" "port-set-by-index" Warning None,
+    "a register of a port that only an index reaches",
+    "With an index, the instruction may write a register that sets up a serial port. rungc finds out what a port speaks, and which protocols a compiled program needs, from instructions that name these registers without an index. `rungc run` and `rungc test` follow the index; a compiled program has no code for a protocol that nothing else chooses, and the port is silent. Name the register.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV K6 Z0\nMOV H2 D8120Z0\nEND\n",
+    right: "LD M8002\nMOV H2 D8126\nEND\n";
+
     ETHERNET_CARD = "W0700" "ethernet-card" Warning None,
     "a port that is set up for an Ethernet card",
     "`D8270` = HC1, `D8271` = 1 and `D8276` = 2 set up COM3 of H2U for the card H2U-ENET-BD, which serves registers D by Modbus TCP. There is no card in a compiled program, and its IP address, shared registers and table of requests are in the editor's project, not in the program. COM3 is a Modbus RTU slave. `rungc run --modbus-tcp`, `[serve] modbus-tcp` and executables of `rungc build --servers` serve all devices by Modbus TCP at the addresses that the card has (D500 is 1F4h); `[[modbus]]` asks slaves on a serial line. With one of the first two this is not reported.",

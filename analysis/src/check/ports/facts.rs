@@ -7,10 +7,13 @@ use crate::accesses;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
-use rungc_rt::{Class, Plc, Ports, Register, Relay, RtFn, State, Sys};
+use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
 use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass};
+use rungc_syntax::{Device, DeviceClass, Span};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Programs that reach special registers through an index stay this near.
+const USUAL_INDEX: u32 = 256;
 
 /// One write to a register or relay.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,6 +38,8 @@ pub(super) struct Facts {
     model: &'static Model,
     /// By the register's or relay's device, in the order of the program.
     writes: BTreeMap<Device, Vec<Write>>,
+    /// Registers that are written through an index, where a set-up register is near, and the place of the operand.
+    pub(super) indexed: Vec<(Device, Span)>,
     /// By port; `None` for one whose operands are not constant.
     pub(super) uinit: BTreeMap<u8, Vec<Option<Uinit>>>,
 }
@@ -78,10 +83,12 @@ impl Facts {
             .clone()
             .flat_map(|wiring| wiring.setup_registers().chain(wiring.station).map(d));
         let relays = ports.flat_map(|wiring| wiring.setup_relays().map(m));
-        let watched = order::set(words.chain(relays));
+        let named = (0..code.len).filter_map(|i| super::port_register(code, i));
+        let watched = order::set(words.chain(relays).chain(named));
         let mut facts = Facts {
             model: code.model(),
             writes: BTreeMap::new(),
+            indexed: Vec::new(),
             uinit: BTreeMap::new(),
         };
         let mut when = When::new(code);
@@ -101,7 +108,12 @@ impl Facts {
         for access in accesses::of(code.resolved, i).filter(accesses::Access::writes) {
             let Device { class, number } = access.first;
             // What may be any register is not taken for a set-up.
-            let Some(count) = access.count else { continue };
+            let Some(count) = access.count else {
+                if access.indexed {
+                    self.note_index(&access, watched);
+                }
+                continue;
+            };
             let last = Device {
                 class,
                 number: number.saturating_add(count.saturating_sub(1)),
@@ -114,6 +126,19 @@ impl Facts {
                     first_scan,
                 });
             }
+        }
+    }
+
+    /// Notes an access from a special register on, whose index may lead to a set-up register.
+    fn note_index(&mut self, access: &accesses::Access, watched: &BTreeSet<Device>) {
+        let Device { class, number } = access.first;
+        let reached = |number| Device { class, number };
+        let near = reached(number.saturating_sub(USUAL_INDEX))..=reached(number + USUAL_INDEX);
+        if class == DeviceClass::D
+            && number >= FIRST_SPECIAL
+            && watched.range(near).next().is_some()
+        {
+            self.indexed.push((access.first, access.span));
         }
     }
 

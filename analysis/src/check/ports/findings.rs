@@ -37,6 +37,19 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
     }
     parallel(code, &facts, out);
     canlink(code, out);
+    indexed(&facts, out);
+}
+
+/// Set-up registers that only an index reaches.
+fn indexed(facts: &Facts, out: &mut Diagnostics) {
+    for &(first, span) in &facts.indexed {
+        let message = format!("with its index, `{first}` may be a register that sets up a port");
+        let diagnostic = codes::PORT_SET_BY_INDEX
+            .at(span, message)
+            .label("a compiled program has no code for a protocol that is chosen only here")
+            .help("name the register");
+        out.push(diagnostic);
+    }
 }
 
 /// A port that a program uses or sets up.
@@ -311,7 +324,7 @@ impl Port<'_> {
         };
         let mut reported = [false; 2];
         for i in 0..self.code.len {
-            if port_of(self.code, i, self.code.model().ports) != Some(self.wiring.number) {
+            if port_of(self.code, i, self.facts) != Some(self.wiring.number) {
                 continue;
             }
             let Some((function, of)) = use_of(self.code, i) else {

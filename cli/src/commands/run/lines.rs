@@ -64,12 +64,14 @@ impl Lines {
     ///
     /// # Errors
     /// A port that the model does not have, and one that cannot be opened.
-    pub fn open<'a>(
-        lines: impl Iterator<Item = &'a serve::Line>,
-        model: &Model,
-        watch: &mut Watch,
-    ) -> Result<Self, Failure> {
-        let lines = lines.map(|line| {
+    pub fn open(lines: &[serve::Line], model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
+        for (i, line) in lines.iter().enumerate() {
+            if lines[..i].iter().any(|other| other.port == line.port) {
+                let why = format!("{} is connected to two lines", line.name());
+                return Err(Failure::Because(why));
+            }
+        }
+        let lines = lines.iter().map(|line| {
             let line = Line::open(line, model)?;
             watch.open(&line.place, Speech::Serial(line.protocol));
             Ok(line)

@@ -5,6 +5,7 @@ use crate::args::ServeArgs;
 use crate::commands::{Failure, tell};
 use rungc_interp::Machine;
 use rungc_models::Model;
+use rungc_project::serve::FxEnd;
 use rungc_rt::Program;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::service::{Service, Speaks};
@@ -31,10 +32,15 @@ impl Servers {
     /// An address that cannot be had.
     pub fn open(args: &ServeArgs, model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
         let type_code = model.type_code();
+        let of_fx = args.fx.iter().filter_map(|end| match end {
+            FxEnd::Address(address) => Some(*address),
+            FxEnd::Line(_) => None,
+        });
+        let of_fx: Vec<_> = of_fx.collect();
         let addresses = |speaks| match speaks {
             Speaks::ModbusTcp => &args.modbus_tcp,
             Speaks::Mc => &args.mc,
-            Speaks::ProgrammingPort => &args.fx,
+            Speaks::ProgrammingPort => &of_fx,
         };
         let mut servers = Vec::new();
         for speaks in Speaks::all() {

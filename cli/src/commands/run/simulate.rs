@@ -151,7 +151,7 @@ impl Run<'_> {
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
-            lines: Lines::open(args.serve.lines(), module.model, &mut watch)?,
+            lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             watch,
             now_ms: 0,
             overrun: false,

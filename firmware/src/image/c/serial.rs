@@ -18,6 +18,12 @@ const STM32F7_REGISTERS: &str = "CONTROL_1 = 0x00, CONTROL_2 = 0x04, RATE = 0x0C
 /// How faults are cleared where reading the data does not do that.
 const CLEAR: &str = "    REGISTER(u->at + CLEAR) = 0xFu; /* PE, FE, NF, ORE */\n";
 
+/// The memory of both directions is one, and what has come is to be noted again.
+const LISTEN: &str = "        q->received.first = 0;
+        q->received.end = 0;
+        q->received.lost = false;
+";
+
 /// Fields of `rungc_hal` that serial ports fill.
 pub(super) const FIELDS: [&str; 4] = ["set_line", "receive", "send", "unsent"];
 
@@ -73,6 +79,21 @@ pub(super) fn drivers(image: &Image) -> String {
         .replace("/* TIME */", &time)
         .replace("/* UART */", &uart)
         .replace("/* TABLE */", &table(&ports));
+    let text = match image.takes_turns() {
+        true => text
+            .replace(
+                "/* HOW */",
+                ", in one memory: no protocol of these ports listens while it sends",
+            )
+            .replace("/* SHARE */", "union")
+            .replace("/* LISTEN */", LISTEN)
+            .replace("/* LISTENS */", "return !q->sends;"),
+        false => text
+            .replace("/* HOW */", "")
+            .replace("/* SHARE */", "struct")
+            .replace("/* LISTEN */", "")
+            .replace("/* LISTENS */", "(void)q;\n    return true;"),
+    };
     format!(
         "/* How many characters wait to be sent, plus one. */\n#define SEND {}u\n\n{text}",
         room.unwrap_or(first.send)

@@ -35,13 +35,25 @@ const ENABLE: u32 = 0;
 /// How faults are cleared where reading the data does not do that.
 const CLEAR: &str = "        write(self.at + CLEAR, 0xF); // PE, FE, NF, ORE\n";
 
+/// The type of what waits in both directions: one memory where the ports take turns.
+fn queue(image: &Image) -> &'static str {
+    match image.takes_turns() {
+        true => "TurnQueue",
+        false => "BothQueues",
+    }
+}
+
 /// What the main file uses in addition.
-pub(super) const USES: &str = "\
-use core::sync::atomic::{AtomicU8, AtomicUsize};
+pub(super) fn uses(image: &Image) -> String {
+    format!(
+        "use core::sync::atomic::AtomicU8;
 use rungc_rt::SerialPort;
-use rungc_rt::board::CharQueue;
-use rungc_rt::comm::{CharFault, LineFormat, Received};
-";
+use rungc_rt::board::{};
+use rungc_rt::comm::{{CharFault, LineFormat, Received}};
+",
+        queue(image)
+    )
+}
 
 /// How instructions and partners reach the ports.
 pub(super) const SERIAL_PORT: &str = "
@@ -96,10 +108,19 @@ pub(super) fn drivers(image: &Image) -> String {
         Uart::Cmsdk => CMSDK.to_string(),
     };
     let most = |room: fn(&Serial) -> u16| ports.iter().map(|serial| room(serial)).max();
-    let room = |room: Option<u16>| room.unwrap_or_default().to_string();
+    let [receive, send] = [most(|serial| serial.receive), most(|serial| serial.send)];
+    let [receive, send] = [receive, send].map(Option::unwrap_or_default);
+    let (how, room) = match image.takes_turns() {
+        // A word holds one character that has come, or four to be sent.
+        true => (
+            ", in one memory: no protocol of these ports listens while it sends",
+            receive.max(send.div_ceil(4)).to_string(),
+        ),
+        false => ("", format!("{receive}, {send}")),
+    };
     SERIAL
-        .replace("/* RECEIVE */", &room(most(|serial| serial.receive)))
-        .replace("/* SEND */", &room(most(|serial| serial.send)))
+        .replace("/* HOW */", how)
+        .replace("/* QUEUE */", &format!("{}<{room}>", queue(image)))
         .replace("/* UART */", &uart)
         .replace("/* TABLE */", &table(&ports))
 }
@@ -124,7 +145,7 @@ fn table(ports: &[&Serial]) -> String {
         };
         let _ = writeln!(
             rows,
-            "    Uart {{ port: {port}, at: 0x{:08X}, clock_hz: {}, drive: {drive}, queues: &QUEUES[{i}] }},",
+            "    Uart {{ port: {port}, at: 0x{:08X}, clock_hz: {}, drive: {drive}, line: &LINES[{i}] }},",
             serial.at, serial.clock_hz
         );
         let _ = write!(
@@ -134,7 +155,7 @@ fn table(ports: &[&Serial]) -> String {
         );
     }
     format!(
-        "{text}static QUEUES: [Queues; {count}] = [Queues::EMPTY; {count}];\n\nstatic UARTS: [Uart; {count}] = [\n{rows}];\n\n{handlers}",
+        "{text}static LINES: [Line; {count}] = [Line::EMPTY; {count}];\n\nstatic UARTS: [Uart; {count}] = [\n{rows}];\n\n{handlers}",
         count = ports.len()
     )
 }

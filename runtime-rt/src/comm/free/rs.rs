@@ -147,33 +147,33 @@ impl Session<'_> {
 
     pub(super) fn take_rs(&mut self, character: Received) {
         self.close_rs(self.begin_of(character));
-        let transfer = self.status.free.transfer;
-        let wants = self.status.free.owner != 0 && transfer.receive > 0;
+        let transfer = self.progress.free.transfer;
+        let wants = self.progress.free.owner != 0 && transfer.receive > 0;
         if !wants || is_on(self.plc, self.wiring.done) || self.is_wrong(character) {
             return;
         }
         let byte = character.byte & self.status.format.mask();
         let marks = self.marks();
-        self.status.free.window = self.status.free.window << 8 | u32::from(byte);
-        if !self.status.free.listens {
-            let begins = marks.before.ends(self.status.free.window);
+        self.progress.free.window = self.progress.free.window << 8 | u32::from(byte);
+        if !self.progress.free.listens {
+            let begins = marks.before.ends(self.progress.free.window);
             if marks.before.length > 0 && !begins {
                 return;
             }
-            self.status.free.listens = true;
-            self.status.free.received = 0;
-            self.status.free.sum = 0;
-            self.status.free.tail = 0;
-            self.status.free.last_us = character.at_us;
+            self.progress.free.listens = true;
+            self.progress.free.received = 0;
+            self.progress.free.sum = 0;
+            self.progress.free.tail = 0;
+            self.progress.free.last_us = character.at_us;
             self.show_sum(|envelope| Some(envelope.computed_sum), 0);
             if begins {
-                self.status.free.window = 0;
+                self.progress.free.window = 0;
                 return;
             }
-            self.status.free.window = byte.into();
+            self.progress.free.window = byte.into();
         }
-        self.status.free.last_us = character.at_us;
-        match self.status.free.tail {
+        self.progress.free.last_us = character.at_us;
+        match self.progress.free.tail {
             0 => self.take_data(byte, &marks),
             _ => self.take_tail(byte, &marks),
         }
@@ -183,27 +183,27 @@ impl Session<'_> {
     fn take_data(&mut self, byte: u8, marks: &Marks) {
         let with_end = self.wiring.envelope.is_some();
         let (end, tail) = marks.end();
-        let received = self.status.free.received;
+        let received = self.progress.free.received;
         let whole = received >= u16::from(end.length.saturating_sub(1));
-        let ends = whole && end.ends(self.status.free.window);
+        let ends = whole && end.ends(self.progress.free.window);
         if !ends || with_end {
             self.store_data(received, byte);
-            self.status.free.received += 1;
-            let sum = self.status.free.sum.wrapping_add(byte.into());
-            self.status.free.sum = sum;
+            self.progress.free.received += 1;
+            let sum = self.progress.free.sum.wrapping_add(byte.into());
+            self.progress.free.sum = sum;
             self.show_sum(|envelope| Some(envelope.computed_sum), sum);
         }
         if ends && tail > 0 {
-            self.status.free.tail = tail;
-            self.status.free.claimed = 0;
-        } else if ends || self.status.free.received >= self.status.free.transfer.receive {
+            self.progress.free.tail = tail;
+            self.progress.free.claimed = 0;
+        } else if ends || self.progress.free.received >= self.progress.free.transfer.receive {
             self.complete_rs();
         }
     }
 
     /// A character of the sum, CR or LF.
     fn take_tail(&mut self, byte: u8, marks: &Marks) {
-        let free = &mut self.status.free;
+        let free = &mut self.progress.free;
         let index = marks.tail_length().saturating_sub(free.tail);
         free.tail -= 1;
         if marks.sum && index < 2 {
@@ -230,13 +230,13 @@ impl Session<'_> {
     /// What was to be received is there.
     fn complete_rs(&mut self) {
         self.end_reception();
-        self.status.free.complete = true;
+        self.progress.free.complete = true;
         set(self.plc, self.wiring.done, true);
     }
 
     /// An answer that does not continue in time is over. On FX3 that completes it.
     fn close_rs(&mut self, at_us: u32) {
-        let free = self.status.free;
+        let free = self.progress.free;
         let quiet_us = at_us.wrapping_sub(free.last_us);
         let late = has_come(at_us, free.last_us) && quiet_us > self.wiring.time_out_us(self.plc);
         if free.listens && late {
@@ -251,14 +251,14 @@ impl Session<'_> {
     pub(super) fn advance_rs(&mut self) {
         let wiring = self.wiring;
         self.close_rs(self.now_us);
-        let free = self.status.free;
+        let free = self.progress.free;
         let asked = free.owner != 0 && is_on(self.plc, wiring.sends);
         let busy = free.listens && self.status.format.half_duplex;
         let marks = self.marks();
         if asked && !self.status.sending && !busy {
-            self.status.free.total = free.transfer.send + marks.length();
-            self.status.free.taken = 0;
-            self.status.free.sent_sum = 0;
+            self.progress.free.total = free.transfer.send + marks.length();
+            self.progress.free.taken = 0;
+            self.progress.free.sent_sum = 0;
             self.status.sending = true;
         }
         if self.status.sending {
@@ -274,7 +274,7 @@ impl Session<'_> {
             set_value(self.plc, wiring.left, shown);
             self.show_sum(
                 |envelope| Some(envelope.sent_sum),
-                self.status.free.sent_sum,
+                self.progress.free.sent_sum,
             );
             if left == 0 {
                 self.status.sending = false;
@@ -284,11 +284,11 @@ impl Session<'_> {
         let waits = asked && busy && !self.status.sending;
         set(self.plc, wiring.waits, waits);
         // The program's reset of the flag opens the next reception.
-        if self.status.free.complete && !is_on(self.plc, wiring.done) {
-            self.status.free.complete = false;
-            self.status.free.received = 0;
+        if self.progress.free.complete && !is_on(self.plc, wiring.done) {
+            self.progress.free.complete = false;
+            self.progress.free.received = 0;
         }
-        let free = self.status.free;
+        let free = self.progress.free;
         set_value(self.plc, wiring.received, free.received);
         set(self.plc, wiring.receives, free.listens);
     }

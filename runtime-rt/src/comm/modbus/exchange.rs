@@ -138,6 +138,21 @@ impl Exchange {
         &self.job
     }
 
+    /// Whether the answer is awaited.
+    pub fn is_waiting(&self) -> bool {
+        self.phase == Phase::Waiting
+    }
+
+    /// How long the answer may take to begin, in microseconds.
+    pub fn time_out_us(&self) -> u32 {
+        self.time_out_us
+    }
+
+    /// How long ago the request was out, in microseconds.
+    pub fn waited_us(&self, now_us: u32) -> u32 {
+        now_us.wrapping_sub(self.since_us)
+    }
+
     /// Whether the port works for none.
     pub fn is_free(&self) -> bool {
         self.phase == Phase::Free
@@ -198,8 +213,8 @@ impl Exchange {
 
     /// Lets time pass; returns whether the answer is late for good. `receiving` says that it has begun: then it is not.
     pub fn is_late(&mut self, now_us: u32, receiving: bool) -> bool {
-        let waited = now_us.wrapping_sub(self.since_us);
-        let late = self.phase == Phase::Waiting && !receiving && waited >= self.time_out_us;
+        let waited_us = self.waited_us(now_us);
+        let late = self.phase == Phase::Waiting && !receiving && waited_us >= self.time_out_us;
         if late && !self.job.is_answered() {
             self.end(End::Well);
             return false;

@@ -30,8 +30,10 @@ const USUAL_RATE: u32 = 9600;
 /// An open end.
 #[derive(Debug)]
 pub enum Wire {
-    /// A serial port, or our end of a pseudo-terminal.
+    /// A serial port.
     Serial(SerialPort),
+    /// Our end of a pseudo-terminal, on which characters have no format.
+    Terminal(SerialPort),
     /// A connection.
     Tcp(TcpStream),
     /// A CAN interface.
@@ -87,7 +89,7 @@ pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
         }
         LineEnd::Pty => {
             let (ours, clients, name) = pseudo_terminal()?;
-            let wire = prepared(ours)?;
+            let wire = Wire::Terminal(prepared(ours)?);
             (name, Source::Pty { _clients: clients }, Some(wire))
         }
     };
@@ -178,7 +180,7 @@ impl Source {
 /// What the system says, or the machine that it connects to.
 pub fn open(end: &LineEnd) -> io::Result<Wire> {
     match end {
-        LineEnd::Path(path) => prepared(SerialPort::open(path, USUAL_RATE)?),
+        LineEnd::Path(path) => prepared(SerialPort::open(path, USUAL_RATE)?).map(Wire::Serial),
         LineEnd::Tcp(peer) => {
             let mut last = io::Error::from(ErrorKind::NotFound);
             for address in peer.to_socket_addrs()? {
@@ -208,10 +210,10 @@ fn interface(_name: &str) -> io::Result<Wire> {
     Err(io::Error::new(ErrorKind::Unsupported, why))
 }
 
-fn prepared(mut port: SerialPort) -> io::Result<Wire> {
+fn prepared(mut port: SerialPort) -> io::Result<SerialPort> {
     port.set_read_timeout(PATIENCE)?;
     port.set_write_timeout(WRITE_WAIT)?;
-    Ok(Wire::Serial(port))
+    Ok(port)
 }
 
 fn connected(stream: TcpStream) -> io::Result<Wire> {
@@ -228,6 +230,7 @@ impl Wire {
     fn try_clone(&self) -> io::Result<Wire> {
         Ok(match self {
             Wire::Serial(port) => Wire::Serial(port.try_clone()?),
+            Wire::Terminal(port) => Wire::Terminal(port.try_clone()?),
             Wire::Tcp(stream) => Wire::Tcp(stream.try_clone()?),
             #[cfg(target_os = "linux")]
             Wire::Can(interface) => Wire::Can(interface.try_clone()?),
@@ -240,7 +243,7 @@ impl Wire {
     /// What the system says; [`is_patience`] recognises that merely nothing has come.
     pub fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match self {
-            Wire::Serial(port) => port.read(buffer),
+            Wire::Serial(port) | Wire::Terminal(port) => port.read(buffer),
             Wire::Tcp(stream) => stream.read(buffer),
             #[cfg(target_os = "linux")]
             Wire::Can(interface) => interface.read(buffer),
@@ -250,7 +253,7 @@ impl Wire {
     /// Sends what the other end takes now; how many characters.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = match self {
-            Wire::Serial(port) => port.write(bytes),
+            Wire::Serial(port) | Wire::Terminal(port) => port.write(bytes),
             Wire::Tcp(stream) => stream.write(bytes),
             #[cfg(target_os = "linux")]
             Wire::Can(interface) => interface.write(bytes),
@@ -261,7 +264,7 @@ impl Wire {
         }
     }
 
-    /// Sets a serial port to a format of characters. A connection has none.
+    /// Sets a serial port to a format of characters. Connections and pseudo-terminals have none.
     pub fn set_format(&mut self, format: LineFormat) -> io::Result<()> {
         let Wire::Serial(port) = self else {
             return Ok(());
