@@ -1,19 +1,42 @@
-//! Asks the linker for compact relocations: they make the executable 4 % smaller. Loading them takes glibc 2.36, so
-//! only a build for this very machine has them, and only if its glibc is that new.
+//! Asks the linker for what makes the executable a tenth smaller: compact relocations (4 %) and no unwind tables (6 %).
+//!
+//! Loading compact relocations takes glibc 2.36, so only a build for this very machine has them, and only if its glibc
+//! is that new. Unwind tables have no use where a panic aborts; the GNU linker and LLD leave them out, others cannot, so
+//! whoever chooses a linker keeps them.
 
-use std::env;
+use std::path::Path;
 use std::process::Command;
+use std::{env, fs, io};
 
 /// The first glibc that loads compact relocations.
 const GLIBC: (u32, u32) = (2, 36);
 
-fn main() {
+/// Leaves out the tables that tell how to unwind each function.
+const WITHOUT_TABLES: &str =
+    "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.gcc_except_table .gcc_except_table.*) } }
+INSERT AFTER .text;
+";
+
+fn main() -> io::Result<()> {
     println!("cargo:rerun-if-changed=build.rs");
+    let is = |variable: &str, value: &str| env::var(variable).is_ok_and(|is| is == value);
+    if !is("CARGO_CFG_TARGET_OS", "linux") {
+        return Ok(());
+    }
     let native = env::var("HOST").ok() == env::var("TARGET").ok();
-    let linux = env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "linux");
-    if native && linux && glibc().is_some_and(|version| version >= GLIBC) {
+    if native && glibc().is_some_and(|version| version >= GLIBC) {
         println!("cargo:rustc-link-arg-bins=-Wl,-z,pack-relative-relocs");
     }
+    let chosen = env::var_os("RUSTC_LINKER").is_some()
+        || env::var("CARGO_ENCODED_RUSTFLAGS").is_ok_and(|flags| flags.contains("link"));
+    if native && is("CARGO_CFG_PANIC", "abort") && !chosen {
+        let script = env::var_os("OUT_DIR").unwrap_or_default();
+        let script = Path::new(&script).join("without_tables.ld");
+        fs::write(&script, WITHOUT_TABLES)?;
+        println!("cargo:rustc-link-arg-bins=-Wl,--no-eh-frame-hdr");
+        println!("cargo:rustc-link-arg-bins=-Wl,-T,{}", script.display());
+    }
+    Ok(())
 }
 
 /// The version of this machine's C library; `None` if it is another one than glibc.

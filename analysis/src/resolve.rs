@@ -107,6 +107,8 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
                 operands.label(instr, label, &mut diagnostics);
             } else {
                 operands.instr(instr, found, params, &mut diagnostics);
+                let fraction = wrong::fraction(instr, found, params, &program.source, model);
+                diagnostics.extend(fraction);
             }
         }
         let known = !meant && !instr.is_broken();

@@ -1,7 +1,7 @@
 //! What is said of operands that do not fit.
 
 use super::operands::{Matched, is_unreadable};
-use rungc_catalogue::{Basic, Form, Inst, Param, Role};
+use rungc_catalogue::{Basic, Form, Found, Inst, Param, Role};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
@@ -43,6 +43,51 @@ pub(super) fn second_instruction(
     let fix = Fix::certain("put it on its own line").replace(Span::new(gap, begin.start), "\n");
     let help = format!("write `{}` on its own line", text(second));
     Some(diagnostic.help(help).fix(fix))
+}
+
+/// The error for a number with a fraction, `1.5`, where an instruction takes whole numbers only; where it takes floats,
+/// the reader of the program has said how they are written.
+pub(super) fn fraction(
+    instr: &Instr,
+    found: Found,
+    params: &[Param],
+    source: &Source,
+    model: &Model,
+) -> Option<Diagnostic> {
+    let takes_floats = |param: &Param| param.classes_on(model).meets(Classes::E);
+    let mut all = instr.operands.iter().enumerate().zip(params);
+    let ((at, operand), _) = all.find(|((_, operand), param)| {
+        let text = source.slice(operand.span);
+        let fraction = text.contains('.') && text.parse::<f32>().is_ok_and(f32::is_finite);
+        is_unreadable(operand) && fraction && !takes_floats(param)
+    })?;
+    let text = source.slice(operand.span);
+    let error = codes::BAD_OPERAND
+        .at(operand.span, format!("`{text}` is not a valid operand"))
+        .label(format!("`{}` takes whole numbers", instr.mnemonic));
+    let form = Form {
+        wide: true,
+        ..found.form
+    };
+    let floats = rungc_catalogue::find(&format!("E{}", found.inst.name))
+        .filter(|floats| floats.inst.models.has(model.id))
+        .filter(|floats| {
+            let params = floats.inst.params_of(&instr.operands, model);
+            params.get(at).is_some_and(takes_floats)
+        })
+        .and_then(|floats| floats.inst.spelling_of(form));
+    Some(match floats {
+        Some(name) => {
+            let constant = format!("E{text}");
+            let fix = Fix::suggested(format!("write `{name}` and `{constant}`"))
+                .replace(instr.mnemonic_span, name.as_str())
+                .replace(operand.span, constant.as_str());
+            let help =
+                format!("`{name}` takes floats, here `{constant}`; a float takes two registers");
+            error.help(help).fix(fix)
+        }
+        None => error.help("scale the value, and write a whole number such as `K15`"),
+    })
 }
 
 pub(super) fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {

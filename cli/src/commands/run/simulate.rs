@@ -421,19 +421,24 @@ impl Simulation<'_> {
 fn hardware(in_real_time: bool) -> VirtualHal {
     let mut hal = VirtualHal::new();
     if in_real_time {
-        let now = jiff::Zoned::now();
-        let clock = Clock::new(
-            now.year().unsigned_abs(),
-            now.month().unsigned_abs(),
-            now.day().unsigned_abs(),
-            now.hour().unsigned_abs(),
-            now.minute().unsigned_abs(),
-            now.second().unsigned_abs(),
-        );
-        // There is always such a moment.
-        let _ = clock.and_then(|clock| hal.set_clock(clock));
+        // Without a time zone it keeps its own time.
+        let _ = local_time().and_then(|clock| hal.set_clock(clock));
     }
     hal
+}
+
+/// The local time: that of the zone which the system or `TZ` names.
+fn local_time() -> Option<Clock> {
+    let zone = tz::TimeZone::local().ok()?;
+    let now = tz::DateTime::now(zone.as_ref()).ok()?;
+    Clock::new(
+        u16::try_from(now.year()).ok()?,
+        now.month(),
+        now.month_day(),
+        now.hour(),
+        now.minute(),
+        now.second(),
+    )
 }
 
 /// Standard output.
