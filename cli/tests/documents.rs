@@ -124,7 +124,7 @@ fn pages() -> Vec<PathBuf> {
 /// A folder with the example programs, a board, and the files of a page.
 fn desk(page: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for part in [EXAMPLES, "examples/oven", "examples/firmware/stm32f405"] {
+    for part in DESK {
         let examples = folder.path().join(part);
         fs::create_dir_all(&examples).unwrap();
         for entry in fs::read_dir(root().join(part)).unwrap() {
@@ -143,6 +143,18 @@ fn desk(page: &str) -> tempfile::TempDir {
 }
 
 const EXAMPLES: &str = "examples/programs";
+
+/// What commands of the pages name.
+const DESK: [&str; 8] = [
+    EXAMPLES,
+    "examples/oven",
+    "examples/kiln",
+    "examples/tank",
+    "examples/feeder",
+    "examples/blend",
+    "examples/analog",
+    "examples/firmware/stm32f405",
+];
 
 #[test]
 fn commands_print_what_the_pages_show() {

@@ -297,7 +297,7 @@ pub(crate) const BOARDS: Reason = because(
     "a port works here with any board or without one",
 );
 pub(crate) const SHOWN: Reason = because(
-    Missed::Never,
+    Missed::ByAll,
     "it repeats for the editor what other registers say",
 );
 pub(crate) const DELIMITER: Reason = because(
@@ -309,7 +309,7 @@ pub(crate) const INVERTERS: Reason = because(
     "the instructions for Mitsubishi inverters cannot be compiled; RS2 and ADPRW reach inverters, too",
 );
 pub(crate) const SUMMED: Reason = because(
-    Missed::Never,
+    Missed::ByWriters,
     "frames of links between PLCs always have a sum",
 );
 pub(crate) const CANLINK: Reason = because(

@@ -7,7 +7,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The example programs, below the root.
-const EXAMPLES: [&str; 2] = ["examples/programs", "examples/oven"];
+const EXAMPLES: [&str; 4] = [
+    "examples/programs",
+    "examples/oven",
+    "examples/kiln",
+    "examples/tank",
+];
 
 /// The pages whose commands draw.
 const PAGES: [&str; 4] = [

@@ -85,7 +85,7 @@ mod tests {
         plc.hal.set_signal(2, 1, signal).unwrap();
         plc.set_d(7200, &[0, 0, 5, 0, 0, 6, 0, 2000]);
         let ops: [Operand; 5] = [k(2), d(Class::D, 7200), k(2), k(8), d(Class::D, 7143)];
-        let mut scans = |plc: &mut Double, scans: u32| {
+        let scans = |plc: &mut Double, scans: u32| {
             for _ in 0..scans {
                 plc.scan(10, true, RtFn::ExchangeModule, &ops).unwrap();
             }

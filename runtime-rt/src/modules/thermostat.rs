@@ -1,8 +1,8 @@
 //! The control of temperatures by H2U-4PT-XP and H2U-4TC-XP (h1u-h2u-programming §6.6, items 11 to 14).
 //!
 //! Each channel has a main output, which heats (reverse action) or cools (direct action), and can have a second one for
-//! the other direction. The manual names the settings and prints no formula: PID is the velocity form of the
-//! instruction PID, without a filter of the derivative, and tuning is its step response.
+//! the other direction. The manual names the settings and prints no formula: PID has the position form, with the
+//! derivative of the measured value, and tuning is the step response of the instruction PID.
 
 use super::unit::CHANNELS;
 use super::{Module, Role, Term};
@@ -82,9 +82,10 @@ pub(super) struct Thermostat {
     since_ms: i32,
     ramp_ms: i32,
     target: f32,
-    /// The last two measured values.
-    measured: [f32; 2],
-    deviation: f32,
+    /// The last measured value.
+    measured: f32,
+    /// The integral part, before the gain.
+    integral: f32,
     outputs: [f32; 2],
     /// Whether on-off control has each output on.
     demands: [bool; 2],
@@ -116,8 +117,8 @@ impl Thermostat {
             since_ms: 0,
             ramp_ms: 0,
             target: 0.0,
-            measured: [0.0; 2],
-            deviation: 0.0,
+            measured: 0.0,
+            integral: 0.0,
             outputs: [0.0; 2],
             demands: [false; 2],
             relays: [relay; 2],
@@ -196,6 +197,7 @@ impl Control<'_> {
         match (starts, self.own.state) {
             (false, _) => self.stop(0),
             (true, State::Stopped) if self.own.is_barred => {}
+            (true, State::Stopped) if !self.module.is_measured(self.channel) => {}
             (true, State::Stopped) => self.start(),
             (true, _) => {
                 self.own.since_ms += 1;
@@ -230,7 +232,7 @@ impl Control<'_> {
             0 => self.float(Term::Setpoint),
             _ => now,
         };
-        self.own.measured = [now; 2];
+        self.own.measured = now;
         self.own.state = match (self.mode & ON_OFF != 0, self.mode & TUNE != 0) {
             (true, _) => State::OnOff,
             (false, true) => State::Tuning,
@@ -307,7 +309,7 @@ impl Control<'_> {
     fn sample(&mut self) {
         self.warnings = 0;
         let temperature = self.temperature();
-        let [last, _] = self.own.measured;
+        let last = self.own.measured;
         let measured = temperature + self.float(Term::Filter) / 100.0 * (last - temperature);
         let _ = self.held(temperature, &INPUT);
         self.follow_ramp();
@@ -328,7 +330,7 @@ impl Control<'_> {
             }
         }
         if self.own.state != State::Stopped {
-            self.own.measured = [measured, last];
+            self.own.measured = measured;
             let (state, warnings) = (self.own.state, self.warnings);
             self.set(Term::State, state as i16);
             self.set(Term::Warnings, warnings);
@@ -400,17 +402,24 @@ impl Control<'_> {
             return self.give(1, 0.0);
         }
         let deviation = towards * (self.own.target - measured);
-        let [last, before] = self.own.measured;
+        let last = self.own.measured;
         let ts = self.float(Term::Ts);
         let (ti, td) = (self.float(Term::Ti) * 100.0, self.float(Term::Td) * 100.0);
-        let integral = if ti > 0.0 { ts / ti * deviation } else { 0.0 };
-        let derivative = -towards * td / ts * (measured - 2.0 * last + before);
-        let kp = self.float(Term::Kp) / 100.0;
-        let change = kp * (deviation - self.own.deviation + integral + derivative);
-        let change = self.held(change, &OUTPUT_CHANGE);
-        self.own.deviation = deviation;
+        let integral = match ti > 0.0 {
+            true => self.own.integral + ts / ti * deviation,
+            false => 0.0,
+        };
+        let derivative = -towards * td / ts * (measured - last);
+        let wanted = self.float(Term::Kp) / 100.0 * (deviation + integral + derivative);
         let [main, _] = self.own.outputs;
+        let change = self.held(wanted - main, &OUTPUT_CHANGE);
         self.give(0, main + change);
+        // The integral part does not drive an output further beyond its end.
+        let [given, _] = self.own.outputs;
+        let is_beyond = wanted > given && deviation > 0.0 || wanted < given && deviation < 0.0;
+        if !is_beyond {
+            self.own.integral = integral;
+        }
         let beyond = -deviation - self.float(Term::SecondHysteresis).max(0.0);
         let second = match self.mode & TWO_SIDED != 0 && beyond > 0.0 {
             true => self.float(Term::SecondGain) / 100.0 * beyond,
@@ -434,7 +443,7 @@ impl Control<'_> {
         };
         self.give(0, step);
         let ts = self.float(Term::Ts);
-        let [last, _] = self.own.measured;
+        let last = self.own.measured;
         let way = self.float(Term::Setpoint) - self.own.tuning.start;
         let towards = if way < 0.0 { -1.0 } else { 1.0 };
         let tuning = &mut self.own.tuning;
@@ -463,7 +472,7 @@ impl Control<'_> {
         let mode = self.mode & !TUNE;
         self.set(Term::Mode, mode);
         self.own.state = State::Pid;
-        (self.own.deviation, self.own.outputs) = (0.0, [0.0; 2]);
+        (self.own.integral, self.own.outputs) = (0.0, [0.0; 2]);
     }
 
     /// Shows the outputs, and switches relays by their duty.

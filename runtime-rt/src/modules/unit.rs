@@ -28,6 +28,8 @@ pub(super) struct Input {
     pub(super) samples: i16,
     /// Whether the last sample was out of range.
     is_out: bool,
+    /// Whether there was a sample since power-on.
+    is_measured: bool,
 }
 
 /// An output.
@@ -73,6 +75,7 @@ impl Module {
             sum: 0,
             samples: 0,
             is_out: false,
+            is_measured: false,
         };
         let output = Output {
             digital: 0,
@@ -119,6 +122,7 @@ impl Module {
         self.restore(|bfm| bfm.access != Access::Kept);
         for input in &mut self.inputs {
             (input.sum, input.samples, input.is_out) = (0, 0, false);
+            input.is_measured = false;
         }
         for output in &mut self.outputs {
             (output.digital, output.is_out) = (0, false);
@@ -335,6 +339,12 @@ impl Module {
         }
     }
 
+    /// Whether there is a sample of an input.
+    pub(super) fn is_measured(&self, channel: usize) -> bool {
+        let input = self.inputs.get(channel);
+        input.is_some_and(|input| input.is_measured)
+    }
+
     /// Whether nothing is connected to an input.
     pub(super) fn is_open(&self, channel: usize) -> bool {
         let input = self.inputs.get(channel);
@@ -381,6 +391,7 @@ impl Module {
             return;
         };
         input.is_out = too_low || too_high;
+        input.is_measured = true;
         input.sum = input.sum.saturating_add(value.into());
         input.samples += 1;
         let mut mean = None;

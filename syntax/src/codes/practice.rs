@@ -172,7 +172,7 @@ super::codes! {
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",
-    "On the PLC, this special relay or register configures or reports something: a CAN network, an extension card, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`docs/src/special-devices`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
+    "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`docs/src/special-devices`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
     wrong: "LD M8002\nMOV K50 D8393\nEND\n",
     right: "LD M8002\nMOV K500 D8000\nEND\n";
 

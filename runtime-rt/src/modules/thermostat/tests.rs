@@ -76,8 +76,9 @@ fn integral_derivative_and_limits() {
     module.write(51, 1).unwrap();
     at(&mut module, 990, 1);
     assert_eq!((read(&module, 71), read(&module, 158)), (30, 4));
-    at(&mut module, 990, 20_000);
-    assert_eq!((read(&module, 71), read(&module, 158)), (50, 0));
+    // A limit below does not keep the integral part from rising: 10, and 1 in each of 41 samples.
+    at(&mut module, 990, 40_000);
+    assert_eq!((read(&module, 71), read(&module, 158)), (51, 0));
     at(&mut module, 990, 60_000);
     assert_eq!((read(&module, 71), read(&module, 158)), (70, 4));
     // Held up, the output is that of BFM 118; so it is with a broken sensor.
@@ -160,6 +161,17 @@ fn tuning_sets_the_gains_and_goes_on() {
     at(&mut wrong, 200, 1500);
     at(&mut wrong, 140, 2000);
     assert_eq!((read(&wrong, 156), read(&wrong, 157)), (0, 51));
+}
+
+#[test]
+fn control_waits_for_the_first_sample() {
+    let mut module = module(1 | 8 | 16, 1000, &[(116, 100)]);
+    module.write(51, 1).unwrap();
+    at(&mut module, 200, 30);
+    assert_eq!(read(&module, 156), 0);
+    at(&mut module, 200, 5000);
+    // A start at 0 would have taken the first sample for a jump to 20 °C.
+    assert_eq!((read(&module, 156), read(&module, 110)), (2, 100));
 }
 
 #[test]
