@@ -101,7 +101,7 @@ fn a_ladder_becomes_a_list() {
         .map(|(device, text)| format!("{device} {text}"));
     assert_eq!(
         comments.collect::<Vec<_>>(),
-        ["X000 start button", "X012 Stop", "Y010 Motor", "M7 M7"]
+        ["X000 start button", "X012 Stop", "Y010 Motor"]
     );
 }
 
@@ -187,6 +187,49 @@ fn hostile_drawings_end() {
     let deep = read(&ladder(&long));
     let cut = read(&ladder(&[])[..500]);
     insta::assert_snapshot!([findings(&wide), findings(&deep), findings(&cut)].join("---\n"));
+}
+
+#[test]
+fn hostile_documents_end() {
+    let entities = ladder(&[element("coil", 2, "", &[1], "&big;")]).replace(
+        "<project",
+        r#"<!DOCTYPE p [<!ENTITY a "xxxxxxxx"><!ENTITY big "&a;&a;&a;&a;">]><project"#,
+    );
+    let nested = |tag: &str, count: usize| {
+        let (open, close) = (format!("<{tag}>"), format!("</{tag}>"));
+        project(
+            "",
+            &format!("<LD>{}{}</LD>", open.repeat(count), close.repeat(count)),
+        )
+    };
+    let many: Vec<_> = (2..2_000)
+        .map(|n| element("coil", n, "", &[n + 1], "Away"))
+        .collect();
+    // Each coil is a contact further away.
+    let comb = (1..2_100).flat_map(|n| {
+        let (contact, coil) = (2 * n, 2 * n + 1);
+        let before = if n == 1 { 1 } else { contact - 2 };
+        [
+            element("contact", contact, "", &[before], "Start"),
+            element("coil", coil, "", &[contact], "Motor"),
+        ]
+    });
+    let list = format!("<IL><p>LD M0\n{}</p></IL>", "AND(\n".repeat(10_000));
+    let said = [
+        entities,
+        nested("variable", 900),
+        nested("expression", 200_000),
+        ladder(&many),
+        ladder(&comb.collect::<Vec<_>>()),
+        project("", &list),
+    ]
+    .map(|text| {
+        let read = with_free(&text);
+        let found = read.diagnostics.iter().count();
+        let first = findings(&read).lines().next().map(str::to_owned);
+        format!("{found}: {}", first.unwrap_or_default())
+    });
+    insta::assert_snapshot!(said.join("\n"));
 }
 
 /// Devices for variables that have none.

@@ -80,13 +80,15 @@ pub enum ConvertTo {
     Ladder,
     /// Program memory of an FX PLC.
     Image,
+    /// A project of PLCopen XML (TC6 2.01), as a ladder.
+    Plcopen,
 }
 
 impl ConvertTo {
     /// Whether it is a text that a terminal can show.
     pub const fn is_text(self) -> bool {
         match self {
-            ConvertTo::Il | ConvertTo::Ladder => true,
+            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Plcopen => true,
             ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => false,
         }
     }
@@ -98,13 +100,14 @@ impl ConvertTo {
             ConvertTo::Ladder => "txt",
             ConvertTo::Csv | ConvertTo::Comments => "csv",
             ConvertTo::Image => "bin",
+            ConvertTo::Plcopen => "xml",
         }
     }
 
     /// What this form is called, if it cannot store comments on devices.
     pub const fn without_comments(self) -> Option<&'static str> {
         match self {
-            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Comments => None,
+            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Comments | ConvertTo::Plcopen => None,
             ConvertTo::Csv => Some("a list export"),
             ConvertTo::Image => Some("an image"),
         }

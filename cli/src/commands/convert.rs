@@ -1,6 +1,7 @@
 //! `rungc convert`.
 
 mod ladder;
+mod plcopen;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{Context, Outcome, Result, conclude, counted, read, say, stem, tell, write_file};
@@ -67,7 +68,7 @@ pub fn written(
     let program = &read.program;
     let text = match to {
         ConvertTo::Il | ConvertTo::Ladder => print::broken_text(program),
-        ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => None,
+        ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image | ConvertTo::Plcopen => None,
     };
     if let Some(text) = text {
         let diagnostic = codes::TEXT_BREAK
@@ -91,7 +92,10 @@ pub fn written(
                 image::write(program).map_err(|unknown| diagnostics.extend(unknown.sorted()));
             image.unwrap_or_default()
         }
+        ConvertTo::Plcopen if program.is_complete() => {
+            plcopen::to_plcopen(program, options, diagnostics).into_bytes()
+        }
         // What could not be read has been reported.
-        ConvertTo::Image => Vec::new(),
+        ConvertTo::Image | ConvertTo::Plcopen => Vec::new(),
     }
 }

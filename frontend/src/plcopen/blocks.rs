@@ -188,6 +188,10 @@ fn instance(
     if name.trim().is_empty() {
         return Err(Fault::outside(node, "give the block an instance"));
     }
+    if drawing.reader.instances.contains_key(upper(name).as_str()) {
+        let what = format!("{} `{name}` is drawn twice", called(node));
+        return Err(Fault::at(node, what, "give each block its own instance"));
+    }
     let mut found = Instance::default();
     let counts_alone = counts_alone(drawing, pins);
     let variables = &mut drawing.reader.variables;
@@ -265,7 +269,7 @@ fn timer(drawing: &mut Drawing, pins: &Pins, name: &str) -> Result<(Device, u64)
         ));
     };
     let fits = |number| {
-        unit(number).is_some_and(|unit| {
+        iec_timer_unit(number).is_some_and(|unit| {
             preset_ms.is_multiple_of(unit) && (1..=32_767).contains(&(preset_ms / unit))
         })
     };
@@ -276,7 +280,7 @@ fn timer(drawing: &mut Drawing, pins: &Pins, name: &str) -> Result<(Device, u64)
              to T511 1 ms, up to 32767 of them"
         ))
     })?;
-    Ok((timer, preset_ms / unit(timer.number).unwrap_or(1)))
+    Ok((timer, preset_ms / iec_timer_unit(timer.number).unwrap_or(1)))
 }
 
 /// A device that a block needs and that is neither named nor free.
@@ -285,8 +289,9 @@ fn lacking(node: Node, name: &str, what: &str) -> Fault {
     Fault::at(node, what, FREE)
 }
 
-/// The unit of a timer in milliseconds, where all models that have it agree and it does not keep its value.
-fn unit(number: u32) -> Option<u64> {
+/// The unit of a timer in milliseconds, where all models that have it agree and it does not keep its value: it does
+/// what TON of IEC 61131-3 does.
+pub fn iec_timer_unit(number: u32) -> Option<u64> {
     match number {
         0..=62 | 138..=199 => Some(100),
         200..=245 => Some(10),
@@ -552,6 +557,21 @@ impl Block<'_, '_, '_, '_> {
     }
 }
 
+/// The contact that a block is which stands for a contact or a comparison: `FX_LDI`, `FX_D>=`.
+fn contact(mnemonic: &str) -> Option<Sense> {
+    match mnemonic {
+        "LD" => Some(Sense::On),
+        "LDI" => Some(Sense::Off),
+        "LDP" => Some(Sense::Rising),
+        "LDF" => Some(Sense::Falling),
+        _ => {
+            let sign = mnemonic.strip_prefix('D').unwrap_or(mnemonic);
+            let compares = matches!(sign, "=" | "<>" | ">" | ">=" | "<" | "<=");
+            compares.then(|| Sense::Compare(mnemonic.into()))
+        }
+    }
+}
+
 /// Reads an instruction that is drawn as a block: `FX_ZRST` with EN, `p1` and `p2`.
 fn instruction<'a, 'i>(
     drawing: &mut Drawing<'a, 'i, '_>,
@@ -581,7 +601,8 @@ fn instruction<'a, 'i>(
         }
     }
     for written in operands.values_mut() {
-        if drawing.reader.variables.kind(written).is_some() {
+        let is_device = super::variables::device(written).is_some();
+        if !is_device && drawing.reader.variables.kind(written).is_some() {
             *written = drawing.reader.find(node, written)?.device.to_string();
         }
     }
@@ -592,6 +613,15 @@ fn instruction<'a, 'i>(
         return Err(Some(Fault::at(node, what, "connect p1, p2 and so on")));
     }
     let words = operands.values().map(|word| word.trim());
+    if let Some(sense) = contact(mnemonic) {
+        let contact = Contact {
+            element: node.id().get(),
+            sense,
+            operands: words.collect::<Vec<_>>().join(" ").into(),
+        };
+        let logic = Value::Flow(Logic::Contact(contact));
+        return Ok(BTreeMap::from([("OUT".into(), logic)]));
+    }
     let line = std::iter::once(mnemonic)
         .chain(words)
         .collect::<Vec<_>>()

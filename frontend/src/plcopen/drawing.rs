@@ -2,7 +2,7 @@
 
 use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant};
-use super::{Fault, MOST_CONTACTS, Reader, called, children, flag, text};
+use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
 use rungc_syntax::DeviceClass;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -270,13 +270,8 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
             }
         }
         let joined = Logic::joined(ways);
-        match joined.size() <= MOST_CONTACTS {
-            true => Ok(joined),
-            false => {
-                let what = "the ways to this element are more than a network of a PLC holds";
-                Err(Some(Fault::at(node, what, "divide it by auxiliary relays")))
-            }
-        }
+        self.reader.count(node, &joined)?;
+        Ok(joined)
     }
 
     /// What leads to a point of an element.
@@ -338,6 +333,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         self.on_it.pop();
         let value = value?;
         if let Value::Flow(logic) = &value {
+            self.reader.count(to, logic)?;
             self.known.insert((id, output), logic.clone());
         }
         Ok(value)

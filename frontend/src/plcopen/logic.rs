@@ -143,15 +143,7 @@ impl Logic {
         }
         ways.dedup();
         if ways.iter().all(|way| !way.is_empty()) {
-            let mut branches = Vec::new();
-            for way in ways {
-                match <[Logic; 1]>::try_from(way) {
-                    Ok([Logic::Parallel(inner)]) => branches.extend(inner),
-                    Ok([other]) => branches.push(other),
-                    Err(way) => branches.push(Logic::Series(way)),
-                }
-            }
-            before.push(Logic::Parallel(branches));
+            before.push(Logic::Parallel(branches(&ways)));
         }
         Logic::Series(before)
     }
@@ -223,6 +215,31 @@ impl Logic {
             Logic::Contact(_) | Logic::Result(_) => self,
         }
     }
+}
+
+/// Ways beside each other, none of them a wire. Those that begin with the same contact part after it.
+fn branches(ways: &[Vec<Logic>]) -> Vec<Logic> {
+    let mut branches = Vec::new();
+    let alike = ways.chunk_by(|a, b| a.first() == b.first());
+    for group in alike {
+        let changed = |way: &Vec<Logic>| way.iter().any(|item| matches!(item, Logic::Result(_)));
+        let parts = group.len() < ways.len() && !group.iter().any(changed);
+        let joined = match group {
+            [_, _, ..] if parts => {
+                let group = group.iter().cloned().map(Logic::Series);
+                vec![Logic::joined(group.collect())]
+            }
+            _ => group.iter().cloned().map(Logic::Series).collect(),
+        };
+        for way in joined {
+            match <[Logic; 1]>::try_from(way.items()) {
+                Ok([Logic::Parallel(inner)]) => branches.extend(inner),
+                Ok([other]) => branches.push(other),
+                Err(way) => branches.push(Logic::Series(way)),
+            }
+        }
+    }
+    branches
 }
 
 /// Parts in series.
@@ -297,44 +314,43 @@ fn flush(network: &mut Vec<(Vec<Logic>, Output)>, out: &mut Vec<SmolStr>) {
 }
 
 /// Outputs that a node feeds, with what is between it and each.
-fn node(outputs: &[(&[Logic], &Output)], entry: Entry, out: &mut Vec<SmolStr>) {
-    let Some((first, _)) = outputs.first() else {
-        return;
-    };
-    let same = |at: usize| {
-        let at_first = first.get(at);
-        outputs.iter().all(|(items, _)| items.get(at) == at_first)
-    };
-    let common = (0..first.len()).take_while(|at| same(*at)).count();
-    series(&first[..common], entry, out);
-    let rest: Vec<_> = outputs
-        .iter()
-        .map(|(items, output)| (&items[common..], *output))
-        .collect();
-    let direct = rest
-        .iter()
-        .take_while(|(items, _)| items.is_empty())
-        .count();
-    for (_, output) in &rest[..direct] {
-        out.extend(output.lines.iter().cloned());
+fn node(outputs: &[(&[Logic], &Output)], mut entry: Entry, out: &mut Vec<SmolStr>) {
+    let mut outputs = outputs.to_vec();
+    while let Some((first, _)) = outputs.first() {
+        let same = |at: usize| {
+            let at_first = first.get(at);
+            outputs.iter().all(|(items, _)| items.get(at) == at_first)
+        };
+        let common = (0..first.len()).take_while(|at| same(*at)).count();
+        series(&first[..common], entry, out);
+        for (items, _) in &mut outputs {
+            *items = &items[common..];
+        }
+        let direct = outputs.iter().take_while(|(items, _)| items.is_empty());
+        let direct = direct.count();
+        for (_, output) in outputs.drain(..direct) {
+            out.extend(output.lines.iter().cloned());
+        }
+        entry = Entry::Series;
+        let groups: Vec<_> = outputs
+            .chunk_by(|(a, _), (b, _)| a.first() == b.first())
+            .collect();
+        if groups.len() > 1 {
+            stack(&groups, out);
+            return;
+        }
     }
-    let groups: Vec<_> = rest[direct..]
-        .chunk_by(|(a, _), (b, _)| a.first() == b.first())
-        .collect();
+}
+
+/// Branches after MPS, MRD and MPP.
+fn stack(groups: &[&[(&[Logic], &Output)]], out: &mut Vec<SmolStr>) {
     for (nth, group) in groups.iter().enumerate() {
-        match nth {
-            _ if groups.len() == 1 => {}
-            0 => out.push("MPS".into()),
-            _ if nth + 1 == groups.len() => out.push("MPP".into()),
-            _ => out.push("MRD".into()),
-        }
-        if group[0].0.is_empty() {
-            for (_, output) in *group {
-                out.extend(output.lines.iter().cloned());
-            }
-        } else {
-            node(group, Entry::Series, out);
-        }
+        out.push(match nth {
+            0 => "MPS".into(),
+            _ if nth + 1 == groups.len() => "MPP".into(),
+            _ => "MRD".into(),
+        });
+        node(group, Entry::Series, out);
     }
 }
 
@@ -375,6 +391,16 @@ mod tests {
         assert_eq!(
             list(&[(&ways, "OUT Y000")]),
             "LD X000, AND M1, LD X001, AND M1, ORB, OR X002, OUT Y000"
+        );
+        let fork = || contact(7, "X004");
+        let nested = Logic::joined(vec![
+            fork().then(contact(8, "X005")),
+            fork().then(contact(9, "X006")),
+            contact(10, "M2"),
+        ]);
+        assert_eq!(
+            list(&[(&nested, "OUT Y000")]),
+            "LD X004, LD X005, OR X006, ANB, OR M2, OUT Y000"
         );
         let bridged = Logic::joined(vec![a(), a().then(contact(6, "X001"))]);
         assert_eq!(list(&[(&bridged, "OUT Y000")]), "LD X000, OUT Y000");

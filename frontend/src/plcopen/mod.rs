@@ -19,12 +19,13 @@ use crate::Read;
 use crate::il;
 use crate::listing::Listing;
 use logic::{Logic, Output, Part};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr};
 use std::collections::BTreeMap;
 use variables::{Found, Kind, Missing, Variables};
 
+pub use blocks::iec_timer_unit;
 pub use variables::Names;
 
 /// What the namespace of a project begins with.
@@ -33,6 +34,11 @@ const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
 const HEAD: usize = 4096;
 /// The most contacts that lead to an output: drawings that share ways grow when they become a list.
 const MOST_CONTACTS: usize = 2000;
+
+/// The most contacts on all ways of a project: a program of a PLC has far fewer.
+const MOST_IN_ALL: usize = 4_000_000;
+/// The most nodes of a document: elements, texts and comments.
+const MOST_NODES: u32 = 8_000_000;
 
 /// The most mistakes that are reported: a project of another world has one in each element.
 const MOST_FAULTS: usize = 200;
@@ -49,7 +55,11 @@ pub(crate) fn is_project(text: &str) -> bool {
 
 /// Reads a project; `names` are the devices of its variables.
 pub(crate) fn read(name: &str, text: &str, names: &Names) -> Read {
-    match Document::parse(text.trim_start_matches('\u{FEFF}')) {
+    let options = ParsingOptions {
+        nodes_limit: MOST_NODES,
+        ..ParsingOptions::default()
+    };
+    match Document::parse_with_options(text.trim_start_matches('\u{FEFF}'), options) {
         Ok(document) => {
             let mut reader = Reader {
                 variables: Variables::new(names, document.root_element()),
@@ -137,6 +147,8 @@ struct Reader {
     steps: BTreeMap<String, Device>,
     /// Whether what follows is driven by STL.
     in_state: bool,
+    /// Contacts on all ways so far.
+    contacts: usize,
     faults: Vec<Fault>,
 }
 
@@ -225,6 +237,17 @@ impl Reader {
     /// Whether there are enough mistakes that more would not help.
     fn has_given_up(&self) -> bool {
         self.faults.len() >= MOST_FAULTS
+    }
+
+    /// Counts the contacts on a way to an element.
+    fn count(&mut self, node: Node, logic: &Logic) -> Result<(), Fault> {
+        let size = logic.size();
+        self.contacts += size;
+        if size <= MOST_CONTACTS && self.contacts <= MOST_IN_ALL {
+            return Ok(());
+        }
+        let what = "the ways to this element are more than a network of a PLC holds";
+        Err(Fault::at(node, what, "divide it by auxiliary relays"))
     }
 
     /// Adds an output that contacts drive.

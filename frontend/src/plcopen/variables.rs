@@ -117,6 +117,8 @@ pub(super) struct Variables {
     taken: BTreeSet<Device>,
     /// Devices of variables without an address, by key.
     given: BTreeMap<String, Device>,
+    /// Devices of variables that have been used.
+    used: BTreeSet<Device>,
     /// How many pointers labels have taken.
     pointers: u32,
     /// What the devices that were used are called.
@@ -158,7 +160,7 @@ impl Variables {
                     variables.taken.extend(name);
                     node.attribute("address").map(str::to_owned)
                 }
-                "variable" | "expression" => Some(text(node)),
+                "variable" | "expression" => node.text().map(str::to_owned),
                 "label" => node.attribute("label").map(str::to_owned),
                 _ => None,
             };
@@ -210,7 +212,11 @@ impl Variables {
                 kind: Kind::of(node).unwrap_or(Kind::Bool),
                 device: found,
                 foreign: address.filter(|_| found.is_none()).map(str::to_owned),
-                comment: documentation.or_else(|| Some(written.to_smolstr())),
+                // That X0 is X000 needs no comment.
+                comment: documentation.or_else(|| {
+                    Some(written.to_smolstr())
+                        .filter(|_| device(written).is_none_or(|own| Some(own) != found))
+                }),
                 initial: initial
                     .filter_map(|value| value.attribute("value"))
                     .map(|value| value.trim().to_uppercase())
@@ -288,8 +294,10 @@ impl Variables {
                     .ok_or(Missing::Device)?
             }
         };
-        if let (Some(comment), false) = (&variable.comment, self.comments.contains_key(&device)) {
-            self.comments.insert(device, comment.to_string());
+        if self.used.insert(device) {
+            let comment = variable.comment.as_ref().map(ToString::to_string);
+            self.comments
+                .extend(comment.map(|comment| (device, comment)));
             self.begin(device, variable);
         }
         Ok(Found {

@@ -1,6 +1,7 @@
 //! Files: whatever a file contains, it is read or rejected, with places that lie in it.
 
 use super::Target;
+use rungc_frontend::{Names, ReadOptions};
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_project::Project;
 use rungc_syntax::Source;
@@ -8,7 +9,24 @@ use std::path::Path;
 
 /// A program in any of its formats, which is also compiled.
 fn program(input: &[u8]) {
-    let Ok(read) = rungc_frontend::read_bytes("program", input) else {
+    read(input, &ReadOptions::default());
+}
+
+/// A project of PLCopen XML, with devices for its variables.
+fn plcopen(input: &[u8]) {
+    let free = "*,M100-M199\n*,T0-T9\n*,T200-T209\n*,C0-C9\n*,D100-D199\n*,S20-S99\n";
+    let names = Names::parse(free).unwrap_or_default();
+    read(
+        input,
+        &ReadOptions {
+            names,
+            ..ReadOptions::default()
+        },
+    );
+}
+
+fn read(input: &[u8], options: &ReadOptions) {
+    let Ok(read) = rungc_frontend::read_bytes_with("program", input, options) else {
         return;
     };
     let source = &read.program.source;
@@ -88,7 +106,7 @@ pub(super) fn targets() -> Vec<Target> {
         target("gx-developer", program, &[]),
         target("gx-works2", program, &[]),
         target("memory-image", program, &[]),
-        target("plcopen", program, &[]),
+        target("plcopen", plcopen, &[]),
         target(
             "settings",
             settings,
