@@ -166,6 +166,7 @@ fn every_runtime_function_has_a_row() {
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,
         rungc_rt::RtFn::ErrorLog,
+        rungc_rt::RtFn::PowerSupply,
         rungc_rt::RtFn::Oscilloscope,
         rungc_rt::RtFn::StopPulses,
     ];

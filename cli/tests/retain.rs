@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
 use std::time::Duration;
+use tempfile::TempDir;
 
 /// Counts its starts in D200 and its scans in C100, which are latched, and its scans in D0, which is not.
 const COUNTER: &str = "\
@@ -164,9 +165,8 @@ fn simulated(folder: &Path, image: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Images in C and in Rust load what the other has saved, in the background or because the supply fails.
-#[test]
-fn latched_devices_of_images_survive() {
+/// A folder with a program and boards that save often and rarely, and the cargo for them; `None` where tools are missing.
+fn boards((name, program): (&str, &str)) -> Option<(TempDir, Command)> {
     let needed = [
         "make",
         "arm-none-eabi-gcc",
@@ -174,40 +174,84 @@ fn latched_devices_of_images_survive() {
         "qemu-system-arm",
     ];
     if !tools::tools(&needed) {
-        return;
+        return None;
     }
     let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/boards/mps2-an385.toml");
     let board = fs::read_to_string(board).unwrap() + BOARD;
     let folder = folder(&[
-        ("starts.il", STARTS.as_bytes()),
+        (name, program.as_bytes()),
         ("often.toml", board.replace("EVERY", "1000").as_bytes()),
         ("rarely.toml", board.replace("EVERY", "3600000").as_bytes()),
     ]);
-    let at = folder.path();
     let target = "thumbv7m-none-eabi";
     let Some(cargo) = tools::cargo(target) else {
-        return tools::leave_out(&tools::no_rust(target));
+        tools::leave_out(&tools::no_rust(target));
+        return None;
     };
-    let image = |backend: &str, board: &str| {
-        let name = format!("{backend}-{board}.elf");
-        let built = tools::with_cargo(&cargo)
-            .args(["build", "starts.il", "--emit", "elf", "--for", "3s"])
-            .args(["--board", &format!("{board}.toml"), "--backend", backend])
-            .args(["-o", &name, "--force"])
-            .current_dir(at)
-            .output()
-            .unwrap();
-        assert!(built.status.success(), "{}", text(&built.stderr));
-        name
+    Some((folder, cargo))
+}
+
+/// Builds an image that ends after a time; gives its name.
+fn image(
+    folder: &Path,
+    cargo: &Command,
+    (program, end): (&str, &str),
+    (backend, board): (&str, &str),
+) -> String {
+    let name = format!("{backend}-{board}.elf");
+    let built = tools::with_cargo(cargo)
+        .args(["build", program, "--emit", "elf", "--for", end])
+        .args(["--board", &format!("{board}.toml"), "--backend", backend])
+        .args(["-o", &name, "--force"])
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    name
+}
+
+/// Whether the pin says that the supply fails, when the image begins.
+fn set_supply(folder: &Path, fails: bool) {
+    let mut ram = fs::read(folder.join("ram")).unwrap();
+    ram[0x1000] = u8::from(fails) << 2;
+    fs::write(folder.join("ram"), &ram).unwrap();
+}
+
+/// The pin drives M8007, M8008 and D8007, and ends in STOP after the time in D8008.
+#[test]
+fn a_failing_supply_stops_an_image() {
+    let program = "LD M8008\nOUT Y000\nLD= D8007 K1\nOUT Y001\nLD M8000\nOUT Y002\nEND\n";
+    let Some((folder, cargo)) = boards(("supply.il", program)) else {
+        return;
     };
+    let at = folder.path();
+    let image = image(at, &cargo, ("supply.il", "100ms"), ("c", "rarely"));
+    fs::write(at.join("ram"), vec![0; RAM]).unwrap();
+    assert_eq!(simulated(at, &image), "      0.000 s  Y002 on");
+    set_supply(at, true);
+    insta::assert_snapshot!(simulated(at, &image), @r"
+    0.000 s  Y002 on
+    0.010 s  Y000 on
+    0.010 s  Y001 on
+    0.020 s  Y000 off
+    0.020 s  Y001 off
+    0.020 s  Y002 off
+    ");
+}
+
+/// Images in C and in Rust load what the other has saved, in the background or because the supply fails.
+#[test]
+fn latched_devices_of_images_survive() {
+    let Some((folder, cargo)) = boards(("starts.il", STARTS)) else {
+        return;
+    };
+    let at = folder.path();
+    let image =
+        |backend: &str, board: &str| image(at, &cargo, ("starts.il", "3s"), (backend, board));
     let [often, rarely] = [image("c", "often"), image("c", "rarely")];
     let in_rust = image("rust", "rarely");
     fs::write(at.join("ram"), vec![0; RAM]).unwrap();
-    let supply = |fails: bool| {
-        let mut ram = fs::read(at.join("ram")).unwrap();
-        ram[0x1000] = u8::from(fails) << 2;
-        fs::write(at.join("ram"), &ram).unwrap();
-    };
+    let supply = |fails: bool| set_supply(at, fails);
     assert_eq!(simulated(at, &often), "      0.000 s  Y000 on");
     // What is loaded is saved only when the supply fails.
     for fails in [false, true] {

@@ -220,6 +220,9 @@ static bool machine_request(const program *program, const char *verb, const long
         rungc_virtual_restart();
         program->power_cycle();
         done(true);
+    } else if (strcmp(verb, "supply") == 0) {
+        rungc_virtual_set_power_fails(number[0] != 0);
+        done(true);
     } else if (strcmp(verb, "clock") == 0) {
         done(rungc_virtual_set_clock((uint16_t)number[0], (uint8_t)number[1], (uint8_t)number[2], (uint8_t)number[3],
                                      (uint8_t)number[4], (uint8_t)number[5]));

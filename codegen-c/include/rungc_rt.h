@@ -882,6 +882,14 @@ typedef struct rungc_hal {
      * Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
      */
     bool (*can_is_sending)(void *context);
+    /**
+     * Whether the power supply fails now; `NULL`: nothing watches it.
+     */
+    bool (*power_fails)(void *context);
+    /**
+     * Voltage of the battery in tenths of a volt; false if nothing measures it.
+     */
+    bool (*battery)(void *context, uint16_t *tenths);
 } rungc_hal;
 
 /**
@@ -1349,6 +1357,11 @@ bool rungc_virtual_get_signal(uint16_t unit, uint8_t channel, uint8_t quantity, 
  * Sets the raw value of an analog input; false if there is no such channel.
  */
 bool rungc_virtual_set_analog(uint8_t channel, int16_t value);
+
+/**
+ * The power supply fails from now on, or is back.
+ */
+void rungc_virtual_set_power_fails(bool fails);
 
 /**
  * Sets the real-time clock; false if there is no such moment.

@@ -71,13 +71,23 @@ fn is_stored<D: SpecialDevice>(storage: &Storage, device: D) -> bool {
 
 /// Whether a program reads or sets the real-time clock.
 pub fn asks_clock(module: &Module) -> bool {
-    let mut asks = false;
+    calls_any(module, &CLOCK_FUNCTIONS)
+}
+
+/// Whether a program looks at the power supply or the battery.
+pub fn asks_supply(module: &Module) -> bool {
+    calls_any(module, &[RtFn::PowerSupply])
+}
+
+/// Whether a program calls one of these functions.
+fn calls_any(module: &Module, functions: &[RtFn]) -> bool {
+    let mut calls = false;
     for function in &module.functions {
         rungc_ir::walk::statements(&function.body, &mut |stmt| {
-            asks |= matches!(stmt, Stmt::Call(call) if CLOCK_FUNCTIONS.contains(&call.function));
+            calls |= matches!(stmt, Stmt::Call(call) if functions.contains(&call.function));
         });
     }
-    asks
+    calls
 }
 
 /// Functions that read or set the real-time clock.

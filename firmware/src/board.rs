@@ -246,7 +246,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
 }
 
 /// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
-pub const FUNCTIONS: [(&str, &str); 20] = [
+pub const FUNCTIONS: [(&str, &str); 22] = [
     ("init", "void NAME(void)"),
     (
         "input",
@@ -273,6 +273,8 @@ pub const FUNCTIONS: [(&str, &str); 20] = [
         "analog",
         "bool NAME(void *context, uint8_t channel, int16_t *value)",
     ),
+    ("power_fails", "bool NAME(void *context)"),
+    ("battery", "bool NAME(void *context, uint16_t *tenths)"),
     ("hold_pulses", "void NAME(void *context, bool hold)"),
     (
         "set_line",

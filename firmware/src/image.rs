@@ -4,7 +4,7 @@ mod c;
 mod modules;
 mod rust;
 
-use crate::board::{Board, Retain, Serial};
+use crate::board::{Board, InputPin, Retain, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_rt::comm::Protocol;
@@ -61,6 +61,14 @@ impl Image<'_> {
     fn retain(&self) -> Option<&Retain> {
         let retain = self.board.retain.as_ref()?;
         rungc_emit::cycle::keeps_any(self.module).then_some(retain)
+    }
+
+    /// The pin by which the supply says that power is about to fail, if that concerns the program: it latches devices, or
+    /// looks at those that show the supply.
+    fn supply(&self) -> Option<&InputPin> {
+        let pin = self.board.retain.as_ref()?.power_fail.as_ref()?;
+        let asks = rungc_emit::cycle::asks_supply(self.module);
+        (asks || self.retain().is_some()).then_some(pin)
     }
 
     /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's

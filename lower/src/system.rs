@@ -10,7 +10,7 @@ use rungc_ir::node::{
 use rungc_models::special::{RunCommand, SpecialDevice};
 use rungc_rt::special::*;
 use rungc_rt::{CmpOp, RtFn};
-use rungc_syntax::DeviceClass::{D, S, X};
+use rungc_syntax::DeviceClass::{D, M, S, X};
 
 /// Periods of the clock relays in milliseconds; they are on in the second half of each.
 const CLOCK_PERIODS: [i32; 4] = [10, 100, 1000, 60_000];
@@ -79,6 +79,7 @@ impl Lowerer<'_> {
             this.show_axes();
             this.axis_defaults();
             this.real_time_clock();
+            this.power_supply();
         })
     }
 
@@ -105,9 +106,10 @@ impl Lowerer<'_> {
         })
     }
 
-    /// M8037 puts the PLC in STOP and goes off, so that the switch can start it again.
+    /// M8037, which a failing power supply sets, too, puts the PLC in STOP and goes off, so that the switch can start it again.
     fn forced_stop(&mut self) {
-        if !self.keeps(M_FORCED_STOP) {
+        let stop = (M, M_FORCED_STOP.number());
+        if !self.keeps(M_FORCED_STOP) && !self.specials.flags.contains(&stop) {
             return;
         }
         let asked = self.add(Expr::Read(Access::bit(M_FORCED_STOP)));
@@ -277,6 +279,9 @@ impl Lowerer<'_> {
 
     /// D8007 to D8009 (HM): the time since power-on in units of 50 us, and in milliseconds.
     fn tick(&mut self) {
+        if self.model.shows_power_supply() {
+            return;
+        }
         if self.keeps(D_SHORT_TICK) {
             let now = self.add(Expr::Sys(SysValue::NowMs));
             let units = self.add(Expr::I32(20));
@@ -339,6 +344,26 @@ impl Lowerer<'_> {
         }
         // All seven registers make a moment.
         self.call_system(self.clock_function(), &CLOCK_REGISTERS);
+    }
+
+    /// M8005 to M8008 and D8005 to D8008. A failure that lasts ends in STOP.
+    fn power_supply(&mut self) {
+        let battery = self.keeps(M_BATTERY_LOW)
+            || self.keeps(M_BATTERY_HAS_BEEN_LOW)
+            || self.keeps(D_BATTERY);
+        let supply = self.keeps(M_POWER_FAILS)
+            || self.keeps(M_POWER_FAILURE)
+            || self.keeps(D_POWER_FAILURES);
+        let shows = self.model.shows_power_supply();
+        if !shows || !(battery || supply) {
+            return;
+        }
+        if supply {
+            let stop = (M, M_FORCED_STOP.number());
+            self.specials.flags.push(stop);
+        }
+        let registers = [D_BATTERY_LOW, D_POWER_FAILURE_MS];
+        self.call_system(RtFn::PowerSupply, &registers);
     }
 
     /// Calls a function that keeps special registers. They are all stored, even if the program looks at one.

@@ -1,12 +1,12 @@
 //! The conformance cases as judges of diagnostics: each program that must be rejected is, with the PLC's code and at
 //! the line that the case names; no other program has an error.
 
-use rungc_analysis::check::check;
+use rungc_analysis::check::{check, variants};
 use rungc_analysis::resolve::resolve;
 use rungc_catalogue::Lower;
 use rungc_frontend::read_text;
 use rungc_lower::compile::{self, CompileOptions};
-use rungc_models::{Model, ModelId};
+use rungc_models::{Model, ModelId, Plc};
 use rungc_syntax::{Diagnostic, Severity, codes};
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 struct Case {
     /// `folder/file/name`.
     name: String,
-    model: ModelId,
+    plc: Plc,
     program: String,
     /// The PLC's code (0: any) and the line (none: any) of the error; `None` if there must be no error.
     rejects: Option<(i64, Option<i64>)>,
@@ -51,11 +51,11 @@ fn cases_of(folder: &Path, path: &Path) -> Vec<Case> {
         .display()
         .to_string();
     let file = file.trim_end_matches(".plctest.toml").to_owned();
-    let model = |table: &toml::Table| {
+    let plc = |table: &toml::Table| {
         table
             .get("model")
             .and_then(toml::Value::as_str)
-            .and_then(ModelId::from_name)
+            .and_then(Plc::find)
     };
     let cases = table["case"].as_array().expect("cases").iter();
     cases
@@ -68,7 +68,7 @@ fn cases_of(folder: &Path, path: &Path) -> Vec<Case> {
             });
             Case {
                 name: format!("{file}/{}", text("name")),
-                model: model(case).or_else(|| model(&table)).expect("a model"),
+                plc: plc(case).or_else(|| plc(&table)).expect("a model"),
                 program: text("program"),
                 rejects,
             }
@@ -78,8 +78,9 @@ fn cases_of(folder: &Path, path: &Path) -> Vec<Case> {
 
 /// The errors of a program, with their lines. A model stands for compatible boards too.
 fn errors(case: &Case) -> Vec<(u32, Diagnostic)> {
-    let found = errors_on(Model::get(case.model), case);
-    match Model::get(case.model).boards {
+    let model = Model::get(case.plc.model);
+    let found = errors_on(model, case);
+    match model.boards {
         Some(boards) if case.rejects.is_none() && !found.is_empty() => {
             errors_on(Model::get(boards), case)
         }
@@ -91,6 +92,9 @@ fn errors_on(model: &'static Model, case: &Case) -> Vec<(u32, Diagnostic)> {
     let read = read_text("case", &case.program);
     let (resolved, mut diagnostics) = resolve(&read.program, model);
     diagnostics.extend(check(&resolved).sorted());
+    if let Some(variant) = case.plc.variant {
+        diagnostics.extend(variants::check(&resolved, variant).sorted());
+    }
     diagnostics.extend(read.diagnostics.sorted());
     diagnostics
         .sorted()
@@ -159,7 +163,7 @@ fn checking_refuses_what_compiling_refuses() {
     for case in cases() {
         let program = read_text("case", &case.program).program;
         let options = CompileOptions {
-            model: Some(case.model),
+            model: Some(case.plc.model),
             ..CompileOptions::default()
         };
         let checked = compile::check(&program, &options);

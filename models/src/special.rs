@@ -5,7 +5,7 @@
 use crate::Model;
 use rungc_rt::modules::Place;
 use rungc_rt::special::{
-    D_CONSTANT_SCAN, D_REMOTE, D_SCOPE_STATE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN,
+    D_BATTERY, D_CONSTANT_SCAN, D_REMOTE, D_SCOPE_STATE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN,
     M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL, M_REMOTE_RUN,
 };
 use rungc_rt::{Register, Relay};
@@ -175,6 +175,11 @@ impl Model {
         row.is_some_and(|row| row.is_kept_by_scan() && row.first == row.last)
     }
 
+    /// Whether M8005 to M8008 and D8005 to D8008 show the power supply and the battery. On HM, they are something else.
+    pub fn shows_power_supply(&self) -> bool {
+        self.scan_keeps(D_BATTERY)
+    }
+
     /// What asks for scans of constant length on this model.
     pub fn constant_scan(&self) -> Option<ConstantScan> {
         let (relay, register) = (M_CONSTANT_SCAN, D_CONSTANT_SCAN);
@@ -252,7 +257,12 @@ const fn because(missed: Missed, text: &'static str) -> Reason {
 }
 
 // Why a device is inert.
-pub(crate) const POWER: Reason = because(Missed::Never, "power supply and battery are not watched");
+pub(crate) const POWER: Reason = because(
+    Missed::Never,
+    "of supply and battery, only a failure and the voltage are watched",
+);
+pub(crate) const POWER_ON: Reason =
+    because(Missed::Never, "a failure of power shows as power-on alone");
 pub(crate) const HARDWARE: Reason = because(
     Missed::Never,
     "there is no hardware here that could fail so",
@@ -388,7 +398,7 @@ pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CANLINK, POWER, RunCommand, Special, Status};
+    use super::{Access, CANLINK, POWER_ON, RunCommand, Special, Status};
     use crate::{Model, ModelId};
     use rungc_rt::Register;
     use rungc_rt::modules::Place;
@@ -470,7 +480,7 @@ mod tests {
                 Some(Status::Modules(Place::Slot))
             );
         }
-        assert_eq!(of(ModelId::H2u, D, 8005), Some(Status::Inert(POWER)));
+        assert_eq!(of(ModelId::Hm, M, 8008), Some(Status::Inert(POWER_ON)));
         // Axes and modules of HM (hm-motion-controller §7, §8.2).
         let axis = Some(Status::Instructions("axis motion"));
         assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);

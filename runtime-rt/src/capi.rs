@@ -244,6 +244,10 @@ pub struct HalTable {
     pub can_send: Option<extern "C" fn(context: *mut c_void, frame: *const CanFrame) -> bool>,
     /// Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
     pub can_is_sending: Option<extern "C" fn(context: *mut c_void) -> bool>,
+    /// Whether the power supply fails now; `NULL`: nothing watches it.
+    pub power_fails: Option<extern "C" fn(context: *mut c_void) -> bool>,
+    /// Voltage of the battery in tenths of a volt; false if nothing measures it.
+    pub battery: Option<extern "C" fn(context: *mut c_void, tenths: *mut u16) -> bool>,
 }
 
 /// What a host does at an operation error: `plc_on_error`.

@@ -91,6 +91,10 @@ extern "C" fn unsent(_: *mut c_void, port: u8, now_us: u32) -> u16 {
     with(|hal| hal.line(port).map_or(0, |line| line.unsent(now_us)))
 }
 
+extern "C" fn power_fails(_: *mut c_void) -> bool {
+    with(|hal| hal.power_fails()) == Some(true)
+}
+
 /// The virtual hardware as instructions see it, for `Map::hal`.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_hal() -> HalTable {
@@ -111,6 +115,8 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
         can_receive: None,
         can_send: None,
         can_is_sending: None,
+        power_fails: Some(power_fails),
+        battery: None,
     }
 }
 
@@ -230,6 +236,12 @@ pub extern "C" fn rungc_virtual_get_signal(
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_set_analog(channel: u8, value: i16) -> bool {
     with(|hal| hal.set_analog(channel, value)).is_some()
+}
+
+/// The power supply fails from now on, or is back.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_power_fails(fails: bool) {
+    with(|hal| hal.set_power_fails(fails));
 }
 
 /// Sets the real-time clock; false if there is no such moment.

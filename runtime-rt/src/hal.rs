@@ -195,6 +195,15 @@ pub trait Hal {
         let _ = channel;
         None
     }
+    /// Whether the power supply fails now, so that the PLC runs on what its capacitors hold; `None` if nothing watches
+    /// it.
+    fn power_fails(&mut self) -> Option<bool> {
+        None
+    }
+    /// Voltage of the battery in tenths of a volt; `None` if nothing measures it.
+    fn battery(&mut self) -> Option<u16> {
+        None
+    }
     /// Reads the input terminals from X number `first` on now, outside the input refresh (REF); `None` where there is
     /// none.
     fn input(&mut self, number: u16) -> Option<bool> {

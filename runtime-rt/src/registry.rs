@@ -302,6 +302,7 @@ registry! {
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
     ErrorLog = system::error_log() [state, always];
+    PowerSupply = supply::power_supply() [state, always, hal];
     AnalogInputs = system::analog_inputs() [always, hal];
     Potentiometers = system::potentiometers() [always, hal];
     ExchangeModule = exchange::exchange_module(unit, d, reads, n, period) [state, always, hal];

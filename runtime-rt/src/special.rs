@@ -103,6 +103,22 @@ pub const M_CONSTANT_SCAN: Relay = Relay(8039);
 pub const D_CONSTANT_SCAN: Register = Register(8039);
 /// The same on L01S, where no relay enables it.
 pub const D_SHORTEST_SCAN: Register = Register(8059);
+/// The voltage of the battery, [`D_BATTERY`], is below [`D_BATTERY_LOW`].
+pub const M_BATTERY_LOW: Relay = Relay(8005);
+/// It has been since power-on.
+pub const M_BATTERY_HAS_BEEN_LOW: Relay = Relay(8006);
+/// Voltage of the battery, in tenths of a volt.
+pub const D_BATTERY: Register = Register(8005);
+/// The voltage below which the battery is low.
+pub const D_BATTERY_LOW: Register = Register(8006);
+/// The power supply fails, for more than 5 ms.
+pub const M_POWER_FAILS: Relay = Relay(8007);
+/// The same, and goes off when the PLC stops because of it.
+pub const M_POWER_FAILURE: Relay = Relay(8008);
+/// How often [`M_POWER_FAILS`] came on.
+pub const D_POWER_FAILURES: Register = Register(8007);
+/// For how many milliseconds of failing power the PLC runs.
+pub const D_POWER_FAILURE_MS: Register = Register(8008);
 /// Puts HM in RUN and STOP under remote control ([`D_REMOTE`]); otherwise shows which it is in.
 pub const M_REMOTE_RUN: Relay = Relay(8004);
 /// On: the switch of HM decides on RUN and STOP, even with [`D_REMOTE`].

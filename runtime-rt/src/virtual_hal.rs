@@ -41,6 +41,7 @@ pub struct VirtualHal {
     since_base_ms: u64,
     now_ms: u32,
     lines: [VirtualLine; LINES],
+    power_fails: bool,
 }
 
 impl Default for VirtualHal {
@@ -73,7 +74,13 @@ impl VirtualHal {
             since_base_ms: 0,
             now_ms: 0,
             lines: [const { VirtualLine::new() }; LINES],
+            power_fails: false,
         }
+    }
+
+    /// The power supply fails from now on, or is back.
+    pub fn set_power_fails(&mut self, fails: bool) {
+        self.power_fails = fails;
     }
 
     /// The other end of a serial port; `None` if the number is above 4.
@@ -95,6 +102,7 @@ impl VirtualHal {
     /// they keep.
     pub fn restart(&mut self) {
         self.now_ms = 0;
+        self.power_fails = false;
         self.lines = [const { VirtualLine::new() }; LINES];
         for (_, module) in self.modules.iter_mut().flatten() {
             module.power_cycle();
@@ -215,6 +223,10 @@ impl Hal for VirtualHal {
         } else {
             None
         }
+    }
+
+    fn power_fails(&mut self) -> Option<bool> {
+        Some(self.power_fails)
     }
 
     fn analog(&mut self, channel: u8) -> Option<i16> {

@@ -97,6 +97,8 @@ pub enum Request {
         /// Where.
         channel: Channel,
     },
+    /// The power supply fails from now on, or is back.
+    SetPowerFails(bool),
     /// Sets the real-time clock.
     SetClock(Clock),
     /// Sets the raw value of an analog input.
@@ -203,6 +205,7 @@ impl fmt::Display for Request {
                 "getsignal {now_ms} {} {} {}",
                 channel.unit, channel.number, channel.quantity as u8
             ),
+            Request::SetPowerFails(fails) => write!(f, "supply {}", u8::from(fails)),
             Request::SetClock(c) => write!(
                 f,
                 "clock {} {} {} {} {} {}",

@@ -402,6 +402,7 @@ fn hal(image: &Image, timer: bool) -> String {
             "input" => input_function(image),
             "set_output" if !board.outputs.is_empty() => Some("write_pin".to_string()),
             "now_us" => Some("now_us".to_string()),
+            "power_fails" if image.supply().is_some() => Some(field.to_string()),
             "hold_pulses" | "wake_in" if timer => Some(field.to_string()),
             "next_edge" if edges(image).is_some() => Some(field.to_string()),
             "analog" if board.analog.channels().next().is_some() => Some(field.to_string()),

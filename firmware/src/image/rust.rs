@@ -148,7 +148,7 @@ fn main(image: &Image) -> String {
         )
         .replace(
             "/* USE PROGRAM */",
-            if board.console {
+            if board.console || image.supply().is_some() {
                 "use rungc_rt::Program;\n"
             } else {
                 ""
@@ -340,6 +340,12 @@ fn switch(pin: &OutputPin) -> String {
     }
 }
 
+/// What the program asks of the supply.
+const POWER_FAILS: &str = "    fn power_fails(&mut self) -> Option<bool> {
+        Some(power_fails())
+    }
+";
+
 /// What instructions and scans ask of the board.
 fn hal(image: &Image) -> String {
     let serial = match image.serial().is_empty() {
@@ -347,7 +353,15 @@ fn hal(image: &Image) -> String {
         false => serial::SERIAL_PORT,
     };
     let modules = modules::hal(image);
-    format!("{}{}{modules}{serial}", inputs(image), outputs(image))
+    let supply = match image.supply() {
+        Some(_) => POWER_FAILS,
+        None => "",
+    };
+    format!(
+        "{}{}{modules}{supply}{serial}",
+        inputs(image),
+        outputs(image)
+    )
 }
 
 fn setup(image: &Image) -> String {

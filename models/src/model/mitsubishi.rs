@@ -118,9 +118,9 @@ pub(super) const FROM_FX1N: &[Special] = specials! {
 
 /// What FX2N and FX3 have in addition.
 pub(super) const FROM_FX2N: &[Special] = specials! {
-    M 8005 r 0 inert(POWER) "the battery is low";
-    M 8006 r 0 inert(POWER) "the battery has been low";
-    M 8007-8008 r 0 inert(POWER) "power failure";
+    M 8005 r 0 scan "the battery is low";
+    M 8006 r 0 scan "the battery has been low";
+    M 8007-8008 r 0 scan "power failure";
     M 8009 r 0 inert(POWER) "the 24 V supply of an extension has failed";
     M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
     M 8027 rw 0 by("PR") "PR sends up to 16 characters";
@@ -135,10 +135,10 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
     M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
     M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
-    D 8005 r 0 inert(POWER) "voltage of the battery in 0.1 V";
-    D 8006 rw 30 inert(POWER) "voltage at which the battery is low";
-    D 8007 r 0 inert(POWER) "how often the power has failed";
-    D 8008 rw 10 inert(POWER) "time after which the power has failed, in ms";
+    D 8005 r 0 scan "voltage of the battery in 0.1 V";
+    D 8006 rw 30 scan "voltage at which the battery is low";
+    D 8007 r 0 scan "how often the power has failed";
+    D 8008 rw 10 scan "time after which the power has failed, in ms";
     D 8009 r 0 inert(POWER) "extension whose supply has failed";
     D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
     D 8099 rw 0 scan "ring counter of 0.1 ms";

@@ -129,6 +129,17 @@ impl Hal for Board {
         (table.analog?)(table.context, channel, &mut value).then_some(value)
     }
 
+    fn power_fails(&mut self) -> Option<bool> {
+        let table = self.table()?;
+        Some((table.power_fails?)(table.context))
+    }
+
+    fn battery(&mut self) -> Option<u16> {
+        let table = self.table()?;
+        let mut tenths = 0;
+        (table.battery?)(table.context, &mut tenths).then_some(tenths)
+    }
+
     fn input(&mut self, number: u16) -> Option<bool> {
         let table = self.table()?;
         let mut on = false;

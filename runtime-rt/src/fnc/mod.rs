@@ -35,6 +35,7 @@ pub mod scope;
 pub mod segment;
 pub mod serial;
 pub mod servo;
+pub mod supply;
 pub mod system;
 pub mod table;
 pub mod text;

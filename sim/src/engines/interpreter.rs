@@ -167,6 +167,10 @@ impl Engine for Interpreter<'_> {
                 hal.advance_to(now_ms);
                 Answer::value(hal.signal(channel.unit, channel.number, channel.quantity))
             }
+            Request::SetPowerFails(fails) => {
+                hal.set_power_fails(fails);
+                Answer::Ok
+            }
             Request::SetClock(clock) => Answer::done(rungc_rt::Hal::set_clock(hal, clock)),
             Request::SetAnalog(channel, value) => Answer::done(hal.set_analog(channel, value)),
         })

@@ -98,6 +98,7 @@ struct RawStep {
     cut: Option<Vec<Spanned<String>>>,
     clock: Option<Spanned<String>>,
     mode: Option<Spanned<RawMode>>,
+    power_fails: Option<bool>,
     #[serde(default)]
     power_cycle: bool,
     #[serde(default)]
@@ -373,6 +374,7 @@ impl Reader<'_> {
             rx,
             expect_tx,
             cut,
+            power_fails: raw.power_fails,
             clock: raw.clock.and_then(|text| self.clock(&text)),
             bfm: self.buffer(raw.bfm),
             analog: self.analog(raw.analog),

@@ -144,6 +144,8 @@ pub struct Step {
     pub expect_tx: Vec<(Port, Vec<Sent>)>,
     /// The ports that are off their lines from now on, if that changes.
     pub cut: Option<Vec<Port>>,
+    /// The power supply fails from now on, or is back.
+    pub power_fails: Option<bool>,
     /// Sets the real-time clock.
     pub clock: Option<Clock>,
     /// Sets buffer memory: module, address, value.
@@ -371,6 +373,6 @@ rejects = { code = 0 }
     #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_fails`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
     }
 }

@@ -306,6 +306,12 @@ impl Running<'_> {
         for &(plc, running) in &step.running {
             self.switch(plc, running)?;
         }
+        if let Some(fails) = step.power_fails {
+            for plc in 0..self.plcs.len() {
+                self.select(plc)?;
+                self.insist(Request::SetPowerFails(fails))?;
+            }
+        }
         if let Some(clock) = step.clock {
             for plc in 0..self.plcs.len() {
                 self.select(plc)?;

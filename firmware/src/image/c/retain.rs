@@ -20,8 +20,10 @@ const REACH: &str = "\
 
 /// What the image has of it, in front of `main`.
 pub(super) fn drivers(image: &Image) -> String {
+    let watch = image.supply().map(|pin| power_fails(image, pin));
+    let watch = watch.unwrap_or_default();
     let Some(retain) = image.retain() else {
-        return String::new();
+        return watch;
     };
     let mut text = String::from("/* Latched devices, which survive power-off. */\n");
     if retain.memory != RetainMemory::Ram {
@@ -32,10 +34,7 @@ pub(super) fn drivers(image: &Image) -> String {
         "static const rungc_flash kept = {\n    .slot_length = KEPT_LENGTH,\n    .read = read_kept,\n    .erase = erase_kept,\n    \
          .program = program_kept,\n};\nstatic rungc_slots slots = {.flash = &kept};\n\n",
     );
-    if let Some(pin) = &retain.power_fail {
-        text.push_str(&power_fails(pin));
-    }
-    text
+    text + &watch
 }
 
 /// What drives the memory: `kept_slots`, and functions that read, erase and write.
@@ -88,12 +87,20 @@ fn stm32(part: &str, [base, busy, errors, lock]: [&str; 4], erase: &str, program
 }
 
 /// What looks at the supply's pin.
-fn power_fails(pin: &InputPin) -> String {
+fn power_fails(image: &Image, pin: &InputPin) -> String {
     let compare = if pin.inverted { "==" } else { "!=" };
+    let save = match image.retain() {
+        Some(_) => {
+            "    if (fails && !failed) {\n        (void)PROGRAM_save_latched(&plc, &slots);\n    }\n"
+        }
+        None => "",
+    };
     format!(
-        "/* Saves them once when the supply says that power is about to fail. */\nstatic void watch_supply(void)\n{{\n    \
-         static bool failed;\n    const bool fails = (REGISTER(0x{:08X}u) & 0x{:X}u) {compare} 0u;\n\n    if (fails && !failed) {{\n        \
-         (void)PROGRAM_save_latched(&plc, &slots);\n    }}\n    failed = fails;\n}}\n\n",
+        "/* Whether the supply says that power is about to fail. */\nstatic bool power_fails(void *context)\n{{\n    \
+         (void)context;\n    return (REGISTER(0x{:08X}u) & 0x{:X}u) {compare} 0u;\n}}\n\n\
+         /* Saves latched devices once when power fails, and begins anew when it is back after the program has stopped. */\n\
+         static void watch_supply(void)\n{{\n    static bool failed;\n    const bool fails = power_fails(NULL);\n\n{save}    \
+         if (failed && !fails && !plc.sys.running) {{\n        PROGRAM_power_cycle(&plc);\n    }}\n    failed = fails;\n}}\n\n",
         pin.at,
         1u32 << pin.bit
     )
@@ -109,15 +116,16 @@ pub(super) fn load(image: &Image) -> &'static str {
 
 /// What `main` does after each scan.
 pub(super) fn save(image: &Image) -> String {
-    let Some(retain) = image.retain() else {
-        return String::new();
-    };
-    let watch = match retain.power_fail {
-        Some(_) => "        watch_supply();\n",
-        None => "",
-    };
-    format!(
-        "{watch}        (void)PROGRAM_save_changes(&plc, &slots, board.now_ms, {}u);\n",
-        retain.every_ms
-    )
+    let mut text = String::new();
+    if image.supply().is_some() {
+        text.push_str("        watch_supply();\n");
+    }
+    if let Some(retain) = image.retain() {
+        let _ = writeln!(
+            text,
+            "        (void)PROGRAM_save_changes(&plc, &slots, board.now_ms, {}u);",
+            retain.every_ms
+        );
+    }
+    text
 }

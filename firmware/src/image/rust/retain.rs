@@ -36,16 +36,21 @@ fn name(memory: RetainMemory) -> &'static str {
 
 /// What the image uses for it.
 pub(super) fn uses(image: &Image) -> String {
-    image.retain().map_or(String::new(), |retain| {
+    let mut text = image.retain().map_or(String::new(), |retain| {
         let name = name(retain.memory);
         format!("use rungc_rt::retain::{{{name}, Registers, Slots}};\n")
-    })
+    });
+    if image.supply().is_some() {
+        text.push_str("use rungc_rt::Plc;\n");
+    }
+    text
 }
 
 /// What the image has of it, in front of `main`.
 pub(super) fn drivers(image: &Image) -> String {
+    let supply = image.supply().map(power_fails).unwrap_or_default();
     let Some(retain) = image.retain() else {
-        return String::new();
+        return supply;
     };
     let slots = retain.slots.map(|slot| {
         let end = slot.origin + slot.length;
@@ -57,52 +62,59 @@ pub(super) fn drivers(image: &Image) -> String {
     };
     let (name, slots) = (name(retain.memory), slots.join(", "));
     format!(
-        "{BUS}/// The memory that holds latched devices.\nconst fn kept() -> {name}<Bus> {{\n    {name} {{ registers: Bus, slots: [{slots}]{page} }}\n}}\n\n"
+        "{supply}{BUS}/// The memory that holds latched devices.\nconst fn kept() -> {name}<Bus> {{\n    {name} {{ registers: Bus, slots: [{slots}]{page} }}\n}}\n\n"
     )
 }
 
 /// What `main` does before the first scan.
 pub(super) fn load(image: &Image) -> String {
-    let Some(retain) = image.retain() else {
-        return String::new();
-    };
-    let mut text = String::from(
-        "    let mut slots = Slots::open(kept()).ok();\n    if let Some(slots) = &mut slots {\n        \
-         let _ = slots.load(&mut driver.program);\n    }\n",
-    );
-    if retain.power_fail.is_some() {
+    let mut text = String::new();
+    if image.retain().is_some() {
+        text.push_str(
+            "    let mut slots = Slots::open(kept()).ok();\n    if let Some(slots) = &mut slots {\n        \
+             let _ = slots.load(&mut driver.program);\n    }\n",
+        );
+    }
+    if image.supply().is_some() {
         text.push_str("    let mut failed = false;\n");
     }
     text
 }
 
-/// What it does after each scan.
+/// What it does after each scan: it saves latched devices once when power fails, and begins anew when power is back
+/// after the program has stopped.
 pub(super) fn save(image: &Image) -> String {
-    let Some(retain) = image.retain() else {
-        return String::new();
-    };
-    let mut text = String::from("        if let Some(slots) = &mut slots {\n");
-    if let Some(pin) = &retain.power_fail {
+    let mut text = String::new();
+    if image.supply().is_some() {
+        text.push_str("        let fails = power_fails();\n");
+    }
+    if let Some(Retain { every_ms, .. }) = image.retain() {
+        text.push_str("        if let Some(slots) = &mut slots {\n");
+        if image.supply().is_some() {
+            text.push_str(
+                "            if fails && !failed {\n                let _ = slots.save(&driver.program);\n            }\n",
+            );
+        }
         let _ = write!(
             text,
-            "            let fails = {};\n            if fails && !failed {{\n                \
-             let _ = slots.save(&driver.program);\n            }}\n            failed = fails;\n",
-            fails(pin)
+            "            let _ = slots.poll(&driver.program, driver.now_ms(), {every_ms});\n        }}\n"
         );
     }
-    let Retain { every_ms, .. } = retain;
-    let _ = write!(
-        text,
-        "            let _ = slots.poll(&driver.program, driver.now_ms(), {every_ms});\n        }}\n"
-    );
+    if image.supply().is_some() {
+        text.push_str(
+            "        if failed && !fails && !driver.program.sys().running {\n            \
+             driver.program.power_cycle();\n        }\n        failed = fails;\n",
+        );
+    }
     text
 }
 
-/// Whether the supply says that power is about to fail.
-fn fails(pin: &InputPin) -> String {
+/// What says whether power is about to fail.
+fn power_fails(pin: &InputPin) -> String {
     let compare = if pin.inverted { "==" } else { "!=" };
     format!(
-        "read(0x{:08X}) & 0x{:X} {compare} 0",
+        "/// Whether the supply says that power is about to fail.\nfn power_fails() -> bool {{\n    \
+         read(0x{:08X}) & 0x{:X} {compare} 0\n}}\n\n",
         pin.at,
         1u32 << pin.bit
     )

@@ -1,7 +1,7 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers
 //! mean something else than on the other models.
 
-use crate::special::{AXES, MAKER, POWER, Special, TIMING, specials};
+use crate::special::{AXES, MAKER, POWER_ON, Special, TIMING, specials};
 use rungc_rt::modules::Place;
 
 /// Its special devices.
@@ -13,8 +13,8 @@ pub(super) const HM: &[Special] = specials! {
     M 8004 rw 0 scan "run state: on = run, off = stop; writable only with D8004 = HFAC0 and M8005 = off";
     M 8005 rw 0 scan "run control source: on = physical switch, off = remote (by M8004)";
     M 8006 r 0 scan "on when the ladder has a run error";
-    M 8007 r 0 inert(POWER) "external RAM check: on = present and working";
-    M 8008 r 0 inert(POWER) "power failure detection: on = a power failure happened since power-on";
+    M 8007 r 1 scan "external RAM check: on = present and working";
+    M 8008 r 0 inert(POWER_ON) "power failure detection: on = a power failure happened since power-on";
     M 8022 rw 0 by("ROL, ROR, RCL, RCR, SFWR, SFRD") "carry flag of ROL ROR RCL RCR; set by SFRD/SFWR when the pointer exceeds n";
     M 8032-8039 rw 0 by("interrupt routines") "request of external interrupt I000–301";
     M 8040-8042 rw 0 by("interrupt routines") "request of timer interrupt I6–8xx, set when its period has elapsed";
@@ -72,7 +72,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8011 r 0 scan "shortest scan time";
     D 8012 r 0 scan "longest scan time";
     D 8020 rw 0 scan "power-fail retention: 2222 = on";
-    D 8021 r 0 inert(POWER) "measured AD value of the power-fail voltage";
+    D 8021 r 0 inert(POWER_ON) "measured AD value of the power-fail voltage";
     D 8026 r 0 inert(MAKER) "state of chip port group A";
     D 8028 r 0 inert(MAKER) "state of chip port group B";
     D 8030 rw 0 scan "oscilloscope trigger mode: 0 manual, 1 value >= threshold, 2 value <= threshold";
