@@ -165,7 +165,8 @@ fn simulated(folder: &Path, image: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// A folder with a program and boards that save often and rarely, and the cargo for them; `None` where tools are missing.
+/// A folder with a program and boards that save often and rarely, and the cargo for them; `None` where tools are
+/// missing.
 fn boards((name, program): (&str, &str)) -> Option<(TempDir, Command)> {
     let needed = [
         "make",

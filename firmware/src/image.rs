@@ -63,8 +63,8 @@ impl Image<'_> {
         rungc_emit::cycle::keeps_any(self.module).then_some(retain)
     }
 
-    /// The pin by which the supply says that power is about to fail, if that concerns the program: it latches devices, or
-    /// looks at those that show the supply.
+    /// The pin by which the supply says that power is about to fail, if that concerns the program: it latches devices,
+    /// or looks at those that show the supply.
     fn supply(&self) -> Option<&InputPin> {
         let pin = self.board.retain.as_ref()?.power_fail.as_ref()?;
         let asks = rungc_emit::cycle::asks_supply(self.module);

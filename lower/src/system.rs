@@ -106,7 +106,8 @@ impl Lowerer<'_> {
         })
     }
 
-    /// M8037, which a failing power supply sets, too, puts the PLC in STOP and goes off, so that the switch can start it again.
+    /// M8037, which a failing power supply sets, too, puts the PLC in STOP and goes off, so that the switch can start
+    /// it again.
     fn forced_stop(&mut self) {
         let stop = (M, M_FORCED_STOP.number());
         if !self.keeps(M_FORCED_STOP) && !self.specials.flags.contains(&stop) {

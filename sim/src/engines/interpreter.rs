@@ -43,6 +43,15 @@ fn operand(class: Class, number: u32) -> Operand {
     Operand::device(class, i32::try_from(number).unwrap_or(i32::MAX))
 }
 
+/// What happens between two scans.
+fn happen(machine: &mut Machine, hal: &mut VirtualHal, request: Request) {
+    match request {
+        Request::Edge(n, level) => machine.input_edge(hal, n, level),
+        Request::Tick(now_ms) => machine.tick(hal, now_ms),
+        _ => machine.take_interrupts(hal),
+    }
+}
+
 /// What is asked about outputs and their pulses; `None` if it is something else.
 fn sent(machine: &mut Machine, request: Request) -> Option<i64> {
     Some(match request {
@@ -115,16 +124,8 @@ impl Engine for Interpreter<'_> {
                 Answer::Ok
             }
             Request::ConstantScan => Answer::value(Some(machine.constant_scan_ms().unwrap_or(0))),
-            Request::Edge(n, level) => {
-                machine.input_edge(hal, n, level);
-                Answer::Ok
-            }
-            Request::Tick(now_ms) => {
-                machine.tick(hal, now_ms);
-                Answer::Ok
-            }
-            Request::Interrupts => {
-                machine.take_interrupts(hal);
+            Request::Edge(..) | Request::Tick(_) | Request::Interrupts => {
+                happen(machine, hal, request);
                 Answer::Ok
             }
             Request::Output(_)
