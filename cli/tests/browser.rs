@@ -1,6 +1,6 @@
-//! The pages of `rungc view` and `rungc diff` in headless Chromium, driven by playwright and checked for accessibility
-//! by axe. `RUNGC_BROWSER` names a folder with playwright-core and axe-core; Chromium is Debian's. Without them the tests
-//! say so and do not run.
+//! The pages of `rungc view` and `rungc diff` in headless Chromium, driven by playwright and checked for
+//! accessibility by axe. `RUNGC_BROWSER` names a folder with playwright-core and axe-core; Chromium is Debian's.
+//! Without them the tests say so and do not run.
 
 mod common;
 

@@ -29,9 +29,46 @@ fn module(text: &str, model: ModelId) -> Option<Module> {
     Some(module)
 }
 
-/// A program with one line removed, repeated, exchanged with the next one, or with another number in it.
+/// Where networks begin, and END: at an LD after an output.
+fn networks(lines: &[String]) -> Vec<usize> {
+    let logic = ["LD", "AN", "OR", "INV", "ME", "MPS", "MRD", "MPP"];
+    let is_logic = |line: &str| {
+        logic
+            .iter()
+            .any(|start| line.trim_start().starts_with(start))
+    };
+    let begins = |at: &usize| {
+        let line = lines[*at].trim_start();
+        *at == 0 || line == "END" || line.starts_with("LD") && !is_logic(&lines[at - 1])
+    };
+    (0..lines.len()).filter(begins).collect()
+}
+
+/// A program with two networks next to each other, or anywhere, exchanged.
+fn exchanged(mut lines: Vec<String>, rng: &mut Rng) -> String {
+    let starts = networks(&lines);
+    if starts.len() > 3 {
+        let last = starts.len() as u32 - 2;
+        let first = rng.below(last) as usize;
+        let second = match rng.percent(50) {
+            true => first + 1,
+            false => first + 1 + rng.below(last - first as u32) as usize,
+        };
+        let end = starts[second + 1];
+        let (first, second) = (starts[first], starts[second]);
+        let moved: Vec<String> = lines.drain(second..end).collect();
+        lines.splice(first..first, moved);
+    }
+    lines.join("\n") + "\n"
+}
+
+/// A program with one line removed, repeated, exchanged with the next one, or with another number in it; or with a
+/// network that moved.
 fn changed(text: &str, rng: &mut Rng) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_string).collect();
+    if rng.percent(40) {
+        return exchanged(lines, rng);
+    }
     let at = rng.below(lines.len() as u32 - 1) as usize;
     match rng.below(6) {
         0 => _ = lines.remove(at),

@@ -1,21 +1,24 @@
 //! Which devices of two modules can have different values, given the same inputs at the same times.
 //!
 //! Each module becomes a sequence of atoms: its statements, with the conditions and loops around them as separate
-//! values. An atom is a text, what it reads and what it writes. Private memory has names made of what is stored in it,
-//! not of its number, so that the same statement has the same text in both modules. The sequences are aligned. What an
-//! atom writes that only one module has can differ, and so can what an atom writes that reads such a thing; everything
-//! else is computed by the same statements in the same order from the same values, so it is the same. The answer is on
-//! the safe side: what it calls the same is the same, what it calls different may be the same nevertheless.
+//! values. An atom is a text, what it reads and what it writes. Private memory has names made of what is stored in
+//! it, not of its number, so that the same statement has the same text in both modules. The sequences are aligned,
+//! and atoms that moved are found. What an atom writes that only one module has can differ, and so can what moved
+//! atoms read or write in another order, and what an atom writes that reads such a thing; everything else is
+//! computed by the same statements from the same values: what writes a value that is read is the same in both
+//! modules, and comes last before it in both. The answer is on the safe side: what it calls the same is the same,
+//! what it calls different may be the same nevertheless.
 //!
 //! Left out are the watchdog, how long a scan takes, and the steps that errors name where the program does not read
 //! them.
 
 mod atoms;
+mod order;
 
 use crate::node::Module;
 use atoms::{Atom, Names, Sequence, Uses};
 use rungc_rt::special::D_FIRST_ERROR_STEP;
-use rungc_syntax::{DeviceClass, DeviceRun, align};
+use rungc_syntax::{DeviceClass, DeviceRun};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How the behaviour of two modules compares.
@@ -44,14 +47,25 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
     }
     let steps = [old, new].map(reads_steps).contains(&true);
     let mut names = Names::default();
-    let sequences = [old, new].map(|module| Sequence::of(module, &mut names, steps));
+    let sequences = Sequence::of_both([old, new], &mut names, steps);
     let mut taint = Taint::default();
-    let changed = changed(&sequences);
-    for (sequence, changed) in sequences.iter().zip(&changed) {
-        for &at in changed {
-            taint.write(&sequence.atoms[at]);
+    let pairs = order::pairs(&sequences);
+    let kept = [0, 1].map(|side| {
+        pairs
+            .iter()
+            .map(|pair| pair.at[side])
+            .collect::<FxHashSet<_>>()
+    });
+    for (sequence, kept) in sequences.iter().zip(&kept) {
+        for (at, atom) in sequence.atoms.iter().enumerate() {
+            if !kept.contains(&at) {
+                taint.write(atom);
+            }
         }
     }
+    let disorder = order::disorder(&sequences, &pairs);
+    taint.names.extend(disorder.names);
+    disorder.runs.into_iter().for_each(|run| taint.add(run));
     taint.initial(old, new);
     let ports = old.has_ports();
     loop {
@@ -80,32 +94,6 @@ fn reads_steps(module: &Module) -> bool {
     let first = D_FIRST_ERROR_STEP.number();
     let stored = |number| module.layout.area(DeviceClass::D, number).is_some();
     stored(first) || stored(first + 1)
-}
-
-/// The atoms of each sequence that the other does not have at a corresponding place, function by function.
-fn changed(sequences: &[Sequence; 2]) -> [Vec<usize>; 2] {
-    let [old, new] = sequences;
-    let mut kept = [FxHashSet::default(), FxHashSet::default()];
-    for (kind, range) in &old.functions {
-        let Some((_, other)) = new.functions.iter().find(|(other, _)| other == kind) else {
-            continue;
-        };
-        let texts = |sequence: &Sequence, range: &std::ops::Range<usize>| -> Vec<u32> {
-            sequence.atoms[range.clone()]
-                .iter()
-                .map(|atom| atom.text)
-                .collect()
-        };
-        for (a, b) in align::common(&texts(old, range), &texts(new, other)) {
-            kept[0].insert(range.start + a);
-            kept[1].insert(other.start + b);
-        }
-    }
-    let [kept_old, kept_new] = kept;
-    [(old, kept_old), (new, kept_new)].map(|(sequence, kept)| {
-        let all = 0..sequence.atoms.len();
-        all.filter(|at| !kept.contains(at)).collect()
-    })
 }
 
 /// Numbers of devices are below this.

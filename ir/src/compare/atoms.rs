@@ -5,14 +5,14 @@ use crate::node::{
     Module, Send, SetEntry, Stmt, TableId, TempId,
 };
 use crate::reach::{Footprint, of_expr, of_stmt};
-use crate::walk::{for_exprs_mut, operands, operands_mut};
+use crate::walk::{bodies, for_exprs_mut, operands, operands_mut};
 use rungc_rt::Needs;
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// A run of devices: class, first and last number.
-type Run = (DeviceClass, u32, u32);
+pub(super) type Run = (DeviceClass, u32, u32);
 
 /// No model has special devices from 10000 on.
 const LAST_SPECIAL: u32 = 9999;
@@ -50,7 +50,7 @@ impl Names {
 }
 
 /// What an atom reads or writes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Uses {
     pub runs: Vec<Run>,
     /// Temporaries, private memory, conditions, calls.
@@ -65,6 +65,10 @@ pub(super) struct Atom {
     pub text: u32,
     pub reads: Uses,
     pub writes: Uses,
+    /// The function that it calls, by its position.
+    pub calls: Option<usize>,
+    /// Whether it decides what is executed next to it, or uses anything at all, so that nothing moves across it.
+    pub fixed: bool,
 }
 
 /// The atoms of a module.
@@ -75,30 +79,24 @@ pub(super) struct Sequence {
 }
 
 impl Sequence {
-    /// Of a module; `steps` is whether the steps of errors are a part of what it does.
-    pub(super) fn of(module: &Module, names: &mut Names, steps: bool) -> Self {
-        let mut reader = Reader {
-            module,
-            names,
-            steps,
-            atoms: Vec::new(),
-            seen: FxHashMap::default(),
-            temps: FxHashMap::default(),
-            edges: FxHashMap::default(),
-            slots: FxHashMap::default(),
-            exprs: FxHashMap::default(),
-        };
-        let mut functions = Vec::with_capacity(module.functions.len());
-        for function in &module.functions {
-            let start = reader.atoms.len();
-            let context = reader.names.of(format!("function {:?}", function.kind));
-            reader.body(&function.body, context);
-            functions.push((function.kind.clone(), start..reader.atoms.len()));
-        }
-        Sequence {
-            atoms: reader.atoms,
-            functions,
-        }
+    /// Of two modules; `steps` is whether the steps of errors are a part of what they do.
+    ///
+    /// Networks that both have give their private memory names of their own, so that it keeps them wherever they move.
+    pub(super) fn of_both(modules: [&Module; 2], names: &mut Names, steps: bool) -> [Self; 2] {
+        let [old, new] = modules.map(|module| {
+            let mut reader = Reader::of(module, names, steps);
+            let mut found = FxHashSet::default();
+            for function in &module.functions {
+                reader.networks(&function.body, &mut found);
+            }
+            found
+        });
+        let shared: FxHashSet<u32> = old.intersection(&new).copied().collect();
+        modules.map(|module| {
+            let mut reader = Reader::of(module, names, steps);
+            reader.shared = Some(&shared);
+            reader.sequence()
+        })
     }
 }
 
@@ -114,12 +112,77 @@ struct Reader<'a> {
     slots: FxHashMap<u16, u32>,
     /// The texts of expressions.
     exprs: FxHashMap<ExprId, u32>,
+    /// The networks that both modules have, once they are known.
+    shared: Option<&'a FxHashSet<u32>>,
+    /// The network at hand if both modules have it, else 0.
+    network: u32,
+    /// The contexts around the statement at hand, and whether parts are in them between which jumps go.
+    around: Vec<(u32, bool)>,
+    /// The labels before the statement at hand.
+    passed: FxHashSet<u32>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    fn of(module: &'a Module, names: &'a mut Names, steps: bool) -> Self {
+        Reader {
+            module,
+            names,
+            steps,
+            atoms: Vec::new(),
+            seen: FxHashMap::default(),
+            temps: FxHashMap::default(),
+            edges: FxHashMap::default(),
+            slots: FxHashMap::default(),
+            exprs: FxHashMap::default(),
+            shared: None,
+            network: 0,
+            around: Vec::new(),
+            passed: FxHashSet::default(),
+        }
+    }
+
+    fn sequence(mut self) -> Sequence {
+        let module = self.module;
+        let mut functions = Vec::with_capacity(module.functions.len());
+        for function in &module.functions {
+            let start = self.atoms.len();
+            let context = self.names.of(format!("function {:?}", function.kind));
+            self.passed.clear();
+            self.body(&function.body, context, false);
+            functions.push((function.kind.clone(), start..self.atoms.len()));
+        }
+        Sequence {
+            atoms: self.atoms,
+            functions,
+        }
+    }
+
+    /// What the networks of a body are, with those inside its statements.
+    fn networks(&mut self, body: &Body, found: &mut FxHashSet<u32>) {
+        for (at, stmt) in body.iter().enumerate() {
+            if let Stmt::Network(_) = stmt {
+                found.insert(self.alike(&body[at + 1..]));
+            }
+            for inner in bodies(stmt) {
+                self.networks(inner, found);
+            }
+        }
+    }
+
+    /// A name for what the statements up to the next network do, the same for all that do the same.
+    fn alike(&mut self, rest: &[Stmt]) -> u32 {
+        let mut alone = Reader::of(self.module, self.names, self.steps);
+        let stmts = rest.iter();
+        for stmt in stmts.take_while(|stmt| !matches!(stmt, Stmt::Network(_))) {
+            alone.stmt(stmt, 0);
+        }
+        let texts: Vec<u32> = alone.atoms.iter().map(|atom| atom.text).collect();
+        self.names.of(format!("network {texts:?}"))
+    }
+
     /// A name that nothing else in this module has.
     fn unique(&mut self, text: String) -> u32 {
-        let text = self.names.of(text);
+        let text = self.names.of(format!("{} {text}", self.network));
         let count = self.seen.entry(text).or_default();
         *count += 1;
         let name = format!("{text}#{count}");
@@ -130,16 +193,31 @@ impl Reader<'_> {
         let text = self.names.of(text);
         self.atoms.push(Atom {
             text,
+            fixed: reads.all || writes.all,
             reads,
             writes,
+            calls: None,
         });
     }
 
-    /// The atoms of statements that are executed where a context says.
-    fn body(&mut self, body: &Body, context: u32) {
-        for stmt in body {
+    /// The atoms of statements that are executed where a context says; `parts` if jumps go from one part of it to
+    /// another.
+    fn body(&mut self, body: &Body, context: u32, parts: bool) {
+        self.around.push((context, parts));
+        let outer = self.network;
+        for (at, stmt) in body.iter().enumerate() {
+            if let (Stmt::Network(_), Some(shared)) = (stmt, self.shared) {
+                let network = self.alike(&body[at + 1..]);
+                self.network = if shared.contains(&network) {
+                    network
+                } else {
+                    0
+                };
+            }
             self.stmt(stmt, context);
         }
+        self.network = outer;
+        self.around.pop();
     }
 
     fn stmt(&mut self, stmt: &Stmt, context: u32) {
@@ -151,29 +229,41 @@ impl Reader<'_> {
                 otherwise,
             }) => {
                 let [then_context, else_context] = self.header("if", Some(*cond), context);
-                self.body(then, then_context);
-                self.body(otherwise, else_context);
+                self.body(then, then_context, false);
+                self.body(otherwise, else_context, false);
             }
             Stmt::For { count, body } => {
                 let [inside, _] = self.header("for", Some(*count), context);
-                self.body(body, inside);
+                self.body(body, inside, false);
             }
             Stmt::Repeat(repeat) => {
                 let [inside, _] = self.header(&format!("repeat {}", repeat.count), None, context);
-                self.body(&repeat.body, inside);
+                self.body(&repeat.body, inside, false);
             }
             Stmt::Parts(parts) => {
                 let [inside, _] = self.header("parts", None, context);
                 for part in parts {
                     let label = part.label.map(|label| label.0);
-                    self.jump(format!("part {label:?}"), inside);
-                    self.body(&part.body, inside);
+                    self.passed.extend(label);
+                    self.jump(format!("part {label:?}"), inside, vec![inside]);
+                    self.body(&part.body, inside, true);
                 }
             }
-            Stmt::Goto(label) => self.jump(format!("goto {}", label.0), context),
-            Stmt::Return => self.jump("return".to_string(), context),
-            Stmt::Stop => self.jump("stop".to_string(), context),
-            Stmt::Clear { latched } => self.jump(format!("clear {latched}"), context),
+            // A jump back may go on until the watchdog stops the PLC.
+            Stmt::Goto(label) if self.passed.contains(&label.0) => {
+                self.everything(format!("goto {}", label.0), context);
+            }
+            Stmt::Goto(label) => {
+                let outermost = self.around.iter().position(|(_, parts)| *parts);
+                let left = self.contexts(outermost.unwrap_or(0));
+                self.jump(format!("goto {}", label.0), context, left);
+            }
+            Stmt::Return => {
+                let left = self.contexts(0);
+                self.jump("return".to_string(), context, left);
+            }
+            Stmt::Stop => self.everything("stop".to_string(), context),
+            Stmt::Clear { latched } => self.everything(format!("clear {latched}"), context),
             Stmt::CallSub(function) => {
                 let kind = self.module.functions.get(*function as usize);
                 let kind = format!("function {:?}", kind.map(|function| &function.kind));
@@ -184,6 +274,9 @@ impl Reader<'_> {
                 let mut writes = Uses::default();
                 writes.names.push(called);
                 self.push(text, reads, writes);
+                if let Some(last) = self.atoms.last_mut() {
+                    last.calls = Some(*function as usize);
+                }
             }
             Stmt::Let(..)
             | Stmt::Edge(_)
@@ -224,8 +317,25 @@ impl Reader<'_> {
         inside
     }
 
-    /// An atom that decides what is executed, or that reaches everything.
-    fn jump(&mut self, text: String, context: u32) {
+    /// The contexts around the statement at hand, from one on.
+    fn contexts(&self, first: usize) -> Vec<u32> {
+        self.around[first..].iter().map(|(name, _)| *name).collect()
+    }
+
+    /// An atom that decides what else is executed in some contexts.
+    fn jump(&mut self, text: String, context: u32, decided: Vec<u32>) {
+        let mut reads = Uses::default();
+        reads.names.push(context);
+        let writes = Uses {
+            names: decided,
+            ..Uses::default()
+        };
+        self.push(format!("{context} {text}"), reads, writes);
+        self.fix();
+    }
+
+    /// An atom that reaches everything.
+    fn everything(&mut self, text: String, context: u32) {
         let mut reads = Uses::default();
         reads.names.push(context);
         let writes = Uses {
@@ -233,6 +343,13 @@ impl Reader<'_> {
             ..Uses::default()
         };
         self.push(format!("{context} {text}"), reads, writes);
+    }
+
+    /// Nothing moves across the last atom.
+    fn fix(&mut self) {
+        if let Some(last) = self.atoms.last_mut() {
+            last.fixed = true;
+        }
     }
 
     /// The text of an expression.

@@ -270,7 +270,7 @@ impl Placer<'_> {
         for (i, (_, text)) in lines.into_iter().enumerate() {
             self.text(x + BOX + 1, y + i, text);
         }
-        if bottom > y + 3 {
+        if bottom > y + 3 && !self.leaving[state].is_empty() {
             self.down(x + SPINE, y + 2, bottom - 1);
         }
         (BOX + 1 + width + 3, bottom)
@@ -361,8 +361,7 @@ impl Placer<'_> {
             for &(x, end) in &open {
                 self.down(x + SPINE, end - 1, bottom);
             }
-            let double = matches!(meets, Some(Point::Transition(_)));
-            self.across(bottom, x, last, double);
+            self.across(bottom, x, last, parallel);
             bottom += 1;
         }
         let run = Run {
