@@ -3,8 +3,8 @@
 use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
 use crate::{
-    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_RETAIN_H, RUNGC_RT_H, access,
-    board, header, retain, text,
+    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_LANES_H, RUNGC_RETAIN_H,
+    RUNGC_RT_H, access, board, header, lanes, retain, text,
 };
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
@@ -37,7 +37,7 @@ pub struct Part {
 impl Part {
     /// Emits a program. The same module gives the same bytes.
     pub fn new(module: &Module, options: &Options) -> Part {
-        let unit = unit::unit(module, options.main && options.servers);
+        let unit = unit::unit(module, options.main && options.servers, options.lanes);
         let name = &module.name;
         let retain = (options.retain || options.main) && cycle::keeps_any(module);
         let shared = Shared {
@@ -45,6 +45,7 @@ impl Part {
             board: options.board || module.takes_events(),
             access: options.access || retain,
             retain,
+            lanes: options.lanes,
         };
         let mut recipe = Recipe {
             name: name.clone(),
@@ -74,6 +75,12 @@ impl Part {
         }
         if shared.retain {
             pair("retain", [retain::header(module), retain::source(module)]);
+        }
+        if shared.lanes {
+            let path = format!("{name}_lanes.h");
+            let banner = banner(module, &path);
+            let text = lanes::header(module);
+            files.push(OutFile::new(&path, format!("/* {banner} */\n{text}")));
         }
         if options.main {
             let main = crate::host::main_file(module, options.servers);
@@ -110,6 +117,7 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
         board: needed(|shared| shared.board),
         access: needed(|shared| shared.access),
         retain: needed(|shared| shared.retain),
+        lanes: needed(|shared| shared.lanes),
     };
     let mut files = shared.files();
     files.push(OutFile::new("Makefile", makefile::makefile(recipes)));
@@ -163,6 +171,7 @@ fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
         (shared.board, "_board"),
         (shared.access, "_access"),
         (shared.retain, "_retain"),
+        (shared.lanes, "_lanes"),
         (several, "_internal"),
     ];
     let there = kinds.into_iter().filter(|(there, _)| *there);
@@ -234,6 +243,8 @@ pub struct Shared {
     pub access: bool,
     /// Latched devices that survive power-off.
     pub retain: bool,
+    /// Programs of which many instances run at once.
+    pub lanes: bool,
 }
 
 impl Shared {
@@ -245,6 +256,7 @@ impl Shared {
             (self.board, "rungc_board.h"),
             (self.access, "rungc_access.h"),
             (self.retain, "rungc_retain.h"),
+            (self.lanes, "rungc_lanes.h"),
         ];
         let there = kinds.into_iter().filter(|(there, _)| *there);
         there.map(|(_, header)| header)
@@ -258,6 +270,7 @@ impl Shared {
                 "rungc_rt.h" => stamped(&runtime_header(), "RUNGC_RT_H"),
                 "rungc_board.h" => RUNGC_BOARD_H.to_string(),
                 "rungc_access.h" => RUNGC_ACCESS_H.to_string(),
+                "rungc_lanes.h" => RUNGC_LANES_H.to_string(),
                 _ => RUNGC_RETAIN_H.to_string(),
             };
             OutFile::new(path, text)
@@ -378,7 +391,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             name: format!("case{i}"),
             ..module.clone()
         };
-        let unit = unit::unit(&module, true);
+        let unit = unit::unit(&module, true, false);
         batch_entry(i, &module, &mut functions, &mut entries);
         let _ = writeln!(memory, "    case{i}_plc case{i};");
         let size = parts.last().map_or(usize::MAX, |part| part.source.len());
@@ -421,6 +434,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         board: false,
         access: false,
         retain: false,
+        lanes: false,
     };
     files.extend(shared.files());
     let recipe = Recipe {

@@ -25,6 +25,7 @@ mod files;
 mod header;
 mod helpers;
 mod host;
+pub mod lanes;
 mod makefile;
 mod members;
 mod page;
@@ -62,6 +63,9 @@ pub struct Options {
     /// Also `NAME_retain.h`, which saves latched devices to flash, of a program that has any; with `access`, which it
     /// needs.
     pub retain: bool,
+    /// Also `NAME_lanes.h` and its functions, which run [`lanes::LANES`] instances at once, of a program that
+    /// [`lanes::refusal`] has nothing against.
+    pub lanes: bool,
 }
 
 /// The header that all programs share.
@@ -78,6 +82,9 @@ const RUNGC_ACCESS_H: &str = include_str!("../include/rungc_access.h");
 
 /// The header of latched devices that survive power-off.
 const RUNGC_RETAIN_H: &str = include_str!("../include/rungc_retain.h");
+
+/// The header of programs in lanes.
+const RUNGC_LANES_H: &str = include_str!("../include/rungc_lanes.h");
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make`
 /// builds it as `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

@@ -2,7 +2,7 @@
 
 use crate::fields::{PrintField, PrintStorage};
 use crate::writer::{Writer, function_name};
-use crate::{events, header, table};
+use crate::{events, header, lanes, table};
 use rungc_emit::cycle::{self, Asked, Budget, Latches, Shown, Shows};
 use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
@@ -34,7 +34,7 @@ pub struct Unit {
 
 /// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs
 /// it.
-pub fn unit(module: &Module, by_number: bool) -> Unit {
+pub fn unit(module: &Module, by_number: bool, in_lanes: bool) -> Unit {
     let fields = Storage::new(module);
     let plan = Plan::new(module);
     let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
@@ -87,6 +87,13 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     }
     if runtime {
         table::write(&mut groups[0], module, &fields);
+    }
+    if in_lanes {
+        let functions = lanes::source(module, &plan, &fields);
+        match single {
+            true => groups[0].push_str(&functions),
+            false => groups.push(functions),
+        }
     }
     Unit {
         api: header::api(module, &fields, &plan, runtime),

@@ -117,10 +117,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     pub fn function(&mut self, out: &mut String, index: usize, storage: &str) {
         let plan = self.plan;
         let function = &plan.functions[index];
-        self.function = index;
-        self.loops = 0;
-        self.names = 0;
-        self.invariants_named.clear();
+        self.enter(index);
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
         let mut page = Page::new(std::mem::take(out));
         if function.is_idle() {
@@ -146,6 +143,14 @@ impl<'a, 'm> Writer<'a, 'm> {
         }
         *out = page.finish();
         out.push_str("}\n\n");
+    }
+
+    /// What is written now belongs to this function of the plan.
+    pub(crate) fn enter(&mut self, index: usize) {
+        self.function = index;
+        self.loops = 0;
+        self.names = 0;
+        self.invariants_named.clear();
     }
 
     /// Name of a state: `MOTOR_PROGRAM_P12`.
@@ -388,7 +393,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         let _ = write!(out, "{plc}{known}");
     }
 
-    fn network(&mut self, page: &mut Page, network: u32) {
+    pub(crate) fn network(&mut self, page: &mut Page, network: u32) {
         if let Some(network) = self.module.networks.get(network as usize) {
             page.set_off();
             page.comment(&comments::heading(network, text::comment));
@@ -423,7 +428,7 @@ pub fn c_type(ty: Ty) -> &'static str {
     }
 }
 
-fn zero(ty: Ty) -> &'static str {
+pub(crate) fn zero(ty: Ty) -> &'static str {
     match ty {
         Ty::Bit => " = false;",
         Ty::I16 | Ty::I32 => " = 0;",

@@ -1,0 +1,277 @@
+//! Which statements run on whole lanes.
+
+use super::mirror::{Meeting, Met};
+use crate::fields::PrintStorage;
+use rungc_emit::plan::{Flow, Node, Plan};
+use rungc_emit::storage::Storage;
+use rungc_emit::temps::Home;
+use rungc_ir::Module;
+use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
+use rungc_ir::walk::{assigned, operands};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
+
+/// What is known of a program's statements.
+pub(super) struct Classes<'a, 'm> {
+    pub module: &'m Module,
+    pub plan: &'a Plan<'m>,
+    pub fields: &'a Storage<'m>,
+    /// Temporaries that one instance has, not all in lanes.
+    single: BTreeSet<TempId>,
+    /// Timers and counters whose coils always run, since something else writes their values.
+    pub forced: BTreeSet<(DeviceClass, u32)>,
+}
+
+impl<'a, 'm> Classes<'a, 'm> {
+    /// Looks at all functions.
+    pub fn of(module: &'m Module, plan: &'a Plan<'m>, fields: &'a Storage<'m>) -> Self {
+        let temps = plan.temps.iter_enumerated();
+        let single =
+            temps.filter(|&(id, temp)| module.temps[id] != Ty::Bit || temp.home() == Home::Field);
+        let mut classes = Classes {
+            module,
+            plan,
+            fields,
+            single: single.map(|(id, _)| id).collect(),
+            forced: BTreeSet::new(),
+        };
+        let mut meeting = classes.meeting();
+        (0..plan.functions.len()).for_each(|function| meeting.function(function));
+        classes.forced = meeting.met.forced;
+        // A temporary of one instance makes what reads it code of one instance, which may assign others.
+        while classes.add_single() {}
+        classes
+    }
+
+    fn meeting(&self) -> Meeting<'a, 'm> {
+        Meeting {
+            module: self.module,
+            plan: self.plan,
+            fields: self.fields,
+            met: Met::default(),
+        }
+    }
+
+    /// What nodes meet of what is in lanes.
+    pub fn met(&self, nodes: &[Node]) -> Met {
+        let mut meeting = self.meeting();
+        nodes.iter().for_each(|node| meeting.node(node));
+        meeting.met
+    }
+
+    fn add_single(&mut self) -> bool {
+        let before = self.single.len();
+        let plan = self.plan;
+        for function in &plan.functions {
+            self.add_single_of(&function.body);
+        }
+        self.single.len() > before
+    }
+
+    fn add_single_of(&mut self, nodes: &[Node]) {
+        for node in nodes {
+            if let Node::Stmt(stmt) = node
+                && let Some(temp) = assigned(stmt)
+                && !self.slices(node)
+            {
+                self.single.insert(temp);
+            }
+            for body in node.bodies() {
+                self.add_single_of(body);
+            }
+        }
+    }
+
+    /// Whether a function runs as a whole in each instance: it is left before its end.
+    pub fn is_left_early(&self, function: usize) -> bool {
+        let function = &self.plan.functions[function];
+        function.flow != Flow::Void || self.jumps(&function.body)
+    }
+
+    fn jumps(&self, nodes: &[Node]) -> bool {
+        nodes.iter().any(|node| match node {
+            Node::Stmt(stmt) => matches!(stmt, Stmt::Return | Stmt::Goto(_) | Stmt::Watch { .. }),
+            Node::Parts { leaves, .. } => *leaves,
+            Node::Outlined(function) => self.plan.functions[*function].flow != Flow::Void,
+            Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {
+                node.bodies().any(|body| self.jumps(body))
+            }
+        })
+    }
+
+    /// Which of these nodes run on whole lanes. A temporary of one instance keeps all between its first and its last
+    /// use together.
+    pub fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
+        let mut sliced: Vec<bool> = nodes.iter().map(|node| self.slices(node)).collect();
+        let mut uses: Vec<BTreeSet<TempId>> = Vec::with_capacity(nodes.len());
+        for node in nodes {
+            let mut found = BTreeSet::new();
+            self.temps_of(node, &mut found);
+            found.retain(|temp| {
+                self.single.contains(temp) && self.plan.temp(*temp).home() != Home::Field
+            });
+            uses.push(found);
+        }
+        let all: BTreeSet<TempId> = uses.iter().flatten().copied().collect();
+        for temp in all {
+            let first = uses.iter().position(|uses| uses.contains(&temp));
+            let last = uses.iter().rposition(|uses| uses.contains(&temp));
+            if let (Some(first), Some(last)) = (first, last)
+                && (first < last || matches!(nodes[first], Node::Stmt(_)))
+            {
+                sliced[first..=last].fill(false);
+            }
+        }
+        sliced
+    }
+
+    /// All temporaries that a node assigns or reads.
+    fn temps_of(&self, node: &Node, found: &mut BTreeSet<TempId>) {
+        for root in node.roots() {
+            self.temps_read(root, found);
+        }
+        if let Node::Stmt(stmt) = node {
+            found.extend(assigned(stmt));
+        }
+        for body in node.bodies() {
+            body.iter().for_each(|node| self.temps_of(node, found));
+        }
+    }
+
+    /// The temporaries that an expression reads.
+    pub fn temps_read(&self, id: ExprId, found: &mut BTreeSet<TempId>) {
+        let expr = self.module.expr(id);
+        if let Expr::Temp(temp) = *expr {
+            found.insert(temp);
+        }
+        operands(expr).for_each(|operand| self.temps_read(operand, found));
+    }
+
+    /// Whether a temporary is in lanes.
+    pub fn in_lanes(&self, temp: TempId) -> bool {
+        !self.single.contains(&temp)
+    }
+
+    /// Whether a node runs on whole lanes, or its inside may.
+    fn slices(&self, node: &Node) -> bool {
+        match node {
+            Node::Stmt(stmt) => self.slices_stmt(stmt),
+            Node::If { cond, .. } => self.slices_expr(*cond),
+            Node::Repeat(stations) => stations.body.iter().all(|node| self.slices_in_loop(node)),
+            Node::Outlined(function) => !self.is_left_early(*function),
+            Node::For { .. } | Node::Parts { .. } => false,
+        }
+    }
+
+    /// In a loop over stations the whole body does, or none of it.
+    fn slices_in_loop(&self, node: &Node) -> bool {
+        let coil = matches!(
+            node,
+            Node::Stmt(Stmt::Timer(_) | Stmt::Counter16(_) | Stmt::Counter32(_) | Stmt::Reset(_))
+        );
+        !coil
+            && self.slices(node)
+            && node
+                .bodies()
+                .flatten()
+                .all(|node| self.slices_in_loop(node))
+    }
+
+    fn slices_stmt(&self, stmt: &Stmt) -> bool {
+        match stmt {
+            Stmt::Network(_) => true,
+            Stmt::Let(temp, value) => self.in_lanes(*temp) && self.slices_expr(*value),
+            Stmt::Edge(edge) => self.in_lanes(edge.out) && self.slices_expr(edge.input),
+            Stmt::SetFlag(_, value) => self.slices_expr(*value),
+            Stmt::Write(access, value) => {
+                access.kind == AccessKind::Bit
+                    && !matches!(access.place.class, DeviceClass::T | DeviceClass::C)
+                    && self.has_lanes(access.place)
+                    && self.slices_expr(*value)
+            }
+            Stmt::Timer(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
+            Stmt::Counter16(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
+            Stmt::Counter32(coil) => {
+                self.slices_expr(coil.drive)
+                    && self.slices_expr(coil.down)
+                    && self.is_single(coil.preset)
+            }
+            Stmt::Reset(place) => place.index.is_none(),
+            _ => false,
+        }
+    }
+
+    /// Whether the lanes of a place are known where it is named.
+    fn has_lanes(&self, place: Place) -> bool {
+        match place.index.map(|index| self.module.expr(index)) {
+            None => true,
+            Some(Expr::Stride(_, by)) => {
+                let device = (place.class, place.number);
+                self.fields
+                    .access_iteration(&mut String::new(), device, *by, "i")
+            }
+            Some(_) => false,
+        }
+    }
+
+    /// Whether a bit is made of bits in lanes, and of comparisons that each instance can make.
+    pub fn slices_expr(&self, id: ExprId) -> bool {
+        match *self.module.expr(id) {
+            Expr::Temp(temp) => self.in_lanes(temp),
+            Expr::Not(a) => self.slices_expr(a),
+            Expr::And(a, b) | Expr::Or(a, b) => self.slices_expr(a) && self.slices_expr(b),
+            _ => self.is_lanes(id) || self.is_single(id),
+        }
+    }
+
+    /// Whether a bit by itself is in lanes, or the same in all.
+    pub fn is_lanes(&self, id: ExprId) -> bool {
+        let expr = self.module.expr(id);
+        match *expr {
+            Expr::Bit(_) | Expr::Flag(_) | Expr::Sys(SysValue::Running | SysValue::FirstScan) => {
+                true
+            }
+            _ => expr.as_bit().is_some_and(|place| self.has_lanes(place)),
+        }
+    }
+
+    /// Whether an expression looks at nothing that is in lanes, so that each instance has all of it.
+    fn is_single(&self, id: ExprId) -> bool {
+        let mut temps = BTreeSet::new();
+        self.temps_read(id, &mut temps);
+        let mut meeting = self.meeting();
+        meeting.expr(id);
+        let met = meeting.met;
+        let bits = met
+            .devices
+            .iter()
+            .any(|(class, _)| !matches!(class, DeviceClass::T | DeviceClass::C));
+        temps.is_empty() && !bits && met.flags.is_empty() && !self.has_stride(id)
+    }
+
+    fn has_stride(&self, id: ExprId) -> bool {
+        let expr = self.module.expr(id);
+        let strides = match *expr {
+            Expr::Stride(..) => true,
+            Expr::Read(access) => access
+                .place
+                .index
+                .is_some_and(|index| self.has_stride(index)),
+            _ => false,
+        };
+        strides || operands(expr).any(|operand| self.has_stride(operand))
+    }
+
+    /// Whether all instances have the same value: it is made of constants and of what the scan driver knows.
+    pub fn is_uniform(&self, id: ExprId) -> bool {
+        let expr = self.module.expr(id);
+        let known = match expr {
+            Expr::InRange { place, .. } => place.index.is_none(),
+            _ => !matches!(
+                expr,
+                Expr::Read(_) | Expr::Temp(_) | Expr::Cell(_) | Expr::Entry(..) | Expr::Flag(_)
+            ),
+        };
+        known && operands(expr).all(|operand| self.is_uniform(operand))
+    }
+}
