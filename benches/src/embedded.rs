@@ -147,6 +147,7 @@ fn build(ladder: &Ladder, code: Code, level: Level, folder: &Path) -> Build {
     let prefix = match code {
         Code::Hand => "hand",
         Code::C => "c",
+        Code::Lanes => "lanes",
         Code::Rust => "rust",
     };
     let parts = match code {

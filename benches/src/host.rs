@@ -47,10 +47,11 @@ pub struct Outcome {
 }
 
 impl Timed {
-    /// The fastest round, in nanoseconds a scan.
+    /// The fastest round, in nanoseconds a scan of one instance.
     pub fn fastest(&self) -> Option<f64> {
         let outcome = self.result.as_ref().ok()?;
-        outcome.times.iter().copied().reduce(f64::min)
+        let fastest = outcome.times.iter().copied().reduce(f64::min)?;
+        Some(fastest / f64::from(self.code.instances()))
     }
 
     /// How many times as long as `other` it takes: the median of all rounds, since both had their turns in each.
@@ -66,7 +67,8 @@ impl Timed {
     fn compared(&self, other: &Timed, by: impl Fn(f64, f64) -> f64) -> Option<f64> {
         let (mine, others) = (self.result.as_ref().ok()?, other.result.as_ref().ok()?);
         let pairs = mine.times.iter().zip(&others.times);
-        median(pairs.map(|(a, b)| by(*a, *b)).collect())
+        let [mine, others] = [self, other].map(|timed| f64::from(timed.code.instances()));
+        median(pairs.map(|(a, b)| by(a / mine, b / others)).collect())
     }
 
     /// The hand-written C that it is to be compared with: compiled by the same compiler, else by the first.
@@ -96,7 +98,7 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
     let folder = tools::folder()?;
     let mut builds = Vec::new();
     for compiler in compilers {
-        for code in [Code::Hand, Code::C] {
+        for code in [Code::Hand, Code::C, Code::Lanes] {
             builds.push(build_c(ladder, code, compiler, folder.path()));
         }
     }
@@ -129,6 +131,7 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
 fn build_c(ladder: &Ladder, code: Code, compiler: &str, folder: &Path) -> Build {
     let prefix = match code {
         Code::Hand => format!("hand_{compiler}"),
+        Code::Lanes => format!("lanes_{compiler}"),
         _ => format!("c_{compiler}"),
     };
     let objects = tools::need(&[compiler]).and_then(|()| {
@@ -262,6 +265,7 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
                     row.push(Cell::number(fastest / f64::from(ladder.steps), 4));
                     let hands = all.iter().filter(|t| t.code == Code::Hand);
                     row.extend(hands.map(|hand| match timed.ratio(hand) {
+                        Some(ratio) if ratio < 0.1 => Cell::number(ratio, 4),
                         Some(ratio) => Cell::number(ratio, 2),
                         None => "–".into(),
                     }));

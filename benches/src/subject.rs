@@ -4,6 +4,7 @@
 use crate::ladder::{Device, FLAGS, Ladder, TERMINALS, hand};
 use crate::problem::{Problem, Result};
 use crate::tools;
+use rungc_codegen_c::lanes::LANES;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
@@ -14,6 +15,9 @@ use std::process::Command;
 
 /// What all adaptors share.
 const SUBJECT_H: &str = include_str!("../templates/subject.h");
+
+/// The adaptor of emitted C that runs many instances.
+const LANES_ADAPTOR: &str = include_str!("../templates/lanes.c");
 
 /// The adaptor of emitted Rust.
 const RUST_ADAPTOR: &str = include_str!("../templates/adaptor.rs");
@@ -35,16 +39,24 @@ pub enum Code {
     Hand,
     /// What rungc emits.
     C,
+    /// What rungc emits for many instances at once.
+    Lanes,
     /// What rungc emits.
     Rust,
 }
 
 impl Code {
+    /// How many instances of the program one scan is of.
+    pub fn instances(self) -> u32 {
+        if self == Code::Lanes { LANES } else { 1 }
+    }
+
     /// For tables.
     pub fn title(self) -> &'static str {
         match self {
             Code::Hand => "hand-written C",
             Code::C => "emitted C",
+            Code::Lanes => "emitted C, 64 instances",
             Code::Rust => "emitted Rust",
         }
     }
@@ -233,6 +245,54 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
     })
 }
 
+/// C that rungc emits for many instances. An input changes in half of them at random, and in the first one always, which
+/// is what is compared.
+fn lanes(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
+    let folder = folder.join(prefix);
+    let module = module(ladder, prefix)?;
+    let options = rungc_codegen_c::Options {
+        lanes: true,
+        ..rungc_codegen_c::Options::default()
+    };
+    let mut program = Vec::new();
+    for file in rungc_codegen_c::emit(&module, &options) {
+        tools::write(&folder.join(&file.path), &file.contents)?;
+        if file.path.ends_with(".c") {
+            program.push(file.path);
+        }
+    }
+    let members = rungc_codegen_c::Members::new(&module);
+    let (mut input_list, mut device_list) = (String::new(), String::new());
+    for (class, number) in inputs() {
+        // Writing to a String does not fail, here and below.
+        let _ = match members.of(class, number) {
+            Some(place) => writeln!(input_list, "    &all.{place},"),
+            None => writeln!(input_list, "    &nowhere,"),
+        };
+    }
+    let place = |(class, number): Device| members.of(class, number);
+    let devices = compared(ladder, place)?;
+    for (place, bytes) in &devices {
+        let _ = match (bytes, place.strip_suffix(".done")) {
+            (1, Some(contact)) => writeln!(device_list, "    {{&all.{contact}, 1}},"),
+            (1, None) => writeln!(device_list, "    {{&all.{place}, 1}},"),
+            _ => writeln!(device_list, "    {{&all.lane[0].{place}, {bytes}}},"),
+        };
+    }
+    let adaptor = LANES_ADAPTOR
+        .replace("@PREFIX@", prefix)
+        .replace("@UNUSED@\n", &"    &unused,\n".repeat(inputs().count()))
+        .replace("@INPUTS@\n", &input_list)
+        .replace("@DEVICES@\n", &device_list)
+        .replace("@COUNT@", &devices.len().to_string());
+    tools::write(&folder.join("adaptor.c"), &adaptor)?;
+    Ok(CSubject {
+        prefix: prefix.to_string(),
+        folder,
+        program,
+    })
+}
+
 fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String> {
     let members = rungc_codegen_rust::Members::new(module);
     let place = |(class, number): Device| members.of(class, number);
@@ -267,6 +327,7 @@ impl CSubject {
         match code {
             Code::Hand => hand(ladder, prefix, folder),
             Code::C => emitted_c(ladder, prefix, folder),
+            Code::Lanes => lanes(ladder, prefix, folder),
             Code::Rust => Err(Problem::Wrong("Rust is not C".to_string())),
         }
     }

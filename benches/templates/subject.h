@@ -57,6 +57,8 @@ static inline uint32_t checksum(const struct subject *subject, uint32_t sum)
         uint32_t value = at[0];
         if (subject->devices[i].bytes == 2) {
             value |= (uint32_t)at[1] << 8;
+        } else {
+            value &= 1u; /* of the first instance */
         }
         sum = (sum ^ value) * 16777619u;
     }

@@ -293,6 +293,10 @@ pub struct Plan {
     /// (docs/src/retain.md). Emitted Rust has `Program::retained` for this.
     #[arg(long)]
     pub retain: bool,
+    /// Add NAME_lanes.h and rungc_lanes.h to emitted C: run this many instances of the program at once, a bit device of
+    /// all of them in one word (docs/src/lanes.md).
+    #[arg(long, value_name = "N", value_parser = ["64"])]
+    pub lanes: Option<String>,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,

@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// How much of an expression stands in one place.
-const LIMITS: Limits = Limits {
+pub(crate) const LIMITS: Limits = Limits {
     depth: 12,
     shared: 8,
     plain: 256,

@@ -10,6 +10,7 @@ use super::{
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
 use crate::report::Reporter;
+use rungc_codegen_c::lanes;
 use rungc_emit::OutFile;
 use rungc_firmware::board::{self, Board, Retain, RetainMemory};
 use rungc_firmware::build::Tools;
@@ -207,6 +208,12 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::C if args.retain && args.board.is_some() => wrong(
             "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
         ),
+        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Ir | Emit::Rust if args.lanes.is_some() => {
+            wrong("--lanes only applies to --emit c (docs/src/lanes.md)")
+        }
+        Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
+            "--lanes does not apply to the sources of an image; emit the program without --board",
+        ),
         Emit::Lib | Emit::Elf | Emit::Ir if args.servers => wrong(NO_SERVERS),
         Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
         Emit::Bin if target.is_bare() => {
@@ -385,6 +392,7 @@ impl Job<'_> {
             servers: self.plan.servers,
             access: self.plan.device_access,
             retain: self.plan.retain,
+            lanes: self.plan.lanes.is_some(),
             ..sources::Options::default()
         }
     }
@@ -407,8 +415,21 @@ impl Job<'_> {
         given.unwrap_or_else(|| default_output(emit, self.name).into())
     }
 
+    /// Says what keeps the program from running in lanes, if that is asked for.
+    fn check_lanes(&self) -> Built<()> {
+        let refusal = lanes::refusal(self.module).filter(|_| self.plan.lanes.is_some());
+        match refusal {
+            Some(why) => Err(Failure::Because(format!(
+                "--lanes: {} {why}, which only one instance at a time can do (docs/src/lanes.md)",
+                self.module.name
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// Writes what was asked for; returns where, or `None` for standard output.
     fn emit(&self, what: Emit) -> Built<Option<PathBuf>> {
+        self.check_lanes()?;
         let (module, name, main) = (self.module, &self.module.name, self.plan.main);
         let path = match what {
             Emit::Ir => return self.ir(),
@@ -439,6 +460,7 @@ impl Job<'_> {
 
     /// Writes the program beside those that it shares files with.
     fn share(&self, together: &mut Together) -> Built<PathBuf> {
+        self.check_lanes()?;
         let path = self.output(Emit::C);
         let place = Place {
             folder: parent_dir(&path).to_owned(),

@@ -197,7 +197,27 @@ impl<'a, 'm> Classes<'a, 'm> {
                     && self.is_single(coil.preset)
             }
             Stmt::Reset(place) => place.index.is_none(),
-            _ => false,
+            Stmt::SetCell(..)
+            | Stmt::SetEntry(_)
+            | Stmt::Block(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16At(_)
+            | Stmt::Count(_)
+            | Stmt::If(_)
+            | Stmt::For { .. }
+            | Stmt::Repeat(_)
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => false,
         }
     }
 
@@ -216,23 +236,25 @@ impl<'a, 'm> Classes<'a, 'm> {
 
     /// Whether a bit is made of bits in lanes, and of comparisons that each instance can make.
     pub fn slices_expr(&self, id: ExprId) -> bool {
-        match *self.module.expr(id) {
-            Expr::Temp(temp) => self.in_lanes(temp),
-            Expr::Not(a) => self.slices_expr(a),
-            Expr::And(a, b) | Expr::Or(a, b) => self.slices_expr(a) && self.slices_expr(b),
-            _ => self.is_lanes(id) || self.is_single(id),
+        let expr = *self.module.expr(id);
+        if let Expr::Temp(temp) = expr {
+            return self.in_lanes(temp);
         }
+        let is_gate = matches!(expr, Expr::Not(_) | Expr::And(..) | Expr::Or(..));
+        if is_gate {
+            return operands(&expr).all(|operand| self.slices_expr(operand));
+        }
+        self.is_lanes(id) || self.is_single(id)
     }
 
     /// Whether a bit by itself is in lanes, or the same in all.
     pub fn is_lanes(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
-        match *expr {
-            Expr::Bit(_) | Expr::Flag(_) | Expr::Sys(SysValue::Running | SysValue::FirstScan) => {
-                true
-            }
-            _ => expr.as_bit().is_some_and(|place| self.has_lanes(place)),
-        }
+        let known = matches!(
+            expr,
+            Expr::Bit(_) | Expr::Flag(_) | Expr::Sys(SysValue::Running | SysValue::FirstScan)
+        );
+        known || expr.as_bit().is_some_and(|place| self.has_lanes(place))
     }
 
     /// Whether an expression looks at nothing that is in lanes, so that each instance has all of it.
@@ -251,27 +273,17 @@ impl<'a, 'm> Classes<'a, 'm> {
 
     fn has_stride(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
-        let strides = match *expr {
-            Expr::Stride(..) => true,
-            Expr::Read(access) => access
-                .place
-                .index
-                .is_some_and(|index| self.has_stride(index)),
-            _ => false,
-        };
-        strides || operands(expr).any(|operand| self.has_stride(operand))
+        matches!(expr, Expr::Stride(..)) || operands(expr).any(|operand| self.has_stride(operand))
     }
 
     /// Whether all instances have the same value: it is made of constants and of what the scan driver knows.
     pub fn is_uniform(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
-        let known = match expr {
-            Expr::InRange { place, .. } => place.index.is_none(),
-            _ => !matches!(
-                expr,
-                Expr::Read(_) | Expr::Temp(_) | Expr::Cell(_) | Expr::Entry(..) | Expr::Flag(_)
-            ),
-        };
-        known && operands(expr).all(|operand| self.is_uniform(operand))
+        let own = matches!(
+            expr,
+            Expr::Read(_) | Expr::Temp(_) | Expr::Cell(_) | Expr::Entry(..) | Expr::Flag(_)
+        );
+        let found = matches!(expr, Expr::InRange { place, .. } if place.index.is_some());
+        !own && !found && operands(expr).all(|operand| self.is_uniform(operand))
     }
 }

@@ -112,7 +112,27 @@ impl Meeting<'_, '_> {
             // The special devices that show an error, and all that is cleared.
             Stmt::Fault { .. } => self.all(FIRST_SPECIAL),
             Stmt::Clear { .. } => self.all(0),
-            _ => {}
+            Stmt::Network(_)
+            | Stmt::Let(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(_)
+            | Stmt::Write(..)
+            | Stmt::Block(_)
+            | Stmt::TimerAt(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::If(_)
+            | Stmt::For { .. }
+            | Stmt::Repeat(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Watch { .. }
+            | Stmt::Stop => {}
         }
     }
 
@@ -136,7 +156,7 @@ impl Meeting<'_, '_> {
     }
 
     fn footprint(&mut self, used: Footprint, forces: bool) {
-        let Place { class, number, .. } = used.place;
+        let Place { class, .. } = used.place;
         let reached = used.reach(self.module.model, &self.module.exprs);
         for (first, last) in reached {
             for number in first..=last {
@@ -146,7 +166,6 @@ impl Meeting<'_, '_> {
                 }
             }
         }
-        let _ = number;
     }
 
     fn device(&mut self, class: DeviceClass, number: u32, writes: bool) {

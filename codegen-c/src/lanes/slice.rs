@@ -7,16 +7,17 @@ use crate::devices::run_timer;
 use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::page::Page;
-use crate::writer::{Writer, c_type, zero};
+use crate::writer::{LIMITS, Writer, c_type, zero};
 use rungc_emit::plan::{Node, Stations};
-use rungc_emit::stations;
 use rungc_emit::temps::Home;
+use rungc_emit::{parts, stations};
 use rungc_ir::node::{
-    Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Place, Stmt, SysValue, TempId, TimerCoil,
+    Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Place, Stmt, SysValue, TempId, TimerCoil, Ty,
 };
 use rungc_ir::walk::assigned;
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass;
+use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
 /// Writes the functions of a program in lanes.
@@ -32,6 +33,8 @@ pub(super) struct Slicer<'a, 'm> {
     pub singles: bool,
     /// Names given in this function.
     names: u32,
+    /// Names of parts of the current statement's expressions.
+    named: FxHashMap<ExprId, String>,
 }
 
 impl<'a, 'm> Slicer<'a, 'm> {
@@ -43,6 +46,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
             iteration: None,
             singles: false,
             names: 0,
+            named: FxHashMap::default(),
         }
     }
 
@@ -194,7 +198,23 @@ impl<'a, 'm> Slicer<'a, 'm> {
         page.line(&format!("{own}_plc *const plc = &all->lane[l];"));
     }
 
+    /// Gives names to inner parts of expressions whose shared parts would make the text explode.
+    fn name_parts(&mut self, page: &mut Page, roots: &[ExprId]) {
+        self.named.clear();
+        let (module, mask) = (self.classes.module, self.mask.clone());
+        for e in parts::named(module, &self.classes.plan.sizes, roots, LIMITS) {
+            if module.ty(e) == Ty::Bit && self.classes.slices_expr(e) {
+                self.names += 1;
+                let name = format!("part{}", self.names);
+                let value = self.bits(page, e, mask.as_deref());
+                page.line(&format!("const plc_lanes {name} = {value};"));
+                self.named.insert(e, name);
+            }
+        }
+    }
+
     fn node(&mut self, page: &mut Page, node: &Node<'m>) {
+        self.name_parts(page, &node.roots());
         match node {
             Node::Stmt(Stmt::Network(network)) => self.writer.network(page, *network),
             Node::Stmt(stmt) => self.stmt(page, stmt),
@@ -234,6 +254,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
     fn branch(&mut self, page: &mut Page, cond: ExprId, then: &[Node<'m>], otherwise: &[Node<'m>]) {
         let outer = self.mask.take();
         let on = self.bits(page, cond, outer.as_deref());
+        self.named.clear();
         self.names += 1;
         let (on_name, off_name) = (format!("on{}", self.names), format!("off{}", self.names));
         page.open("{");
@@ -266,30 +287,33 @@ impl<'a, 'm> Slicer<'a, 'm> {
         self.mask = outer;
     }
 
+    /// Writes a statement that [`Classes`] lets run on whole lanes.
     fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
         let mask = self.mask.clone();
-        match stmt {
-            Stmt::Let(temp, value) if self.classes.plan.temp(*temp).used > 0 => {
-                let value = self.bits(page, *value, mask.as_deref());
-                self.let_temp(page, *temp, &value);
+        if let Stmt::Let(temp, value) = *stmt {
+            if self.classes.plan.temp(temp).used > 0 {
+                let value = self.bits(page, value, mask.as_deref());
+                self.let_temp(page, temp, &value);
             }
-            Stmt::Edge(edge) => self.edge(page, edge),
-            Stmt::SetFlag(flag, value) => {
-                let value = self.bits(page, *value, mask.as_deref());
-                let flag = format!("all->{}", self.classes.module.flags[*flag].name);
-                self.put(page, &flag, &value);
+        } else if let Stmt::Edge(edge) = stmt {
+            self.edge(page, edge);
+        } else if let Stmt::SetFlag(flag, value) = *stmt {
+            let value = self.bits(page, value, mask.as_deref());
+            let flag = format!("all->{}", self.classes.module.flags[flag].name);
+            self.put(page, &flag, &value);
+        } else if let Stmt::Write(access, value) = *stmt {
+            if let Some(target) = self.place(&access.place) {
+                let value = self.bits(page, value, mask.as_deref());
+                self.put(page, &target, &value);
             }
-            Stmt::Write(access, value) => {
-                if let Some(target) = self.place(&access.place) {
-                    let value = self.bits(page, *value, mask.as_deref());
-                    self.put(page, &target, &value);
-                }
-            }
-            Stmt::Timer(coil) => self.timer(page, coil),
-            Stmt::Counter16(coil) => self.counter16(page, coil),
-            Stmt::Counter32(coil) => self.counter32(page, coil),
-            Stmt::Reset(place) => self.reset(page, place),
-            _ => {}
+        } else if let Stmt::Timer(coil) = stmt {
+            self.timer(page, coil);
+        } else if let Stmt::Counter16(coil) = stmt {
+            self.counter16(page, coil);
+        } else if let Stmt::Counter32(coil) = stmt {
+            self.counter32(page, coil);
+        } else if let Stmt::Reset(place) = stmt {
+            self.reset(page, place);
         }
     }
 
@@ -297,7 +321,9 @@ impl<'a, 'm> Slicer<'a, 'm> {
         let known = self.classes.plan.temp(temp);
         match known.home() {
             Home::Constant => page.line(&format!("const plc_lanes lanes_{known} = {value};")),
-            _ => self.put(page, &format!("lanes_{known}"), value),
+            Home::Variable(_) | Home::Field => {
+                self.put(page, &format!("lanes_{known}"), value);
+            }
         }
     }
 
@@ -472,22 +498,36 @@ impl<'a, 'm> Slicer<'a, 'm> {
 
     /// A bit as an expression on lanes. What each instance has to find out by itself is found out before it.
     fn bits(&mut self, page: &mut Page, id: ExprId, mask: Option<&str>) -> String {
-        match *self.classes.module.expr(id) {
-            Expr::Bit(true) => "PLC_ALL_LANES".to_string(),
-            Expr::Bit(false) => "(plc_lanes)0".to_string(),
-            Expr::Temp(temp) => format!("lanes_{}", self.classes.plan.temp(temp)),
-            Expr::Not(a) => format!("~{}", self.bits(page, a, mask)),
-            Expr::And(a, b) => self.pair(page, a, "&", b, mask),
-            Expr::Or(a, b) => self.pair(page, a, "|", b, mask),
-            Expr::Flag(flag) => format!("all->{}", self.classes.module.flags[flag].name),
-            Expr::Sys(SysValue::Running) => "PLC_ALL_LANES".to_string(),
-            Expr::Sys(SysValue::FirstScan) => "plc_all_lanes(all->sys.first_scan)".to_string(),
-            ref expr => match expr.as_bit() {
-                Some(place) if self.classes.is_lanes(id) => self
-                    .place(&place)
-                    .unwrap_or_else(|| "(plc_lanes)0".to_string()),
-                _ => self.found_out(page, id, mask),
-            },
+        if let Some(name) = self.named.get(&id) {
+            return name.clone();
+        }
+        let expr = *self.classes.module.expr(id);
+        if let Expr::Bit(on) = expr {
+            return if on { "PLC_ALL_LANES" } else { "(plc_lanes)0" }.to_string();
+        }
+        if let Expr::Temp(temp) = expr {
+            return format!("lanes_{}", self.classes.plan.temp(temp));
+        }
+        if let Expr::Not(a) = expr {
+            return format!("~{}", self.bits(page, a, mask));
+        }
+        if let Expr::And(a, b) = expr {
+            return self.pair(page, a, "&", b, mask);
+        }
+        if let Expr::Or(a, b) = expr {
+            return self.pair(page, a, "|", b, mask);
+        }
+        if let Expr::Flag(flag) = expr {
+            return format!("all->{}", self.classes.module.flags[flag].name);
+        }
+        if let Expr::Sys(SysValue::Running) = expr {
+            return "PLC_ALL_LANES".to_string();
+        }
+        match expr.as_bit() {
+            Some(place) if self.classes.is_lanes(id) => self
+                .place(&place)
+                .unwrap_or_else(|| "(plc_lanes)0".to_string()),
+            _ => self.found_out(page, id, mask),
         }
     }
 
