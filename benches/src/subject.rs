@@ -245,8 +245,8 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
     })
 }
 
-/// C that rungc emits for many instances. An input changes in half of them at random, and in the first one always, which
-/// is what is compared.
+/// C that rungc emits for many instances. An input changes in half of them at random, and always in the first,
+/// which is what is compared.
 fn lanes(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
     let folder = folder.join(prefix);
     let module = module(ladder, prefix)?;

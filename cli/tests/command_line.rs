@@ -639,6 +639,41 @@ fn certain_fixes_are_applied() {
     assert_eq!(std::fs::read(folder.path().join("gbk.il")).unwrap(), gbk);
 }
 
+#[test]
+fn lanes_are_for_emitted_c_of_programs_that_can_share_a_scan() {
+    let pulses = "LD X000\nPLSY K1000 K500 Y000\nEND\n";
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("pulses.il", pulses.as_bytes()),
+    ]);
+    let path = folder.path();
+    let build = |file: &str, emit: &str| {
+        let args = ["build", file, "--emit", emit, "--lanes", "64", "-o", "out"];
+        let output = rungc(path, &args);
+        let text = text(&output.stderr);
+        (
+            output.status.code(),
+            text.lines().last().map(str::to_string),
+        )
+    };
+    assert_eq!(build("motor.il", "c").0, Some(0));
+    assert!(path.join("out/motor_lanes.h").is_file());
+    for (file, emit, says) in [
+        (
+            "motor.il",
+            "rust",
+            "rungc: --lanes only applies to --emit c (docs/src/lanes.md)",
+        ),
+        (
+            "pulses.il",
+            "c",
+            "rungc: --lanes: pulses sends pulses, which only one instance at a time can do (docs/src/lanes.md)",
+        ),
+    ] {
+        assert_eq!(build(file, emit), (Some(2), Some(says.to_string())));
+    }
+}
+
 /// `access` of rungc.toml counts where C is emitted; on the command line it goes with C alone.
 #[test]
 fn device_access_is_for_emitted_c() {
