@@ -98,7 +98,9 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
     let folder = tools::folder()?;
     let mut builds = Vec::new();
     for compiler in compilers {
-        for code in [Code::Hand, Code::C, Code::Lanes] {
+        // What calls the runtime does not run in lanes.
+        let lanes = (!ladder.kind.calls()).then_some(Code::Lanes);
+        for code in [Code::Hand, Code::C].into_iter().chain(lanes) {
             builds.push(build_c(ladder, code, compiler, folder.path()));
         }
     }
