@@ -7,6 +7,7 @@ use crate::partner::{Partner, Registers};
 use crate::plc::{Plc, module};
 use crate::random::Random;
 use crate::text::Bytes;
+use rungc_rt::comm::CAN_PORT;
 use std::fmt;
 
 /// How long a PLC may take to answer, or a master to ask, in microseconds: an answer with an end that does not come is
@@ -57,12 +58,12 @@ fn bad(
         // Cut.
         0 => frame.truncate(1 + random.below(frame.len() - 1)),
         // One bit is wrong. Frames of CAN carry no sum: the adapter has checked it.
-        1 if partner.name != "can" => {
+        1 if partner.port != CAN_PORT => {
             let at = random.below(frame.len());
             frame[at] ^= 1 << random.below(bits);
         }
         // A piece is lost from its middle.
-        2 if partner.name != "can" => {
+        2 if partner.port != CAN_PORT => {
             let at = 1 + random.below(frame.len() - 2);
             frame.remove(at);
         }
@@ -134,7 +135,11 @@ pub fn run(partner: &Partner, frames: usize, seed: u64) -> Outcome {
         plc.feed(&good.frame);
         if good.answer.is_empty() {
             // Until the next scan has seen it.
-            let pause_us = if partner.name == "can" { 12_000 } else { 3000 };
+            let pause_us = if partner.port == CAN_PORT {
+                12_000
+            } else {
+                3000
+            };
             plc.wait(if partner.plc_asks { 4000 } else { pause_us });
         } else {
             let answer = plc.answer(PATIENCE_US);

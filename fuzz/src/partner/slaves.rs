@@ -1,9 +1,11 @@
 //! Lines on which the PLC answers.
 
-use super::{Good, Partner, Registers, register};
+use super::{COUNT, Good, Partner, Registers, register};
 use crate::random::Random;
 use crate::text::{ACK, Bytes, ascii, data, enq, rtu, stx, words};
 use rungc_models::ModelId;
+use rungc_rt::comm::canlink::{Head, Kind};
+use rungc_rt::comm::{CAN_PORT, CanFrame};
 
 /// A slave whose frames are its own business.
 const SLAVE: Partner = Partner {
@@ -180,7 +182,7 @@ pub(super) const SLAVES: &[Partner] = &[
     },
     Partner {
         name: "can",
-        port: 4,
+        port: CAN_PORT,
         program: "LD M8000\nCANRX H0 H200 D100 K8\nEND\n",
         seven_bits: false,
         good: |_, random, registers| {
@@ -199,7 +201,49 @@ pub(super) const SLAVES: &[Partner] = &[
         seal: |body| format!("t200{}\r", String::from_utf8_lossy(body)).into_bytes(),
         ..SLAVE
     },
+    Partner {
+        name: "canlink",
+        port: CAN_PORT,
+        program: "LD M8000\nCANNET K2 K1 K0\nCANNODE K3 K2\nEND\n",
+        seven_bits: false,
+        good: |_, random, registers| {
+            let sent = [(); 4].map(|()| random.word());
+            let first = 100 + random.below(COUNT);
+            registers.set(first, &sent);
+            // From station 1 to this one, or from station 3 to all.
+            let receiver = [(1, 2), (3, 3)][random.below(2)];
+            Good {
+                frame: canlink(Kind::Words, receiver, first as u16, &sent),
+                answer: Bytes::new(),
+            }
+        },
+        wrong: |_, random| {
+            let sent = [(); 4].map(|()| random.word());
+            match random.below(6) {
+                0 => canlink(Kind::Words, (1, 3), 100, &sent),
+                1 => canlink(Kind::Words, (1, 1), 100, &sent),
+                2 => canlink(Kind::Words, (1, 2), 7800 + sent[0] % 8000, &sent),
+                3 => canlink(Kind::Command, (3, 3), 0, &[]),
+                4 => canlink(Kind::Heartbeat, (3, 0), 100, &sent),
+                _ => b"T08108064312345\r".to_vec(),
+            }
+        },
+        seal: |body| format!("T{}\r", String::from_utf8_lossy(body)).into_bytes(),
+        ..SLAVE
+    },
 ];
+
+/// A frame of CANlink from a station to one.
+fn canlink(kind: Kind, (sender, receiver): (u8, u8), register: u16, sent: &[u16]) -> Bytes {
+    let head = Head {
+        kind,
+        sender,
+        receiver,
+        register,
+    };
+    let id = head.id() & !CanFrame::EXTENDED;
+    format!("T{id:08X}{}{}\r", 2 * sent.len(), words(sent)).into_bytes()
+}
 
 fn modbus(random: &mut Random, registers: &mut Registers, seal: fn(&[u8]) -> Bytes) -> Good {
     let (number, value, write) = register(random, registers);

@@ -5,9 +5,10 @@ use super::Target;
 use crate::plc::{Plc, module};
 use crate::text::{ascii, enq, rtu, stx};
 use rungc_models::ModelId;
+use rungc_rt::comm::canlink::Head;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
 use rungc_rt::comm::modbus::{self, Buffer, Framing, Job, tcp};
-use rungc_rt::comm::{Cut, Frame, Map, Memory, Served, fx_port, mc};
+use rungc_rt::comm::{CanFrame, Cut, Frame, Map, Memory, Served, fx_port, mc};
 use rungc_rt::{Class, Ports};
 use std::cell::RefCell;
 
@@ -134,8 +135,25 @@ fn computer_link(variant: u8, bytes: &[u8], map: &mut dyn Map, reply: &mut Frame
     }
 }
 
-pub(super) fn targets() -> [Target; 5] {
+/// A frame on CAN as an adapter writes it, and the parts of its identifier.
+fn can(_: u8, bytes: &[u8], _: &mut dyn Map, text: &mut Frame) {
+    let Some(frame) = CanFrame::parse(bytes) else {
+        return;
+    };
+    frame.write(text);
+    assert_eq!(CanFrame::parse(text.as_slice()), Some(frame));
+    if let Some(head) = Head::of(frame.id) {
+        assert_eq!(head.id(), frame.id);
+    }
+}
+
+pub(super) fn targets() -> [Target; 6] {
     [
+        target(
+            "decode-can",
+            can,
+            &[b"\0t2002ABCD\r", b"\0T0810806481122334455667788\r"],
+        ),
         target(
             "decode-modbus-slave",
             modbus_slave,

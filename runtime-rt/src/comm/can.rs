@@ -92,13 +92,14 @@ impl CanFrame {
 
     /// Reads a frame as SLCAN writes it; what follows the data (a time stamp) is ignored.
     pub fn parse(text: &[u8]) -> Option<Self> {
-        let (digits, mark) = match text.first()? {
-            b't' => (3, 0),
-            b'T' => (8, Self::EXTENDED),
+        let (digits, most, mark) = match text.first()? {
+            b't' => (3, 0x7ff, 0),
+            b'T' => (8, 0x1fff_ffff, Self::EXTENDED),
             _ => return None,
         };
         let mut frame = CanFrame::new();
-        frame.id = hex_digits(text.get(1..1 + digits)?)? | mark;
+        let id = hex_digits(text.get(1..1 + digits)?)?;
+        frame.id = id | mark;
         frame.len = hex_digits(text.get(1 + digits..2 + digits)?)? as u8;
         let data = text.get(2 + digits..)?;
         for (index, byte) in frame.data.iter_mut().enumerate() {
@@ -106,7 +107,7 @@ impl CanFrame {
                 *byte = hex_digits(data.get(2 * index..2 * index + 2)?)? as u8;
             }
         }
-        (usize::from(frame.len) <= MOST).then_some(frame)
+        (usize::from(frame.len) <= MOST && id <= most).then_some(frame)
     }
 }
 
@@ -277,6 +278,8 @@ mod tests {
         assert_eq!(CanFrame::parse(b"T134F02003123456\r"), Some(frame));
         assert_eq!(CanFrame::parse(b"t20031234\r"), None);
         assert_eq!(CanFrame::parse(b"t2009112233445566778899\r"), None);
+        assert_eq!(CanFrame::parse(b"t8000\r"), None);
+        assert_eq!(CanFrame::parse(b"T200000000\r"), None);
         assert_eq!(cut(b"t2003123456\r"), Cut::Whole);
         assert_eq!(cut(b"z\r"), Cut::Drop);
         assert_eq!(cut(b"t2003t"), Cut::Restart);

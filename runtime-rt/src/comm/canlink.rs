@@ -331,7 +331,8 @@ pub(super) fn take(plc: &mut dyn Plc, frame: &CanFrame) -> bool {
                 M_NETWORK.set(plc, runs);
             }
         }
-        _ if network.is_stopped() => {}
+        // Words are whole ones.
+        _ if network.is_stopped() || data.len() % 2 != 0 => {}
         Kind::Waits if head.receiver == own => network.keep(head.register, data),
         Kind::Words if head.receiver == own || for_all => write(plc, head.register, data),
         Kind::Command if head.sender == network.byte(MASTER) => match head.register {
