@@ -1237,8 +1237,8 @@ uint32_t rungc_pulse_millihertz(struct rungc_map *map, uint32_t number);
 bool rungc_set_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t value);
 
 /**
- * Puts a module of a kind, by its number in the table of kinds, as it comes from the factory; false if there is no such
- * kind.
+ * Puts a module of a kind, by its number in the table of kinds, as it comes from the factory; false if there is no
+ * such kind.
  */
 bool rungc_module_fit(struct rungc_module *module, uint16_t kind);
 

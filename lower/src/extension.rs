@@ -110,7 +110,7 @@ impl Lowerer<'_> {
         {
             return;
         }
-        // H1U is told by the program which board it has.
+        // On H1U, the program sets which board there is.
         let kind = match self.model.finds_boards {
             true => constant(ANALOG_BOARD.into()),
             false => Arg::Device {
@@ -171,8 +171,8 @@ fn types(kinds: &[&Kind]) -> Vec<(Register, i16)> {
 }
 
 impl Extensions {
-    /// In the order of the modules: whole bytes of terminals, and registers for input values, input types, output types,
-    /// output values and a buffer as long as what is written.
+    /// In the order of the modules: whole bytes of terminals, and registers for input values, input types, output
+    /// types, output values and a buffer as long as what is written.
     fn of(fitted: &[(u16, &'static Kind)]) -> Self {
         let mut next = [FIRST_TERMINAL; 2];
         let mut register = D_EXTENSION_DATA.number();

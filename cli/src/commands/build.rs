@@ -22,7 +22,7 @@ use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
 use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, FittedModule, text};
+use rungc_syntax::{DeviceClass, FittedModule, Program, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -55,9 +55,7 @@ fn build(
     let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
     let mut image = image.transpose()?;
     let read = read(subject, reporter)?;
-    if let (Some(image), Some(parameters)) = (&mut image, &read.program.parameters) {
-        image.modules.clone_from(&parameters.modules);
-    }
+    image.iter_mut().for_each(|image| image.fit(&read.program));
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         name: Some(name.clone()),
@@ -270,6 +268,12 @@ impl ForImage {
             script,
             modules: Vec::new(),
         })
+    }
+
+    /// Takes the special modules that the settings list.
+    fn fit(&mut self, program: &Program) {
+        let parameters = program.parameters.iter();
+        self.modules = parameters.flat_map(|p| p.modules.clone()).collect();
     }
 
     /// The serial ports that work whatever the program does.

@@ -23,8 +23,8 @@ impl ModuleRoom {
     }
 }
 
-/// Puts a module of a kind, by its number in the table of kinds, as it comes from the factory; false if there is no such
-/// kind.
+/// Puts a module of a kind, by its number in the table of kinds, as it comes from the factory; false if there is no
+/// such kind.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_module_fit(module: &mut ModuleRoom, kind: u16) -> bool {
     let Some(kind) = KINDS.get(usize::from(kind)) else {

@@ -5,8 +5,8 @@
 //! virtual hardware of tests and simulation fits such modules, and a host whose converters are to look like a module
 //! to the program can do the same.
 //!
-//! Sources: h1u-h2u-programming §6.2 to §6.7, hm-motion-controller §7, l01s-programming §9, and the user's guides of FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA,
-//! FX0N-3A, FX2N-4AD-PT, FX2N-4AD-TC and the analog control edition of FX3U.
+//! Sources: h1u-h2u-programming §6.2 to §6.7, hm-motion-controller §7, l01s-programming §9, and the user's guides of
+//! FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA, FX0N-3A, FX2N-4AD-PT, FX2N-4AD-TC and the analog control edition of FX3U.
 
 mod board;
 mod curves;
@@ -246,7 +246,7 @@ pub enum Place {
     L01s,
 }
 
-/// What a module does besides converting.
+/// What a module does in addition to converting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Duty {
     /// Nothing.
@@ -295,7 +295,7 @@ pub struct Kind {
     pub points: [u8; 2],
     /// Which PLCs it belongs to.
     pub place: Place,
-    /// What it does besides converting.
+    /// What it does in addition to converting.
     pub duty: Duty,
     /// Its buffer memory. What is not in it up to `last` is reserved: it reads as 0.
     pub bfms: &'static [Bfm],

@@ -210,7 +210,7 @@ impl Control<'_> {
         self.put_out();
     }
 
-    /// Control ends, with an alarm that is not 0 if it cannot go on.
+    /// Control ends, with an alarm that is not 0 if it cannot continue.
     fn stop(&mut self, alarm: i16) {
         self.own = Thermostat::new();
         self.own.is_barred = alarm != 0;
@@ -494,7 +494,7 @@ impl Control<'_> {
         let dead_ms = i32::from(self.get(Term::DeadTime));
         for (n, (digital, relay, either, cycle)) in terms.into_iter().enumerate() {
             let output = self.own.outputs.get(n).copied().unwrap_or(0.0);
-            // H2U-4TC-XP has no period of its own: the duty is that of a sampling time.
+            // H2U-4TC-XP has no separate period: the duty is that of a sampling time.
             let cycle_ms = match self.has(cycle) {
                 true => i32::from(self.get(cycle)) * 1000,
                 false => self.get(Term::Ts).into(),

@@ -195,7 +195,7 @@ impl Module {
         ranges.get(digit).copied().flatten()
     }
 
-    /// The range that a word of its own chooses for a channel.
+    /// The range that a separate word chooses for a channel.
     fn chosen(&self, channel: usize, role: Role, ranges: &[Option<Range>]) -> Option<Range> {
         let chosen = usize::try_from(self.get(role, channel)).ok()?;
         let range = ranges.get(chosen).copied().flatten()?;
