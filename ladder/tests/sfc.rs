@@ -67,6 +67,22 @@ fn a_program_without_states_has_no_chart() {
     assert_eq!(chart("LD X0\nSET S0\nEND\n"), None);
 }
 
+#[test]
+fn long_flows_with_many_branches_are_drawn_in_parts() {
+    let mut list = String::from("LD M8002\nSET S0\n");
+    for state in 0..800 {
+        let (next, over) = ((state + 1) % 800, (state + 2) % 800);
+        list += &format!("STL S{state}\nLD X0\nSET S{next}\nLD X1\nSET S{over}\n");
+    }
+    let text = drawn(&(list + "RET\nEND\n"));
+    for state in [0, 1, 150, 400, 799] {
+        let boxes = text.matches(&format!(" S{state} ")).count();
+        assert!(boxes > 0, "S{state}");
+    }
+    let bars = text.matches("─┼─").count();
+    assert_eq!(bars, 1600);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 

@@ -6,7 +6,7 @@
 
 use super::Chart;
 use crate::face::fold;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use unicode_width::UnicodeWidthStr;
 
 /// Columns of a state's box.
@@ -15,8 +15,8 @@ pub(super) const BOX: usize = 9;
 const SPINE: usize = 4;
 /// Columns of a line of text before it is folded.
 const ROOM: usize = 40;
-/// How many divergences may lie in each other; beyond, arrows lead on.
-const DEEPEST: usize = 50;
+/// How many divergences may lie in each other; beyond, arrows lead on to flows further below.
+const DEEPEST: usize = 100;
 
 /// A part of a chart. Columns and lines count from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,6 +101,7 @@ pub(super) fn place(chart: &Chart) -> Sheet {
         placed: vec![false; chart.states.len()],
         drawn: vec![false; chart.transitions.len()],
         stops: Vec::new(),
+        depth: 0,
     };
     let mut width = 0;
     let mut y = 0;
@@ -154,6 +155,8 @@ struct Placer<'a> {
     drawn: Vec<bool>,
     /// Where the branches around the place at hand meet, the innermost last.
     stops: Vec<Point>,
+    /// How many divergences are around it.
+    depth: usize,
 }
 
 impl Placer<'_> {
@@ -208,7 +211,7 @@ impl Placer<'_> {
             }
             let y = run.bottom;
             let (width, bottom, follows) = match point {
-                Point::State(state) if self.placed[state] || self.stops.contains(&point) => {
+                Point::State(state) if self.is_elsewhere(state) => {
                     let (width, bottom) = self.arrow(&[state], x, y);
                     (width, bottom, Vec::new())
                 }
@@ -245,6 +248,12 @@ impl Placer<'_> {
             };
         }
         run
+    }
+
+    /// Whether a state has its place elsewhere than at the end of the branch at hand.
+    fn is_elsewhere(&self, state: usize) -> bool {
+        let meets = self.stops.contains(&Point::State(state));
+        self.placed[state] || meets || self.depth > DEEPEST
     }
 
     /// The box of a state with its actions: width, and the line below.
@@ -332,11 +341,9 @@ impl Placer<'_> {
     /// Branches side by side, below a line: double where one transition begins all of them.
     fn fork(&mut self, branches: &[Point], (x, y): (usize, usize), above: &[usize]) -> Fork {
         let parallel = matches!(branches[0], Point::State(_));
-        let meets = match self.stops.len() < DEEPEST {
-            true => self.meeting(branches, parallel),
-            false => None,
-        };
+        let meets = self.meeting(branches, parallel);
         self.stops.extend(meets);
+        self.depth += 1;
         self.connect(x, y);
         let mut width = 0;
         let mut last = x;
@@ -353,6 +360,7 @@ impl Placer<'_> {
             bottom = bottom.max(run.bottom);
             width += run.width;
         }
+        self.depth -= 1;
         self.across(y, x, last, parallel);
         if meets.is_some() {
             self.stops.pop();
@@ -411,6 +419,7 @@ impl Placer<'_> {
     /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
     /// they are.
     fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
+        let stops: BTreeSet<Point> = self.stops.iter().copied().collect();
         let mut found = BTreeMap::new();
         let mut open = VecDeque::from([(start, 0)]);
         while let Some((point, distance)) = open.pop_front() {
@@ -418,7 +427,7 @@ impl Placer<'_> {
                 Point::State(state) => self.placed[state],
                 Point::Transition(t) => self.drawn[t],
             };
-            if placed || self.stops.contains(&point) || found.contains_key(&point) {
+            if placed || stops.contains(&point) || found.contains_key(&point) {
                 continue;
             }
             found.insert(point, distance);
