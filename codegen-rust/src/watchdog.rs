@@ -57,8 +57,8 @@ impl Generator<'_> {
         }
     }
 
-    /// The method that reports an operation error which the program finds itself (see the runtime's `report`), as far as
-    /// the program looks at it.
+    /// The method that reports an operation error which the program finds itself (see the runtime's `report`), as far
+    /// as the program looks at it.
     pub fn fault_method(&mut self) -> TokenStream {
         let [first, each] = cycle::fault_shows(self.module.model, &self.storage);
         let shown = self.show(&first);

@@ -102,7 +102,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                             host.lines.join(&format!(", {name} "))
                         )
                     }
-                    _ => String::new(),
+                    Takes::Line | Takes::Address(_) | Takes::Retained => String::new(),
                 };
                 option(
                     &format!("{name} ADDRESS"),

@@ -12,8 +12,8 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub input: Input,
     /// A condition that must hold after no scan: `"Y000 & Y001"`. Devices are named as in test files
-    /// (docs/src/prove.md) or by their comments; `!`, `&`, `|` and comparisons (`D0 > 100`) join them. Repeat it for more, as the options
-    /// below.
+    /// (docs/src/prove.md) or by their comments; `!`, `&`, `|` and comparisons (`D0 > 100`) join them. Repeat it for
+    /// more, as the options below.
     #[arg(long, value_name = "CONDITION")]
     pub never: Vec<String>,
     /// A condition that must hold after every scan.

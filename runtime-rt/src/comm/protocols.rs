@@ -67,7 +67,7 @@ impl Protocols {
     ]);
 
     /// All that registers may choose.
-    pub const ALL: Self = Protocols(u32::MAX & !Self::CANLINK.0);
+    pub const ALL: Self = Protocols(!Self::CANLINK.0);
 
     /// The set of these.
     pub const fn of(protocols: &[Protocol]) -> Self {
