@@ -124,7 +124,7 @@ fn wrong_settings_stop_with_their_alarm() {
         (9, &[(112, -1)][..], 35),
         (9 | 16, &[(116, 100)][..], 50),
     ] {
-        let mut module = module(mode, 1000, &words);
+        let mut module = module(mode, 1000, words);
         at(&mut module, 900, 100);
         module.write(51, 1).unwrap();
         module.pass(2_000_000);
