@@ -64,6 +64,14 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
     line.into_iter().chain(retain).chain(servers).collect()
 }
 
+/// The port that examples name: the first that the program itself uses.
+fn usual_port(module: &Module) -> u8 {
+    let programmer = module.model.ports.of_programmer();
+    let ports = &module.ports;
+    let own = ports.iter().find(|&&port| Some(port) != programmer);
+    own.or(ports.first()).copied().unwrap_or_default()
+}
+
 /// The text for `--help`, line by line.
 pub fn lines(module: &Module, host: &Host) -> Vec<String> {
     let Module {
@@ -82,7 +90,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
     for Valued { name, takes } in options(module, host) {
         match takes {
             Takes::Line => {
-                let port = module.ports.first().copied().unwrap_or_default();
+                let port = usual_port(module);
                 let ends = host.lines.iter().map(|end| format!("COM{port}={end}"));
                 let ends = ends.collect::<Vec<_>>().join(", ");
                 option(

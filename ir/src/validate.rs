@@ -296,6 +296,7 @@ impl Checker<'_> {
             return self.no_column(used.place, by);
         }
         let runs = match (index, used.count) {
+            (None, Some(0)) => Vec::new(),
             (None, Some(count)) => {
                 let first = used.place.number;
                 vec![(first, first + count - 1)]
