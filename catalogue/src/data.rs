@@ -24,7 +24,7 @@ const COUNTERS_ALIKE: Rule = Rule::Holds(
         wide.next()
             .is_none_or(|first| wide.all(|other| other == first))
     },
-    "both counters have 16 bits, or both 32",
+    "both counters have 16 bits, or both 32: divide the range",
 );
 /// Models whose DECO also takes a constant.
 const DECODES_CONSTANTS: ModelSet = FX.or(L01S);

@@ -45,6 +45,19 @@ fn an_image_is_a_program_like_others() {
 }
 
 #[test]
+fn comments_beside_an_image_are_taken() {
+    let list = format!(";! X000 = start button\n{MOTOR}");
+    let folder = folder(&[("motor.il", list.as_bytes())]);
+    let path = folder.path();
+    for (to, file) in [("image", "motor.bin"), ("comments", "COMMENT.csv")] {
+        let args = ["convert", "motor.il", "--to", to, "-o", file];
+        assert_eq!(code(path, &args), 0, "{to}");
+    }
+    let back = text(&rungc(path, &["convert", "motor.bin", "--to", "il"]).stdout);
+    assert!(back.starts_with(";! X000 = start button\n"), "{back}");
+}
+
+#[test]
 fn nothing_is_written_of_what_machine_code_does_not_hold() {
     let list = ";! X000 = start\nLD X000\nMOV R0 D0\nEND\n";
     let folder = folder(&[("r.il", list.as_bytes()), ("short.bin", &[0; 8])]);

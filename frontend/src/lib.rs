@@ -20,7 +20,7 @@ mod search;
 mod text;
 
 use rungc_syntax::order;
-use rungc_syntax::{Diagnostic, Diagnostics, Program, Span, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -99,6 +99,16 @@ pub enum ReadError {
         /// Its path.
         path: String,
     },
+    /// A file of an editor whose format is not known.
+    #[error("`{name}` is {what}, whose format is not known: {help}")]
+    Unpublished {
+        /// The file's name.
+        name: String,
+        /// What it is.
+        what: &'static str,
+        /// What to do instead.
+        help: &'static str,
+    },
     /// The content is in no known encoding or format.
     #[error("`{name}` is neither text nor a known project file")]
     Undecodable {
@@ -107,8 +117,8 @@ pub enum ReadError {
     },
 }
 
-/// Reads a program of any known format, found by its content: a list as text, a list export with the device comments
-/// that lie beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2
+/// Reads a program of any known format, found by its content: a list as text, a list export or program memory with the
+/// device comments that lie beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2
 /// project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
     read_with(path, &ReadOptions::default())
@@ -144,7 +154,8 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         options.encoding = encoding::of_files(&[&bytes, comments]);
     }
     let mut read = read_bytes_with(&name, &bytes, &options)?;
-    if let (true, Some(comments)) = (read.program.kind.has_rows(), &comments) {
+    let takes_comments = matches!(read.program.kind, SourceKind::Csv | SourceKind::Image);
+    if let (true, Some(comments)) = (takes_comments, &comments) {
         let text = encoding::decode(comments, options.encoding);
         read.program.comments = text
             .map(|(text, _)| csv::comments(&text))
@@ -224,6 +235,13 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     }
     if image::is_image(bytes) || options.image {
         return Ok(image::read(name, bytes, options));
+    }
+    if let Some((what, help)) = foreign::unpublished(name, bytes) {
+        return Err(ReadError::Unpublished {
+            name: name.to_owned(),
+            what,
+            help,
+        });
     }
     let Some((text, replaced)) = encoding::decode(bytes, options.encoding) else {
         return Err(ReadError::Undecodable {

@@ -405,3 +405,34 @@ fn a_protected_project_of_gx_developer_is_not_read() {
     assert_eq!(codes, ["E0650"]);
     assert!(read.program.instrs.is_empty());
 }
+
+#[test]
+fn jumps_of_autoshop_are_read() {
+    let list = "LD X0\nCJ L1\nLD X1\nCJEND\nL1\nOUT Y0\nEND\n";
+    let read = rungc_frontend::read_text("plc.il", list);
+    assert_eq!(read.diagnostics.iter().count(), 0);
+    let instrs = read.program.instrs.iter().map(ToString::to_string);
+    let expected = [
+        "LD X000", "CJ P1", "LD X001", "CJ P63", "P1", "OUT Y000", "END",
+    ];
+    assert_eq!(instrs.collect::<Vec<_>>(), expected);
+    let end = &read.program.instrs[3].operands[0];
+    assert_eq!(&list[end.span.range()], "END");
+}
+
+#[test]
+fn files_without_a_known_format_say_what_they_are() {
+    let why = |name: &str, bytes: &[u8]| {
+        rungc_frontend::read_bytes(name, bytes)
+            .unwrap_err()
+            .to_string()
+    };
+    insta::assert_snapshot!(
+        [
+            why("MAIN.LD", b"AutoShop\0\x01\xff\xff"),
+            why("A.COW", b"\0\x01START")
+        ]
+        .join("\n")
+    );
+    assert!(rungc_frontend::read_bytes("list.cow", b"LD X0\nOUT Y0\nEND\n").is_ok());
+}

@@ -165,7 +165,9 @@ pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<R
 /// Reports that a program cannot be read.
 fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::Result<Failure> {
     let code = match error {
-        ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
+        ReadError::Undecodable { .. }
+        | ReadError::Unpublished { .. }
+        | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
         ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
     };
     let id = code.id;

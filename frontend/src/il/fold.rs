@@ -19,6 +19,21 @@ impl Folded {
         folded
     }
 
+    /// A line with a part replaced: all of what replaces it comes from there.
+    pub fn replaced(line: &str, part: std::ops::Range<usize>, by: &str) -> Self {
+        let mut folded = Folded::of(&line[..part.start]);
+        let rest = Folded::of(&line[part.end..]);
+        let end = part.end as u32;
+        folded.text.push_str(by);
+        folded
+            .origin
+            .resize(folded.text.len(), (part.start as u32, end));
+        folded.text.push_str(&rest.text);
+        let moved = rest.origin.iter().map(|(from, to)| (from + end, to + end));
+        folded.origin.extend(moved);
+        folded
+    }
+
     /// Folds another line into the same buffers. Letters of other alphabets that look Latin are read as they look, and
     /// reported; not in texts and comments, and not in words that are whole words of another language.
     pub fn fold_line(&mut self, line: &str, faults: &mut Faults) {

@@ -15,6 +15,7 @@ mod fault;
 pub(crate) mod field;
 mod fold;
 mod grammar;
+mod jumps;
 
 use crate::Read;
 use crate::text::{append, clean};
@@ -42,7 +43,9 @@ pub fn read_text(name: &str, text: &str) -> Read {
     let grammar = grammar::line();
     for (start, whole) in source.lines() {
         let line = whole.trim_end_matches(['\r', '\n']);
-        if line.is_ascii() {
+        if let Some(folded) = jumps::fold(line) {
+            reader.folded_line(line, &folded, start);
+        } else if line.is_ascii() {
             let found = grammar::parse(&grammar, line, &mut reader.faults);
             reader.take(line, line, found, |span| {
                 Span::new(span.start + start, span.end + start)
@@ -76,12 +79,17 @@ impl Reader {
     pub(crate) fn wide_line(&mut self, line: &str, start: u32) {
         let mut folded = std::mem::take(&mut self.folded);
         folded.fold_line(line, &mut self.faults);
+        self.folded_line(line, &folded, start);
+        self.folded = folded;
+    }
+
+    /// Reads a line in another form, which begins at `start`.
+    fn folded_line(&mut self, line: &str, folded: &Folded, start: u32) {
         let found = grammar::parse(&grammar::line(), &folded.text, &mut self.faults);
         self.take(line, &folded.text, found, |span| {
             let (first, last) = folded.original(span.start, span.end);
             Span::new(first + start, last + start)
         });
-        self.folded = folded;
     }
 
     /// Takes what the grammar found on a line; `place` leads from the folded line to the source.
