@@ -50,7 +50,7 @@ impl Xml {
         let _ = writeln!(self.text, "</{name}>");
     }
 
-    /// A text for people.
+    /// A human-readable text.
     pub fn prose(&mut self, name: &'static str, text: &str) {
         self.node(name, &[], |xml| xml.text("xhtml:p", text));
     }
