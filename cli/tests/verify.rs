@@ -107,3 +107,92 @@ fn mistakes_in_conditions_are_shown() {
     let output = rungc(folder.path(), &["verify", "good.il", "--never", "Y000 &"]);
     assert_eq!(output.status.code(), Some(2));
 }
+
+#[test]
+fn settings_hold_properties() {
+    let settings = "\
+[project]
+program = \"good.il\"
+
+[verify]
+assume = [\"!(X000 & X001)\"]
+free = [\"M100-M101\"]
+scan = \"50ms\"
+
+[[property]]
+name = \"no short circuit\"
+never = '\"forward contactor\" & \"reverse contactor\"'
+
+[[property]]
+whenever = \"X002\"
+then = \"!Y000\"
+within = \"100ms\"
+
+[[property]]
+stays = \"Y000\"
+until = \"X002 | Y001\"
+";
+    let good = reverser("ANI Y000");
+    let folder = folder(&[
+        ("good.il", good.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+    ]);
+    let output = rungc(folder.path(), &["verify"]);
+    insta::assert_snapshot!("settings", timeless(&text(&output.stdout)));
+    let wrong = settings.replace("reverse contactor", "reverse pump");
+    std::fs::write(folder.path().join("rungc.toml"), wrong).unwrap();
+    insta::assert_snapshot!("mistake_in_settings", shown(folder.path(), &["verify"]));
+    let wrong = "[[property]]\nnever = \"Y000\"\nthen = \"Y001\"\n[[property]]\nwhenever = \"X000\"\n[[property]]\nname = \"none\"\n[verify]\nfree = [\"pump\"]\nsupposed = 1\n";
+    std::fs::write(folder.path().join("rungc.toml"), wrong).unwrap();
+    insta::assert_snapshot!(
+        "wrong_settings",
+        shown(folder.path(), &["verify", "good.il"])
+    );
+}
+
+/// The model checker `abc`, under one of its names.
+fn abc() -> Option<&'static str> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let names = ["berkeley-abc", "abc"].into_iter();
+    let mut names =
+        names.filter(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()));
+    names.next()
+}
+
+#[test]
+fn another_model_checker_agrees() {
+    let Some(abc) = abc() else {
+        eprintln!("skipped: berkeley-abc is not installed");
+        return;
+    };
+    let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
+    let programs = [
+        (reverser("ANI Y000"), "proved", "Property proved"),
+        (reverser("ANI X003"), "violated", "was asserted in frame"),
+        (timer.to_string(), "proved", "Property proved"),
+    ];
+    for (program, ours, theirs) in programs {
+        let folder = folder(&[("program.il", program.as_bytes())]);
+        let args = [
+            "verify",
+            "program.il",
+            "--never",
+            "Y000 & Y001",
+            "--aiger",
+            "program.aig",
+        ];
+        let output = rungc(folder.path(), &args);
+        assert!(
+            text(&output.stdout).starts_with(ours),
+            "{}",
+            text(&output.stdout)
+        );
+        let asked = std::process::Command::new(abc)
+            .args(["-c", "read_aiger program.aig; pdr"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let answer = text(&asked.stdout);
+        assert!(answer.contains(theirs), "{answer}");
+    }
+}

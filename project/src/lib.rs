@@ -11,6 +11,7 @@ pub mod device;
 pub mod modbus;
 pub mod module;
 mod program;
+pub mod property;
 mod reader;
 pub mod serve;
 mod template;
@@ -63,6 +64,10 @@ pub struct Project {
     pub canlink: Option<canlink::Station>,
     /// `[[module]]`: the special modules that are fitted.
     pub modules: Vec<module::Row>,
+    /// `[[property]]`: what the program must never do.
+    pub properties: Vec<property::Row>,
+    /// `[verify]`: what is supposed of the machine around it.
+    pub verify: property::Verify,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is
     /// named.
     pub latched: Vec<Range>,

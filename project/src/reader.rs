@@ -3,6 +3,7 @@
 mod canlink;
 mod module;
 mod plcopen;
+mod property;
 mod serve;
 
 use crate::modbus::{self, Row};
@@ -10,6 +11,7 @@ use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use canlink::CANLINK;
 use encoding_rs::Encoding;
 use module::MODULE;
+use property::PROPERTY;
 use rungc_models::{Model, ModelId, Plc};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
@@ -19,7 +21,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 13] = [
+const TABLES: [(&str, &[&str]); 15] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -30,9 +32,11 @@ const TABLES: [(&str, &[&str]); 13] = [
     ("retain", &["file"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
+    ("verify", &["assume", "free", "scan", "timeout"]),
     (MODBUS, &[]),
     (CANLINK, canlink::KEYS),
     (MODULE, &[]),
+    (PROPERTY, &[]),
 ];
 
 /// The table of which each entry is a row.
@@ -136,6 +140,10 @@ impl Reader {
                     self.modules(at, value, project);
                     continue;
                 }
+                PROPERTY => {
+                    self.properties(at, value, project);
+                    continue;
+                }
                 _ => {}
             }
             let Some(table) = value.get_ref().as_table() else {
@@ -159,6 +167,7 @@ impl Reader {
                 "index" => self.index(table, project),
                 "retain" => project.retain = self.path(table, "file"),
                 "serve" => self.serve(table, project),
+                "verify" => self.verify(table, project),
                 "plcopen" => self.plcopen(table, project),
                 CANLINK => self.canlink(at, table, project),
                 _ => self.latched(table, project),

@@ -4,6 +4,15 @@ use rungc_models::{Model, ModelId};
 use std::path::Path;
 use toml::Value;
 
+/// Properties, as comments.
+const PROPERTIES: &str = r#"# What the program must never do, and what the machine around it sees to: `rungc verify`.
+# [[property]]
+# name = "no short circuit"
+# never = "Y000 & Y001"
+# [verify]
+# assume = ["!(X000 & X001)"]
+"#;
+
 /// A file for a program, with a comment on each key. What is unknown appears as a comment; so does a model that the
 /// program does not name itself.
 pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
@@ -73,6 +82,7 @@ deny = []
 # at = 0
 # kind = "FX2N-4AD"
 
+{PROPERTIES}
 # What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
 # [serve]
 # modbus-tcp = "127.0.0.1:5020"

@@ -7,6 +7,7 @@
 #![deny(missing_docs)]
 
 pub mod aig;
+pub mod aiger;
 pub mod bits;
 pub mod model;
 pub mod pdr;

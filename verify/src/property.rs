@@ -2,7 +2,7 @@
 
 mod parse;
 
-pub use parse::parse;
+pub use parse::{Mistake, parse};
 
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, signed};
@@ -266,12 +266,16 @@ fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
     if within_ms == 0 {
         return encoder.aig.and(when, !then);
     }
-    let width = (u32::BITS - within_ms.leading_zeros()) as usize + 12;
+    let elapsed = encoder.elapsed();
+    let width = elapsed
+        .len()
+        .max((u32::BITS - within_ms.leading_zeros()) as usize)
+        + 1;
     let (was_on, before) = encoder.monitor(1, 0);
     encoder.remember(was_on, vec![when]);
     let (waits, waiting) = encoder.monitor(1, 0);
     let (clock, passed) = encoder.monitor(width, 0);
-    let elapsed = crate::bits::unsigned(&encoder.elapsed(), width);
+    let elapsed = crate::bits::unsigned(&elapsed, width);
     let aig = &mut encoder.aig;
     let begins = aig.and(when, !before[0]);
     let begins = aig.and(begins, !waiting[0]);

@@ -68,9 +68,12 @@ pub struct Decision {
 /// How many scans induction supposes at most.
 const INDUCTION: usize = 12;
 
-/// Decides whether a program has a property.
-pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
-    let deadline = Instant::now() + options.time;
+/// What a property asks, as a system of what it depends on, and the program's logic that it was cut out of.
+pub fn system<'m>(
+    module: &'m Module,
+    property: &Property,
+    options: &Options,
+) -> (Encoder<'m>, System) {
     let mut world = options.world.clone();
     let conditions = property.conditions().into_iter().chain(&options.assumed);
     world
@@ -83,6 +86,13 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     }
     let bad = property.encode(&mut encoder);
     let system = encoder.system(bad).sliced();
+    (encoder, system)
+}
+
+/// Decides whether a program has a property.
+pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
+    let deadline = Instant::now() + options.time;
+    let (encoder, system) = system(module, property, options);
     let of_cone = |wanted: &dyn Fn(&Input) -> bool| system.inputs.iter().any(|(_, i)| wanted(i));
     let gaps: BTreeSet<Gap> = encoder
         .gaps
@@ -102,7 +112,11 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     }
 }
 
-/// Bounded search and induction side by side, then an invariant, then bounded search alone.
+/// A time, in milliseconds, in which every timer expires.
+const FOREVER_MS: u32 = 4_000_000;
+
+/// Bounded search and induction side by side; then a search, and one for an invariant, where a scan may come any time
+/// after the one before, so that a few scans show what takes many; then bounded search alone.
 fn search(
     module: &Module,
     property: &Property,
@@ -113,7 +127,7 @@ fn search(
     let mut hunt = Hunt {
         module,
         property,
-        assumed: &options.assumed,
+        options,
         bounded: Bounded::new(system, true, deadline),
         spurious: None,
     };
@@ -134,12 +148,11 @@ fn search(
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    let now = Instant::now();
-    let half = now + deadline.saturating_duration_since(now) / 2;
-    if let pdr::Found::Invariant(cubes) = pdr::search(system, half)
-        && pdr::check(system, &cubes, deadline)
-    {
+    if proved_vaguely(module, property, options, deadline) {
         return Verdict::Proved;
+    }
+    if let Some(verdict) = patiently(module, property, options, deadline) {
+        return verdict;
     }
     while Instant::now() < deadline && hunt.spurious.is_none() {
         if let Some(verdict) = hunt.step() {
@@ -149,11 +162,66 @@ fn search(
     hunt.undecided()
 }
 
+/// Whether a property is proved where timers may expire at any time.
+fn proved_vaguely(
+    module: &Module,
+    property: &Property,
+    options: &Options,
+    deadline: Instant,
+) -> bool {
+    let mut vague = options.clone();
+    vague.world.any_preset = true;
+    let (_, system) = self::system(module, property, &vague);
+    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) / 4;
+    invariant(&system, until, deadline)
+}
+
+/// Whether an invariant is found, and another solver confirms it.
+fn invariant(system: &System, until: Instant, deadline: Instant) -> bool {
+    match pdr::search(system, until) {
+        pdr::Found::Invariant(cubes) => pdr::check(system, &cubes, deadline),
+        pdr::Found::Violated | pdr::Found::TimeUp => false,
+    }
+}
+
+/// Where a scan may come any time after the one before: what is proved there holds for shorter times, too, and a run is
+/// replayed with scans in between.
+fn patiently(
+    module: &Module,
+    property: &Property,
+    options: &Options,
+    deadline: Instant,
+) -> Option<Verdict> {
+    let mut patient = options.clone();
+    patient.world.scan_ms = FOREVER_MS;
+    let (_, system) = self::system(module, property, &patient);
+    let now = Instant::now();
+    let left = deadline.saturating_duration_since(now);
+    let mut hunt = Hunt {
+        module,
+        property,
+        options,
+        bounded: Bounded::new(&system, true, now + left / 4),
+        spurious: None,
+    };
+    for _ in 0..2 * INDUCTION {
+        if hunt.spurious.is_some() {
+            break;
+        }
+        let found = hunt.step();
+        if found.is_some() {
+            return found;
+        }
+    }
+    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) * 2 / 3;
+    invariant(&system, until, deadline).then_some(Verdict::Proved)
+}
+
 /// A search for a run that the interpreter confirms.
 struct Hunt<'a> {
     module: &'a Module,
     property: &'a Property,
-    assumed: &'a [Condition],
+    options: &'a Options,
     bounded: Bounded<'a>,
     /// How long the first run was that the interpreter did not confirm.
     spurious: Option<usize>,
@@ -168,11 +236,13 @@ impl Hunt<'_> {
         let Step::Violated(trace) = self.bounded.step() else {
             return None;
         };
-        if replay::replay(self.module, self.property, self.assumed, &trace).is_none() {
+        let assumed = &self.options.assumed;
+        let trace = replay::stretched(&trace, self.options.world.scan_ms);
+        if replay::replay(self.module, self.property, assumed, &trace).is_none() {
             self.spurious = Some(self.bounded.scans());
             return None;
         }
-        let plain = replay::plain(self.module, self.property, self.assumed, trace);
+        let plain = replay::plain(self.module, self.property, assumed, trace);
         Some(Verdict::Found(plain))
     }
 

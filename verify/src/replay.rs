@@ -72,6 +72,33 @@ pub fn replay(
     None
 }
 
+/// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile.
+pub fn stretched(trace: &Trace, most_ms: u32) -> Trace {
+    let most_ms = most_ms.max(1);
+    let mut scans: Vec<Scan> = Vec::new();
+    for scan in &trace.scans {
+        let mut scan = scan.clone();
+        while let Some(last) = scans.last()
+            && scan.ms > most_ms
+        {
+            let meanwhile = Scan {
+                ms: most_ms,
+                ..last.clone()
+            };
+            scan.ms -= most_ms;
+            scans.push(meanwhile);
+        }
+        scans.push(scan);
+    }
+    Trace {
+        start: trace.start.clone(),
+        scans,
+    }
+}
+
+/// Runs of more scans than this are shown as they are.
+const SIMPLIFIED: usize = 150;
+
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
 /// ordinary.
 pub fn plain(
@@ -105,7 +132,12 @@ pub fn plain(
             trace.start.insert(key, 0);
         });
     }
-    for scan in 0..trace.scans.len() {
+    let steps = if trace.scans.len() > SIMPLIFIED {
+        0
+    } else {
+        trace.scans.len()
+    };
+    for scan in 0..steps {
         attempt(&mut trace, &|trace| trace.scans[scan].scan_time = 0);
         attempt(&mut trace, &|trace| {
             if scan > 0 {

@@ -1,9 +1,10 @@
 //! Proofs by induction, and bounded search for counterexamples.
 
-use crate::model::{Input, Key};
+use crate::model::{Input, Key, device_of};
 use crate::sat::{Answer, Solver};
 use crate::system::System;
 use crate::unroll::Unroller;
+use rungc_models::runs::is_counter32;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -107,10 +108,20 @@ impl<'s> Bounded<'s> {
                     Input::Gap(_) => {}
                 }
             }
+            happens.set.iter_mut().for_each(with_sign);
             trace.scans.push(happens);
         }
+        trace.start.iter_mut().for_each(with_sign);
         trace
     }
+}
+
+/// Gives the bits of a word their meaning as a signed number.
+fn with_sign((key, value): (&Key, &mut i64)) {
+    *value = match device_of(*key) {
+        Some((class, number)) if is_counter32(class, number) => (*value as i32).into(),
+        _ => (*value as i16).into(),
+    };
 }
 
 /// What one more scan has shown.

@@ -39,14 +39,15 @@ pub struct System {
 }
 
 impl System {
-    /// What the answer depends on, alone: the cone of influence of `bad`. A constraint stays if it meets the cone, and
-    /// what it depends on belongs to the cone then.
+    /// What the answer depends on, alone: the cone of influence of `bad`. A constraint or a wish stays if it meets the
+    /// cone, and what it depends on belongs to the cone then.
     pub fn sliced(&self) -> System {
         let number_of = self.latch_numbers();
         let mut wanted = vec![false; self.aig.nodes().len()];
-        let mut kept = vec![false; self.constraints.len()];
+        let conditions: Vec<Lit> = self.conditions().collect();
+        let mut kept = vec![false; conditions.len()];
         let mut open = vec![self.bad.node()];
-        let supports: Vec<Vec<usize>> = self.constraints.iter().map(|&c| self.support(c)).collect();
+        let supports: Vec<Vec<usize>> = conditions.iter().map(|&c| self.support(c)).collect();
         loop {
             while let Some(node) = open.pop() {
                 if std::mem::replace(&mut wanted[node], true) {
@@ -63,13 +64,19 @@ impl System {
                 let meets = support.iter().any(|&node| wanted[node]);
                 if !kept[i] && (meets || support.is_empty()) {
                     kept[i] = true;
-                    open.push(self.constraints[i].node());
+                    open.push(conditions[i].node());
                 }
             }
             if open.is_empty() {
-                return self.keep(&wanted, &kept);
+                return self.keep(&wanted);
             }
         }
+    }
+
+    /// The constraints and the wishes.
+    fn conditions(&self) -> impl Iterator<Item = Lit> {
+        let wishes = self.wishes.iter().chain(&self.first_wishes);
+        self.constraints.iter().chain(wishes).copied()
     }
 
     /// The latches by their nodes.
@@ -86,7 +93,7 @@ impl System {
     }
 
     /// The wanted nodes, in a new graph.
-    fn keep(&self, wanted: &[bool], constraints: &[bool]) -> System {
+    fn keep(&self, wanted: &[bool]) -> System {
         let mut aig = Aig::default();
         let mut map = vec![None; wanted.len()];
         map[0] = Some(Lit::FALSE);
@@ -115,7 +122,6 @@ impl System {
                 ..latch.clone()
             })
         };
-        let kept = self.constraints.iter().zip(constraints);
         System {
             latches: self.latches.iter().filter_map(latch).collect(),
             inputs: self
@@ -123,9 +129,7 @@ impl System {
                 .iter()
                 .filter_map(|&(lit, input)| Some((new(&map, lit)?, input)))
                 .collect(),
-            constraints: kept
-                .filter_map(|(&lit, &kept)| new(&map, lit).filter(|_| kept))
-                .collect(),
+            constraints: lits(&self.constraints),
             wishes: lits(&self.wishes),
             first_wishes: lits(&self.first_wishes),
             bad: new(&map, self.bad).unwrap_or(Lit::FALSE),

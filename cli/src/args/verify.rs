@@ -28,15 +28,19 @@ pub struct VerifyArgs {
     /// Devices that something other than the program may write at any time, such as an operator panel: `M100..M115`.
     #[arg(long, value_parser = devices, value_name = "RANGE")]
     pub free: Vec<(DeviceClass, u32, u32)>,
-    /// The longest time from one scan to the next.
-    #[arg(long, value_parser = crate::time::parse, default_value = "200ms", value_name = "TIME")]
-    pub scan: u64,
+    /// The longest time from one scan to the next. Default: that of rungc.toml, or 200ms.
+    #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
+    pub scan: Option<u64>,
     /// Latched devices begin with 0, as on a new PLC. Default: with any value.
     #[arg(long)]
     pub cleared: bool,
-    /// How long to try, for each property.
-    #[arg(long, value_parser = crate::time::parse, default_value = "60s", value_name = "TIME")]
-    pub timeout: u64,
+    /// How long to try, for each property. Default: that of rungc.toml, or 60s.
+    #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
+    pub timeout: Option<u64>,
+    /// Write what is asked of the only property as a file that other model checkers read (AIGER): they find out whether
+    /// its output can be on.
+    #[arg(long, value_name = "FILE")]
+    pub aiger: Option<PathBuf>,
     /// Write the runs that were found as a test file, which shows them again: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! `rungc verify`.
 
 mod report;
+mod settings;
 mod test_file;
 
 use super::check::draw;
@@ -13,11 +14,10 @@ use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
-use rungc_sim::Target;
-use rungc_syntax::{Diagnostic, Diagnostics, OperandKind, Program, Span, codes};
-use rungc_verify::model::World;
-use rungc_verify::property::{Condition, Property, parse};
-use rungc_verify::prove::{Decision, Options, Verdict, decide};
+use rungc_syntax::{Diagnostic, Diagnostics, OperandKind, Span, codes};
+use rungc_verify::aiger;
+use rungc_verify::property::{Condition, Property};
+use rungc_verify::prove::{Decision, Options, Verdict, decide, system};
 use std::time::{Duration, Instant};
 
 /// A property as it was asked for.
@@ -32,13 +32,28 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = read(&subject, &mut reporter)?;
-    let asked = properties(args, &read.program)?;
-    let assumed = conditions("--assume", &args.assume, &read.program)?;
-    let options = options(args, assumed)?;
+    let reader = settings::Reader {
+        args,
+        subject: &subject,
+        program: &read.program,
+        cx,
+    };
+    let (asked, options) = (reader.properties()?, reader.options()?);
+    let assumed = reader.assumed()?.into_iter().map(|(text, _)| text);
+    let assumed: Vec<String> = assumed.collect();
     let Some(module) = module(&subject, &read, &asked, &options, &mut reporter)? else {
         reporter.finish()?;
         return Ok(Outcome::Unusable);
     };
+    if let Some(path) = &args.aiger {
+        let [only] = &asked[..] else {
+            let why = "--aiger: name one property";
+            return Err(Failure::Because(why.to_string()));
+        };
+        let (_, system) = system(&module, &only.property, &options);
+        write_file(path, &aiger::binary(&system), args.force)?;
+        cx.note(&format!("       Wrote {}", path.display()));
+    }
     let decided: Vec<(Decision, Duration)> = asked
         .iter()
         .map(|asked| {
@@ -59,7 +74,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let for_people = reporter.is_for_people();
     publish(&subject, &read, &results, reporter)?;
     if for_people {
-        say(&report::human(&results, &module, &options, &args.assume))?;
+        say(&report::human(&results, &module, &options, &assumed))?;
     }
     if let Some(path) = &args.write_test {
         let text = test_file::text(&subject.file, path, &module, &results);
@@ -73,76 +88,6 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
-}
-
-/// The properties of the command line.
-fn properties(args: &VerifyArgs, program: &Program) -> std::result::Result<Vec<Asked>, Failure> {
-    type Kind = fn(Condition) -> Property;
-    let kinds: [(&str, &[String], Kind); 3] = [
-        ("never", &args.never, Property::Never),
-        ("always", &args.always, Property::Always),
-        ("reachable", &args.reachable, Property::Reachable),
-    ];
-    let mut asked = Vec::new();
-    for (name, texts, kind) in kinds {
-        let conditions = conditions(&format!("--{name}"), texts, program)?;
-        let properties = texts.iter().zip(conditions).map(|(text, condition)| Asked {
-            text: format!("{name} {text}"),
-            property: kind(condition),
-        });
-        asked.extend(properties);
-    }
-    match asked.is_empty() {
-        true => Err(Failure::Because(
-            "no property given: add --never, --always or --reachable".to_string(),
-        )),
-        false => Ok(asked),
-    }
-}
-
-/// Reads conditions; an option says where they are from.
-fn conditions(
-    option: &str,
-    texts: &[String],
-    program: &Program,
-) -> std::result::Result<Vec<Condition>, Failure> {
-    let names = |name: &str| -> Vec<Target> {
-        let plain = |text: &str| text.trim().to_lowercase();
-        let named = program.comments.iter();
-        let named = named.filter(|(_, comment)| plain(comment) == plain(name));
-        named
-            .filter_map(|(device, _)| Target::parse(&device.to_string()).ok())
-            .collect()
-    };
-    let read = |text: &String| {
-        parse(text, &names).map_err(|mistake| {
-            let before = text[..mistake.at.min(text.len())].chars().count();
-            let marker = " ".repeat(before);
-            Failure::Because(format!("{option}: {}\n  {text}\n  {marker}^", mistake.why))
-        })
-    };
-    texts.iter().map(read).collect()
-}
-
-fn options(args: &VerifyArgs, assumed: Vec<Condition>) -> std::result::Result<Options, Failure> {
-    let scan_ms = u32::try_from(args.scan)
-        .ok()
-        .filter(|ms| (1..=32_767).contains(ms));
-    let Some(scan_ms) = scan_ms else {
-        return Err(Failure::Because("--scan: 1ms to 32767ms".to_string()));
-    };
-    let free = args.free.iter();
-    let free = free.flat_map(|&(class, first, last)| (first..=last).map(move |n| (class, n)));
-    Ok(Options {
-        world: World {
-            scan_ms,
-            fresh: args.cleared,
-            free: free.collect(),
-            ..World::default()
-        },
-        assumed,
-        time: Duration::from_millis(args.timeout),
-    })
 }
 
 /// Compiles the program with all devices that properties look at; reports why if that fails.

@@ -123,6 +123,9 @@ pub struct World {
     pub fresh: bool,
     /// Devices that something other than the program writes.
     pub free: BTreeSet<(DeviceClass, u32)>,
+    /// Whether a timer that runs may expire at any time, as far as nothing looks at its value: a proof holds for every
+    /// preset then.
+    pub any_preset: bool,
     /// Devices that properties look at, in addition to those of the program.
     pub observed: BTreeSet<(DeviceClass, u32)>,
 }
@@ -133,6 +136,7 @@ impl Default for World {
             scan_ms: 200,
             fresh: false,
             free: BTreeSet::new(),
+            any_preset: false,
             observed: BTreeSet::new(),
         }
     }
@@ -175,6 +179,8 @@ pub struct Encoder<'m> {
     outside: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
     events: BTreeSet<u32>,
+    /// Timers whose values something looks at or writes; `None`: all.
+    exact_timers: Option<BTreeSet<u32>>,
     temps: TiVec<rungc_ir::node::TempId, Option<Bits>>,
     values: FxHashMap<ExprId, Bits>,
     /// Where jumps of the bodies that are being executed go, the innermost last.
@@ -209,6 +215,7 @@ impl<'m> Encoder<'m> {
             written: BTreeSet::new(),
             outside: BTreeSet::new(),
             events: BTreeSet::new(),
+            exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
             values: FxHashMap::default(),
             jumps: Vec::new(),
@@ -226,6 +233,7 @@ impl<'m> Encoder<'m> {
         };
         encoder.find_memory();
         encoder.find_outside();
+        encoder.find_timers();
         encoder.begin_time();
         encoder.watch_limit = encoder.watch_steps();
         // A module's first functions are `Begin`, `Main`, `End`.

@@ -3,7 +3,15 @@
 use super::{CounterPart, Encoder, Key, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
+use rungc_ir::node::Stmt;
+use rungc_ir::reach::{Footprint, of_expr, of_stmt};
+use rungc_ir::walk::statements;
 use rungc_rt::TimerKind;
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
+
+/// How many bits the units of a step have: enough for the longest timer, and a unit more.
+const UNITS: usize = 17;
 
 /// How far a timer moves on: whole units, and milliseconds beyond them.
 struct Step {
@@ -60,8 +68,70 @@ impl Encoder<'_> {
         self.driven(number, kind, preset, driven);
     }
 
+    /// Whether a timer may expire at any time.
+    fn is_vague(&self, number: u32) -> bool {
+        let exact = self.exact_timers.as_ref();
+        exact.is_some_and(|exact| !exact.contains(&number))
+    }
+
+    /// A timer whose coil is on, and which may expire at any time but not at once.
+    fn driven_vaguely(&mut self, number: u32, kind: TimerKind, preset: &[Lit], guard: Lit) {
+        let key = |part| Key::Timer(number, part);
+        let was_on = self.load(key(TimerPart::Coil))[0];
+        let done = self.load(key(TimerPart::Done))[0];
+        let expires = self.fresh(1, "when timers expire")[0];
+        let runs = match crate::bits::known(preset) {
+            Some(1..) if !kind.accumulating => was_on,
+            _ => Lit::TRUE,
+        };
+        let expires = self.aig.and(expires, runs);
+        let done = self.aig.or(done, expires);
+        self.store(key(TimerPart::Coil), &[Lit::TRUE], guard);
+        self.store(key(TimerPart::Done), &[done], guard);
+    }
+
+    /// Finds the timers whose values something looks at or writes.
+    pub(super) fn find_timers(&mut self) {
+        if !self.world.any_preset {
+            return;
+        }
+        let (module, mut exact) = (self.module, BTreeSet::new());
+        let mut note = |used: Footprint| {
+            if used.place.class == DeviceClass::T {
+                let runs = used.reach(module.model, &module.exprs).into_iter();
+                exact.extend(runs.flat_map(|(first, last)| first..=last));
+            }
+        };
+        for expr in &module.exprs {
+            if expr.as_bit().is_none() {
+                of_expr(module.model, expr, &mut note);
+            }
+        }
+        for function in &module.functions {
+            statements(&function.body, &mut |stmt| {
+                let coil = matches!(
+                    stmt,
+                    Stmt::Timer(_) | Stmt::TimerGoesOn { .. } | Stmt::TimerAt(_) | Stmt::Reset(_)
+                );
+                if !coil {
+                    of_stmt(module.model, stmt, &mut note);
+                }
+            });
+        }
+        let observed = self.world.observed.iter().copied();
+        exact.extend(
+            observed
+                .filter(|(class, _)| *class == DeviceClass::T)
+                .map(|(_, n)| n),
+        );
+        self.exact_timers = Some(exact);
+    }
+
     /// A timer whose coil is on.
     fn driven(&mut self, number: u32, kind: TimerKind, preset: &[Lit], guard: Lit) {
+        if self.is_vague(number) {
+            return self.driven_vaguely(number, kind, preset, guard);
+        }
         let key = |part| Key::Timer(number, part);
         let was_on = self.load(key(TimerPart::Coil))[0];
         let done = self.load(key(TimerPart::Done))[0];
@@ -118,12 +188,13 @@ impl Encoder<'_> {
                 .map(|&bit| self.aig.and(bit, !whole))
                 .collect();
         }
+        let units = self.capped(&step.units);
         let mut moved =
             |bits: &[Lit]| -> Bits { bits.iter().map(|&bit| self.aig.and(bit, moves)).collect() };
-        let (units, rest) = (moved(&step.units), moved(&step.rest));
+        let (units, rest) = (moved(&units), moved(&step.rest));
         let part = self.load(Key::Timer(number, TimerPart::Part));
         if part.is_empty() {
-            return (unsigned(&units, 17), part);
+            return (units, part);
         }
         let width = part.len() + 1;
         let unit = constant(kind.unit_ms.into(), width);
@@ -133,8 +204,16 @@ impl Encoder<'_> {
         let carry = !self.aig.below(&sum, &unit);
         let less = self.aig.sub(&sum, &unit);
         let part = self.aig.select(carry, &less, &sum);
-        let units = self.aig.add(&unsigned(&units, 17), &unsigned(&[carry], 17));
+        let units = self.aig.add(&units, &unsigned(&[carry], UNITS));
         (units, part[..width - 1].to_vec())
+    }
+
+    /// A number of units, or, if there are more, as many as the longest timer has.
+    fn capped(&mut self, units: &[Lit]) -> Bits {
+        let (low, high) = units.split_at(units.len().min(UNITS - 2));
+        let over = self.aig.nonzero(high);
+        let low: Bits = low.iter().map(|&bit| self.aig.or(bit, over)).collect();
+        unsigned(&low, UNITS)
     }
 
     /// As [`rungc_rt::Timer::go_on`].

@@ -1,0 +1,86 @@
+//! `[[property]]` and `[verify]`.
+
+use super::{Reader, Value, listed};
+use crate::property::{Asks, Row};
+use crate::{Project, Range, device};
+use rungc_syntax::Span;
+use toml::de::DeTable;
+
+/// The table of which each entry is a property.
+pub(super) const PROPERTY: &str = "property";
+
+/// The keys that say what a property asks, each with those that may stand beside it.
+const KINDS: [(&str, &[&str]); 5] = [
+    ("never", &[]),
+    ("always", &[]),
+    ("reachable", &[]),
+    ("whenever", &["then", "within"]),
+    ("stays", &["until"]),
+];
+
+impl Reader {
+    pub(super) fn properties(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
+        for (at, table) in self.rows(PROPERTY, at, value) {
+            let row = self.property(at, table);
+            project.properties.extend(row);
+        }
+    }
+
+    fn property(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
+        let kinds = KINDS.iter().filter(|(kind, _)| table.contains_key(*kind));
+        let kinds: Vec<_> = kinds.collect();
+        let [(kind, others)] = kinds[..] else {
+            let names: Vec<_> = KINDS.iter().map(|(kind, _)| *kind).collect();
+            let message = format!("a property has one of {}", listed(&names));
+            self.wrong(at, message, "add for example `never = \"Y000 & Y001\"`");
+            return None;
+        };
+        let keys = [&["name", *kind], *others].concat();
+        self.known(PROPERTY, table, &keys);
+        let first = self.get(table, kind)?;
+        let asks = match *kind {
+            "never" => Asks::Never(first),
+            "always" => Asks::Always(first),
+            "reachable" => Asks::Reachable(first),
+            "whenever" => {
+                if !table.contains_key("then") {
+                    self.wrong(at, "`whenever` requires `then`", "add `then = \"…\"`");
+                }
+                Asks::Whenever {
+                    when: first,
+                    then: self.get(table, "then")?,
+                    within: self.get(table, "within"),
+                }
+            }
+            _ => Asks::Stays {
+                holds: first,
+                until: self.get(table, "until"),
+            },
+        };
+        Some(Row {
+            name: self.get(table, "name").map(|name| name.text),
+            asks,
+            span: at,
+        })
+    }
+
+    pub(super) fn verify(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        project.verify.assume = self.list(table, "assume");
+        project.verify.scan = self.get(table, "scan");
+        project.verify.timeout = self.get(table, "timeout");
+        for named in self.list(table, "free") {
+            match device::range(&named.text.to_uppercase()) {
+                Some((class, first, last)) => project.verify.free.push(Range {
+                    class,
+                    first,
+                    last,
+                    span: named.span,
+                }),
+                None => {
+                    let message = format!("`{}` names no devices", named.text);
+                    self.wrong(named.span, message, "write for example `M100-M115`");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Systems in the binary format of AIGER (version 1.9), which other model checkers read.
+
+use crate::aig::{Lit, Node};
+use crate::system::System;
+use rustc_hash::FxHashSet;
+
+/// The system as a file with one output, which is on after a scan that violates the property. Constraints are folded
+/// into it: the output counts only while all of them have held.
+pub fn binary(system: &System) -> Vec<u8> {
+    let mut system = system.clone();
+    let holds = system.constraints.clone();
+    let holds = system.aig.all(holds);
+    let kept = system.aig.input();
+    let still = system.aig.and(kept, holds);
+    let bad = system.aig.and(still, system.bad);
+    let mut latches: Vec<(Lit, Lit, Option<bool>)> = system
+        .latches
+        .iter()
+        .map(|latch| (latch.now, latch.next, latch.init))
+        .collect();
+    latches.push((kept, still, Some(true)));
+    let nodes = system.aig.nodes();
+    let mut numbers = vec![0u32; nodes.len()];
+    let states: FxHashSet<usize> = latches.iter().map(|(now, ..)| now.node()).collect();
+    let mut next = 0;
+    let mut number = |node: usize| {
+        next += 1;
+        numbers[node] = next;
+    };
+    let mut inputs = 0;
+    for (node, what) in nodes.iter().enumerate() {
+        if let Node::Input(_) = what
+            && !states.contains(&node)
+        {
+            number(node);
+            inputs += 1;
+        }
+    }
+    latches.iter().for_each(|(now, ..)| number(now.node()));
+    let ands: Vec<(usize, Lit, Lit)> = nodes
+        .iter()
+        .enumerate()
+        .filter_map(|(node, what)| match *what {
+            Node::And(a, b) => Some((node, a, b)),
+            Node::False | Node::Input(_) => None,
+        })
+        .collect();
+    ands.iter().for_each(|(node, ..)| number(*node));
+    let code = |lit: Lit| 2 * numbers[lit.node()] + u32::from(lit.is_inverted());
+    let most = inputs + latches.len() + ands.len();
+    let mut text = format!("aig {most} {inputs} {} 1 {}\n", latches.len(), ands.len());
+    for &(now, next, init) in &latches {
+        let init = match init {
+            Some(init) => u32::from(init),
+            None => code(now),
+        };
+        text.push_str(&format!("{} {init}\n", code(next)));
+    }
+    text.push_str(&format!("{}\n", code(bad)));
+    let mut bytes = text.into_bytes();
+    for (node, a, b) in ands {
+        let (a, b) = (code(a), code(b));
+        let (high, low) = (a.max(b), a.min(b));
+        delta(&mut bytes, 2 * numbers[node] - high);
+        delta(&mut bytes, high - low);
+    }
+    bytes
+}
+
+/// A difference, seven bits a byte, the lowest first.
+fn delta(bytes: &mut Vec<u8>, mut value: u32) {
+    while value >= 0x80 {
+        bytes.push(value as u8 | 0x80);
+        value >>= 7;
+    }
+    bytes.push(value as u8);
+}
