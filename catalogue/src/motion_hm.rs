@@ -66,8 +66,8 @@ pub(super) const ROWS: &[Inst] = &[
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends an advanced interrupt."),
-    named_only("DPTO", "Pulses in several stages").forms(W32),
-    named_only("CAP", "Capture of a count"),
+    named_only("DPTO", "Output at several speeds").forms(W32),
+    named_only("CAP", "High-speed read"),
     motion("AXPO", "Bind an axis to an output")
         .takes(&[AXIS, count("D2", 0, 8), any("D3").limits(0, 1)])
         .lower(Lower::Axis(&[0, 1]))
