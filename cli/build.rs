@@ -1,8 +1,8 @@
 //! Asks the linker for what makes the executable a tenth smaller: compact relocations (4 %) and no unwind tables (6 %).
 //!
 //! Loading compact relocations takes glibc 2.36, so only a build for this very machine has them, and only if its glibc
-//! is that new. Unwind tables have no use where a panic aborts; the GNU linker and LLD leave them out, others cannot, so
-//! whoever chooses a linker keeps them.
+//! is that new. Unwind tables have no use where a panic aborts, as it does in the release profile; the GNU linker and LLD
+//! leave them out, others cannot, so whoever chooses a linker keeps them.
 
 use std::path::Path;
 use std::process::Command;
@@ -29,7 +29,7 @@ fn main() -> io::Result<()> {
     }
     let chosen = env::var_os("RUSTC_LINKER").is_some()
         || env::var("CARGO_ENCODED_RUSTFLAGS").is_ok_and(|flags| flags.contains("link"));
-    if native && is("CARGO_CFG_PANIC", "abort") && !chosen {
+    if native && is("PROFILE", "release") && !chosen {
         let script = env::var_os("OUT_DIR").unwrap_or_default();
         let script = Path::new(&script).join("without_tables.ld");
         fs::write(&script, WITHOUT_TABLES)?;

@@ -130,6 +130,15 @@ fn by_tcp(client: Option<Command>, list: &str, model: &str, [option, server]: [&
     succeeds(client);
 }
 
+/// The same on a serial or CAN line.
+fn on_a_line(client: Option<Command>, list: &str, model: &str, line: &str) {
+    let Some(mut client) = client else { return };
+    let folder = program(list);
+    let run = Run::new(folder.path(), model, &[], &[line]);
+    client.arg(run.line(line));
+    succeeds(client);
+}
+
 #[test]
 fn pymodbus_reads_and_writes_over_tcp() {
     by_tcp(
@@ -142,13 +151,7 @@ fn pymodbus_reads_and_writes_over_tcp() {
 
 #[test]
 fn pymodbus_reads_and_writes_on_a_line() {
-    let Some(mut client) = python("pymodbus", "modbus_rtu.py") else {
-        return;
-    };
-    let folder = program(SLAVES);
-    let run = Run::new(folder.path(), "h2u", &[], &["COM1"]);
-    client.arg(run.line("COM1"));
-    succeeds(client);
+    on_a_line(python("pymodbus", "modbus_rtu.py"), SLAVES, "h2u", "COM1");
 }
 
 #[test]
@@ -284,36 +287,15 @@ fn umodbus_reads_and_writes_over_tcp() {
 
 #[test]
 fn python_can_exchanges_frames_over_slcan() {
-    let Some(mut client) = python("can", "can_bus.py") else {
-        return;
-    };
-    let folder = program(BUS);
-    let run = Run::new(folder.path(), "h2u", &[], &["CAN"]);
-    client.arg(run.line("CAN"));
-    succeeds(client);
+    on_a_line(python("can", "can_bus.py"), BUS, "h2u", "CAN");
 }
 
 #[test]
 fn a_client_written_from_public_documents_uses_the_programming_port() {
-    let folder = program(PROGRAMMING_PORT);
-    for over_tcp in [true, false] {
-        let Some(mut client) = python("tty", "fx_port.py") else {
-            return;
-        };
-        if over_tcp {
-            let run = Run::new(folder.path(), "fx3u", &["--fx"], &[]);
-            succeeds({
-                client.arg(run.port("programming port").to_string());
-                client
-            });
-        } else {
-            let run = Run::new(folder.path(), "fx3u", &[], &["COM0"]);
-            succeeds({
-                client.arg(run.line("COM0"));
-                client
-            });
-        }
-    }
+    let client = || python("tty", "fx_port.py");
+    let tcp = ["--fx", "programming port"];
+    by_tcp(client(), PROGRAMMING_PORT, "fx3u", tcp);
+    on_a_line(client(), PROGRAMMING_PORT, "fx3u", "COM0");
 }
 
 /// A master asks a slave of pymodbus, whose answers are wrong in many ways. `addresses` are those of M0, D0 and, where
