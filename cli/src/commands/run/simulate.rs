@@ -429,7 +429,12 @@ fn hardware(in_real_time: bool) -> VirtualHal {
 
 /// The local time: that of the zone which the system or `TZ` names.
 fn local_time() -> Option<Clock> {
-    let zone = tz::TimeZone::local().ok()?;
+    let named = std::env::var("TZ").ok().filter(|name| !name.is_empty());
+    let zone = match named {
+        Some(name) => tz::TimeZone::from_posix_tz(&name),
+        None => tz::TimeZone::local(),
+    };
+    let zone = zone.ok()?;
     let now = tz::DateTime::now(zone.as_ref()).ok()?;
     Clock::new(
         u16::try_from(now.year()).ok()?,
