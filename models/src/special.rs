@@ -358,6 +358,10 @@ pub(crate) const LATCHES: Reason = because(
     Missed::ByWriters,
     "the latched ranges are chosen when the program is compiled, by the project's PLC parameters or `[latched]` in rungc.toml",
 );
+pub(crate) const FIXED_AREA: Reason = because(
+    Missed::ByWriters,
+    "the registers of extension modules always begin at D7100",
+);
 const NOT_FITTED: Reason = because(
     Missed::ByAll,
     "no `[[module]]` in rungc.toml lists the module that it belongs to",

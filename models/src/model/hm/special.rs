@@ -1,7 +1,7 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers
 //! mean something else than on the other models.
 
-use crate::special::{AXES, MAKER, POWER_ON, Special, TIMING, specials};
+use crate::special::{AXES, FIXED_AREA, MAKER, POWER_ON, Special, TIMING, specials};
 use rungc_rt::modules::Place;
 
 /// Its special devices.
@@ -99,7 +99,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8123 rw 0 by("UINIT") "UART1 protocol control word";
     D 8124 rw 0 by("UINIT") "UART1 byte control word";
     D 8125 rw 7020 by("UINIT") "UART1: first D register it occupies";
-    D 8129 rw 7100 modules(Place::Hm) "first D register occupied by extensions";
+    D 8129 rw 7100 inert(FIXED_AREA) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
     D 8180-8185 rw 0 by("axis motion, REF") "use of Y000–Y005: 0 PLC, 2 pulses of an axis, as soon as one moves there; REF leaves an output alone whose use is not 0";
     D 8188-8195 rw 0 by("axis motion, REF") "use of Y010–Y017: 0 PLC, 1 high-speed event output, 3 direction of an axis, as soon as one moves";
