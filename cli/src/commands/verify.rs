@@ -180,7 +180,7 @@ fn located(
         };
         devices
             .contains(&(device.class, device.number))
-            .then(|| (instr.span, device))
+            .then_some((instr.span, device))
     });
     if let Some((span, device)) = places.next() {
         diagnostic.span = span;

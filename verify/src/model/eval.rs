@@ -190,8 +190,8 @@ impl Encoder<'_> {
                 .flat_map(|word| word[8..].iter().chain(&word[..8]).copied())
                 .collect(),
             UnOp::CountOnes => self.aig.ones(a, width),
-            UnOp::ToBcd => self.to_bcd(a),
-            UnOp::FromBcd => self.from_bcd(a),
+            UnOp::ToBcd => self.bcd_of(a),
+            UnOp::FromBcd => self.number_of_bcd(a),
             UnOp::IsBcd => {
                 let ten = constant(10, 4);
                 let digits = a.chunks(4).map(|digit| self.aig.below(digit, &ten));
@@ -223,7 +223,7 @@ impl Encoder<'_> {
         }
     }
 
-    fn to_bcd(&mut self, a: &[Lit]) -> Bits {
+    fn bcd_of(&mut self, a: &[Lit]) -> Bits {
         let mut rest = a.to_vec();
         let mut digits = Bits::new();
         while digits.len() < a.len() {
@@ -234,7 +234,7 @@ impl Encoder<'_> {
         digits
     }
 
-    fn from_bcd(&mut self, a: &[Lit]) -> Bits {
+    fn number_of_bcd(&mut self, a: &[Lit]) -> Bits {
         let mut value = constant(0, a.len());
         for digit in a.chunks(4).rev() {
             value = self.aig.mul(&value, &constant(10, a.len()));

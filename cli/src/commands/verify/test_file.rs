@@ -72,14 +72,12 @@ fn relative(program: &Path, test: &Path) -> String {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (program, test) = (absolute(program), absolute(test));
     let folder = test.parent().unwrap_or(Path::new(""));
-    let mut up = 0;
-    for ancestor in folder.ancestors() {
+    for (up, ancestor) in folder.ancestors().enumerate() {
         if let Ok(below) = program.strip_prefix(ancestor) {
             let mut parts = vec!["..".to_string(); up];
             parts.extend(below.iter().map(|part| part.to_string_lossy().into_owned()));
             return parts.join("/");
         }
-        up += 1;
     }
     program.to_string_lossy().into_owned()
 }

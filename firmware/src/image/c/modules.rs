@@ -14,7 +14,7 @@ pub(super) const FIELDS: [&str; 2] = ["read_bfm", "write_bfm"];
 /// Whether the board's own functions leave the buffer memory to the image.
 pub(super) fn are_there(image: &Image) -> bool {
     let own = |field: &&str| image.board.functions.contains_key(*field);
-    !FIELDS.iter().any(|field| own(field)) && !image.modules().is_empty()
+    !FIELDS.iter().any(own) && !image.modules().is_empty()
 }
 
 /// The functions of the modules, and of the built-in analog inputs.
