@@ -139,7 +139,7 @@ mod tests {
         let both = solver.lit(&aig, both);
         let inputs = [0, 1, 2].map(|i| solver.lit(&aig, lits[i]));
         assert_eq!(solver.solve(&[both, inputs[2]]), Answer::Sat);
-        assert!(solver.value(lits[0]) && solver.value(!lits[0]) == false);
+        assert!(solver.value(lits[0]) && !solver.value(!lits[0]));
         assert_eq!(solver.solve(&[both, inputs[2], !inputs[1]]), Answer::Unsat);
         let mut core = solver.core();
         core.sort();
