@@ -1,8 +1,8 @@
 //! Asks the linker for what makes the executable a tenth smaller: compact relocations (4 %) and no unwind tables (6 %).
 //!
 //! Loading compact relocations takes glibc 2.36, so only a build for this very machine has them, and only if its glibc
-//! is that new. Unwind tables have no use where a panic aborts, as it does in the release profile; the GNU linker and LLD
-//! leave them out, others cannot, so whoever chooses a linker keeps them.
+//! is that new. Unwind tables have no use where a panic aborts, as it does in the release profile; the GNU linker and
+//! LLD leave them out, others cannot, so whoever chooses a linker keeps them.
 
 use std::path::Path;
 use std::process::Command;
