@@ -337,7 +337,7 @@ fn models(inst: &Inst) -> String {
     for id in ModelId::ALL {
         let state = match support(inst, id) {
             Support::Works => "works".to_owned(),
-            Support::Planned(reason) => format!("not yet: {reason}"),
+            Support::Refused(reason) => format!("no: {reason}"),
             Support::Absent => "–".to_owned(),
         };
         let _ = writeln!(text, "| {} | {state} |", Model::get(id).name);
@@ -354,19 +354,19 @@ fn example(inst: &Inst, model: ModelId) -> String {
 
 enum Support {
     Works,
-    Planned(&'static str),
+    Refused(&'static str),
     Absent,
 }
 
 fn support(inst: &Inst, model: ModelId) -> Support {
     match inst.lower_on_model(model) {
         _ if !inst.models.has(model) => Support::Absent,
-        Lower::Todo(reason) => Support::Planned(reason),
+        Lower::Todo(reason) => Support::Refused(reason),
         _ => Support::Works,
     }
 }
 
-/// Which instruction works on which model, in Markdown: ✓ works, a number: not yet, for the reason given below, – the
+/// Which instruction works on which model, in Markdown: ✓ works, a number: it cannot be compiled, for the reason given below, – the
 /// model has none.
 pub fn support_table() -> String {
     let mut reasons: Vec<&str> = Vec::new();
@@ -384,7 +384,7 @@ pub fn support_table() -> String {
             match support(inst, id) {
                 Support::Works => text.push_str(" ✓ |"),
                 Support::Absent => text.push_str(" – |"),
-                Support::Planned(reason) => {
+                Support::Refused(reason) => {
                     let known = reasons.iter().position(|one| *one == reason);
                     let number = known.unwrap_or_else(|| {
                         reasons.push(reason);
@@ -398,7 +398,7 @@ pub fn support_table() -> String {
     }
     text.push('\n');
     for (number, reason) in reasons.iter().enumerate() {
-        let _ = writeln!(text, "{}. Not yet: {reason}.", number + 1);
+        let _ = writeln!(text, "{}. No: {reason}.", number + 1);
     }
     text
 }

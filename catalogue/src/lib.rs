@@ -355,7 +355,7 @@ pub enum Lower {
     Call(RtFn),
     /// A runtime function of which one instruction of a program runs at a time: while it is driven, others are not.
     Exclusive(RtFn),
-    /// Not there yet: a compile error names the instruction and this reason.
+    /// It cannot be compiled: an error names the instruction and this reason.
     Todo(&'static str),
 }
 

@@ -5,8 +5,6 @@ use super::row::*;
 use super::{Basic, Drive, Inst, Lower, Param, Rule, Spelling};
 use rungc_rt::RtFn;
 
-const MOTION: &str = "axis motion";
-
 const fn any(name: &'static str) -> Param {
     src(name, CONSTANTS.or(DATA)).word()
 }
@@ -17,9 +15,7 @@ const fn table(name: &'static str) -> Param {
 }
 
 const fn motion(name: &'static str, title: &'static str) -> Inst {
-    row(name, title, "hm-motion-controller §8")
-        .on(HM)
-        .todo(MOTION)
+    row(name, title, "hm-motion-controller §8").on(HM)
 }
 
 const fn wide(name: &'static str, title: &'static str) -> Inst {
@@ -50,7 +46,7 @@ const fn named_only(name: &'static str, title: &'static str) -> Inst {
         .on(HM)
         .spelling(Spelling::Plain)
         .takes(OPERANDS)
-        .todo("instructions that the manual names and does not describe")
+        .todo("the manual names it and does not describe it")
         .text("The manual names this instruction in its list and describes neither its operands nor what it does.")
 }
 

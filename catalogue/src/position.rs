@@ -7,7 +7,6 @@ use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
-const PULSES: &str = "pulse output";
 /// An output that sends pulses and keeps a position, by itself and with a direction.
 const POSITION_OUTPUT: Param = position_output("D");
 const PULSE_OUTPUT: Param = position_output("D1");
@@ -92,7 +91,6 @@ const fn position(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .steps(9, 17)
         .flags(&["M8029"])
         .errors(&[6706])
-        .todo(PULSES)
 }
 
 pub(super) const ROWS: &[Inst] = &[
@@ -115,6 +113,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(17, 17)
         .on(FX3GU)
         .takes(&[POSITION_OUTPUT, count("n", 1, 100)])
+        .todo("its positioning table is a parameter of the project that rungc does not read")
         .text("Does what row n of the positioning table in the parameters says for output D."),
     position("ABS", 155, "Read an absolute position")
         .forms(W32)

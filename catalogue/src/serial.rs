@@ -6,11 +6,10 @@ use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
-const SERIAL: &str = "serial communication";
 /// What is missing of the inverter instructions: when a request is repeated, and which codes its errors have.
 const INVERTER: &str = "the exchange with Mitsubishi inverters is in no manual at hand; RS2 can send its frames, and ADPRW reaches \
                         inverters by Modbus";
-const CASSETTE: &str = "memory cassettes";
+const CASSETTE: &str = "it works on a memory cassette, which a compiled program does not have";
 
 /// A number of bytes or words: a constant or a register.
 const fn number(name: &'static str, max: i64) -> Param {
@@ -175,7 +174,6 @@ const fn serial(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.9")
         .fnc(fnc)
         .steps(9, 9)
-        .todo(SERIAL)
 }
 
 /// An instruction that `[canlink]` of a project becomes.

@@ -1149,6 +1149,8 @@ typedef struct rungc_axis {
     bool timed;
 } rungc_axis;
 
+
+
 /**
  * All of them, by their numbers.
  */

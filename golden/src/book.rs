@@ -187,7 +187,7 @@ fn instructions() -> Vec<Page> {
 /// Which model has which instruction.
 fn support() -> Page {
     let text = format!(
-        "# Support by model\n\nEvery instruction of the supported PLCs is read, checked and counted in steps. Instructions not implemented yet are \
+        "# Support by model\n\nEvery instruction of the supported PLCs is read, checked and counted in steps. Those that cannot be compiled are \
          reported by name.\n✓ = works on all three engines; a number refers to a note below; – = not on this model.\n\n{}\n",
         rungc_catalogue::support_table()
     );

@@ -187,7 +187,7 @@ impl Lowerer<'_> {
     pub(super) fn high_speed_compare(&mut self, comparison: Comparison) {
         if self.compare_at_count(comparison).is_none() {
             let span = self.instr().span;
-            let message = format!("`{}` is not implemented yet in this form", self.instr());
+            let message = format!("`{}` cannot be compiled in this form", self.instr());
             self.report(codes::NOT_IMPLEMENTED.at(span, message));
         }
     }

@@ -128,7 +128,7 @@ impl Lowerer<'_> {
                 }),
                 None => {
                     let instr = &self.resolved.program.instrs[region.start];
-                    let message = format!("`{instr}` is not implemented yet: what requests it");
+                    let message = format!("`{instr}` cannot be compiled: nothing requests it");
                     self.report(codes::NOT_IMPLEMENTED.at(instr.span, message));
                 }
             }

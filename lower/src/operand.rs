@@ -604,7 +604,7 @@ impl Lowerer<'_> {
         let name = &instr.mnemonic;
         self.report(codes::NOT_IMPLEMENTED.at(
             span,
-            format!("`{operand}` of `{name}` is not implemented yet: this kind of operand"),
+            format!("`{name}` cannot be compiled with `{operand}`, an operand of this kind"),
         ));
     }
 }

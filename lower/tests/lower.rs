@@ -261,7 +261,9 @@ fn what_is_not_implemented_is_refused_by_name() {
     };
     assert_eq!(
         refused("LD X10\nDTBL Y0 K1\nEND\n"),
-        ["E0036 `TBL` is not implemented yet: pulse output"]
+        [
+            "E0036 `TBL` cannot be compiled: its positioning table is a parameter of the project that rungc does not read"
+        ]
     );
 }
 

@@ -16,9 +16,9 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
     }
 }
 
-/// The error of an instruction that belongs to `what`, which is missing.
+/// The error of an instruction that cannot be compiled, for the reason `what`.
 pub fn refusal(inst: &Inst, what: &str, span: Span) -> Diagnostic {
-    let message = format!("`{}` is not implemented yet: {what}", inst.name);
+    let message = format!("`{}` cannot be compiled: {what}", inst.name);
     codes::NOT_IMPLEMENTED
         .at(span, message)
         .label("a program with this instruction cannot be built")

@@ -141,8 +141,8 @@ super::codes! {
     right: "FOR K2\nLD X0\nOUT Y0\nNEXT\nEND\n";
 
     NOT_IMPLEMENTED = "E0036" "not-implemented" Error None,
-    "this instruction is not implemented yet",
-    "The instruction is known, checked and counted, but not implemented yet. The message names the group of instructions that is missing.",
+    "this instruction cannot be compiled",
+    "The instruction is known, checked and counted in steps, but nothing stands for it in a compiled program. The message says why.",
     wrong: "",
     right: "";
 
