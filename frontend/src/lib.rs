@@ -118,8 +118,8 @@ pub enum ReadError {
 }
 
 /// Reads a program of any known format, found by its content: a list as text, a list export or program memory with the
-/// device comments that lie beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2
-/// project.
+/// device comments that lie beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and
+/// parameters), a GX Works2 project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
     read_with(path, &ReadOptions::default())
 }

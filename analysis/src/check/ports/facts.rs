@@ -133,7 +133,8 @@ impl Facts {
     fn note_index(&mut self, access: &accesses::Access, watched: &BTreeSet<Device>) {
         let Device { class, number } = access.first;
         let reached = |number| Device { class, number };
-        let near = reached(number.saturating_sub(USUAL_INDEX))..=reached(number + USUAL_INDEX);
+        let near = reached(number.saturating_sub(USUAL_INDEX))
+            ..=reached(number.saturating_add(USUAL_INDEX));
         if class == DeviceClass::D
             && number >= FIRST_SPECIAL
             && watched.range(near).next().is_some()
