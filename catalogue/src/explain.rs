@@ -366,8 +366,8 @@ fn support(inst: &Inst, model: ModelId) -> Support {
     }
 }
 
-/// Which instruction works on which model, in Markdown: ✓ works, a number: it cannot be compiled, for the reason given below, – the
-/// model has none.
+/// Which instruction works on which model, in Markdown: ✓ works, a number: it cannot be compiled, for the reason given
+/// below, – the model has none.
 pub fn support_table() -> String {
     let mut reasons: Vec<&str> = Vec::new();
     let mut text = "| instruction | FNC | |".to_owned();

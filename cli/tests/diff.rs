@@ -143,7 +143,7 @@ fn jumps_decide_about_what_they_skip_alone() {
         words.starts_with("Outputs that can differ: Y000"),
         "{words}"
     );
-    // What lies behind crossed jumps is apart from them.
+    // What follows crossed jumps is apart from them.
     let (words, _) = behaviour(crossed, &crossed.replace("LD X4", "LDI X4"));
     assert!(!words.contains("Y005"), "{words}");
 }

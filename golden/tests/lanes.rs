@@ -164,7 +164,7 @@ fn random_programs_do_the_same_in_lanes() {
         .and_then(|n| n.parse().ok())
         .unwrap_or(12);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lanes");
-    // Programs of any instruction would nearly all call the runtime, which lanes refuse.
+    // Programs of any instruction would nearly all call the runtime, which lanes reject.
     let mut rng = Rng::new(7);
     let mut pool = candidates(ModelId::Fx3u);
     pool.retain(|candidate| {

@@ -29,7 +29,7 @@ impl Condition {
         self.factors.is_empty()
     }
 
-    /// With more contacts behind it.
+    /// With more contacts after it.
     pub(crate) fn pass(&mut self, face: &Face, series: &Series) {
         for part in series {
             let factor = match part {

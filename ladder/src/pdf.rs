@@ -87,7 +87,7 @@ impl Sheets<'_> {
         &mut self.pages[at]
     }
 
-    /// Goes on to the next page unless this one has so much room.
+    /// Turns to the next page unless this one has that much room.
     fn need(&mut self, height: f64) {
         if self.y > 0.0 && self.y + height > ROOM.1 {
             self.page();
@@ -173,7 +173,7 @@ impl Sheets<'_> {
         }
     }
 
-    /// A picture; one that is higher than the page goes on to others, between its rows.
+    /// A picture; one that is higher than the page continues on others, between its rows.
     fn picture(&mut self, picture: &Picture) {
         let scale = SCALE.min(ROOM.0 / picture.size.0);
         self.need((picture.size.1 * scale).min(ROOM.1));

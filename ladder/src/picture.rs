@@ -60,7 +60,7 @@ pub(crate) struct Picture {
     /// Its width and height.
     pub(crate) size: Point,
     pub(crate) marks: Vec<Mark>,
-    /// Heights at which it may go on to another page.
+    /// Heights at which it may continue on another page.
     pub(crate) breaks: Vec<f64>,
 }
 
@@ -350,7 +350,7 @@ impl Picture {
         }
     }
 
-    /// Without links, for a picture that is a file of its own.
+    /// Without links, for a picture that is a separate file.
     pub(crate) fn unlink(&mut self) {
         unlink(&mut self.marks);
     }

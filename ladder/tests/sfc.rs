@@ -86,7 +86,7 @@ fn long_flows_with_many_branches_are_drawn_in_parts() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Random flows: transitions from one or two states to one or two. Each has a contact of its own.
+    /// Random flows: transitions from one or two states to one or two. Each has its own contact.
     #[test]
     fn every_state_and_transition_is_drawn(
         transitions in prop::collection::vec((0..12_u32, 0..24_u32, 0..12_u32, 0..24_u32), 0..25),

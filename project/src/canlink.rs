@@ -59,7 +59,7 @@ pub struct Entry {
 /// When an entry is sent.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum When {
-    /// Each time so many milliseconds have passed.
+    /// Each time this many milliseconds have passed.
     Every(u16),
     /// When a relay M is on, which is then switched off.
     Event(u32),

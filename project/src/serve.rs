@@ -80,7 +80,7 @@ impl CanRate {
             .map(CanRate)
     }
 
-    /// What opens the channel of an adapter at this rate. It is closed first: an open one refuses a rate. Carriage
+    /// What opens the channel of an adapter at this rate. It is closed first: an open one rejects a rate. Carriage
     /// returns before that end what the adapter may hold of an earlier line.
     fn opening(self) -> String {
         format!("\r\r\rC\rS{}\rO\r", self.0)

@@ -477,7 +477,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
         self.put(page, &done, "(plc_lanes)0");
     }
 
-    /// A bit in lanes as a constant with a name of its own.
+    /// A bit in lanes as a constant with its own name.
     fn named_bits(&mut self, page: &mut Page, value: ExprId, name: &str) -> String {
         let mask = self.mask.clone();
         let value = self.bits(page, value, mask.as_deref());

@@ -81,7 +81,7 @@ pub(super) struct Sequence {
 impl Sequence {
     /// Of two modules; `steps` is whether the steps of errors are a part of what they do.
     ///
-    /// Networks that both have give their private memory names of their own, so that it keeps them wherever they move.
+    /// Networks that both have name their private memory by themselves, so that it keeps them wherever they move.
     pub(super) fn of_both(modules: [&Module; 2], names: &mut Names, steps: bool) -> [Self; 2] {
         let [old, new] = modules.map(|module| {
             let mut reader = Reader::of(module, names, steps);
@@ -249,7 +249,7 @@ impl<'a> Reader<'a> {
                     self.body(&part.body, inside, true);
                 }
             }
-            // A jump back may go on until the watchdog stops the PLC.
+            // A jump back may continue until the watchdog stops the PLC.
             Stmt::Goto(label) if self.passed.contains(&label.0) => {
                 self.everything(format!("goto {}", label.0), context);
             }

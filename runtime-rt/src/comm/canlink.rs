@@ -228,7 +228,7 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// State of a station; `None` if nobody watches it.
+    /// State of a station; `None` if no one watches it.
     pub(crate) fn state(&self, station: u8, now_ms: u32) -> Option<i16> {
         let watched = match self.is_master() {
             true => self.has_role(station, WATCHED),
@@ -246,7 +246,7 @@ impl<'a> Network<'a> {
         })
     }
 
-    /// Whether the bus has refused a frame in this scan: those after it wait, so that frames keep their order.
+    /// Whether the bus has rejected a frame in this scan: those after it wait, so that frames keep their order.
     pub(crate) fn has_refused(&self, scan: u16) -> bool {
         self.number(REFUSED) == u32::from(scan)
     }

@@ -120,7 +120,7 @@ pub fn canput(cx: &mut Cx) -> Done {
     if *next == 0 && drive && is_time {
         (*next, *last_ms) = (1, now_ms as i32);
     }
-    // What the bus refuses is sent in the next scan, whether or not that drives the instruction.
+    // What the bus rejects is sent in the next scan, whether or not that drives the instruction.
     while let Some(first) = cx.state().0[0].checked_sub(1).filter(|first| *first >= 0) {
         if !send(cx, head, first, count, scan)? {
             break;
