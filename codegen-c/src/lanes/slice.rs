@@ -27,8 +27,6 @@ pub(super) struct Slicer<'a, 'm> {
     pub writer: Writer<'a, 'm>,
     /// The instances that execute what is being written; `None`: all.
     mask: Option<String>,
-    /// Variable of the loop over stations around.
-    iteration: Option<String>,
     /// Whether any code of one instance was written.
     pub singles: bool,
     /// Names given in this function.
@@ -43,7 +41,6 @@ impl<'a, 'm> Slicer<'a, 'm> {
             classes,
             writer,
             mask: None,
-            iteration: None,
             singles: false,
             names: 0,
             named: FxHashMap::default(),
@@ -121,7 +118,6 @@ impl<'a, 'm> Slicer<'a, 'm> {
                 i += 1;
                 continue;
             }
-            // A network's heading belongs before the loop, unless the loop holds several networks.
             let end = (i..nodes.len()).find(|&k| sliced[k]).unwrap_or(nodes.len());
             self.instances(page, &nodes[i..end], &nodes[end..]);
             i = end;
@@ -242,12 +238,10 @@ impl<'a, 'm> Slicer<'a, 'm> {
         page.open(&format!(
             "for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{"
         ));
-        self.iteration = Some(variable.clone());
         self.writer.iteration = variable;
         for node in &stations.body {
             self.node(page, node);
         }
-        self.iteration = None;
         page.close();
     }
 
