@@ -4,7 +4,7 @@ use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
 use crate::{
     Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_LANES_H, RUNGC_RETAIN_H,
-    RUNGC_RT_H, access, board, header, lanes, retain, text,
+    RUNGC_RT_H, access, board, cmake, header, lanes, retain, text,
 };
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
@@ -94,8 +94,7 @@ impl Part {
     pub fn alone(self) -> Vec<OutFile> {
         let mut files = self.files;
         files.extend(self.recipe.shared.files());
-        let makefile = makefile::makefile(&[self.recipe]);
-        files.push(OutFile::new("Makefile", makefile));
+        files.extend(builds(&[self.recipe]));
         files
     }
 
@@ -120,8 +119,16 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
         lanes: needed(|shared| shared.lanes),
     };
     let mut files = shared.files();
-    files.push(OutFile::new("Makefile", makefile::makefile(recipes)));
+    files.extend(builds(recipes));
     files
+}
+
+/// What builds the programs: by CMake and by `make`.
+fn builds(recipes: &[Recipe]) -> [OutFile; 2] {
+    [
+        OutFile::new("CMakeLists.txt", cmake::cmake_lists(recipes)),
+        OutFile::new("Makefile", makefile::makefile(recipes)),
+    ]
 }
 
 /// The header and the sources of a program, whose paths join `sources`.

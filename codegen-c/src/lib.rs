@@ -16,6 +16,7 @@
 
 mod access;
 mod board;
+mod cmake;
 mod code;
 mod devices;
 mod events;

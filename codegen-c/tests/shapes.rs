@@ -89,6 +89,7 @@ fn instructions_of_the_runtime() {
             "rungc_rt.h",
             "rungc-rt/Cargo.toml",
             "rungc-rt/Cargo.lock",
+            "CMakeLists.txt",
             "Makefile"
         ]
     );

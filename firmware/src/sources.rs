@@ -17,13 +17,18 @@ pub fn c_together(recipes: &[Recipe], target: &Target) -> Vec<OutFile> {
     for_target(rungc_codegen_c::together(recipes), target)
 }
 
-/// The same files with a Makefile for the target.
+/// The same files with recipes for the target.
 fn for_target(files: Vec<OutFile>, target: &Target) -> Vec<OutFile> {
     let files = files.into_iter();
     files
         .map(|f| match (f.path.as_str(), target.rustc_name()) {
             ("Makefile", Some(triple)) => {
                 OutFile::new(f.path, makefile(&f.contents, target, triple))
+            }
+            // The compiler and its options are the toolchain file's.
+            ("CMakeLists.txt", Some(triple)) => {
+                let set = format!("set(RUNGC_TARGET \"{triple}\"");
+                OutFile::new(f.path, f.contents.replace("set(RUNGC_TARGET \"\"", &set))
             }
             _ => f,
         })
