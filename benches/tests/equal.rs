@@ -39,8 +39,11 @@ fn implementations_do_the_same() {
         rounds: 0,
         turn_us: 0,
     };
-    for kind in Kind::ALL {
-        let ladder = Ladder::new(kind, 1000);
+    let mut programs = Vec::from(Kind::ALL.map(|kind| (kind, 1000)));
+    // Uses all timers.
+    programs.push((Kind::Mixed, 20_000));
+    for (kind, steps) in programs {
+        let ladder = Ladder::new(kind, steps);
         let all = match host::time(&ladder, &["gcc"], false, effort) {
             Ok(all) => all,
             Err(problem) => panic!("{}: {problem}", kind.name()),

@@ -212,10 +212,7 @@ impl Generator {
     /// What a rung of `mixed` drives.
     fn action(&mut self, what: f64) -> Action {
         if what < 0.08 {
-            let number = self.timers % TIMERS;
-            self.timers += 1;
-            self.steps += 3;
-            Action::Timer(number, self.random.between(1, 500))
+            self.timer()
         } else if what < 0.14 {
             let number = self.counters % COUNTERS;
             self.counters += 1;
@@ -234,6 +231,17 @@ impl Generator {
         } else {
             self.coil()
         }
+    }
+
+    /// A timer that has no coil yet, or a coil when all have one: a timer with several coils counts once in a scan,
+    /// which code written by hand has no use for.
+    fn timer(&mut self) -> Action {
+        if self.timers == TIMERS {
+            return self.coil();
+        }
+        self.timers += 1;
+        self.steps += 3;
+        Action::Timer(self.timers - 1, self.random.between(1, 500))
     }
 
     /// An instruction with registers. The operands of all of them are drawn, whichever it is.
