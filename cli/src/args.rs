@@ -1,11 +1,13 @@
 //! Arguments of the command line.
 
 mod diff;
+mod flash;
 mod forms;
 mod values;
 mod verify;
 
 pub use diff::{DiffArgs, DiffFormat};
+pub use flash::FlashArgs;
 pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
 pub use verify::VerifyArgs;
 
@@ -107,6 +109,12 @@ pub enum Command {
     ///
     /// The PLC keeps running, and nothing in it is changed. A PLC whose program is protected by a keyword is not read.
     Read(ReadArgs),
+    /// Write an image into a microcontroller, over the boot loader in its ROM (STM32, AN3155) or with probe-rs.
+    ///
+    /// Says what is erased, and asks. Exit codes: 0: the image is there, read back and compared; 1: the boot loader, the
+    /// part or the line does not allow it (E0850 and following); 2: incorrect usage or unreadable image; 130:
+    /// interrupted.
+    Flash(FlashArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.
     Init(InitArgs),
     /// Learn unknown instruction codes in a vendor project from the list that the editor exports.

@@ -2,13 +2,14 @@
 //!
 //! [`target`] lists the machines, [`board`] reads the description of a board, [`image`] writes the sources of an image
 //! for it, [`sources`] those of a library, and [`build`] calls the compilers; [`report`] measures the resources it uses
-//! there.
+//! there, and [`flash`] writes an image into a microcontroller.
 //!
 //! This crate must not know what a program computes: it calls the backends and compilers, and reads what they made.
 //! Start reading at [`target`] and [`image`].
 
 pub mod board;
 pub mod build;
+pub mod flash;
 pub mod image;
 pub mod report;
 pub mod sources;

@@ -10,7 +10,8 @@
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
-//! | E08xx, W08xx | properties that are verified |
+//! | E080x, W080x | properties that are verified |
+//! | E085x, W085x | boards, and writing images into them |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.
@@ -19,6 +20,7 @@ use crate::Span;
 use crate::diag::{Diagnostic, Severity};
 use crate::order;
 
+mod boards;
 mod labels;
 mod logic;
 mod modules;
@@ -31,6 +33,7 @@ mod reading;
 mod structure;
 mod vendor;
 
+pub use boards::*;
 pub use labels::*;
 pub use logic::*;
 pub use modules::*;
@@ -144,6 +147,7 @@ pub fn all() -> Vec<&'static Code> {
         modules::TABLE,
         vendor::TABLE,
         properties::TABLE,
+        boards::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
     order::by_key(&mut all, |code| code.id);

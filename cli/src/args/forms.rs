@@ -28,7 +28,7 @@ pub struct ConvertArgs {
 pub struct ReadArgs {
     /// The serial port of this machine that the PLC's programming port is connected to (`/dev/ttyUSB0`, `COM3`), or a
     /// serial device server (`tcp:HOST:PORT`).
-    #[arg(long, value_parser = plc, value_name = "PORT")]
+    #[arg(long, value_parser = serial_end, value_name = "PORT")]
     pub port: LineEnd,
     /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
     #[arg(long, default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
@@ -52,11 +52,11 @@ pub struct ReadArgs {
     pub reporting: Reporting,
 }
 
-/// Where a PLC is.
-fn plc(text: &str) -> Result<LineEnd, String> {
+/// Where a PLC or a board is.
+pub(super) fn serial_end(text: &str) -> Result<LineEnd, String> {
     match LineEnd::parse(text)? {
         end @ (LineEnd::Path(_) | LineEnd::Tcp(_)) => Ok(end),
-        _ => Err("a PLC is at a serial port or at `tcp:HOST:PORT`".to_string()),
+        _ => Err("what is asked is at a serial port or at `tcp:HOST:PORT`".to_string()),
     }
 }
 

@@ -7,6 +7,7 @@ mod defaults;
 pub mod diff;
 pub mod explain;
 mod fix;
+pub mod flash;
 pub mod fmt;
 mod in_place;
 pub mod init;

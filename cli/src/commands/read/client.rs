@@ -1,7 +1,7 @@
 //! The asking end of the programming port's protocol, for what only reads.
 
 use crate::args::ReadArgs;
-use crate::commands::run::lines::wire::{self, Wire, is_patience};
+use crate::commands::run::lines::wire::{self, Wire};
 use crate::commands::{Failure, interruption, tell};
 use rungc_rt::comm::{LineFormat, Parity, fx_port};
 use std::time::{Duration, Instant};
@@ -117,17 +117,9 @@ impl Client {
         Err(self.failure(&format!("{why} (asked {attempts} times)")))
     }
 
-    fn send(&mut self, mut request: &[u8]) -> Result<(), Failure> {
-        let deadline = Instant::now() + self.timeout;
-        while !request.is_empty() {
-            let sent = self.wire.write(request);
-            let sent = sent.map_err(|error| self.failure(&error.to_string()))?;
-            request = &request[sent..];
-            if Instant::now() > deadline {
-                return Err(self.failure("the line takes no characters"));
-            }
-        }
-        Ok(())
+    fn send(&mut self, request: &[u8]) -> Result<(), Failure> {
+        let sent = self.wire.send(request, self.timeout);
+        sent.map_err(|error| self.failure(&error.to_string()))
     }
 
     /// The answer, or what is wrong with it.
@@ -175,10 +167,8 @@ impl Client {
     /// What has come; nothing if the line was silent.
     fn read(&mut self) -> Result<Vec<u8>, Failure> {
         let mut buffer = [0; LONGEST];
-        match self.wire.read(&mut buffer) {
-            Ok(0) => Err(self.failure("the line was closed")),
+        match self.wire.receive(&mut buffer) {
             Ok(count) => Ok(buffer[..count].to_vec()),
-            Err(error) if is_patience(&error) => Ok(Vec::new()),
             Err(error) => Err(self.failure(&error.to_string())),
         }
     }

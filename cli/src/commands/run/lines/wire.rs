@@ -264,6 +264,38 @@ impl Wire {
         }
     }
 
+    /// Sends all of the characters.
+    ///
+    /// # Errors
+    /// What the system says, or that the line does not take them in `patience`.
+    pub fn send(&mut self, mut bytes: &[u8], patience: Duration) -> io::Result<()> {
+        let deadline = Instant::now() + patience;
+        while !bytes.is_empty() {
+            let sent = self.write(bytes)?;
+            bytes = &bytes[sent..];
+            if !bytes.is_empty() && Instant::now() > deadline {
+                let why = "the line takes no characters";
+                return Err(io::Error::new(ErrorKind::TimedOut, why));
+            }
+        }
+        Ok(())
+    }
+
+    /// Receives what has come, after at most [`PATIENCE`]; 0 if nothing has.
+    ///
+    /// # Errors
+    /// What the system says, or that the other end has closed.
+    pub fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self.read(buffer) {
+            Ok(0) => Err(io::Error::new(
+                ErrorKind::UnexpectedEof,
+                "the line was closed",
+            )),
+            Err(error) if is_patience(&error) => Ok(0),
+            received => received,
+        }
+    }
+
     /// Sets a serial port to a format of characters. Connections and pseudo-terminals have none.
     pub fn set_format(&mut self, format: LineFormat) -> io::Result<()> {
         let Wire::Serial(port) = self else {

@@ -1,0 +1,53 @@
+//! Arguments of `flash`.
+
+use super::forms::serial_end;
+use clap::{ArgGroup, Args};
+use rungc_project::serve::LineEnd;
+use std::path::PathBuf;
+
+/// Arguments of `flash`.
+#[derive(Args, Debug)]
+#[command(group(ArgGroup::new("way").required(true).args(["port", "probe"])))]
+pub struct FlashArgs {
+    /// Image to write: an ELF file of `rungc build --emit elf`, or bytes as they are in flash.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The serial port that the boot loader's UART is connected to (`/dev/ttyUSB0`, `COM3`), or a serial device server
+    /// (`tcp:HOST:PORT`). The line has 8 data bits and even parity.
+    #[arg(long, value_parser = serial_end, value_name = "PORT")]
+    pub port: Option<LineEnd>,
+    /// Use a debug probe through probe-rs, which must be installed, for this part: `STM32F103VC`.
+    #[arg(long, value_name = "CHIP")]
+    pub probe: Option<String>,
+    /// Bit rate; the boot loader measures it.
+    #[arg(long, default_value_t = 115_200, value_parser = clap::value_parser!(u32).range(1200..=230_400), value_name = "BITS_PER_SECOND")]
+    pub baud: u32,
+    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board.
+    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
+    pub wait: u64,
+    /// Address of the first byte, for files that are not ELF.
+    #[arg(long, default_value = "0x08000000", value_parser = address, value_name = "ADDRESS")]
+    pub at: u32,
+    /// Before anything is erased, save all of flash to a file. A read-protected part cannot be saved.
+    #[arg(long, value_name = "FILE", conflicts_with = "probe")]
+    pub backup: Option<PathBuf>,
+    /// Overwrite an existing backup.
+    #[arg(long, requires = "backup")]
+    pub force: bool,
+    /// Lift read and write protection. Lifting read protection erases all of flash, for ever.
+    #[arg(long)]
+    pub unprotect: bool,
+    /// Do not ask before erasing.
+    #[arg(long)]
+    pub yes: bool,
+    /// Start the program afterwards. Its outputs switch at once.
+    #[arg(long)]
+    pub start: bool,
+}
+
+/// A number as the maps of memory write it.
+fn address(text: &str) -> Result<u32, String> {
+    let digits = text.strip_prefix("0x").unwrap_or(text);
+    let number = u32::from_str_radix(&digits.replace('_', ""), 16);
+    number.map_err(|_| "an address is written in hexadecimal: 0x08000000".to_string())
+}
