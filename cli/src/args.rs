@@ -8,7 +8,7 @@ mod verify;
 
 pub use diff::{DiffArgs, DiffFormat};
 pub use flash::FlashArgs;
-pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
+pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
 pub use verify::VerifyArgs;
 
 use crate::commands::run::STANDARD_ERROR;

@@ -50,18 +50,20 @@ fn examples_read_back_to_the_same_lists() {
     assert!(examples.len() > 5);
     for (program, model) in examples {
         let file = program.to_str().unwrap();
-        let args = [
-            "convert", file, "--to", "plcopen", "-o", "plc.xml", "--force",
-        ];
-        let output = rungc(path, &[&args[..], model].concat());
-        let said = text(&output.stderr);
-        assert!(
-            output.status.success() && !said.contains("N0741"),
-            "{file}: {said}"
-        );
-        let back = instructions(path, "plc.xml", model);
-        assert_eq!(back, instructions(path, file, model), "{file}");
-        follows_schema(&path.join("plc.xml"));
+        for body in ["ld", "il"] {
+            let args = [
+                "--to", "plcopen", "--body", body, "-o", "plc.xml", "--force",
+            ];
+            let output = rungc(path, &[&["convert", file], &args[..], model].concat());
+            let said = text(&output.stderr);
+            assert!(
+                output.status.success() && !said.contains("N0741"),
+                "{file} as {body}: {said}"
+            );
+            let back = instructions(path, "plc.xml", model);
+            assert_eq!(back, instructions(path, file, model), "{file} as {body}");
+            follows_schema(&path.join("plc.xml"));
+        }
     }
 }
 
@@ -90,6 +92,33 @@ fn a_program_becomes_a_ladder() {
 }
 
 #[test]
+fn a_program_becomes_a_list_of_the_standard() {
+    let list = "; Doors\n; of the lift\nLD X000\nOR M0\nANI X001\nMPS\nAND X003\nOUT Y000\nOUT T0 K30\nMRD\nLDI X004\nAND X005\n\
+                OR M7\nANB\nSET Y001\nMPP\nINV\nMOV K5 D0\nADD D0 H10 D1\nAND T0\nPLS M1\nLDP T0\nAND>= D0 K10\nORF X002\n\
+                CJ P1\nLDD= D0 D2\nMEP\n$MOV \"a, b\" D20\nP1\n; States\nSTL S0\nOUT Y002\nLD X002\nRST C0\nRET\nFEND\nI001\nIRET\nEND\n";
+    let folder = folder(&[("doors.il", list.as_bytes())]);
+    let path = folder.path();
+    let args = ["convert", "doors.il", "--to", "plcopen", "--body", "il"];
+    insta::assert_snapshot!("plcopen_list", shown(path, &args));
+    let written = rungc(path, &[&args[..], &["-o", "plc.xml"]].concat());
+    assert!(written.status.success());
+    assert_eq!(
+        instructions(path, "plc.xml", &[]),
+        instructions(path, "doors.il", &[])
+    );
+    follows_schema(&path.join("plc.xml"));
+    let back = text(&rungc(path, &["convert", "plc.xml", "--to", "il"]).stdout);
+    assert!(
+        back.starts_with("; Doors\n; of the lift\nLD X000\n"),
+        "{back}"
+    );
+    assert_eq!(
+        code(path, &["convert", "doors.il", "--to", "il", "--body", "il"]),
+        2
+    );
+}
+
+#[test]
 fn what_other_editors_do_not_know_is_said() {
     let odd = "LD X000\nMPS\nAND D0.3\nINV\nOUT M0\nMRD\nANDD>= D0 K4M0\nOUT C0 K5\nMPP\nMEP\nOUT T0 D5\nLD T0\nRST T0\nSET D0.1\n\
                LDP M8013\nCJ P1\n$MOV \"a<b>\" D20\nP1\nLD X001\nBMOV D0Z0 D50 K3\nFEND\nI001\nIRET\nEND\n";
@@ -105,6 +134,14 @@ fn what_other_editors_do_not_know_is_said() {
         ]
     };
     insta::assert_snapshot!("plcopen_odd", shown(path, &convert("odd.il")));
+    assert_eq!(
+        instructions(path, "plc.xml", &[]),
+        instructions(path, "odd.il", &[])
+    );
+    assert_eq!(
+        code(path, &[&convert("odd.il")[..], &["--body", "il"]].concat()),
+        0
+    );
     assert_eq!(
         instructions(path, "plc.xml", &[]),
         instructions(path, "odd.il", &[])

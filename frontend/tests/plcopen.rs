@@ -387,6 +387,20 @@ fn lists_jump_compare_and_nest() {
     insta::assert_snapshot!(shown(&with_free(&project(BLOCKS, &good))));
 }
 
+#[test]
+fn lists_call_timers_and_keep_results() {
+    let timer = r#"<variable name="T7"><type><derived name="TON"/></type></variable>"#;
+    let variables = format!("{BLOCKS}{timer}");
+    let body = "<IL><xhtml:p>(* Wait *)\nLD Start\nST MPS_1\nAND Delay.Q\nST M5 (* beside *)\nLD MPS_1\nANDN M1\nST Delay.IN\n\
+                CAL Delay(\nPT := T#1s\n)\nCAL T7(IN := M1, PT := T#300ms)\n(* Words\nand texts *)\nLD M2\nJMPCN SKIP_1\nLD 3\nST level\n\
+                SKIP_1:\nFX_LDP(\np1 := T7.Q\n)\nFX_$MOV \"a,b\", D200\n</xhtml:p></IL>";
+    insta::assert_snapshot!(shown(&with_free(&project(&variables, body))));
+    let body = "<IL><xhtml:p>LD M1\nST MPS_1\nST M2\nLD M2\nST M3\nLD MPS_1\nST M4\nCAL Start(IN := M1)\nCAL T7(IN := M1)\n\
+                CAL T7(PT := T#1s)\nCAL T7(PT := T#1s)\nFX_ZRST D0, D1\nLD M1\nFX_MEP 5\nFX_ZRST(\np1 := D0)\nFX_LD(p2 := D0)\nFX_LD()\n\
+                JMPCN SKIP_9\nCAL Delay(\n</xhtml:p></IL>";
+    insta::assert_snapshot!(shown(&with_free(&project(&variables, body))));
+}
+
 /// A chart: a choice between two branches, of which one is left by two steps at once.
 fn chart() -> String {
     let connected = |from: &[u32]| {

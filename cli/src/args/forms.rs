@@ -15,6 +15,9 @@ pub struct ConvertArgs {
     /// Output form.
     #[arg(long, value_enum)]
     pub to: ConvertTo,
+    /// Language of the body in PLCopen XML. Default: `ld`.
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    pub body: Option<PlcopenBody>,
     /// File to write. Default: standard output. With several programs, a folder for all outputs.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
@@ -80,8 +83,18 @@ pub enum ConvertTo {
     Ladder,
     /// Program memory of an FX PLC.
     Image,
-    /// A project of PLCopen XML (TC6 2.01), as a ladder.
+    /// A project of PLCopen XML (TC6 2.01).
     Plcopen,
+}
+
+/// Languages of a program in PLCopen XML.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum PlcopenBody {
+    /// Ladder.
+    #[default]
+    Ld,
+    /// Instruction list of IEC 61131-3.
+    Il,
 }
 
 impl ConvertTo {

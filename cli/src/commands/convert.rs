@@ -4,8 +4,10 @@ mod ladder;
 mod plcopen;
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{Context, Outcome, Result, conclude, counted, read, say, stem, tell, write_file};
-use crate::args::{ConvertArgs, ConvertTo};
+use super::{
+    Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
+};
+use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::{Read, image, print};
 use rungc_lower::compile::CompileOptions;
@@ -14,6 +16,10 @@ use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
+    if args.body.is_some() && args.to != ConvertTo::Plcopen {
+        let why = "`--body` chooses the language of `--to plcopen`; other forms have no choice";
+        return Err(Failure::Because(why.to_owned()));
+    }
     let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
         convert(args, subject, reporter, &mut outputs, cx)
@@ -29,7 +35,8 @@ fn convert(
 ) -> Result {
     let read = read(subject, reporter)?;
     let mut diagnostics = read.diagnostics.clone();
-    let bytes = written(args.to, &read, &subject.options(), &mut diagnostics);
+    let body = args.body.unwrap_or_default();
+    let bytes = written(args.to, body, &read, &subject.options(), &mut diagnostics);
     let findings = Findings::new(
         &subject.file,
         &read.program,
@@ -58,9 +65,11 @@ fn convert(
     Ok(Outcome::Success)
 }
 
-/// A program in an output form; why it cannot take this form is added to the diagnostics.
+/// A program in an output form, for PLCopen XML in the language of `body`; why it cannot take this form is added to
+/// the diagnostics.
 pub fn written(
     to: ConvertTo,
+    body: PlcopenBody,
     read: &Read,
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
@@ -93,7 +102,7 @@ pub fn written(
             image.unwrap_or_default()
         }
         ConvertTo::Plcopen if program.is_complete() => {
-            plcopen::to_plcopen(program, options, diagnostics).into_bytes()
+            plcopen::to_plcopen(program, body, options, diagnostics).into_bytes()
         }
         // What could not be read has been reported.
         ConvertTo::Image | ConvertTo::Plcopen => Vec::new(),

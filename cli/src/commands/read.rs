@@ -4,7 +4,7 @@ mod client;
 
 use super::convert::written;
 use super::{Context, Failure, Result, conclude, grouped, interruption, say, spare, write_file};
-use crate::args::{ConvertTo, ReadArgs};
+use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
 use crate::progress;
 use crate::report::{Findings, Reporter};
 use client::{Client, Reply};
@@ -56,7 +56,10 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     let mut diagnostics = read.diagnostics.clone();
     let bytes = match args.to {
         ConvertTo::Image => memory,
-        to => written(to, &read, &CompileOptions::default(), &mut diagnostics),
+        to => {
+            let options = CompileOptions::default();
+            written(to, PlcopenBody::Ld, &read, &options, &mut diagnostics)
+        }
     };
     let path = Path::new(&name);
     let findings = Findings::new(path, &read.program, diagnostics, &args.reporting);

@@ -3,14 +3,14 @@
 use super::drawing::{Drawing, Failure, Value, Word};
 use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant, milliseconds};
-use super::{FREE, Fault, called, children, flag, functions};
+use super::{FREE, Fault, Reader, called, children, flag, functions};
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::BTreeMap;
 
 /// What the types of blocks begin with that are instructions: `FX_ZRST`. Their operands are called `p1`, `p2`, ….
-const INSTRUCTION: &str = "FX_";
+pub(super) const INSTRUCTION: &str = "FX_";
 
 /// The inputs and outputs of a block.
 pub(super) struct Pins<'a, 'i> {
@@ -237,7 +237,8 @@ fn instance(
         found.main = Some(register.ok_or_else(|| lacking(node, name, "a register for its count"))?);
         return Ok(found);
     }
-    let (timer, preset) = timer(drawing, pins, name)?;
+    let preset = pins.input("PT").and_then(|point| drawing.written(point));
+    let (timer, preset) = timer(drawing.reader, node, name, &preset.unwrap_or_default())?;
     found.main = Some(timer);
     found.preset = preset;
     if kind == "TON" {
@@ -246,15 +247,34 @@ fn instance(
     Ok(found)
 }
 
+/// A timer as TON, by the name of its instance; how many units it counts.
+pub(super) fn on_delay(
+    reader: &mut Reader,
+    node: Node,
+    name: &str,
+    preset: &str,
+) -> Result<(Instance, u64), Fault> {
+    let (timer, count) = timer(reader, node, name, preset)?;
+    let instance = Instance {
+        main: Some(timer),
+        bits: BTreeMap::from([("Q", timer)]),
+        preset: count,
+        ..Instance::default()
+    };
+    Ok((instance, count))
+}
+
 /// Finds a timer that counts to the preset of a block; how many units it counts.
-fn timer(drawing: &mut Drawing, pins: &Pins, name: &str) -> Result<(Device, u64), Fault> {
-    let node = pins.node;
-    let preset = pins.input("PT").and_then(|point| drawing.written(point));
-    let preset = preset.unwrap_or_default();
-    let variables = &mut drawing.reader.variables;
-    let constant = match variables.kind(&preset) {
-        Some(Kind::Time) => variables.initial(&preset).and_then(milliseconds),
-        _ => milliseconds(&preset),
+fn timer(
+    reader: &mut Reader,
+    node: Node,
+    name: &str,
+    preset: &str,
+) -> Result<(Device, u64), Fault> {
+    let variables = &mut reader.variables;
+    let constant = match variables.kind(preset) {
+        Some(Kind::Time) => variables.initial(preset).and_then(milliseconds),
+        _ => milliseconds(preset),
     };
     let Some(preset_ms) = constant else {
         let what = format!(
@@ -558,7 +578,7 @@ impl Block<'_, '_, '_, '_> {
 }
 
 /// The contact that a block is which stands for a contact or a comparison: `FX_LDI`, `FX_D>=`.
-fn contact(mnemonic: &str) -> Option<Sense> {
+pub(super) fn contact(mnemonic: &str) -> Option<Sense> {
     match mnemonic {
         "LD" => Some(Sense::On),
         "LDI" => Some(Sense::Off),
@@ -622,20 +642,23 @@ fn instruction<'a, 'i>(
         let logic = Value::Flow(Logic::Contact(contact));
         return Ok(BTreeMap::from([("OUT".into(), logic)]));
     }
-    let line = std::iter::once(mnemonic)
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ");
+    let words: Vec<_> = words.collect();
+    drive(drawing.reader, enable.clone(), mnemonic, &words);
+    Ok(power(enable))
+}
+
+/// Adds an instruction that only rungc knows, driven by what enables it.
+pub(super) fn drive(reader: &mut Reader, enable: Logic, mnemonic: &str, operands: &[&str]) {
+    let line = [&[mnemonic], operands].concat().join(" ");
     match mnemonic {
-        "STL" => drawing.reader.in_state = true,
-        "RET" => drawing.reader.in_state = false,
+        "STL" => reader.in_state = true,
+        "RET" => reader.in_state = false,
         _ => {}
     }
-    drawing.reader.parts.push(Part::Output(Output {
+    reader.parts.push(Part::Output(Output {
         bare: true,
-        logic: enable.clone(),
+        logic: enable,
         lines: vec![line.into()],
         alone: false,
     }));
-    Ok(power(enable))
 }

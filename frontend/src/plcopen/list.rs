@@ -1,33 +1,60 @@
-//! Instruction lists of IEC 61131-3.
+//! Instruction lists of IEC 61131-3. Variables `MPS_1`, … and labels `SKIP_1`, …, which `rungc convert` writes, keep a
+//! result for several branches, and skip a function of words.
+
+mod calls;
+mod source;
 
 use super::drawing::Word;
 use super::expression::{bit, comparison, exclusive, number};
 use super::logic::{Logic, Part};
-use super::{Fault, MOST_CONTACTS, Reader, functions, text};
+use super::{Fault, MOST_CONTACTS, Reader, blocks, functions, text};
 use roxmltree::Node;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use source::Line;
+use std::collections::BTreeMap;
 
 /// How deep parentheses may be nested.
 const DEEPEST: usize = 50;
 
+/// What the name of a variable begins with that keeps a result for branches of the same network.
+const KEPT: &str = "MPS_";
+/// What a label begins with that follows a skipped function.
+const SKIP: &str = "SKIP_";
+
 /// Reads the body of a program.
 pub(super) fn read(reader: &mut Reader, body: Node) {
     let mut list = List::new(reader, body);
-    for line in without_comments(&text(body)).lines() {
+    let lines = source::lines(&text(body));
+    list.find_blocks(&lines);
+    for line in lines {
         if list.reader.has_given_up() {
             return;
         }
-        if let Err(fault) = list.line(line) {
+        let result = match line {
+            Line::Comment(comment) => {
+                list.remarks.push(comment);
+                continue;
+            }
+            Line::Code(code) => list.line(&code),
+        };
+        if let Err(fault) = result {
             list.reader.report(fault);
         }
+    }
+    list.remark();
+    if list.skipped.is_some() {
+        let fault = list.foreign("JMPCN");
+        list.reader.report(fault);
     }
 }
 
 /// Reads a list that computes a condition.
 pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault> {
     let mut list = List::new(reader, body);
-    for line in without_comments(&text(body)).lines() {
-        list.line(line)?;
+    for line in source::lines(&text(body)) {
+        if let Line::Code(code) = line {
+            list.line(&code)?;
+        }
     }
     match list.result {
         Held::Flow(logic) => Ok(logic),
@@ -37,22 +64,6 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
             "end it with one",
         )),
     }
-}
-
-/// A text with its comments blank.
-fn without_comments(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(start) = rest.find("(*") {
-        out.push_str(&rest[..start]);
-        let end = rest[start..]
-            .find("*)")
-            .map_or(rest.len(), |end| start + end + 2);
-        out.extend(rest[start..end].chars().filter(|c| *c == '\n'));
-        rest = &rest[end..];
-    }
-    out.push_str(rest);
-    out
 }
 
 /// What the list has computed so far.
@@ -74,6 +85,21 @@ struct List<'a, 'i, 'r> {
     held: Vec<(SmolStr, bool, Held)>,
     /// Each instruction is a separate element.
     instructions: u32,
+    /// Comments above the network that comes next.
+    remarks: Vec<String>,
+    /// Results that branches continue, by the names of their variables.
+    kept: BTreeMap<String, Kept>,
+    /// What leads to the inputs of timers, by their instances.
+    inputs: BTreeMap<String, Logic>,
+    /// The label that skips what is read, and the condition that does not.
+    skipped: Option<(String, Logic)>,
+}
+
+/// A result that branches continue.
+struct Kept {
+    logic: Logic,
+    /// How many parts the program had when it was kept.
+    parts: usize,
 }
 
 impl<'a, 'i, 'r> List<'a, 'i, 'r> {
@@ -84,12 +110,37 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             result: Held::Nothing,
             held: Vec::new(),
             instructions: 0,
+            remarks: Vec::new(),
+            kept: BTreeMap::new(),
+            inputs: BTreeMap::new(),
+            skipped: None,
         }
+    }
+
+    /// Writes the comments above a network.
+    fn remark(&mut self) {
+        let lines = self.remarks.drain(..);
+        let lines = lines.map(|line| Part::Line(format!("; {line}")));
+        self.reader.parts.extend(lines);
+    }
+
+    /// The number of the element that is read.
+    fn element(&self) -> u32 {
+        self.body.id().get().wrapping_add(self.instructions << 20)
     }
 
     fn line(&mut self, line: &str) -> Result<(), Fault> {
         let mut code = line.trim();
-        if let Some((label, rest)) = code.split_once(':') {
+        let label = code.split_once(':').filter(|(label, rest)| {
+            !rest.starts_with('=') && !label.contains(|c: char| c.is_whitespace() || c == '(')
+        });
+        if let Some((label, rest)) = label {
+            let skips = self.skipped.take_if(|(skip, _)| skip == label.trim());
+            if let Some((_, logic)) = skips {
+                self.result = Held::Flow(logic);
+                return self.line(rest);
+            }
+            self.remark();
             let pointer = self.reader.pointer(label.trim());
             self.reader.parts.push(Part::Line(pointer.into()));
             self.result = Held::Nothing;
@@ -139,7 +190,10 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     }
 
     fn instruction(&mut self, operator: &str, operand: &str, code: &str) -> Result<(), Fault> {
-        let element = self.instructions;
+        if let Some(mnemonic) = operator.strip_prefix(blocks::INSTRUCTION) {
+            return self.function(mnemonic, operand, code);
+        }
+        let element = self.element();
         let plain = operator.strip_suffix('N').filter(|plain| {
             matches!(
                 *plain,
@@ -148,7 +202,15 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         });
         let (name, negated) = plain.map_or((operator, false), |plain| (plain, true));
         match name {
-            "LD" => self.load(operand, !negated)?,
+            "LD" => {
+                if negated || !self.continues(operand)? {
+                    if self.held.is_empty() && self.skipped.is_none() {
+                        self.remark();
+                    }
+                    self.load(operand, !negated)?;
+                }
+            }
+            "CAL" => self.call(operand, code)?,
             "AND" | "&" | "OR" | "XOR" => {
                 if let Some(rest) = operand.strip_prefix('(') {
                     if self.held.len() == DEEPEST {
@@ -210,7 +272,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     }
 
     fn load(&mut self, operand: &str, on: bool) -> Result<(), Fault> {
-        let element = self.instructions;
+        let element = self.element();
         let name = operand.to_ascii_uppercase();
         let is_number =
             super::variables::constant(&name).is_some() || self.reader.variables.is_number(&name);
@@ -237,6 +299,9 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
 
     fn store(&mut self, operand: &str, negated: bool, code: &str) -> Result<(), Fault> {
         if let Held::Flow(logic) = self.result.clone() {
+            if self.keep(operand, negated, &logic) {
+                return Ok(());
+            }
             let device = self.reader.bit(self.body, operand)?;
             let logic = if negated { logic.changed("INV") } else { logic };
             self.reader.output(logic, format_smolstr!("OUT {device}"));
@@ -259,12 +324,17 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             }
             _ => return Err(self.foreign(code)),
         };
-        self.reader.output(Logic::wire(), line);
+        let enable = self.skipped.as_ref().map(|(_, logic)| logic.clone());
+        self.reader.output(enable.unwrap_or_else(Logic::wire), line);
         self.result = Held::Word(to);
         Ok(())
     }
 
     fn jump(&mut self, name: &str, negated: bool, label: &str, code: &str) -> Result<(), Fault> {
+        if name == "JMPC" && negated && label.starts_with(SKIP) && self.skipped.is_none() {
+            self.skipped = Some((label.to_owned(), self.flow(code)?));
+            return Ok(());
+        }
         let logic = match name {
             "JMP" | "RET" => Logic::wire(),
             _ if negated => self.flow(code)?.changed("INV"),

@@ -115,6 +115,14 @@ impl Logic {
         Logic::Series(items)
     }
 
+    /// What it begins with, unless it is a wire.
+    pub fn first(&self) -> Option<&Logic> {
+        match self {
+            Logic::Series(items) => items.first(),
+            other => Some(other),
+        }
+    }
+
     /// What is one after the other in it.
     fn items(self) -> Vec<Logic> {
         match self {

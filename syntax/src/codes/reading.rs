@@ -202,18 +202,18 @@ super::codes! {
 
     PLCOPEN_UNDRAWN = "E0740" "plcopen-undrawn" Error None,
     "network that cannot be drawn as PLCopen XML",
-    "`rungc convert --to plcopen` writes a program as a ladder. This network is a list without a drawing, for example because a block is joined that was never started, so nothing is written. `--to il` and `--to csv` write such programs.",
+    "`rungc convert --to plcopen` writes a program as its networks of contacts and outputs. This network is a list without such a structure, for example because a block is joined that was never started, so nothing is written. `--to il` and `--to csv` write such programs.",
     wrong: "",
     right: "";
 
     PLCOPEN_INSTRUCTIONS = "N0740" "plcopen-instructions" Note None,
     "instructions without a counterpart in IEC 61131-3",
-    "In the project that `rungc convert --to plcopen` writes, these instructions are blocks whose types begin with `FX_`, with the operands `p1`, `p2` and so on. rungc reads them back; other editors draw them but do not know what they do.",
+    "In the project that `rungc convert --to plcopen` writes, these instructions are blocks whose types begin with `FX_`, with the operands `p1`, `p2` and so on, and in a list functions that are called so. rungc reads them back; other editors show them but do not know what they do.",
     wrong: "",
     right: "";
 
     PLCOPEN_FORM = "N0741" "plcopen-form" Note None,
-    "drawing that reads back as another list",
+    "PLCopen project that reads back as another list",
     "Several lists have the same drawing: contacts may be joined by ANB without need, and a stack may hold what no branch needs. From this network on, the project that `rungc convert --to plcopen` writes reads back as another list that does the same.",
     wrong: "",
     right: "";

@@ -1,51 +1,68 @@
-//! `--to plcopen`: a project of PLCopen XML (TC6 2.01) with the program as a ladder.
+//! `--to plcopen`: a project of PLCopen XML (TC6 2.01) with the program as a ladder or an instruction list.
 //!
 //! Contacts, coils, timers, comparisons, MOV, ADD and SUB are elements, functions and blocks of the standard; other
 //! instructions are blocks whose types begin with `FX_`. What is written reads back to the same list, unless this has
 //! blocks or stacks that the drawing does not need.
 
+mod lines;
 mod sheet;
+mod words;
 mod xml;
 
+use crate::args::PlcopenBody;
+use lines::Lines;
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::read_bytes;
-use rungc_ladder::build;
+use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_lower::compile::{CompileOptions, model};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, codes};
 use sheet::Sheet;
 use std::collections::BTreeMap;
+use words::Words;
 use xml::Xml;
 
 /// When projects are said to be made: the same program always becomes the same file.
 const MADE: &str = "2000-01-01T00:00:00";
 
-/// The program as a project; what cannot be drawn, and what reads back differently, is added to the diagnostics.
+/// The program as a project; what has no structure, and what reads back differently, is added to the diagnostics.
 pub fn to_plcopen(
     program: &Program,
+    body: PlcopenBody,
     options: &CompileOptions,
     diagnostics: &mut Diagnostics,
 ) -> String {
     let (resolved, _) = resolve(program, model(program, options));
-    let mut sheet = Sheet::new(&resolved);
-    if let Err((at, why)) = sheet.draw(&build::ladder(&resolved)) {
-        let what = format!("this network has no drawing, which PLCopen XML needs: {why}");
-        let help = "`--to il` and `--to csv` write it as a list";
-        diagnostics.push(
-            codes::PLCOPEN_UNDRAWN
-                .at(program.instrs[at].span, what)
-                .help(help),
-        );
-        return String::new();
-    }
-    if !sheet.instructions.is_empty() {
-        let names: Vec<_> = sheet.instructions.iter().map(String::as_str).collect();
+    let mut words = Words::new(&resolved);
+    let written = match body {
+        PlcopenBody::Ld => as_ladder(&build::ladder(&resolved), &mut words),
+        PlcopenBody::Il => as_list(&build::ladder(&resolved), &mut words),
+    };
+    let pou = match written {
+        Ok(pou) => pou,
+        Err((at, why)) => {
+            let what = format!("this network has no drawing, which PLCopen XML needs: {why}");
+            let help = "`--to il` and `--to csv` write it as a list";
+            diagnostics.push(
+                codes::PLCOPEN_UNDRAWN
+                    .at(program.instrs[at].span, what)
+                    .help(help),
+            );
+            return String::new();
+        }
+    };
+    if !words.instructions.is_empty() {
+        let names: Vec<_> = words.instructions.iter().map(String::as_str).collect();
+        let kind = match body {
+            PlcopenBody::Ld => "blocks",
+            PlcopenBody::Il => "functions",
+        };
         let what = format!(
-            "written as blocks that only rungc knows, `FX_…`: {}",
+            "written as {kind} that only rungc knows, `FX_…`: {}",
             names.join(", ")
         );
         diagnostics.push(codes::PLCOPEN_INSTRUCTIONS.at(Default::default(), what));
     }
-    let text = document(program, &sheet);
+    let text = document(program, &pou, &words);
     let back = read_bytes("plcopen", text.as_bytes());
     let back = back.map(|read| read.program.instrs).unwrap_or_default();
     let same = |(a, b): &(&Instr, &Instr)| {
@@ -57,13 +74,48 @@ pub fn to_plcopen(
     };
     let alike = program.instrs.iter().zip(&back).take_while(same).count();
     if let Some(instr) = program.instrs.get(alike) {
-        let what = "the drawing means the same, but reads back as another list from here on";
+        let what = "what is written means the same, but reads back as another list from here on";
         diagnostics.push(codes::PLCOPEN_FORM.at(instr.span, what));
     }
     text
 }
 
-fn document(program: &Program, sheet: &Sheet) -> String {
+/// A program organization unit.
+struct Pou {
+    /// The element of its body.
+    language: &'static str,
+    /// What the body holds.
+    content: Xml,
+    /// How many variables keep a result, as MPS does.
+    kept: usize,
+}
+
+/// Why a program cannot be written: the first network without a structure.
+type Refused = (InstrIndex, &'static str);
+
+fn as_ladder(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
+    let mut sheet = Sheet::new(words);
+    sheet.draw(ladder)?;
+    Ok(Pou {
+        language: "LD",
+        content: sheet.xml,
+        kept: 0,
+    })
+}
+
+fn as_list(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
+    let mut lines = Lines::new(words);
+    lines.write(ladder)?;
+    let mut content = Xml::default();
+    content.text("xhtml:p", &lines.text);
+    Ok(Pou {
+        language: "IL",
+        content,
+        kept: lines.kept,
+    })
+}
+
+fn document(program: &Program, pou: &Pou, words: &Words) -> String {
     let title = program
         .title
         .as_deref()
@@ -101,10 +153,15 @@ fn document(program: &Program, sheet: &Sheet) -> String {
             xml.node("pous", &[], |xml| {
                 xml.node("pou", &[("name", "main"), ("pouType", "program")], |xml| {
                     xml.node("interface", &[], |xml| {
-                        xml.node("localVars", &[], |xml| variables(xml, program, sheet));
+                        xml.node("localVars", &[], |xml| {
+                            variables(xml, program, words);
+                            for nth in 1..=pou.kept {
+                                variable(xml, &format!("MPS_{nth}"), None, "BOOL", None);
+                            }
+                        });
                     });
                     xml.node("body", &[], |xml| {
-                        xml.node("LD", &[], |xml| xml.append(&sheet.xml));
+                        xml.node(pou.language, &[], |xml| xml.append(&pou.content));
                     });
                 });
             });
@@ -126,7 +183,7 @@ fn document(program: &Program, sheet: &Sheet) -> String {
 }
 
 /// The devices that elements name and those that have comments, with their addresses and types.
-fn variables(xml: &mut Xml, program: &Program, sheet: &Sheet) {
+fn variables(xml: &mut Xml, program: &Program, words: &Words) {
     use DeviceClass::{C, D, M, S, T, X, Y};
     let mut types: BTreeMap<Device, &str> = BTreeMap::new();
     for device in program.comments.keys() {
@@ -136,9 +193,8 @@ fn variables(xml: &mut Xml, program: &Program, sheet: &Sheet) {
             _ => {}
         }
     }
-    types.extend(&sheet.variables);
+    types.extend(&words.variables);
     for (device, kind) in types {
-        let name = device.to_string();
         let number = device.number;
         let address = match device.class {
             X => Some(format!("%IX{}.{}", number / 8, number % 8)),
@@ -147,16 +203,21 @@ fn variables(xml: &mut Xml, program: &Program, sheet: &Sheet) {
             D => Some(format!("%MW{number}")),
             _ => None,
         };
-        let mut attributes = vec![("name", name.as_str())];
-        attributes.extend(address.as_deref().map(|address| ("address", address)));
-        xml.node("variable", &attributes, |xml| {
-            xml.node("type", &[], |xml| match kind {
-                "TON" => xml.leaf("derived", &[("name", "TON")]),
-                kind => xml.leaf(kind, &[]),
-            });
-            if let Some(comment) = program.comments.get(&device) {
-                xml.prose("documentation", comment);
-            }
-        });
+        let comment = program.comments.get(&device).map(String::as_str);
+        variable(xml, &device.to_string(), address.as_deref(), kind, comment);
     }
+}
+
+fn variable(xml: &mut Xml, name: &str, address: Option<&str>, kind: &str, comment: Option<&str>) {
+    let mut attributes = vec![("name", name)];
+    attributes.extend(address.map(|address| ("address", address)));
+    xml.node("variable", &attributes, |xml| {
+        xml.node("type", &[], |xml| match kind {
+            "TON" => xml.leaf("derived", &[("name", "TON")]),
+            kind => xml.leaf(kind, &[]),
+        });
+        if let Some(comment) = comment {
+            xml.prose("documentation", comment);
+        }
+    });
 }

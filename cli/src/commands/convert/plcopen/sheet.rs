@@ -1,14 +1,9 @@
 //! The networks of a program as elements of a ladder, with places and wires.
 
+use super::words::{Drive, Gate, Words};
 use super::xml::Xml;
-use rungc_analysis::resolve::Resolved;
-use rungc_catalogue::Basic;
-use rungc_frontend::iec_timer_unit;
-use rungc_ladder::{
-    Contact, InstrIndex, Item, Ladder, NetworkBody, Node, Output, Part, Series, Shape,
-};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_ladder::{Contact, InstrIndex, Item, Ladder, NetworkBody, Node, Output, Part, Series};
+use rungc_syntax::Device;
 
 /// Distance of columns.
 const COLUMN: i64 = 150;
@@ -29,28 +24,19 @@ struct Source {
 }
 
 /// A ladder while it is drawn.
-pub(super) struct Sheet<'a> {
+pub(super) struct Sheet<'s, 'a> {
     pub xml: Xml,
-    /// Devices that elements name, and the types of their variables.
-    pub variables: BTreeMap<Device, &'static str>,
-    /// Instructions that no function or block of the standard stands for.
-    pub instructions: BTreeSet<String>,
-    resolved: &'a Resolved<'a>,
-    /// Timers that are drawn as TON, with the milliseconds that they count to.
-    timers: BTreeMap<Device, u64>,
+    words: &'s mut Words<'a>,
     ids: u32,
     /// Where the next row begins.
     bottom: i64,
 }
 
-impl<'a> Sheet<'a> {
-    pub fn new(resolved: &'a Resolved<'a>) -> Self {
+impl<'s, 'a> Sheet<'s, 'a> {
+    pub fn new(words: &'s mut Words<'a>) -> Self {
         Sheet {
             xml: Xml::default(),
-            variables: BTreeMap::new(),
-            instructions: BTreeSet::new(),
-            resolved,
-            timers: timers(resolved),
+            words,
             ids: 0,
             bottom: GAP,
         }
@@ -60,11 +46,7 @@ impl<'a> Sheet<'a> {
     pub fn draw(&mut self, ladder: &Ladder) -> Result<(), (InstrIndex, &'static str)> {
         for network in &ladder.networks {
             let first = network.instrs.start;
-            let remarks = network
-                .instrs
-                .clone()
-                .filter_map(|at| self.instr(at).statement());
-            let remarks: Vec<_> = remarks.map(str::to_owned).collect();
+            let remarks = self.words.remarks(network.instrs.clone());
             if !remarks.is_empty() {
                 self.comment(&remarks.join("\n"));
             }
@@ -74,7 +56,7 @@ impl<'a> Sheet<'a> {
             match &network.body {
                 NetworkBody::List { why } => return Err((first, why)),
                 NetworkBody::Rung(node) if node.items.is_empty() => {}
-                NetworkBody::Rung(node) if self.is_end(node) => {}
+                NetworkBody::Rung(node) if self.words.is_end(node) => {}
                 NetworkBody::Rung(node) => {
                     let rail = self.rail();
                     self.node(node, vec![rail], 1, rail.y - SIZE.1 / 2);
@@ -82,17 +64,6 @@ impl<'a> Sheet<'a> {
             }
         }
         Ok(())
-    }
-
-    fn instr(&self, at: InstrIndex) -> &'a Instr {
-        &self.resolved.program.instrs[at]
-    }
-
-    /// Whether a network is the END of the program, which a project does not have.
-    fn is_end(&self, node: &Node) -> bool {
-        let last = self.resolved.program.instrs.len() - 1;
-        matches!(&node.items[..], [Item::Output(output)]
-            if output.instr == last && self.instr(last).mnemonic == "END")
     }
 
     fn id(&mut self) -> u32 {
@@ -118,7 +89,7 @@ impl<'a> Sheet<'a> {
 
     /// A label; one of an interrupt is an instruction.
     fn label(&mut self, at: InstrIndex) {
-        let name = self.instr(at).mnemonic.clone();
+        let name = self.words.instr(at).mnemonic.clone();
         if !name.starts_with('P') {
             let rail = self.rail();
             self.block(
@@ -196,14 +167,17 @@ impl<'a> Sheet<'a> {
                     (from, column) = self.contact(*contact, from, column, y);
                 }
                 Part::Result(at) => {
-                    let mnemonic = self.instr(*at).mnemonic.clone();
+                    let mnemonic = self.words.instr(*at).mnemonic.clone();
                     let pins = [(
                         if mnemonic == "INV" { "IN" } else { "EN" },
                         Pin::Power(from),
                     )];
                     let out = match mnemonic.as_str() {
                         "INV" => self.block("NOT", "", &pins, &["OUT"], column, y),
-                        _ => self.special(&mnemonic, &pins, &["ENO"], column, y),
+                        _ => {
+                            let mnemonic = self.words.special(&mnemonic);
+                            self.special(&mnemonic, &pins, &["ENO"], column, y)
+                        }
                     };
                     (from, column) = (vec![out], column + 1);
                 }
@@ -232,66 +206,28 @@ impl<'a> Sheet<'a> {
         column: i64,
         y: i64,
     ) -> (Vec<Source>, i64) {
-        let instr = self.instr(contact.instr);
-        let negated = matches!(contact.shape, Shape::Closed).to_string();
-        let edge = match contact.shape {
-            Shape::Rising => "rising",
-            Shape::Falling => "falling",
-            Shape::Open | Shape::Closed | Shape::Compare => "none",
-        };
-        let plain = instr
-            .operands
-            .first()
-            .and_then(|operand| operand.kind.device());
-        let variable = plain.and_then(|device| self.bit(device));
-        let (Some(variable), false) = (variable, contact.shape == Shape::Compare) else {
-            return self.comparison(contact, from, column, y);
-        };
-        let attributes = [("negated", negated.as_str()), ("edge", edge)];
-        let source = self.ladder_element("contact", &attributes, &from, &variable, column, y);
-        (vec![source], column + 1)
-    }
-
-    /// A comparison, or a contact of something that is not a variable, after what leads to it.
-    fn comparison(
-        &mut self,
-        contact: Contact,
-        from: Vec<Source>,
-        column: i64,
-        y: i64,
-    ) -> (Vec<Source>, i64) {
-        let instr = self.instr(contact.instr);
-        let standard = match sign(instr) {
-            Some("=") => "EQ",
-            Some("<>") => "NE",
-            Some(">") => "GT",
-            Some(">=") => "GE",
-            Some("<") => "LT",
-            Some("<=") => "LE",
-            _ => "",
-        };
-        let words: Option<Vec<_>> = instr.operands.iter().map(|o| self.word(&o.kind)).collect();
-        let closed = match (standard, words) {
-            ("", _) | (_, None) => {
-                let mut pins = Vec::new();
-                for (operand, name) in instr.operands.iter().zip(OPERANDS) {
-                    pins.push((name, Pin::Text(operand.kind.to_string())));
-                }
-                let name = match contact.shape {
-                    Shape::Open => "LD",
-                    Shape::Closed => "LDI",
-                    Shape::Rising => "LDP",
-                    Shape::Falling => "LDF",
-                    Shape::Compare => how(instr),
-                };
-                self.special(name, &pins, &["OUT"], column, y)
+        let closed = match self.words.contact(contact) {
+            Gate::Contact {
+                variable,
+                negated,
+                edge,
+            } => {
+                let negated = negated.to_string();
+                let attributes = [("negated", negated.as_str()), ("edge", edge)];
+                let source =
+                    self.ladder_element("contact", &attributes, &from, &variable, column, y);
+                return (vec![source], column + 1);
             }
-            (name, Some(words)) => {
+            Gate::Compare { function, words } => {
                 let pins = words.into_iter().zip(["IN1", "IN2"]);
                 let pins: Vec<_> = pins.map(|(word, pin)| (pin, Pin::Text(word))).collect();
-                self.block(name, "", &pins, &["OUT"], column, y)
+                self.block(function, "", &pins, &["OUT"], column, y)
+            }
+            Gate::Special { mnemonic, operands } => {
+                self.special(&mnemonic, &named(operands), &["OUT"], column, y)
             }
         };
+        // What leads to a comparison is an input of AND.
         let is_rail =
             matches!(&from[..], [source] if source.output.is_empty() && source.x < COLUMN);
         if is_rail {
@@ -304,74 +240,41 @@ impl<'a> Sheet<'a> {
 
     /// A coil, or an instruction as a block.
     fn output(&mut self, output: Output, from: &[Source], column: i64, y: i64) {
-        let instr = self.instr(output.instr);
-        let plain = instr
-            .operands
-            .first()
-            .and_then(|operand| operand.kind.device());
         let power = || Pin::Power(from.to_vec());
-        let is_relay = |device: &Device| {
-            matches!(
-                device.class,
-                DeviceClass::Y | DeviceClass::M | DeviceClass::S
-            )
-        };
-        let relay = plain.filter(|_| instr.operands.len() == 1).filter(is_relay);
-        let coil = match instr.mnemonic.as_str() {
-            "OUT" => Some(("none", "none")),
-            "SET" => Some(("set", "none")),
-            "RST" => Some(("reset", "none")),
-            "PLS" => Some(("none", "rising")),
-            "PLF" => Some(("none", "falling")),
-            _ => None,
-        };
-        if let (Some((storage, edge)), Some(device)) = (coil, relay)
-            && let Some(variable) = self.bit(device)
-        {
-            let attributes = [("negated", "false"), ("storage", storage), ("edge", edge)];
-            self.ladder_element("coil", &attributes, from, &variable, column, y);
-            return;
+        match self.words.output(output) {
+            Drive::Coil {
+                variable,
+                storage,
+                edge,
+            } => {
+                let attributes = [("negated", "false"), ("storage", storage), ("edge", edge)];
+                self.ladder_element("coil", &attributes, from, &variable, column, y);
+            }
+            Drive::Timer { timer, preset } => {
+                let pins = [("IN", power()), ("PT", Pin::Text(format!("T#{preset}ms")))];
+                self.block("TON", &timer.to_string(), &pins, &["Q", "ET"], column, y);
+            }
+            Drive::Jump(to) => self.jump(to, from, column, y),
+            Drive::Compute {
+                function,
+                words,
+                to,
+            } => {
+                let names: &[&str] = match words.len() {
+                    1 => &["IN"],
+                    _ => &["IN1", "IN2"],
+                };
+                let mut pins = vec![("EN", power())];
+                pins.extend(names.iter().copied().zip(words.into_iter().map(Pin::Text)));
+                let result = self.block(function, "", &pins, &["ENO", "OUT"], column, y);
+                self.out_variable(to, result);
+            }
+            Drive::Special { mnemonic, operands } => {
+                let mut pins = vec![("EN", power())];
+                pins.extend(named(operands));
+                self.special(&mnemonic, &pins, &["ENO"], column, y);
+            }
         }
-        let timer = plain.filter(|_| instr.mnemonic == "OUT");
-        if let Some((timer, preset)) = timer.and_then(|t| Some((t, *self.timers.get(&t)?))) {
-            self.variables.insert(timer, "TON");
-            let pins = [("IN", power()), ("PT", Pin::Text(format!("T#{preset}ms")))];
-            self.block("TON", &timer.to_string(), &pins, &["Q", "ET"], column, y);
-            return;
-        }
-        if let ("CJ", Some(device)) = (instr.mnemonic.as_str(), plain) {
-            self.jump(device, from, column, y);
-            return;
-        }
-        let words: Option<Vec<_>> = instr.operands.iter().map(|o| self.word(&o.kind)).collect();
-        let names: &[&'static str] = match instr.mnemonic.as_str() {
-            "MOV" => &["IN"],
-            "ADD" | "SUB" => &["IN1", "IN2"],
-            _ => &[],
-        };
-        let last = instr
-            .operands
-            .last()
-            .and_then(|operand| operand.kind.device());
-        if let (Some(words), 1.., Some(to)) = (words, names.len(), last)
-            && words.len() == names.len() + 1
-        {
-            let mut pins = vec![("EN", power())];
-            pins.extend(names.iter().copied().zip(words.into_iter().map(Pin::Text)));
-            let name = if instr.mnemonic == "MOV" {
-                "MOVE"
-            } else {
-                &instr.mnemonic
-            };
-            let result = self.block(name, "", &pins, &["ENO", "OUT"], column, y);
-            self.out_variable(to, result);
-            return;
-        }
-        let mut pins = vec![("EN", power())];
-        for (operand, name) in instr.operands.iter().zip(OPERANDS) {
-            pins.push((name, Pin::Text(quoted(&operand.kind))));
-        }
-        self.special(&instr.mnemonic, &pins, &["ENO"], column, y);
     }
 
     fn jump(&mut self, to: Device, from: &[Source], column: i64, y: i64) {
@@ -383,35 +286,6 @@ impl<'a> Sheet<'a> {
             position(xml, x, y);
             connections(xml, from, x, y + SIZE.1 / 2, (0, SIZE.1 / 2));
         });
-    }
-
-    /// The name of the variable that a bit is.
-    fn bit(&mut self, device: Device) -> Option<String> {
-        use DeviceClass::{C, M, S, T, X, Y};
-        if self.timers.contains_key(&device) {
-            self.variables.insert(device, "TON");
-            return Some(format!("{device}.Q"));
-        }
-        if !matches!(device.class, X | Y | M | S | T | C) {
-            return None;
-        }
-        self.variables.entry(device).or_insert("BOOL");
-        Some(device.to_string())
-    }
-
-    /// A number as the standard writes it; `None` if it is neither a register nor a constant of 16 bits.
-    fn word(&mut self, operand: &OperandKind) -> Option<String> {
-        match *operand {
-            OperandKind::Device(device, None) if device.class == DeviceClass::D => {
-                self.variables.insert(device, "INT");
-                Some(device.to_string())
-            }
-            OperandKind::Decimal(value, None) if i16::try_from(value).is_ok() => {
-                Some(value.to_string())
-            }
-            OperandKind::Hex(value, None) if value <= 0xffff => Some(format!("16#{value:X}")),
-            _ => None,
-        }
     }
 
     /// A contact or coil; where power leaves it.
@@ -459,7 +333,6 @@ impl<'a> Sheet<'a> {
         column: i64,
         y: i64,
     ) -> Source {
-        self.instructions.insert(mnemonic.to_owned());
         self.block(&format!("FX_{mnemonic}"), "", pins, outputs, column, y)
     }
 
@@ -575,57 +448,10 @@ const OPERANDS: [&str; 16] = [
     "p16",
 ];
 
-/// An operand as a list writes it.
-fn quoted(operand: &OperandKind) -> String {
-    match operand {
-        OperandKind::Text(text) => format!("\"{}\"", text.replace('"', "\"\"")),
-        other => other.to_string(),
-    }
-}
-
-/// What a comparison's mnemonic ends with: `=`, `D>=`.
-fn how(instr: &Instr) -> &str {
-    let mnemonic = instr.mnemonic.as_str();
-    let joins = ["LD", "AND", "OR"].into_iter();
-    joins
-        .filter_map(|join| mnemonic.strip_prefix(join))
-        .next()
-        .unwrap_or(mnemonic)
-}
-
-/// The sign of a comparison of 16 bits.
-fn sign(instr: &Instr) -> Option<&str> {
-    let how = how(instr);
-    how.starts_with(['=', '<', '>']).then_some(how)
-}
-
-/// The timers that a TON stands for: driven once, by a constant, and of the same unit on all models.
-fn timers(resolved: &Resolved) -> BTreeMap<Device, u64> {
-    let mut found: BTreeMap<Device, Option<u64>> = BTreeMap::new();
-    let instrs = resolved.program.instrs.iter().zip(&resolved.instrs);
-    for (instr, resolution) in instrs {
-        let operands = &instr.operands;
-        let device = operands.first().and_then(|operand| operand.kind.device());
-        let timer = device.filter(|device| device.class == DeviceClass::T);
-        let (Some(timer), Some(Basic::Out)) = (timer, resolution.basic()) else {
-            continue;
-        };
-        let count = operands.get(1).and_then(|preset| match preset.kind {
-            OperandKind::Decimal(count, None) => u64::try_from(count).ok().filter(|n| *n > 0),
-            _ => None,
-        });
-        let runs = resolved.model.timers.iter();
-        let kind = runs.filter(|run| (run.first..=run.last).contains(&timer.number));
-        let unit = kind.map(|run| u64::from(run.kind.unit_ms)).next();
-        let same = unit.filter(|unit| iec_timer_unit(timer.number) == Some(*unit));
-        let preset = same.and_then(|unit| Some(unit * count?));
-        let entry = found.entry(timer);
-        entry.and_modify(|preset| *preset = None).or_insert(preset);
-    }
-    found
-        .into_iter()
-        .filter_map(|(timer, preset)| Some((timer, preset?)))
-        .collect()
+/// Operands at pins that are named after their places.
+fn named(operands: Vec<String>) -> Vec<(&'static str, Pin)> {
+    let texts = operands.into_iter().map(Pin::Text);
+    OPERANDS.into_iter().zip(texts).collect()
 }
 
 fn position(xml: &mut Xml, x: i64, y: i64) {
