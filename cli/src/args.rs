@@ -3,24 +3,22 @@
 mod diff;
 mod flash;
 mod forms;
+mod serve;
 mod values;
 mod verify;
 
 pub use diff::{DiffArgs, DiffFormat};
 pub use flash::FlashArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
+pub use serve::ServeArgs;
 pub use verify::VerifyArgs;
 
-use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, Names, ReadOptions};
-use rungc_lower::compile::CompileOptions;
-use rungc_models::{Model, ModelId, Plc};
+use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
-use rungc_project::serve::{FxEnd, Line, Serve, address};
 use rungc_syntax::{Device, DeviceClass};
-use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -377,70 +375,6 @@ impl RunArgs {
     /// Whether it keeps step with the clock.
     pub fn in_real_time(&self) -> bool {
         self.real_time || self.serve.any()
-    }
-}
-
-/// Servers that `run` and `serve` open.
-#[derive(Args, Clone, Debug)]
-#[command(next_help_heading = "Servers")]
-pub struct ServeArgs {
-    /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`).
-    /// Runs in real time. The protocol has no password: whoever reaches the address reads and writes every device.
-    #[arg(long, value_parser = address, value_name = "ADDRESS")]
-    pub modbus_tcp: Vec<SocketAddr>,
-    /// Serve all devices by MC protocol (frames 1E and 3E, binary), as --modbus-tcp does.
-    #[arg(long, value_parser = address, value_name = "ADDRESS")]
-    pub mc: Vec<SocketAddr>,
-    /// Serve all devices by the programming port's protocol, as --modbus-tcp does; or, at the programming port itself,
-    /// on a line as after --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
-    #[arg(long, value_name = "ADDRESS or DEVICE")]
-    pub fx: Vec<FxEnd>,
-    /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that
-    /// clients open (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket
-    /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. What vanishes is
-    /// opened again.
-    #[arg(long, value_name = "PORT=DEVICE")]
-    pub serial: Vec<Line>,
-    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an adapter that
-    /// speaks SLCAN, with the bit rate in kbit/s (500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
-    #[arg(long, value_parser = Line::can, value_name = "BUS")]
-    pub can: Option<Line>,
-    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`
-    /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
-    pub trace_frames: Option<PathBuf>,
-}
-
-impl ServeArgs {
-    /// Whether there is a server.
-    pub fn any(&self) -> bool {
-        !(self.modbus_tcp.is_empty()
-            && self.mc.is_empty()
-            && self.fx.is_empty()
-            && self.named_lines().next().is_none())
-    }
-
-    /// The lines of ports that are named: serial ports, and the CAN card.
-    pub fn named_lines(&self) -> impl Iterator<Item = &Line> {
-        self.serial.iter().chain(&self.can)
-    }
-
-    /// The options with which a program is compiled that these servers and lines serve.
-    pub fn opened(&self, options: CompileOptions) -> CompileOptions {
-        let is_line = |end: &FxEnd| matches!(end, FxEnd::Line(_));
-        CompileOptions {
-            // Clients may ask for any device.
-            observe_all: self.any(),
-            ports: self.named_lines().map(|line| line.port).collect(),
-            programmer: self.fx.iter().any(is_line),
-            ..options
-        }
-    }
-
-    /// The lines of all ports of a model: the named ones, and the programming port.
-    pub fn lines(&self, model: &Model) -> Vec<Line> {
-        let of_fx = Serve::fx_lines(&self.fx, model);
-        self.named_lines().cloned().chain(of_fx).collect()
     }
 }
 

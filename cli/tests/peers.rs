@@ -150,6 +150,16 @@ fn pymodbus_reads_and_writes_over_tcp() {
 }
 
 #[test]
+fn remote_io_of_pymodbus_is_lost_and_comes_back() {
+    let Some(mut client) = python("pymodbus", "modbus_io.py") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    client.arg(env!("CARGO_BIN_EXE_rungc")).arg(folder.path());
+    succeeds(client);
+}
+
+#[test]
 fn pymodbus_reads_and_writes_on_a_line() {
     on_a_line(python("pymodbus", "modbus_rtu.py"), SLAVES, "h2u", "COM1");
 }

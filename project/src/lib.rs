@@ -7,6 +7,7 @@
 #![deny(missing_docs)]
 
 pub mod canlink;
+pub mod connections;
 pub mod device;
 pub mod modbus;
 pub mod module;
@@ -77,6 +78,8 @@ pub struct Project {
     pub plcopen: Names,
     /// `[serve]`: servers and serial lines of a running program, and devices that it serves.
     pub serve: serve::Serve,
+    /// `[io]`: what terminals and registers of a running program are connected to.
+    pub io: Vec<connections::Connected>,
 }
 
 /// Which findings count, and how much: identifiers of codes, such as `W0203`.

@@ -27,6 +27,7 @@ impl Project {
     /// it, the Modbus table and CANlink. What the model does not have is a mistake.
     pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
         self.check_served(model)?;
+        self.check_io(model)?;
         self.fit_modules(program, model)?;
         if self.is_about(file) {
             self.add_table(program, model)?;

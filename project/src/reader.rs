@@ -1,6 +1,7 @@
 //! From TOML to [`Project`], every mistake with its place.
 
 mod canlink;
+mod io;
 mod module;
 mod plcopen;
 mod property;
@@ -10,6 +11,7 @@ use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use canlink::CANLINK;
 use encoding_rs::Encoding;
+use io::IO;
 use module::MODULE;
 use property::PROPERTY;
 use rungc_models::{Model, ModelId, Plc};
@@ -21,7 +23,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 15] = [
+const TABLES: [(&str, &[&str]); 16] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -32,6 +34,7 @@ const TABLES: [(&str, &[&str]); 15] = [
     ("retain", &["file"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
+    (IO, &[]),
     ("verify", &["assume", "free", "scan", "timeout"]),
     (MODBUS, &[]),
     (CANLINK, canlink::KEYS),
@@ -167,6 +170,7 @@ impl Reader {
                 "index" => self.index(table, project),
                 "retain" => project.retain = self.path(table, "file"),
                 "serve" => self.serve(table, project),
+                IO => self.io(table, project),
                 "verify" => self.verify(table, project),
                 "plcopen" => self.plcopen(table, project),
                 CANLINK => self.canlink(at, table, project),

@@ -40,6 +40,8 @@ mod edge_queue;
 mod fault;
 pub mod fnc;
 mod hal;
+#[cfg(any(test, feature = "std"))]
+pub mod io;
 mod line_queues;
 pub mod modules;
 mod operand;

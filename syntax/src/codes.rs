@@ -11,6 +11,7 @@
 //! | W05xx | what the source says of itself does not fit |
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
 //! | E080x, W080x | properties that are verified |
+//! | E082x | connections of a running program |
 //! | E085x, W085x | boards, and writing images into them |
 //! | N00xx | worth knowing: how the source was read |
 //!

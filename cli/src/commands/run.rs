@@ -1,6 +1,7 @@
 //! `rungc run`.
 
 mod capture;
+mod connecting;
 mod device;
 mod errors;
 pub mod lines;
@@ -79,6 +80,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         free_inputs(machine, &settings)?;
     }
     spare_inputs(args, subject)?;
+    let wired_up = connecting::settings(&args.serve, subject, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(subject, &mut reporter) {
         Ok(read) => read,
@@ -118,6 +120,13 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
+    let connections = connecting::connections(
+        wired_up.as_deref(),
+        subject,
+        module.model,
+        described.as_ref(),
+        cx,
+    )?;
     let plant = described.as_ref().map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
@@ -134,6 +143,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         table: table == Table::Usual || !watched.is_empty(),
         modules: &fitted(&read.program),
         program_memory: program_memory.as_deref(),
+        connections,
     };
     run.simulate(plant)
 }

@@ -10,18 +10,19 @@ use rungc_project::serve::{SerialLine, Serve};
 pub fn run(args: &RunArgs, cx: Context) -> Result {
     let subject = subject::one(&args.input, cx)?;
     let project = subject.project.as_ref();
-    let serve = match project {
+    let mut serve = match project {
         Some(project) => args.serve.or(&project.serve),
         None => args.serve.clone(),
     };
+    serve.of_project = project.is_some_and(|project| !project.io.is_empty());
     if !serve.any() {
         let place = match project {
             Some(project) => format!("`[serve]` of {}", project.path.display()),
             None => "`[serve]` of a rungc.toml (`rungc init` writes one)".to_string(),
         };
         let why = format!(
-            "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, or use \
-             --modbus-tcp, --mc, --fx, --serial or --can"
+            "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, connect terminals as `[io.NAME]` (docs/src/linux.md), or use \
+             --modbus-tcp, --mc, --fx, --serial, --can or --io"
         );
         return Err(Failure::Because(why));
     }
@@ -50,6 +51,8 @@ impl ServeArgs {
             serial: self.serial.iter().chain(usual).cloned().collect(),
             can: self.can.clone(),
             trace_frames: self.trace_frames.clone(),
+            io: self.io.clone(),
+            of_project: self.of_project,
         }
     }
 }

@@ -18,4 +18,10 @@ super::codes! {
     "The value has the wrong type for the key, names something that does not exist (a model, a warning, a target), or contradicts another key in the file.",
     wrong: "",
     right: "";
+
+    IO_CONNECTION = "E0820" "io-connection" Error None,
+    "a connection of `[io]` in rungc.toml cannot be made as it is described",
+    "A table `[io.NAME]` connects devices of a running program to remote I/O, a broker, pins or files. It has one key that says to what (`modbus-tcp`, `modbus-rtu`, `mqtt`, `gpio`, `files` or `console`), options, and rows: ranges of devices with the direction and the place at the other end (`X000-X007 = \"read inputs 0\"`). No device takes its value from two places. docs/src/linux.md explains the keys.",
+    wrong: "",
+    right: "";
 }

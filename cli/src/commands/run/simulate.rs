@@ -1,5 +1,6 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
+use super::connecting::Connecting;
 use super::errors::Errors;
 use super::lines::Lines;
 use super::plotting::Plotting;
@@ -16,6 +17,7 @@ use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
+use rungc_rt::io::Connection;
 use rungc_rt::modules;
 use rungc_rt::{Class, Clock, Hal, Plc, Program, VirtualHal};
 use rungc_sim::Target;
@@ -45,6 +47,7 @@ struct Simulation<'a> {
     errors: Errors<'a>,
     servers: Servers,
     lines: Lines,
+    connecting: Connecting,
     watch: Watch,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
@@ -78,6 +81,8 @@ pub struct Run<'a> {
     pub modules: &'a [(u16, &'static modules::Kind)],
     /// What the programming port shows as program memory.
     pub program_memory: Option<&'a [u8]>,
+    /// What terminals and registers are connected to.
+    pub connections: Vec<Connection>,
 }
 
 impl Run<'_> {
@@ -152,6 +157,7 @@ impl Run<'_> {
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
+            connecting: Connecting::start(self.connections.clone())?,
             watch,
             now_ms: 0,
             overrun: false,
@@ -166,6 +172,7 @@ impl Simulation<'_> {
     /// Reports what has happened, and completes the files; a run that is denied errors fails by them.
     fn end(mut self, args: &RunArgs, outcome: Outcome) -> Result {
         self.lines.end(self.now_ms, &mut self.watch);
+        std::mem::take(&mut self.connecting).end();
         let table = self.watch.table();
         if !table.is_empty() {
             say(&format!("\n{}\n", table.join("\n")))?;
@@ -216,7 +223,9 @@ impl Simulation<'_> {
         loop {
             self.servers
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
+            self.connecting.take(&mut self.machine, &mut self.hal);
             let scan_ms = self.scan(args.scan)?;
+            self.connecting.give(&mut self.machine);
             self.errors.notice(self.machine.errors());
             if self.machine.watchdog_tripped() {
                 let error = self.machine.last_error();

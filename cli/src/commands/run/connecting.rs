@@ -1,0 +1,102 @@
+//! `[io]`: what terminals and registers of a running program are connected to.
+
+use super::super::subject::{self, Subject};
+use super::super::{Context, Failure, tell};
+use crate::args::ServeArgs;
+use rungc_interp::{Machine, rt_class};
+use rungc_models::Model;
+use rungc_project::Project;
+use rungc_rt::VirtualHal;
+use rungc_rt::io::{Connection, Io};
+use rungc_sim::plant::Description;
+use rungc_syntax::DeviceClass;
+use std::rc::Rc;
+
+/// The settings whose `[io]` a run uses: those that `--io` names, or those of its project when it is served.
+pub fn settings(
+    args: &ServeArgs,
+    subject: &Subject,
+    cx: Context,
+) -> Result<Option<Rc<Project>>, Failure> {
+    match &args.io {
+        Some(path) => {
+            let project = subject::load(path, &subject.reporting, cx)?;
+            if project.io.is_empty() {
+                let path = path.display();
+                let why = format!("--io {path}: there is no table `[io.NAME]`");
+                return Err(Failure::Because(why));
+            }
+            Ok(Some(Rc::new(project)))
+        }
+        None if args.of_project => Ok(subject.project.clone()),
+        None => Ok(None),
+    }
+}
+
+/// The connections of these settings, held to the model and to the simulated machine.
+pub fn connections(
+    settings: Option<&Project>,
+    subject: &Subject,
+    model: &Model,
+    machine: Option<&Description>,
+    cx: Context,
+) -> Result<Vec<Connection>, Failure> {
+    let Some(settings) = settings else {
+        return Ok(Vec::new());
+    };
+    let checked = settings.check_io(model);
+    checked.map_err(|error| subject::refuse(error, &subject.reporting, cx))?;
+    let connections = settings.connections();
+    if let Some(machine) = machine {
+        let inputs = connections
+            .iter()
+            .flat_map(|connection| connection.directed(true));
+        let mut inputs = inputs.filter(|row| Some(row.class) == rt_class(DeviceClass::X));
+        let driven = inputs.find_map(|row| {
+            let mut numbers = row.first..row.first + row.count;
+            numbers.find(|&number| machine.drives(DeviceClass::X, number))
+        });
+        if let Some(number) = driven {
+            let input = DeviceClass::X.number(number);
+            let why = format!("[io]: `{input}` is driven by {}", machine.name());
+            return Err(Failure::Because(why));
+        }
+    }
+    Ok(connections)
+}
+
+/// The connections of a run at work.
+#[derive(Default)]
+pub struct Connecting(Io);
+
+impl Connecting {
+    /// Starts them.
+    ///
+    /// # Errors
+    /// A kind of connection that this executable has no driver for.
+    pub fn start(connections: Vec<Connection>) -> Result<Self, Failure> {
+        let io = Io::start(connections, rungc_rt::io::opener);
+        io.map(Connecting).map_err(Failure::Because)
+    }
+
+    /// Before a scan.
+    pub fn take(&mut self, machine: &mut Machine, hal: &mut VirtualHal) {
+        report(self.0.take(machine, hal));
+    }
+
+    /// After a scan.
+    pub fn give(&mut self, machine: &mut Machine) {
+        self.0.give(machine);
+    }
+
+    /// The run is over: outputs are turned off.
+    pub fn end(self) {
+        report(self.0.end());
+    }
+}
+
+fn report(lines: Vec<String>) {
+    for line in lines {
+        tell(&format!("rungc: {line}"));
+    }
+}

@@ -1,0 +1,199 @@
+"""Remote I/O by a server of pymodbus, which is killed and comes back while `rungc serve` runs: python3 modbus_io.py RUNGC FOLDER.
+
+With --server PORT, it is that server. It takes lines such as `2 0 1 0 1` from standard input: function, address, values.
+"""
+
+import asyncio
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+
+from pymodbus.client import ModbusTcpClient
+from pymodbus.server import ModbusTcpServer
+from pymodbus.simulator import DataType, SimData, SimDevice
+
+UNIT = 7
+
+
+async def serve(port):
+    def block(kind):
+        return [SimData(0, count=64, datatype=kind)]
+
+    blocks = tuple(block(kind) for kind in [DataType.BITS, DataType.BITS, DataType.REGISTERS, DataType.REGISTERS])
+    server = ModbusTcpServer(SimDevice(UNIT, blocks), address=("127.0.0.1", port))
+    await server.serve_forever(background=True)
+    loop = asyncio.get_running_loop()
+    print("ready", flush=True)
+    while line := await loop.run_in_executor(None, sys.stdin.readline):
+        function, address, *values = (int(word) for word in line.split())
+        if function in (1, 2):
+            values = [bool(value) for value in values]
+        await server.async_setValues(UNIT, function, address, values)
+        print("set", flush=True)
+
+
+if sys.argv[1] == "--server":
+    asyncio.run(serve(int(sys.argv[2])))
+    sys.exit()
+
+rungc, folder = sys.argv[1:3]
+
+PROGRAM = """\
+LD X000
+OUT Y000
+LD M100
+OUT Y001
+LD M8000
+INC D0
+MOV D100 D200
+MOV K4X020 D10
+MOV D11 K4Y020
+END
+"""
+
+SETTINGS = """\
+[project]
+program = "p.il"
+model = "h2u"
+
+[serve]
+modbus-tcp = 0
+
+[io.valves]
+modbus-tcp = "127.0.0.1:%d"
+unit = 7
+every = "5ms"
+timeout = "300ms"
+fault = "M100"
+X000-X007 = "read inputs 0"
+X020-X037 = "read input-registers 5"
+D100-D103 = "read registers 10"
+D110 = "read registers 20 loss -7"
+Y000-Y007 = "write coils 8"
+Y020-Y037 = "write registers 41"
+D200 = "write registers 40"
+"""
+
+
+class Server:
+    """The remote station as a process."""
+
+    def __init__(self, port):
+        command = [sys.executable, __file__, "--server", str(port)]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline() == "ready\n"
+        self.client = ModbusTcpClient("127.0.0.1", port=port, timeout=20)
+        assert self.client.connect()
+
+    def set(self, function, address, *values):
+        words = [function, address, *values]
+        self.process.stdin.write(" ".join(map(str, words)) + "\n")
+        self.process.stdin.flush()
+        assert self.process.stdout.readline() == "set\n"
+
+    def coils(self):
+        return self.client.read_coils(8, count=8, device_id=UNIT).bits[:8]
+
+    def registers(self):
+        return self.client.read_holding_registers(40, count=2, device_id=UNIT).registers
+
+    def kill(self):
+        self.client.close()
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+
+
+with socket.socket() as free:
+    free.bind(("127.0.0.1", 0))
+    port = free.getsockname()[1]
+with open(os.path.join(folder, "p.il"), "w") as file:
+    file.write(PROGRAM)
+with open(os.path.join(folder, "rungc.toml"), "w") as file:
+    file.write(SETTINGS % port)
+
+# The station is not there yet.
+run = subprocess.Popen([rungc, "serve"], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+said = []
+while not (said and "Modbus TCP at" in said[-1]):
+    said.append(run.stderr.readline())
+    assert said[-1], said
+plc = ModbusTcpClient("127.0.0.1", port=int(said[-1].rsplit(":", 1)[1]), timeout=20)
+assert plc.connect()
+threading.Thread(target=lambda: said.extend(run.stderr), daemon=True).start()
+
+
+def soon(look, wanted, seconds=20):
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        if look() == wanted:
+            return
+        time.sleep(0.01)
+    raise AssertionError(f"{look()} is not {wanted}; {said}")
+
+
+def word(number):
+    value = plc.read_holding_registers(number, count=1).registers[0]
+    return value - 0x10000 if value & 0x8000 else value
+
+
+def fault():
+    return plc.read_coils(100, count=1).bits[0]
+
+
+def scans():
+    """The program goes on."""
+    before = word(0)
+    soon(lambda: word(0) != before, True)
+
+
+def work(server, value):
+    """What the station has reaches the program, and what the program makes of it the station."""
+    soon(fault, False)
+    server.set(2, 0, 1)
+    server.set(3, 10, value)
+    server.set(3, 20, value + 1)
+    server.set(4, 5, 0x1234)
+    assert not plc.write_register(11, 0x5678).isError()
+    on = [True] + [False] * 7
+    soon(server.coils, on)
+    soon(server.registers, [value, 0x5678])
+    soon(lambda: (word(100), word(110), word(10)), (value, value + 1, 0x1234))
+
+
+try:
+    soon(fault, True)
+    soon(lambda: word(110), -7)
+    scans()
+    server = Server(port)
+    work(server, 321)
+    for times in range(3):
+        server.kill()
+        soon(fault, True)
+        # What the connection says, and what a row says.
+        soon(lambda: (word(100), word(110), word(10)), (0, -7, 0))
+        scans()
+        server = Server(port)
+        work(server, 400 + times)
+    # An end that is there but silent.
+    server.process.send_signal(signal.SIGSTOP)
+    soon(fault, True)
+    scans()
+    server.process.send_signal(signal.SIGCONT)
+    work(server, 500)
+    # The end of a run leaves the outputs off.
+    plc.close()
+    run.send_signal(signal.SIGINT)
+    assert run.wait(20) == 130
+    assert server.coils() == [False] * 8
+    assert server.registers() == [500, 0]
+    server.kill()
+finally:
+    run.kill()
+lost = [line for line in said if "io valves: 127.0.0.1" in line]
+back = [line for line in said if "io valves: connected to" in line]
+assert len(lost) == 5 and len(back) == 5, said
+print("lost and reached again, five times")

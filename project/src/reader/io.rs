@@ -1,0 +1,95 @@
+//! `[io.NAME]`.
+
+use super::{Reader, Value, span};
+use crate::Project;
+use crate::connections::Connected;
+use rungc_rt::io::{Connection, overlap};
+use rungc_syntax::{Span, codes};
+use toml::de::{DeTable, DeValue};
+
+/// The table of connections.
+pub(super) const IO: &str = "io";
+
+impl Reader {
+    pub(super) fn io(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        for (key, value) in table {
+            let (name, at) = (key.get_ref().as_ref(), span(key.span()));
+            match value.get_ref().as_table() {
+                Some(table) => project.io.extend(self.connection(name, at, table)),
+                None => {
+                    let help =
+                        "write `[io.remote]` on its own line, and the keys of the connection below";
+                    self.misconnected(at, "a connection is a table".to_owned(), help);
+                }
+            }
+        }
+        if let Some((device, n, row)) = overlap(&project.connections()) {
+            let connected = &project.io[n];
+            let at = row.and_then(|row| connected.rows.get(row));
+            let at = at.copied().unwrap_or(connected.fault);
+            let help = "a device takes its value from one place";
+            self.misconnected(
+                at,
+                format!("`{device}` takes its value from two places"),
+                help,
+            );
+        }
+    }
+
+    fn connection(&mut self, name: &str, at: Span, table: &DeTable<'_>) -> Option<Connected> {
+        let mut pairs = Vec::new();
+        let mut places = Vec::new();
+        for (key, value) in table {
+            let word = key.get_ref().as_ref();
+            let Some(text) = text(value) else {
+                let message = format!("`{word}` must be a string or a number");
+                self.misconnected(span(value.span()), message, "");
+                continue;
+            };
+            pairs.push((word, text));
+            places.push((span(key.span()), span(value.span())));
+        }
+        if pairs.len() < table.len() {
+            return None;
+        }
+        let is_row = |word: &str| word.starts_with(|c: char| c.is_ascii_uppercase());
+        match Connection::read(name, &pairs) {
+            Ok(connection) => {
+                let all = || pairs.iter().zip(&places);
+                let rows = all().filter(|((word, _), _)| is_row(word));
+                let mut faults = all().filter(|((word, _), _)| *word == "fault");
+                Some(Connected {
+                    connection,
+                    span: at,
+                    rows: rows.map(|(_, place)| place.0).collect(),
+                    fault: faults.next().map_or(at, |(_, place)| place.1),
+                })
+            }
+            Err(mistakes) => {
+                for mistake in mistakes {
+                    let at = mistake.pair.map_or(at, |pair| places[pair].1);
+                    self.misconnected(at, mistake.message, &mistake.help);
+                }
+                None
+            }
+        }
+    }
+
+    fn misconnected(&mut self, at: Span, message: String, help: &str) {
+        let mistake = codes::IO_CONNECTION.at(at, message);
+        self.found.push(match help {
+            "" => mistake,
+            help => mistake.help(help.to_owned()),
+        });
+    }
+}
+
+/// A text as it is, a number and a truth value as they are written.
+fn text<'v>(value: &'v Value<'_>) -> Option<&'v str> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(text),
+        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str()),
+        DeValue::Boolean(true) => Some("true"),
+        _ => None,
+    }
+}

@@ -1,0 +1,317 @@
+//! Threads that exchange values with the other ends, and what they share with the scan.
+
+use super::settings::{Connection, Kind, Loss};
+use crate::hal::Hal;
+use crate::plc::Class;
+use crate::program::Program;
+use std::boxed::Box;
+use std::format;
+use std::string::{String, ToString};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread;
+use std::time::{Duration, Instant};
+use std::vec;
+use std::vec::Vec;
+
+/// How long a thread waits before it tries to reach the other end again.
+const RETRY: Duration = Duration::from_secs(1);
+
+/// How long the end of a run waits for the threads to leave their outputs off.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// Why an exchange has failed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Trouble {
+    /// The other end cannot be reached any more; it is opened again.
+    Lost(String),
+    /// It answers, but not with what was asked for.
+    Refused(String),
+}
+
+impl Trouble {
+    fn why(self) -> String {
+        match self {
+            Trouble::Lost(why) | Trouble::Refused(why) => why,
+        }
+    }
+}
+
+/// What exchanges values with an other end.
+pub trait Driver: Send {
+    /// Reads all rows that are read into `inputs` and writes `outputs` by the rows that are written, each at the
+    /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1.
+    ///
+    /// # Errors
+    /// Why the inputs are not those of the other end.
+    fn exchange(
+        &mut self,
+        connection: &Connection,
+        inputs: &mut [i16],
+        outputs: &[i16],
+    ) -> Result<(), Trouble>;
+
+    /// The run is over, and the outputs are off.
+    fn end(&mut self) {}
+}
+
+/// Opens an other end, waiting for it no longer than the connection says.
+pub type Opener = fn(&Connection) -> Result<Box<dyn Driver>, String>;
+
+/// What a thread shares with the scan.
+#[derive(Default)]
+struct State {
+    inputs: Vec<i16>,
+    outputs: Vec<i16>,
+    is_up: bool,
+    /// The run ends: the outputs are written once more.
+    ends: bool,
+    /// The thread has ended.
+    over: bool,
+    /// What there is to report.
+    said: Vec<String>,
+}
+
+/// The state, and what wakes those who wait for it.
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The state, unless the other side is at it.
+    fn try_lock(&self) -> Option<MutexGuard<'_, State>> {
+        match self.state.try_lock() {
+            Ok(state) => Some(state),
+            Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        }
+    }
+}
+
+/// A connection at work, as the scan sees it.
+struct Running {
+    connection: Arc<Connection>,
+    shared: Arc<Shared>,
+    inputs: Vec<i16>,
+    outputs: Vec<i16>,
+    is_up: bool,
+}
+
+/// The connections of a running program.
+#[derive(Default)]
+pub struct Io {
+    running: Vec<Running>,
+    said: Vec<String>,
+}
+
+impl Io {
+    /// Starts a thread for each connection; `opener` knows the drivers of this program.
+    ///
+    /// # Errors
+    /// A kind of connection that this program has no driver for, or a thread that cannot be had.
+    pub fn start(
+        connections: Vec<Connection>,
+        opener: impl Fn(Kind) -> Option<Opener>,
+    ) -> Result<Self, String> {
+        let mut io = Io::default();
+        for connection in connections {
+            let (name, key) = (&connection.name, connection.kind.key());
+            let open = opener(connection.kind)
+                .ok_or_else(|| format!("[io.{name}]: this program has no driver for {key}"))?;
+            let shared = Arc::new(Shared::default());
+            let (inputs, outputs) = (connection.values(true), connection.values(false));
+            *shared.lock() = State {
+                inputs: vec![0; inputs],
+                outputs: vec![0; outputs],
+                ..State::default()
+            };
+            let connection = Arc::new(connection);
+            let (its, both) = (Arc::clone(&connection), Arc::clone(&shared));
+            thread::Builder::new()
+                .name(format!("io {}", connection.name))
+                .spawn(move || work(&its, &both, open))
+                .map_err(|error| format!("[io.{}]: {error}", connection.name))?;
+            io.running.push(Running {
+                connection,
+                shared,
+                inputs: vec![0; inputs],
+                outputs: vec![0; outputs],
+                is_up: false,
+            });
+        }
+        Ok(io)
+    }
+
+    /// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
+    /// Returns what there is to report.
+    pub fn take(&mut self, plc: &mut impl Program, hal: &mut dyn Hal) -> Vec<String> {
+        for running in &mut self.running {
+            if let Some(mut state) = running.shared.try_lock() {
+                running.inputs.copy_from_slice(&state.inputs);
+                running.is_up = state.is_up;
+                self.said.append(&mut state.said);
+            }
+            running.apply(plc, hal);
+        }
+        std::mem::take(&mut self.said)
+    }
+
+    /// After a scan: the other ends are given what the devices are.
+    pub fn give(&mut self, plc: &mut impl Program) {
+        for running in &mut self.running {
+            for row in running.connection.directed(false) {
+                for (value, number) in running.outputs[row.place.clone()]
+                    .iter_mut()
+                    .zip(row.first..)
+                {
+                    *value = match row.class {
+                        Class::Y => i16::from(plc.output(number)),
+                        class if row.is_bits() => i16::from(plc.bit(class, number) == Some(true)),
+                        class => plc.word(class, number).unwrap_or(0),
+                    };
+                }
+            }
+            if let Some(mut state) = running.shared.try_lock() {
+                state.outputs.copy_from_slice(&running.outputs);
+            }
+        }
+    }
+
+    /// The run is over: all bits that are written are turned off. Waits for that, up to two seconds; returns what there
+    /// is to report.
+    pub fn end(self) -> Vec<String> {
+        for running in &self.running {
+            let mut state = running.shared.lock();
+            for row in running
+                .connection
+                .directed(false)
+                .filter(|row| row.is_bits())
+            {
+                state.outputs[row.place.clone()].fill(0);
+            }
+            state.ends = true;
+            running.shared.changed.notify_all();
+        }
+        let until = Instant::now() + GRACE;
+        let mut said = self.said;
+        for running in &self.running {
+            let left = until.saturating_duration_since(Instant::now());
+            let state = running.shared.lock();
+            let ended = running
+                .shared
+                .changed
+                .wait_timeout_while(state, left, |state| !state.over);
+            let (mut state, _) = ended.unwrap_or_else(PoisonError::into_inner);
+            said.append(&mut state.said);
+            let is_off = state.over && state.is_up;
+            if !is_off && !running.outputs.is_empty() {
+                let name = &running.connection.name;
+                said.push(format!(
+                    "io {name}: not reached at the end: its outputs may still be on"
+                ));
+            }
+        }
+        said
+    }
+}
+
+impl Running {
+    fn apply(&self, plc: &mut (impl Program + ?Sized), hal: &mut dyn Hal) {
+        let Connection { loss, fault, .. } = *self.connection;
+        for row in self.connection.directed(true) {
+            for (&value, number) in self.inputs[row.place.clone()].iter().zip(row.first..) {
+                let value = match (self.is_up, row.loss, loss) {
+                    (true, ..) => value,
+                    (false, Some(value), _) => value,
+                    (false, None, Loss::Zero) => 0,
+                    (false, None, Loss::Hold) => continue,
+                };
+                if !row.is_bits() {
+                    let _ = plc.set_word(row.class, number, value);
+                    continue;
+                }
+                let on = value != 0;
+                let before = plc.bit(row.class, number);
+                let _ = plc.set_bit(row.class, number, on);
+                if row.class == Class::X && before != Some(on) {
+                    plc.input_edge(hal, number, on);
+                }
+            }
+        }
+        if let Some((class, number)) = fault {
+            let _ = plc.set_bit(class, number, !self.is_up);
+        }
+    }
+}
+
+/// The thread of a connection.
+fn work(connection: &Connection, shared: &Shared, open: Opener) {
+    let every = Duration::from_millis(connection.every_ms);
+    let mut driver: Option<Box<dyn Driver>> = None;
+    let mut inputs = vec![0; connection.values(true)];
+    let mut outputs = vec![0; connection.values(false)];
+    let mut reported: Option<Option<String>> = None;
+    let mut next = Instant::now();
+    loop {
+        let ends = {
+            let state = shared.lock();
+            outputs.copy_from_slice(&state.outputs);
+            state.ends
+        };
+        let result = match &mut driver {
+            Some(driver) => driver.exchange(connection, &mut inputs, &outputs),
+            // An end that was lost is not waited for any more.
+            None if ends => Err(Trouble::Lost("the run has ended".to_string())),
+            None => match open(connection) {
+                Ok(opened) => {
+                    let opened = driver.insert(opened);
+                    opened.exchange(connection, &mut inputs, &outputs)
+                }
+                Err(why) => Err(Trouble::Lost(why)),
+            },
+        };
+        let is_up = result.is_ok();
+        let is_lost = matches!(result, Err(Trouble::Lost(_)));
+        let news = result.err().map(Trouble::why);
+        let mut state = shared.lock();
+        state.is_up = is_up;
+        if is_up {
+            state.inputs.copy_from_slice(&inputs);
+        }
+        // An end that stays away is reported once.
+        if !ends && reported.as_ref().map(Option::is_none) != Some(is_up) {
+            let name = &connection.name;
+            state.said.push(match &news {
+                None => format!("io {name}: connected to {}", connection.end),
+                Some(why) => format!("io {name}: {}: {why}", connection.end),
+            });
+            reported = Some(news);
+        }
+        if ends {
+            if let (Some(driver), true) = (&mut driver, is_up) {
+                driver.end();
+            }
+            state.over = true;
+            shared.changed.notify_all();
+            return;
+        }
+        let now = Instant::now();
+        next = match is_lost {
+            true => now + RETRY,
+            false => (next + every).max(now),
+        };
+        let wait = next.saturating_duration_since(now);
+        let waited = shared
+            .changed
+            .wait_timeout_while(state, wait, |state| !state.ends);
+        drop(waited);
+        if is_lost {
+            driver = None;
+        }
+    }
+}

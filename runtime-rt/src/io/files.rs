@@ -1,0 +1,218 @@
+//! Files, standard input and output: for scripts, and for the files by which Linux shows LEDs and converters.
+
+use super::cycle::{Driver, Trouble};
+use super::settings::{Connection, End, Row, devices};
+use std::boxed::Box;
+use std::collections::BTreeMap;
+use std::format;
+use std::fs::{self, File};
+use std::io::{self, BufRead, Read, Write};
+use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::vec::Vec;
+
+/// A larger file, in bytes, is rejected.
+const LARGEST: u64 = 1 << 20;
+
+/// Lines of standard input that wait for a cycle.
+const LINES: usize = 64;
+
+/// The longest line of standard input, in bytes.
+const LONGEST_LINE: u64 = 1024;
+
+/// Files of a folder.
+struct Folder {
+    path: PathBuf,
+    /// What was written last.
+    written: BTreeMap<PathBuf, Vec<i16>>,
+}
+
+/// Files by the names of the rows, in the folder that a connection names.
+pub(super) fn open_folder(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+    let path = PathBuf::from(&connection.end);
+    match path.is_dir() {
+        true => Ok(Box::new(Folder {
+            path,
+            written: BTreeMap::new(),
+        })),
+        false => Err("there is no such folder".to_string()),
+    }
+}
+
+impl Driver for Folder {
+    fn exchange(
+        &mut self,
+        connection: &Connection,
+        inputs: &mut [i16],
+        outputs: &[i16],
+    ) -> Result<(), Trouble> {
+        for row in &connection.rows {
+            let End::Name(name) = &row.end else { continue };
+            let path = self.path.join(name);
+            let failed = |error: io::Error| Trouble::Refused(format!("{name}: {error}"));
+            if row.reads {
+                read(&path, &mut inputs[row.place.clone()]).map_err(failed)?;
+                continue;
+            }
+            let values = &outputs[row.place.clone()];
+            if self
+                .written
+                .get(&path)
+                .is_some_and(|written| written == values)
+            {
+                continue;
+            }
+            // What a disk that was full has not taken is written in the next cycle.
+            self.written.remove(&path);
+            write(&path, values).map_err(failed)?;
+            self.written.insert(path, values.to_vec());
+        }
+        Ok(())
+    }
+}
+
+/// Reads numbers, one for each value, with white space between them. A number beyond 16 bits is one of 65535 at most,
+/// as registers show it.
+fn read(path: &Path, values: &mut [i16]) -> io::Result<()> {
+    let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
+    let mut text = String::new();
+    File::open(path)?.take(LARGEST).read_to_string(&mut text)?;
+    let mut words = text.split_whitespace();
+    let mut read = Vec::with_capacity(values.len());
+    for _ in 0..values.len() {
+        let word = words
+            .next()
+            .ok_or_else(|| wrong(format!("{} numbers are too few", read.len())))?;
+        read.push(
+            number(word).ok_or_else(|| wrong(format!("`{word}` is not a number of 16 bits")))?,
+        );
+    }
+    values.copy_from_slice(&read);
+    Ok(())
+}
+
+/// Reads -32768 to 65535.
+fn number(text: &str) -> Option<i16> {
+    let number: i32 = text.parse().ok()?;
+    (-0x8000..=0xffff)
+        .contains(&number)
+        .then_some(number as i16)
+}
+
+/// Writes numbers as one line, at once.
+fn write(path: &Path, values: &[i16]) -> io::Result<()> {
+    let words: Vec<_> = values.iter().map(ToString::to_string).collect();
+    // Not replaced by another file: it may be one that stands for hardware.
+    fs::write(path, words.join(" ") + "\n")
+}
+
+/// Standard input and output: lines such as `X000=1` and `Y000=1`.
+struct Console {
+    /// What was printed last.
+    printed: Vec<Option<i16>>,
+}
+
+/// The lines of standard input. There is one for the process, and one thread that reads it.
+static STANDARD_INPUT: Mutex<Option<Receiver<String>>> = Mutex::new(None);
+
+pub(super) fn open_console(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+    let mut input = STANDARD_INPUT
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    if connection.directed(true).next().is_some() && input.is_none() {
+        let (sender, lines) = sync_channel(LINES);
+        let listen = move || {
+            let mut standard = io::stdin().lock();
+            loop {
+                let mut line = Vec::new();
+                // A longer line is cut, so that it cannot fill the memory.
+                match standard
+                    .by_ref()
+                    .take(LONGEST_LINE)
+                    .read_until(b'\n', &mut line)
+                {
+                    Ok(0) | Err(_) => break,
+                    Ok(_) => {}
+                }
+                if sender
+                    .send(String::from_utf8_lossy(&line).into_owned())
+                    .is_err()
+                {
+                    break;
+                }
+            }
+        };
+        let spawned = thread::Builder::new()
+            .name("standard input".to_string())
+            .spawn(listen);
+        spawned.map_err(|error| error.to_string())?;
+        *input = Some(lines);
+    }
+    Ok(Box::new(Console {
+        printed: Vec::new(),
+    }))
+}
+
+impl Driver for Console {
+    fn exchange(
+        &mut self,
+        connection: &Connection,
+        inputs: &mut [i16],
+        outputs: &[i16],
+    ) -> Result<(), Trouble> {
+        self.printed.resize(outputs.len(), None);
+        let mut text = String::new();
+        for row in connection.directed(false) {
+            for (index, at) in (0..).zip(row.place.clone()) {
+                if self.printed[at].replace(outputs[at]) != Some(outputs[at]) {
+                    text.push_str(&format!("{}={}\n", row.name(index), outputs[at]));
+                }
+            }
+        }
+        let mut standard = io::stdout().lock();
+        let printed = standard
+            .write_all(text.as_bytes())
+            .and_then(|()| standard.flush());
+        printed.map_err(|error| {
+            // All of it is printed when there is room again.
+            self.printed.clear();
+            Trouble::Refused(format!("standard output: {error}"))
+        })?;
+        drop(standard);
+        let input = STANDARD_INPUT
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let Some(lines) = &*input else { return Ok(()) };
+        for _ in 0..LINES {
+            match lines.try_recv() {
+                Ok(line) => take(connection, line.trim(), inputs),
+                Err(TryRecvError::Empty) => break,
+                Err(TryRecvError::Disconnected) => {
+                    return Err(Trouble::Refused("standard input has ended".to_string()));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Does what `X000=1` says; a line that names no device of the connection, or no value that fits, is left out.
+fn take(connection: &Connection, line: &str, inputs: &mut [i16]) {
+    let Some((device, value)) = line.split_once('=') else {
+        return;
+    };
+    let device = devices(&device.trim().to_ascii_uppercase());
+    let (Some((class, number, 1)), Some(value)) = (device, number(value.trim())) else {
+        return;
+    };
+    let holds =
+        |row: &&Row| row.class == class && (row.first..row.first + row.count).contains(&number);
+    if let Some(row) = connection.directed(true).find(holds)
+        && (!row.is_bits() || matches!(value, 0 | 1))
+    {
+        inputs[row.place.start + (number - row.first) as usize] = value;
+    }
+}

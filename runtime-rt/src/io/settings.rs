@@ -1,0 +1,555 @@
+//! Connections, and how their keys and values are read.
+
+use crate::comm::modbus::Limits;
+use crate::plc::Class;
+use std::borrow::ToOwned;
+use std::collections::BTreeMap;
+use std::format;
+use std::ops::Range;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+/// What a connection is to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// Remote I/O over TCP.
+    ModbusTcp,
+    /// Remote I/O on a serial line.
+    ModbusRtu,
+    /// A broker.
+    Mqtt,
+    /// The pins of this machine (Linux).
+    Gpio,
+    /// Files of a folder, each with the values of a row.
+    Files,
+    /// Standard input and output.
+    Console,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 6] = [
+        Kind::ModbusTcp,
+        Kind::ModbusRtu,
+        Kind::Mqtt,
+        Kind::Gpio,
+        Kind::Files,
+        Kind::Console,
+    ];
+
+    /// The key that says where its other end is.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Kind::ModbusTcp => "modbus-tcp",
+            Kind::ModbusRtu => "modbus-rtu",
+            Kind::Mqtt => "mqtt",
+            Kind::Gpio => "gpio",
+            Kind::Files => "files",
+            Kind::Console => "console",
+        }
+    }
+
+    /// The keys of its options, beside those of every connection.
+    pub const fn options(self) -> &'static [&'static str] {
+        match self {
+            Kind::ModbusTcp => &["unit"],
+            Kind::ModbusRtu => &["unit", "baud", "format"],
+            Kind::Mqtt => &["client", "user", "password-file", "status"],
+            Kind::Gpio | Kind::Files | Kind::Console => &[],
+        }
+    }
+
+    /// How a row is written.
+    const fn example(self) -> &'static str {
+        match self {
+            Kind::ModbusTcp | Kind::ModbusRtu => {
+                "write for example `X000-X007 = \"read inputs 0\"`, `Y000-Y007 = \"write coils 0\"`, \
+                 `D100 = \"read input-registers 0\"` or `D200 = \"write registers 0\"`"
+            }
+            Kind::Mqtt => {
+                "write for example `X000 = \"read plant/start\"` or `Y000-Y007 = \"write plant/{}\"`"
+            }
+            Kind::Gpio => {
+                "write for example `X000 = \"read 17 pull-up active-low\"` or `Y000 = \"write 22\"`"
+            }
+            Kind::Files => {
+                "write for example `X000-X007 = \"read switches\"` or `Y000-Y007 = \"write lamps\"`"
+            }
+            Kind::Console => "write for example `X000-X007 = \"read\"` or `Y000-Y007 = \"write\"`",
+        }
+    }
+}
+
+/// Keys of every connection.
+const COMMON: [&str; 4] = ["every", "timeout", "fault", "loss"];
+
+/// What inputs are while the other end cannot be reached, unless their row says so.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Loss {
+    /// Off, and 0.
+    #[default]
+    Zero,
+    /// What they were last.
+    Hold,
+}
+
+/// A table of a Modbus slave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Table {
+    /// Coils: 01 and 0F.
+    Coils,
+    /// Discrete inputs: 02.
+    Inputs,
+    /// Holding registers: 03 and 10.
+    Registers,
+    /// Input registers: 04.
+    InputRegisters,
+}
+
+/// What a row is connected to at the other end.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum End {
+    /// A run of a Modbus slave's devices.
+    Modbus {
+        /// Their table.
+        table: Table,
+        /// The first address, as on the line.
+        address: u16,
+    },
+    /// A topic, or a file of the folder.
+    Name(String),
+    /// A line of a GPIO chip.
+    Line {
+        /// Its offset.
+        offset: u32,
+        /// Words after it: `active-low`, `pull-up`, `pull-down`, `open-drain`.
+        flags: Vec<String>,
+    },
+    /// A line of text each time.
+    Text,
+}
+
+/// Where a value of a row is among those of its direction.
+pub type Place = Range<usize>;
+
+/// Devices of consecutive numbers, and what they are connected to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Row {
+    /// Their class: X, Y, M, S (bits), D or R (words).
+    pub class: Class,
+    /// Number of the first.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    /// Whether they take values from the other end, rather than give it theirs.
+    pub reads: bool,
+    /// What they are connected to.
+    pub end: End,
+    /// The value of each while the other end cannot be reached; that of the connection if there is none.
+    pub loss: Option<i16>,
+    /// Where their values are among those of the connection that are read, or written.
+    pub place: Place,
+}
+
+impl Row {
+    /// Whether its devices are bits.
+    pub fn is_bits(&self) -> bool {
+        is_bits(self.class)
+    }
+
+    /// The name of device number `index` of the row: `X010`.
+    pub fn name(&self, index: u32) -> String {
+        device_name(self.class, self.first + index)
+    }
+
+    /// Its devices as they are written: `X000-X007`.
+    pub fn devices(&self) -> String {
+        match self.count {
+            1 => self.name(0),
+            count => format!("{}-{}", self.name(0), self.name(count - 1)),
+        }
+    }
+}
+
+/// Terminals and registers, and the other end that they are connected to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Connection {
+    /// What the description calls it.
+    pub name: String,
+    /// What it is to.
+    pub kind: Kind,
+    /// Where the other end is.
+    pub end: String,
+    /// Milliseconds from the start of one cycle to the start of the next.
+    pub every_ms: u64,
+    /// Milliseconds after which an answer is missing.
+    pub timeout_ms: u64,
+    /// The bit that is on while the other end cannot be reached.
+    pub fault: Option<(Class, u32)>,
+    /// What inputs are then.
+    pub loss: Loss,
+    /// Other keys, which its driver reads.
+    pub options: BTreeMap<String, String>,
+    /// Its devices.
+    pub rows: Vec<Row>,
+}
+
+/// What is wrong with a description.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Mistake {
+    /// The place of the key among the pairs; none: what is wrong is the whole.
+    pub pair: Option<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What helps; may be empty.
+    pub help: String,
+}
+
+impl Connection {
+    /// Reads the keys and values of a connection; numbers and truth values as they are written.
+    ///
+    /// # Errors
+    /// All that is wrong with them: at least one mistake.
+    pub fn read(name: &str, pairs: &[(&str, &str)]) -> Result<Self, Vec<Mistake>> {
+        let kinds = Kind::ALL.map(Kind::key);
+        let mut found = pairs.iter().filter(|(key, _)| kinds.contains(key));
+        let (Some(&(key, end)), None) = (found.next(), found.next()) else {
+            return Err([Mistake {
+                pair: None,
+                message: format!("a connection has one of {}", listed(&kinds)),
+                help: "write for example `modbus-tcp = \"192.168.1.20:502\"`".to_owned(),
+            }]
+            .into());
+        };
+        let kind = Kind::ALL.into_iter().find(|kind| kind.key() == key);
+        let mut connection = Connection {
+            name: name.to_owned(),
+            kind: kind.unwrap_or(Kind::Console),
+            end: end.to_owned(),
+            every_ms: 20,
+            timeout_ms: 500,
+            fault: None,
+            loss: Loss::Zero,
+            options: BTreeMap::new(),
+            rows: Vec::new(),
+        };
+        let mut mistakes = Vec::new();
+        for (pair, &(key, value)) in pairs.iter().enumerate() {
+            if let Err((message, help)) = connection.set(key, value) {
+                mistakes.push(Mistake {
+                    pair: Some(pair),
+                    message,
+                    help,
+                });
+            }
+        }
+        if mistakes.is_empty() && connection.rows.is_empty() {
+            mistakes.push(Mistake {
+                pair: None,
+                message: "a connection without devices".to_owned(),
+                help: connection.kind.example().to_owned(),
+            });
+        }
+        match mistakes.is_empty() {
+            true => Ok(connection),
+            false => Err(mistakes),
+        }
+    }
+
+    /// The rows of a direction.
+    pub fn directed(&self, reads: bool) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(move |row| row.reads == reads)
+    }
+
+    /// How many values it reads, or writes.
+    pub fn values(&self, reads: bool) -> usize {
+        let ends = self.directed(reads).map(|row| row.place.end);
+        ends.max().unwrap_or(0)
+    }
+
+    /// An option's number within a range; `usual` if it is not given.
+    ///
+    /// # Errors
+    /// What it is to be.
+    pub fn number(&self, option: &str, range: Range<u32>, usual: u32) -> Result<u32, String> {
+        let Some(text) = self.options.get(option) else {
+            return Ok(usual);
+        };
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        let (first, last) = (range.start, range.end.saturating_sub(1));
+        number.ok_or_else(|| format!("`{option}` is {first} to {last}"))
+    }
+
+    /// The unit of a Modbus slave.
+    pub fn unit(&self) -> Result<u8, String> {
+        self.number("unit", 0..248, 1).map(|unit| unit as u8)
+    }
+
+    fn set(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {
+        let wrong = |message: String| Err((message, String::new()));
+        if key.starts_with(|c: char| c.is_ascii_uppercase()) {
+            return self.add_row(key, value);
+        }
+        match key {
+            "every" | "timeout" => {
+                let known = time(value).filter(|ms| (1..=3_600_000).contains(ms));
+                let Some(ms) = known else {
+                    let help = "write for example \"20ms\" or \"1s\"";
+                    return Err((format!("`{value}` is not a time"), help.to_owned()));
+                };
+                match key {
+                    "every" => self.every_ms = ms,
+                    _ => self.timeout_ms = ms,
+                }
+            }
+            "fault" => match devices(value) {
+                Some((class @ (Class::Y | Class::M | Class::S), first, 1)) => {
+                    self.fault = Some((class, first));
+                }
+                _ => return wrong(format!("`{value}` is not a bit device Y, M or S")),
+            },
+            "loss" => match value {
+                "zero" => self.loss = Loss::Zero,
+                "hold" => self.loss = Loss::Hold,
+                _ => return wrong(String::from("`loss` is \"zero\" or \"hold\"")),
+            },
+            _ if key == self.kind.key() => {}
+            _ if self.kind.options().contains(&key) => {
+                self.options.insert(key.to_owned(), value.to_owned());
+                let checked = match key {
+                    "unit" => self.unit().map(drop),
+                    "baud" => self.number("baud", 300..1_000_001, 9600).map(drop),
+                    _ => Ok(()),
+                };
+                checked.map_err(|message| (message, String::new()))?;
+            }
+            _ => {
+                let kind = self.kind.key();
+                let keys = COMMON.iter().chain(self.kind.options());
+                let keys: Vec<_> = keys.copied().collect();
+                let help = format!("valid keys: {} and ranges of devices", listed(&keys));
+                return Err((format!("a connection by {kind} has no key `{key}`"), help));
+            }
+        }
+        Ok(())
+    }
+
+    fn add_row(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {
+        let example = || self.kind.example().to_owned();
+        let Some((class, first, count)) = devices(key) else {
+            let help = "the devices are X, Y, M, S, D or R: `X000-X007`";
+            let message = format!("`{key}` is not a range of devices");
+            return Err((message, help.to_owned()));
+        };
+        let mut words: Vec<&str> = value.split_whitespace().collect();
+        let loss = match words[..] {
+            [.., "loss", number] => {
+                let most = if is_bits(class) {
+                    0..=1
+                } else {
+                    i16::MIN..=i16::MAX
+                };
+                let number = number.parse().ok().filter(|number| most.contains(number));
+                let (from, to) = (most.start(), most.end());
+                let message = || format!("the value after `loss` is {from} to {to}");
+                words.truncate(words.len() - 2);
+                Some(number.ok_or_else(|| (message(), String::new()))?)
+            }
+            _ => None,
+        };
+        let reads = match words.first() {
+            Some(&"read") => true,
+            Some(&"write") => false,
+            _ => {
+                return Err((
+                    format!("`{value}` does not say `read` or `write`"),
+                    example(),
+                ));
+            }
+        };
+        if reads && class == Class::Y {
+            let help = "outputs are written; read into X, M, S, D or R";
+            return Err((format!("`{key}` cannot be read"), help.to_owned()));
+        }
+        if let (false, Some(_)) = (reads, loss) {
+            let help = "what outputs do then is set at the other end";
+            return Err((
+                "`loss` is for devices that are read".to_owned(),
+                help.to_owned(),
+            ));
+        }
+        let end = end(self.kind, class, count, reads, &words[1..])
+            .map_err(|message| (message, example()))?;
+        let from = self.values(reads);
+        self.rows.push(Row {
+            class,
+            first,
+            count,
+            reads,
+            end,
+            loss,
+            place: from..from + count as usize,
+        });
+        Ok(())
+    }
+}
+
+/// What the words of a row name at the other end.
+fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Result<End, String> {
+    let cannot = || {
+        format!(
+            "`{}` is not an end of a row by {}",
+            words.join(" "),
+            kind.key()
+        )
+    };
+    match (kind, words) {
+        (Kind::ModbusTcp | Kind::ModbusRtu, &[table, address]) => {
+            let address = address.parse().map_err(|_| cannot())?;
+            let table = match table {
+                "coils" => Table::Coils,
+                "inputs" if reads => Table::Inputs,
+                "registers" => Table::Registers,
+                "input-registers" if reads => Table::InputRegisters,
+                _ => return Err(cannot()),
+            };
+            let of_bits = matches!(table, Table::Coils | Table::Inputs);
+            if of_bits && !is_bits(class) {
+                return Err("coils and inputs are bits, but the devices are words".to_owned());
+            }
+            // Sixteen bits are packed into a register.
+            let items = if is_bits(class) && !of_bits {
+                count.div_ceil(16)
+            } else {
+                count
+            };
+            let limits = Limits::STANDARD;
+            let most = match (of_bits, reads) {
+                (true, true) => limits.read_bits,
+                (true, false) => limits.write_bits,
+                (false, true) => limits.read_words,
+                (false, false) => limits.write_words,
+            };
+            if items > most.into() {
+                return Err(format!("a row has at most {most} of them; divide it"));
+            }
+            if u32::from(address) + items > 0x1_0000 {
+                return Err("the last address is 65535".to_owned());
+            }
+            Ok(End::Modbus { table, address })
+        }
+        (Kind::Mqtt, &[topic]) => match topic.contains(['+', '#']) || topic.starts_with('$') {
+            true => Err(format!("`{topic}` is not the topic of one value")),
+            false => Ok(End::Name(topic.to_owned())),
+        },
+        (Kind::Files, &[name]) => Ok(End::Name(name.to_owned())),
+        (Kind::Gpio, [offset, flags @ ..]) => {
+            let known = |flag: &&str| match *flag {
+                "active-low" | "pull-up" | "pull-down" => true,
+                "open-drain" => !reads,
+                _ => false,
+            };
+            let offset = offset.parse().map_err(|_| cannot())?;
+            if !is_bits(class) || count != 1 || !flags.iter().all(known) {
+                return Err("a line is one bit device, with the words `active-low`, `pull-up`, `pull-down` or (of outputs) `open-drain`".to_owned());
+            }
+            let flags = flags.iter().map(|flag| (*flag).to_owned()).collect();
+            Ok(End::Line { offset, flags })
+        }
+        (Kind::Console, []) => Ok(End::Text),
+        _ => Err(cannot()),
+    }
+}
+
+/// A device that two rows read, or that a row reads and a connection shows a fault with: its name, and the place of the
+/// later one: connection and row, `None` for the fault.
+pub fn overlap(connections: &[Connection]) -> Option<(String, usize, Option<usize>)> {
+    let mut taken: Vec<(Class, Range<u32>)> = Vec::new();
+    for (n, connection) in connections.iter().enumerate() {
+        let rows = connection
+            .rows
+            .iter()
+            .enumerate()
+            .filter(|(_, row)| row.reads);
+        let rows = rows.map(|(at, row)| (row.class, row.first..row.first + row.count, Some(at)));
+        let fault = connection
+            .fault
+            .map(|(class, number)| (class, number..number + 1, None));
+        for (class, range, at) in rows.chain(fault) {
+            let meets = |other: &&(Class, Range<u32>)| {
+                other.0 == class && other.1.start < range.end && range.start < other.1.end
+            };
+            if let Some((_, other)) = taken.iter().find(meets) {
+                let device = device_name(class, other.start.max(range.start));
+                return Some((device, n, at));
+            }
+            taken.push((class, range));
+        }
+    }
+    None
+}
+
+/// Reads a time: `20ms`, `1s`, `2min`, or a number of milliseconds.
+pub fn time(text: &str) -> Option<u64> {
+    let unit = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(unit);
+    let factor = match unit {
+        "" | "ms" => 1,
+        "s" => 1000,
+        "min" => 60_000,
+        _ => return None,
+    };
+    number.parse::<u64>().ok()?.checked_mul(factor)
+}
+
+/// The name of a device, as the PLC writes it.
+pub(super) fn device_name(class: Class, number: u32) -> String {
+    match class {
+        Class::X | Class::Y => format!("{class:?}{number:03o}"),
+        _ => format!("{class:?}{number}"),
+    }
+}
+
+/// Reads `X000-X007` or `D100`: class, first number, count.
+pub(super) fn devices(text: &str) -> Option<(Class, u32, u32)> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let ((class, first), (other, last)) = (device(first)?, device(last)?);
+    let count = last.checked_sub(first)?.checked_add(1)?;
+    (class == other && count <= MOST).then_some((class, first, count))
+}
+
+/// Devices of a row at most.
+const MOST: u32 = 65_536;
+
+fn device(text: &str) -> Option<(Class, u32)> {
+    let class = match text.get(..1)? {
+        "X" => Class::X,
+        "Y" => Class::Y,
+        "M" => Class::M,
+        "S" => Class::S,
+        "D" => Class::D,
+        "R" => Class::R,
+        _ => return None,
+    };
+    let digits = &text[1..];
+    let radix = if matches!(class, Class::X | Class::Y) {
+        8
+    } else {
+        10
+    };
+    let number = u32::from_str_radix(digits, radix).ok()?;
+    (digits.starts_with(|c: char| c.is_ascii_digit()) && number < 1_000_000)
+        .then_some((class, number))
+}
+
+fn is_bits(class: Class) -> bool {
+    matches!(class, Class::X | Class::Y | Class::M | Class::S)
+}
+
+/// `a`, `b` or `c`, in back quotes.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ").to_string()
+}

@@ -1,0 +1,195 @@
+//! Descriptions, and drivers of files.
+
+use super::*;
+use crate::plc::Class;
+use std::format;
+use std::fs;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+/// What is wrong with a connection, a line for each mistake: key, message, help.
+fn mistakes(pairs: &[(&str, &str)]) -> String {
+    let mistakes = Connection::read("plant", pairs).expect_err("a mistake is found");
+    let lines = mistakes.iter().map(|mistake| {
+        let key = mistake.pair.map_or("-", |pair| pairs[pair].0);
+        format!("{key}: {}", mistake.message)
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_connection_of_all_keys() {
+    let pairs = [
+        ("modbus-tcp", "10.0.0.5"),
+        ("unit", "3"),
+        ("every", "1s"),
+        ("timeout", "250"),
+        ("fault", "M100"),
+        ("loss", "hold"),
+        ("X010-X017", "read inputs 4"),
+        ("Y000-Y037", "write registers 0"),
+        ("D0-D3", "read registers 10 loss -5"),
+    ];
+    let connection = Connection::read("plant", &pairs).unwrap();
+    assert_eq!((connection.every_ms, connection.timeout_ms), (1000, 250));
+    assert_eq!(connection.unit(), Ok(3));
+    assert_eq!(connection.fault, Some((Class::M, 100)));
+    assert_eq!(
+        (connection.values(true), connection.values(false)),
+        (12, 32)
+    );
+    let rows = connection.rows.iter();
+    let rows: Vec<_> = rows
+        .map(|row| (row.devices(), row.place.clone(), row.loss))
+        .collect();
+    let expected = [
+        ("X010-X017", 0..8, None),
+        ("Y000-Y037", 0..32, None),
+        ("D0-D3", 8..12, Some(-5)),
+    ];
+    assert_eq!(
+        rows,
+        expected.map(|(devices, place, loss)| (devices.to_string(), place, loss))
+    );
+}
+
+#[test]
+fn mistakes_of_a_connection() {
+    assert!(mistakes(&[("every", "5")]).starts_with("-: a connection has one of `modbus-tcp`"));
+    assert_eq!(
+        mistakes(&[("modbus-tcp", "a")]),
+        "-: a connection without devices"
+    );
+    let rows = [
+        ("modbus-tcp", "a"),
+        ("unit", "248"),
+        ("every", "5h"),
+        ("fault", "D0"),
+        ("loss", "7"),
+        ("baud", "9600"),
+        ("Q0", "read inputs 0"),
+        ("X7-X0", "read inputs 0"),
+        ("X10", "inputs 0"),
+        ("Y0", "read coils 0"),
+        ("Y1", "write inputs 0"),
+        ("Y2", "write coils 0 loss 1"),
+        ("X20", "read inputs 0 loss 2"),
+        ("D0", "read coils 0"),
+        ("D1-D200", "read registers 0"),
+        ("D300-D301", "read registers 65535"),
+    ];
+    let expected = "\
+unit: `unit` is 0 to 247
+every: `5h` is not a time
+fault: `D0` is not a bit device Y, M or S
+loss: `loss` is \"zero\" or \"hold\"
+baud: a connection by modbus-tcp has no key `baud`
+Q0: `Q0` is not a range of devices
+X7-X0: `X7-X0` is not a range of devices
+X10: `inputs 0` does not say `read` or `write`
+Y0: `Y0` cannot be read
+Y1: `inputs 0` is not an end of a row by modbus-tcp
+Y2: `loss` is for devices that are read
+X20: the value after `loss` is 0 to 1
+D0: coils and inputs are bits, but the devices are words
+D1-D200: a row has at most 125 of them; divide it
+D300-D301: the last address is 65535";
+    assert_eq!(mistakes(&rows), expected);
+}
+
+#[test]
+fn connections_of_a_text() {
+    let text = "\
+[project]
+model = 'h2u'
+[io.valves] # a station
+modbus-tcp = \"10.0.0.5:502\"   # its address
+unit = 2
+X000-X007 = 'read inputs 0'
+[io.lamps]
+files = \".\"
+\"Y000\" = \"write lamp\"
+[check]
+allow = [
+  \"W0203\"
+]
+";
+    let connections = parse(text).unwrap();
+    let names: Vec<_> = connections
+        .iter()
+        .map(|c| (&*c.name, c.kind, &*c.end))
+        .collect();
+    let expected = [
+        ("valves", Kind::ModbusTcp, "10.0.0.5:502"),
+        ("lamps", Kind::Files, "."),
+    ];
+    assert_eq!(names, expected);
+    for (text, why) in [
+        ("", "there is no table `[io.NAME]`"),
+        ("[io.a]\nfiles\n", "line 2: write `key = \"value\"`"),
+        ("[io.a]\nfiles = \"x\n", "line 2: write `key = \"value\"`"),
+        (
+            "[io.a]\nfiles = { a = 1 }\n",
+            "line 2: write `key = \"value\"`",
+        ),
+        (
+            "[io.a]\n\nfiles = '.'\nX0 = 'write'\n",
+            "line 4: `` is not an end of a row by files",
+        ),
+        (
+            "[io.a]\nfiles = '.'\nX0 = 'read a'\nfault = 'M0'\n[io.b]\nfiles = '.'\nM0-M7 = 'read b'\n",
+            "line 5: `M0` takes its value from two places",
+        ),
+    ] {
+        assert_eq!(parse(text).unwrap_err(), why, "{text}");
+    }
+}
+
+/// A driver of files in a new folder.
+fn files(folder: &str, pairs: &[(&str, &str)]) -> (Connection, std::boxed::Box<dyn Driver>) {
+    let pairs: Vec<_> = [("files", folder)].iter().chain(pairs).copied().collect();
+    let connection = Connection::read("plant", &pairs).unwrap();
+    let driver = files::open_folder(&connection).unwrap();
+    (connection, driver)
+}
+
+#[test]
+fn files_are_read_and_written() {
+    let folder = std::env::temp_dir().join(format!("rungc-io-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let rows = [
+        ("X000-X002", "read switches"),
+        ("D0", "read speed"),
+        ("D10-D11", "write state"),
+    ];
+    let (connection, mut driver) = files(folder.to_str().unwrap(), &rows);
+    let mut inputs = [0; 4];
+    let mut exchange =
+        |inputs: &mut [i16], outputs: [i16; 2]| driver.exchange(&connection, inputs, &outputs);
+    let put = |name: &str, text: &[u8]| fs::write(folder.join(name), text).unwrap();
+    let missing = exchange(&mut inputs, [0; 2]);
+    assert!(matches!(missing, Err(Trouble::Refused(why)) if why.starts_with("switches: ")));
+    put("switches", b"1 0\n1 rest\n");
+    put("speed", b"65535");
+    assert_eq!(exchange(&mut inputs, [-1, 7]), Ok(()));
+    assert_eq!(inputs, [1, 0, 1, -1]);
+    assert_eq!(fs::read_to_string(folder.join("state")).unwrap(), "-1 7\n");
+    for text in [&b"70000"[..], b"", b"x", b"\xff\xfe"] {
+        put("speed", text);
+        assert!(exchange(&mut inputs, [0; 2]).is_err(), "{text:?}");
+    }
+    assert_eq!(inputs[3], -1);
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported_until_there_is_room() {
+    let (connection, mut driver) = files("/dev", &[("Y000", "write full")]);
+    for _ in 0..2 {
+        let Err(Trouble::Refused(why)) = driver.exchange(&connection, &mut [], &[1]) else {
+            panic!("/dev/full takes something");
+        };
+        assert!(why.starts_with("full: "), "{why}");
+    }
+}
