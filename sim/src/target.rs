@@ -69,6 +69,11 @@ impl Channel {
         Some(channel().ok_or_else(wrong))
     }
 
+    /// What is wrong where the PLC has no such input.
+    pub fn missing(self) -> String {
+        format!("the PLC has no input `{self}`: no such module is fitted")
+    }
+
     /// A terminal by its letter and its octal number.
     fn terminal(unit: u16, name: &str) -> Option<Channel> {
         let (letter, number) = name.split_at_checked(1)?;

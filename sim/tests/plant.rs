@@ -5,7 +5,6 @@ use rungc_sim::Channel;
 use rungc_sim::plant::{self, Look, Plant, Terminals};
 use rungc_sim::wire::Change;
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 /// A PLC that does what the test says.
 #[derive(Default)]
@@ -33,14 +32,19 @@ impl Terminals for Plc {
         Ok(at.iter().map(value).collect())
     }
 
-    fn pass(&mut self, time: Range<u64>, most: u32, at: &[Look]) -> Result<(u64, Vec<i32>), ()> {
+    fn pass(
+        &mut self,
+        [_, until]: [u32; 2],
+        most: u32,
+        at: &[Look],
+    ) -> Result<(u32, Vec<i32>), ()> {
         let (rate, begin, over) = self.train;
         let each_ms = u64::from(rate.unsigned_abs());
-        let by_then = ((time.end - begin) * each_ms / 1000) as u32;
+        let by_then = ((u64::from(until) - begin) * each_ms / 1000) as u32;
         let sent = (by_then - over).min(most);
         let reached = match sent == most {
-            true => begin + (u64::from(over + sent) * 1000).div_ceil(each_ms),
-            false => time.end,
+            true => (begin + (u64::from(over + sent) * 1000).div_ceil(each_ms)) as u32,
+            false => until,
         };
         self.train.2 += sent;
         *self.pulses.entry(0).or_default() += sent as i32 * rate.signum();

@@ -389,7 +389,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
             drive,
             preset,
         } = *counter;
-        self.counter(page, number, drive, &[preset], None, "plc_count16");
+        self.counter(page, number, drive, preset, None, "plc_count16");
     }
 
     fn counter32(&mut self, page: &mut Page, counter: &Counter32Coil) {
@@ -399,7 +399,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
             down,
             preset,
         } = *counter;
-        self.counter(page, number, drive, &[preset], Some(down), "plc_count32");
+        self.counter(page, number, drive, preset, Some(down), "plc_count32");
     }
 
     /// A counter does something where its coil changes.
@@ -408,7 +408,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
         page: &mut Page,
         number: u32,
         drive: ExprId,
-        presets: &[ExprId],
+        preset: ExprId,
         down: Option<ExprId>,
         function: &str,
     ) {
@@ -429,10 +429,8 @@ impl<'a, 'm> Slicer<'a, 'm> {
             if let Some(down) = &down {
                 code.argument(format_args!("plc_in_lane({down}, l)"));
             }
-            for &preset in presets {
-                code.comma();
-                slicer.writer.expr(&mut code, preset, Around::Exact);
-            }
+            code.comma();
+            slicer.writer.expr(&mut code, preset, Around::Exact);
             code.close(");");
             page.commented(&code, None);
             page.line(&format!("plc_put_lane(&{done}, l, {device}.done);"));

@@ -42,14 +42,14 @@ pub trait Terminals {
     /// What the outputs do now.
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Self::Error>;
 
-    /// Lets the PLC send pulses for this time, in microseconds since power-on, but only until an output has sent
-    /// `most`. Returns the time that is reached, and what the outputs do then.
+    /// Lets the PLC send pulses from one time until another, in microseconds of its clock, which wraps, but only until
+    /// an output has sent `most`. Returns the time that is reached, and what the outputs do then.
     fn pass(
         &mut self,
-        time: Range<u64>,
+        time: [u32; 2],
         most: u32,
         at: &[Look],
-    ) -> Result<(u64, Vec<i32>), Self::Error>;
+    ) -> Result<(u32, Vec<i32>), Self::Error>;
 
     /// An input turns on or off. Changes come in the order of their times.
     fn change(&mut self, change: Change) -> Result<(), Self::Error>;
@@ -170,7 +170,9 @@ impl Plant {
             let mut followers: Vec<&mut Axis> = followers.collect();
             let rooms = followers.iter().map(|axis| axis.room());
             let room = rooms.min().unwrap_or(i32::MAX as u32);
-            let (reached, seen) = terminals.pass(time.clone(), room, &wanted)?;
+            let [from, until] = [time.start as u32, time.end as u32];
+            let (reached, seen) = terminals.pass([from, until], room, &wanted)?;
+            let reached = time.end - u64::from(until.wrapping_sub(reached));
             let see = |look| found(&wanted, &seen, look);
             let mut moments: Vec<Moment> = Vec::new();
             for axis in &mut followers {

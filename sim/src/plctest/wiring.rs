@@ -10,7 +10,6 @@ use crate::wire::Change;
 use rungc_models::{Model, ModelId};
 use rungc_rt::Class;
 use rungc_syntax::DeviceClass;
-use std::ops::Range;
 
 /// Whether a case and its machine fit each other.
 pub(super) fn check(
@@ -175,14 +174,13 @@ impl Terminals for Running<'_> {
 
     fn pass(
         &mut self,
-        time: Range<u64>,
+        [from_us, until_us]: [u32; 2],
         most: u32,
         at: &[Look],
-    ) -> Result<(u64, Vec<i32>), Failure> {
+    ) -> Result<(u32, Vec<i32>), Failure> {
         if !self.sends_pulses() {
-            return Ok((time.end, self.look(at)?));
+            return Ok((until_us, self.look(at)?));
         }
-        let [from_us, until_us] = [time.start as u32, time.end as u32];
         let pass = Request::Pass {
             from_us,
             until_us,
@@ -191,8 +189,7 @@ impl Terminals for Running<'_> {
         let mut requests = vec![pass];
         requests.extend(self.requests(at));
         let mut values = self.values(&requests)?;
-        let left = until_us.wrapping_sub(values.remove(0) as u32);
-        Ok((time.end - u64::from(left), values))
+        Ok((values.remove(0) as u32, values))
     }
 
     fn change(&mut self, change: Change) -> Result<(), Failure> {
@@ -206,7 +203,7 @@ impl Terminals for Running<'_> {
             true => Ok(()),
             false => Err(Failure::Machine {
                 step: self.step,
-                message: format!("the PLC has no input `{channel}`: no such module is fitted"),
+                message: channel.missing(),
             }),
         }
     }

@@ -8,7 +8,6 @@ use rungc_rt::{Class, Plc, Program, VirtualHal, pass_pulses};
 use rungc_sim::Channel;
 use rungc_sim::plant::{Look, Terminals};
 use rungc_sim::wire::Change;
-use std::ops::Range;
 
 /// A PLC between two scans.
 pub struct Wiring<'a, 'm> {
@@ -38,14 +37,12 @@ impl Terminals for Wiring<'_, '_> {
 
     fn pass(
         &mut self,
-        time: Range<u64>,
+        [from, until]: [u32; 2],
         most: u32,
         at: &[Look],
-    ) -> Result<(u64, Vec<i32>), Failure> {
-        let [from, until] = [time.start as u32, time.end as u32];
+    ) -> Result<(u32, Vec<i32>), Failure> {
         let reached = pass_pulses(self.machine, from, until, most);
-        let left = until.wrapping_sub(reached);
-        Ok((time.end - u64::from(left), self.look(at)?))
+        Ok((reached, self.look(at)?))
     }
 
     fn change(&mut self, change: Change) -> Result<(), Failure> {
@@ -65,10 +62,6 @@ impl Terminals for Wiring<'_, '_> {
             millionths,
         };
         let connected = self.hal.set_signal(channel.unit, channel.number, signal);
-        connected.ok_or_else(|| {
-            Failure::Because(format!(
-                "the PLC has no input `{channel}`: no such module is fitted"
-            ))
-        })
+        connected.ok_or_else(|| Failure::Because(channel.missing()))
     }
 }

@@ -1,6 +1,5 @@
 //! Special modules and analog inputs of an image in C.
 
-use super::super::modules::Fitted;
 use crate::board::AnalogPin;
 use crate::image::Image;
 use std::fmt::Write;
@@ -53,8 +52,14 @@ fn modules(image: &Image) -> String {
             fit,
             "    (void)rungc_module_fit(&modules[{n}], {kind}u); /* {name} */"
         );
-        take.push_str(&inputs(n, module));
-        give.push_str(&outputs(n, module));
+        take.push_str(&wires(n, &module.inputs, |pin, channel, scale| {
+            let count = format!("count(0x{:08X}u, {}u)", pin.at, pin.full);
+            format!("(void)rungc_module_connect({channel}, signal_of({count}, {scale}))")
+        }));
+        give.push_str(&wires(n, &module.outputs, |pin, channel, scale| {
+            let signal = format!("rungc_module_signal({channel})");
+            format!("REGISTER(0x{:08X}u) = count_of({signal}, {scale})", pin.at)
+        }));
     }
     MODULES
         .replace("/* UNITS */", units.trim_end_matches(", "))
@@ -74,40 +79,19 @@ static uint32_t count(uint32_t address, uint32_t full)
 
 ";
 
-fn inputs(n: usize, module: &Fitted) -> String {
-    let mut text = String::new();
-    for (channel, pin) in &module.inputs {
-        let AnalogPin {
-            at,
-            full,
-            quantity,
-            signal: [low, high],
-            ..
-        } = *pin;
-        let quantity = quantity as u8;
-        let _ = writeln!(
-            text,
-            "    (void)rungc_module_connect(&modules[{n}], {channel}u, {quantity}u, signal_of(count(0x{at:08X}u, {full}u), {full}, {low}, {high}));"
-        );
-    }
-    text
-}
-
-fn outputs(n: usize, module: &Fitted) -> String {
-    let mut text = String::new();
-    for (channel, pin) in &module.outputs {
-        let AnalogPin {
-            at,
-            full,
-            quantity,
-            signal: [low, high],
-            ..
-        } = *pin;
-        let quantity = quantity as u8;
-        let _ = writeln!(
-            text,
-            "    REGISTER(0x{at:08X}u) = count_of(rungc_module_signal(&modules[{n}], {channel}u, {quantity}u), {full}, {low}, {high});"
-        );
-    }
-    text
+/// A statement for each pin that is wired to a channel of module `n`. `statement` takes the pin, the
+/// arguments that name the channel, and those that scale its signal.
+fn wires(
+    n: usize,
+    pins: &[(u8, AnalogPin)],
+    statement: impl Fn(&AnalogPin, &str, &str) -> String,
+) -> String {
+    let wire = |(channel, pin): &(u8, AnalogPin)| {
+        let [low, high] = pin.signal;
+        let channel = format!("&modules[{n}], {channel}u, {}u", pin.quantity as u8);
+        let scale = format!("{}, {low}, {high}", pin.full);
+        let statement = statement(pin, &channel, &scale);
+        format!("    {statement};\n")
+    };
+    pins.iter().map(wire).collect()
 }
