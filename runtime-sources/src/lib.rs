@@ -12,7 +12,8 @@ pub mod library;
 use std::fmt::Write;
 use std::sync::OnceLock;
 
-/// The sources as the build script packs them: paths and contents in turn, each ended by NUL, deflated.
+/// The sources as the build script packs them, without their tests: paths and contents in turn, each ended by NUL,
+/// deflated.
 /// `cargo xtask package` puts it into the published package.
 pub static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin"));
 
@@ -119,6 +120,16 @@ mod tests {
             );
         }
         assert!(files[0].1.contains("path = \"libm\""));
+    }
+
+    #[test]
+    fn tests_are_not_packed() {
+        let root = include_str!("../../runtime-rt/src/fnc/mod.rs");
+        assert!(root.contains("mod random_tests;"));
+        for (path, text) in files() {
+            assert!(!path.contains("tests"), "{path} is packed");
+            assert!(!text.contains("#[test]"), "{path} has a test");
+        }
     }
 
     #[test]
