@@ -1,10 +1,5 @@
 //! Names of modules, made of the names of files and projects in any script.
 
-use std::sync::OnceLock;
-
-/// What characters are in ASCII, as the build script packs it.
-static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin"));
-
 /// An identifier in lower case from the name of a file. What is not ASCII is transliterated; since other names can be
 /// so, too, a short number that belongs to this name alone follows then: `往复.gxw` becomes `wang_fu_4c1e`.
 pub fn module_name(source: &str) -> String {
@@ -49,35 +44,16 @@ pub fn stem(source: &str) -> &str {
 /// Appends what a character is in ASCII. Those that stand for syllables or words (`往`: `Wang `) are set apart from what
 /// is before and after them.
 fn transliterate(c: char, name: &mut String) {
-    let (letters, mark) = ascii(c);
-    if mark == "~" && !name.is_empty() && !name.ends_with('_') {
+    let ascii = rungc_ascii::of(c).unwrap_or_default();
+    let is_word = ascii.ends_with(' ');
+    if is_word && !name.is_empty() && !name.ends_with('_') {
         name.push('_');
     }
-    name.push_str(letters);
-    if mark != "." && !name.ends_with('_') {
+    let letters = ascii.chars().filter(char::is_ascii_alphanumeric);
+    name.extend(letters.map(|c| c.to_ascii_lowercase()));
+    if (is_word || ascii.is_empty()) && !name.ends_with('_') {
         name.push('_');
     }
-}
-
-/// What a character is in ASCII; see [`table`].
-fn ascii(c: char) -> (&'static str, &'static str) {
-    let place = (c as usize).checked_sub(0x80);
-    let known = place.and_then(|place| table().nth(place));
-    known.unwrap_or(("", "-"))
-}
-
-/// Of each character from U+0080 on its letters and digits in ASCII, and its mark: `~` if it stands for a syllable or a
-/// word, `-` if it stands for nothing, and `.` otherwise.
-fn table() -> impl Iterator<Item = (&'static str, &'static str)> {
-    const MARKS: [char; 3] = ['~', '-', '.'];
-    static TEXT: OnceLock<String> = OnceLock::new();
-    let text = TEXT.get_or_init(|| {
-        let text = miniz_oxide::inflate::decompress_to_vec(PACKED);
-        let text = text.expect("the build script deflated it");
-        String::from_utf8(text).expect("the build script packs text")
-    });
-    let entries = text.split_inclusive(MARKS);
-    entries.map(|entry| entry.split_at(entry.trim_end_matches(MARKS).len()))
 }
 
 /// A number that differs between names, and is the same on every machine: FNV-1a, folded to 16 bits.
@@ -167,8 +143,7 @@ const TAKEN: [&str; 72] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{ascii, module_name};
-    use deunicode::deunicode_char;
+    use super::module_name;
 
     #[test]
     fn names_in_ascii_stay_as_they_are() {
@@ -203,24 +178,6 @@ mod tests {
             .map(module_name)
             .join("\n")
         );
-    }
-
-    #[test]
-    fn every_character_is_what_deunicode_makes_of_it() {
-        let numbers = 0x80..=u32::from(char::MAX);
-        let known = super::table().chain(std::iter::repeat(("", "-")));
-        for (number, (letters, mark)) in numbers.zip(known) {
-            let expected = char::from_u32(number).and_then(deunicode_char);
-            let expected = expected.unwrap_or_default();
-            let kept = expected.chars().filter(char::is_ascii_alphanumeric);
-            let kept: String = kept.map(|c| c.to_ascii_lowercase()).collect();
-            assert_eq!(letters, kept, "{number:x}");
-            assert_eq!(mark == "~", expected.ends_with(' '), "{number:x}");
-            assert_eq!(mark == "-", expected.is_empty(), "{number:x}");
-        }
-        assert_eq!(ascii('往'), ("wang", "~"));
-        assert_eq!(ascii('é'), ("e", "."));
-        assert_eq!(ascii('\u{7f}'), ("", "-"));
     }
 
     #[test]

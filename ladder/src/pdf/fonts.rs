@@ -178,8 +178,11 @@ fn encoded(character: char, asian: Font) -> Vec<Encoded> {
         let width = if wide { 1.0 } else { NARROW };
         return vec![(asian, bytes, width, !wide)];
     }
-    // Letters that no standard font has: those that they come from.
-    let plain = deunicode::deunicode_char(character).unwrap_or("?");
+    // Letters that no standard font has: those that they come from. A control character has no shape.
+    let plain = match character.is_ascii() {
+        true => "",
+        false => rungc_ascii::of(character).unwrap_or("?"),
+    };
     let plain = plain.bytes().filter(|byte| (b' '..=b'~').contains(byte));
     plain
         .map(|byte| (Font::Latin, vec![byte], NARROW, false))

@@ -1,0 +1,43 @@
+//! What characters of other scripts are in ASCII: for names of modules, and for letters that a font lacks.
+//!
+//! It must not know what the characters are part of. Start reading at [`of`].
+
+use std::sync::OnceLock;
+
+/// The table as the build script packs it.
+static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin"));
+
+/// What a character after ASCII is in it, as `deunicode` has it: `e` for `é`, `Wang ` for `往`, nothing for a mark that has no
+/// width. Those that stand for a syllable or a word end with a space.
+///
+/// `None` if the character is not known, or is in ASCII.
+pub fn of(character: char) -> Option<&'static str> {
+    static ENTRIES: OnceLock<Vec<&'static str>> = OnceLock::new();
+    let entries = ENTRIES.get_or_init(|| {
+        let text = miniz_oxide::inflate::decompress_to_vec(PACKED);
+        let text = text.expect("the build script deflated it");
+        let text = String::from_utf8(text).expect("the build script packs text");
+        text.leak().split_inclusive(['\u{1}', '\0']).collect()
+    });
+    let place = (character as usize).checked_sub(0x80)?;
+    entries.get(place)?.strip_suffix('\u{1}')
+}
+
+#[cfg(test)]
+mod tests {
+    use deunicode::deunicode_char;
+
+    #[test]
+    fn every_character_is_what_deunicode_makes_of_it() {
+        for character in '\u{80}'..=char::MAX {
+            assert_eq!(
+                super::of(character),
+                deunicode_char(character),
+                "{character:?}"
+            );
+        }
+        assert_eq!(super::of('往'), Some("Wang "));
+        assert_eq!(super::of('Ł'), Some("L"));
+        assert_eq!(super::of('\u{7f}'), None);
+    }
+}
