@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_sim::engines::Engine;
-use rungc_sim::plctest::{self, Outcome, Suite, TestFile};
+use rungc_sim::plctest::{self, Case, Outcome, Suite, TestFile};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
@@ -79,21 +79,37 @@ pub struct Conformance {
 }
 
 impl Conformance {
-    /// Reads and compiles them.
-    pub fn load() -> Self {
-        let suite = Suite::compile(load_all(), &[]);
+    /// Reads and compiles them, in parts of whole files with at most this many cases, unless a file alone has more.
+    pub fn load(most: usize) -> Vec<Self> {
+        let files = load_all();
         let disputed = disputed();
-        let cases = suite.cases();
-        let names: BTreeSet<_> = cases
-            .map(|(id, case)| (suite.files()[id.file].name.clone(), case.name.clone()))
-            .collect();
+        let cases = files.iter().flat_map(|file| {
+            let named = |case: &Case| (file.name.clone(), case.name.clone());
+            file.cases.iter().map(named)
+        });
+        let names: BTreeSet<_> = cases.collect();
         for key @ (file, case) in disputed.keys() {
             assert!(
                 names.contains(key),
                 "{file}: {case} is listed, but there is no such case"
             );
         }
-        Conformance { suite, disputed }
+        let mut parts: Vec<Vec<TestFile>> = Vec::new();
+        let mut room = 0;
+        for file in files {
+            let cases = file.cases.len();
+            if cases > room {
+                parts.push(Vec::new());
+                room = most;
+            }
+            room = room.saturating_sub(cases);
+            parts.last_mut().unwrap().push(file);
+        }
+        let part = |files| Conformance {
+            suite: Suite::compile(files, &[]),
+            disputed: disputed.clone(),
+        };
+        parts.into_iter().map(part).collect()
     }
 
     /// The compiled programs.
