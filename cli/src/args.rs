@@ -42,6 +42,7 @@ const DIAGNOSTICS: usize = 100;
 Examples:
   rungc check machine.gxw                      check a program
   rungc serve machine.gxw --modbus-tcp 5020    until Ctrl-C, for HMIs and other clients
+  rungc serve motor.il --page                  a page that shows the ladder live, in a browser
   rungc run motor.il --set X000=1@200ms --for 5s --watch Y000,T0
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time

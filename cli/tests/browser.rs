@@ -1,14 +1,9 @@
-//! The pages of `rungc view` and `rungc diff` in headless Chromium, driven by playwright and checked for
-//! accessibility by axe. `RUNGC_BROWSER` names a folder with playwright-core and axe-core; Chromium is Debian's.
-//! Without them the tests say so and do not run.
+//! The pages of `rungc view` and `rungc diff` in headless Chromium (`common/chromium.rs`).
 
 mod common;
 
-use common::{folder, rungc, text};
+use common::{chromium, folder, rungc, text};
 use serde_json::{Value, json};
-use std::env;
-use std::path::Path;
-use std::process::Command;
 
 const STEPS: &str = "\
 ;! S0 = wait
@@ -47,28 +42,11 @@ END
 
 /// What a script reports of a page that rungc makes of files; nothing without a browser.
 fn report(files: &[(&str, &[u8])], args: &[&str], page: &str, script: &str) -> Option<Value> {
-    let Some(modules) = env::var_os("RUNGC_BROWSER") else {
-        eprintln!(
-            "skipped: RUNGC_BROWSER names no folder with playwright-core and axe-core (see .ci/run)"
-        );
-        return None;
-    };
     let folder = folder(files);
     let out = rungc(folder.path(), args);
     assert!(out.status.code() < Some(2), "{}", text(&out.stderr));
     let page = folder.path().canonicalize().unwrap().join(page);
-    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients");
-    let mut command = Command::new("node");
-    command
-        .env("NODE_PATH", modules)
-        .arg(scripts.join(script))
-        .arg(format!("file://{}", page.display()));
-    if let Some(pictures) = env::var_os("RUNGC_PICTURES") {
-        command.arg(pictures);
-    }
-    let out = command.output().unwrap();
-    assert!(out.status.success(), "{}", text(&out.stderr));
-    let mut report: Value = serde_json::from_slice(&out.stdout).unwrap();
+    let mut report = chromium::report(&format!("file://{}", page.display()), script)?;
     let loaded = report["loaded_ms"].take();
     assert!(loaded.as_u64().is_some_and(|ms| ms < 10_000), "{loaded}");
     Some(report)

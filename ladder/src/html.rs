@@ -16,7 +16,8 @@ mod comparison;
 
 pub use comparison::comparison;
 
-const STYLE: &str = include_str!("page/page.css");
+/// The style of pages with ladders.
+pub const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 /// Characters of a line; a page of A4 has room for them.
 const WIDTH: usize = 104;
@@ -56,17 +57,8 @@ fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladde
         writeln!(out, "<figure id=\"sfc\" tabindex=\"0\">{picture}</figure>")?;
     }
     for (number, network) in &networks {
-        let instrs = &resolved.program.instrs[network.instrs.clone()];
-        write!(
-            out,
-            "<section id=\"n{number}\" aria-label=\"Network {number}\">"
-        )?;
-        for statement in instrs.iter().filter_map(|instr| instr.statement()) {
-            write!(out, "<p class=\"statement\">{}</p>", Escaped(statement))?;
-        }
-        let list: Vec<String> = instrs.iter().map(ToString::to_string).collect();
-        write_picture(out, &painter, *number, network, &list)?;
-        writeln!(out, "</section>")?;
+        let picture = painter.network(*number, network).to_string();
+        write_section(out, resolved, (*number, network), &picture)?;
     }
     writeln!(
         out,
@@ -74,15 +66,31 @@ fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladde
     )
 }
 
-/// The picture of a network, which its list describes to those who do not see it.
-fn write_picture(
+/// A network: its statements, and its picture.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_section(
     out: &mut String,
-    painter: &Painter,
-    number: usize,
-    network: &Network,
-    list: &[String],
+    resolved: &Resolved,
+    (number, network): (usize, &Network),
+    picture: &str,
 ) -> fmt::Result {
-    let picture = painter.network(number, network).to_string();
+    let instrs = &resolved.program.instrs[network.instrs.clone()];
+    write!(
+        out,
+        "<section id=\"n{number}\" aria-label=\"Network {number}\">"
+    )?;
+    for statement in instrs.iter().filter_map(|instr| instr.statement()) {
+        write!(out, "<p class=\"statement\">{}</p>", Escaped(statement))?;
+    }
+    let list: Vec<String> = instrs.iter().map(ToString::to_string).collect();
+    write_picture(out, picture, &list)?;
+    writeln!(out, "</section>")
+}
+
+/// The picture of a network, which its list describes to those who do not see it.
+fn write_picture(out: &mut String, picture: &str, list: &[String]) -> fmt::Result {
     let label = Escaped(&list.join("; ")).to_string();
     let labelled = format!("role=\"img\" aria-label=\"{label}\"");
     out.write_str(&picture.replacen("role=\"img\"", &labelled, 1))
@@ -135,7 +143,7 @@ fn write_devices(
     writeln!(out, "</tbody>\n</table>\n</details>\n</aside>")
 }
 
-/// The list of states, and that of networks: number, step, and what each is headed or begins with.
+/// The list of states, and that of networks.
 fn write_list(
     out: &mut String,
     resolved: &Resolved,
@@ -146,6 +154,15 @@ fn write_list(
     if let Some(chart) = chart {
         write_states(out, chart)?;
     }
+    write_networks(out, resolved, ladder)?;
+    writeln!(out, "</nav>")
+}
+
+/// The list of networks: number, step, and what each is headed or begins with.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_networks(out: &mut String, resolved: &Resolved, ladder: &Ladder) -> fmt::Result {
     writeln!(out, "<ol>")?;
     for (number, network) in (1..).zip(&ladder.networks) {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
@@ -161,7 +178,7 @@ fn write_list(
             Escaped(&heading)
         )?;
     }
-    writeln!(out, "</ol>\n</nav>")
+    writeln!(out, "</ol>")
 }
 
 fn write_states(out: &mut String, chart: &Chart) -> fmt::Result {

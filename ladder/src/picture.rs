@@ -1,10 +1,12 @@
 //! Networks as marks on paper: lines, frames and texts with their places. `svg` and `pdf` write them.
 
+use crate::circuit::Circuit;
 use crate::face::{Face, masters, operand_text};
 use crate::layout::{Cell, Grid, Placed, lay_out};
 use crate::network::{InstrIndex, Network, NetworkBody, Shape};
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::Device;
+use std::collections::BTreeMap;
 
 /// Width of a character, in pixels; the font is 12 pixels high.
 pub(crate) const CHARACTER: f64 = 7.3;
@@ -52,6 +54,19 @@ pub(crate) enum Mark {
     About(Option<Device>, Vec<Mark>),
     /// Marks that lead to a network.
     Link(usize, Vec<Mark>),
+    /// Marks that show the state of a running program.
+    Live(Live, Vec<Mark>),
+}
+
+/// What marks show of a running program, by its number in the network's [`Circuit`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Live {
+    /// Whether a net has power.
+    Net(usize),
+    /// Whether a contact conducts, a coil is on, a box is driven.
+    Link(usize),
+    /// The values that a link works with.
+    Value(usize),
 }
 
 /// Marks on a sheet.
@@ -99,9 +114,22 @@ impl<'a> Drafter<'a> {
         match &network.body {
             NetworkBody::Rung(node) => {
                 let grid = lay_out(node, &self.face, self.columns);
-                Draft::new(self.face, &grid).draw(number, network)
+                Draft::new(self.face, &grid, None).draw(number, network)
             }
             NetworkBody::List { why } => self.list(number, network, why),
+        }
+    }
+
+    /// The picture of a network whose parts show where power flows, and its circuit.
+    pub(crate) fn live(&self, number: usize, network: &Network) -> (Picture, Option<Circuit>) {
+        match &network.body {
+            NetworkBody::Rung(node) => {
+                let grid = lay_out(node, &self.face, self.columns);
+                let circuit = Circuit::of(&grid);
+                let draft = Draft::new(self.face, &grid, Some(&circuit));
+                (draft.draw(number, network), Some(circuit))
+            }
+            NetworkBody::List { why } => (self.list(number, network, why), None),
         }
     }
 
@@ -131,13 +159,15 @@ impl<'a> Drafter<'a> {
 struct Draft<'a> {
     face: Face<'a>,
     grid: &'a Grid,
+    /// Its circuit, if the picture shows where power flows.
+    circuit: Option<&'a Circuit>,
     /// Where the wire of each row lies.
     wires: Vec<f64>,
     height: f64,
 }
 
 impl<'a> Draft<'a> {
-    fn new(face: Face<'a>, grid: &'a Grid) -> Self {
+    fn new(face: Face<'a>, grid: &'a Grid, circuit: Option<&'a Circuit>) -> Self {
         let mut comments = vec![0; grid.rows];
         for placed in &grid.placed {
             let lines = face.comment(*placed).len();
@@ -152,6 +182,7 @@ impl<'a> Draft<'a> {
         Draft {
             face,
             grid,
+            circuit,
             wires,
             height: top,
         }
@@ -167,11 +198,12 @@ impl<'a> Draft<'a> {
         let masters = masters(self.face.resolved, network);
         let height = self.height + MASTER * masters.len() as f64;
         let mut marks = self.margin(number, network);
-        for rail in [self.x(0), right] {
-            marks.push(line("rail", (rail, 0.0), (rail, height)));
-        }
-        marks.push(self.wires());
-        marks.extend(self.grid.placed.iter().map(|placed| self.placed(*placed)));
+        let rail = |x| line("rail", (x, 0.0), (x, height));
+        let power = self.circuit.map(|_| 0);
+        marks.extend([fed(power, rail(self.x(0))), rail(right)]);
+        marks.extend(self.wires());
+        let placed = self.grid.placed.iter().enumerate();
+        marks.extend(placed.map(|(i, placed)| self.placed(*placed, i)));
         for (i, master) in masters.into_iter().enumerate() {
             marks.push(self.master(master, self.height + MASTER * (i as f64 + 0.5)));
         }
@@ -206,9 +238,13 @@ impl<'a> Draft<'a> {
         marks
     }
 
-    /// All wires as one path.
-    fn wires(&self) -> Mark {
-        let mut wires = Vec::new();
+    /// All wires as one path, or those of each net.
+    fn wires(&self) -> Vec<Mark> {
+        let mut wires: BTreeMap<Option<usize>, Vec<_>> = BTreeMap::new();
+        let mut add = |row, boundary, wire| {
+            let net = self.circuit.map(|circuit| circuit.net(row, boundary));
+            wires.entry(net).or_default().push(wire);
+        };
         for (row, &y) in self.wires.iter().enumerate() {
             let mut column = 0;
             while column < self.grid.columns {
@@ -217,7 +253,7 @@ impl<'a> Draft<'a> {
                     column += 1;
                 }
                 if column > start {
-                    wires.push(((self.x(start), y), (self.x(column), y)));
+                    add(row, start, ((self.x(start), y), (self.x(column), y)));
                 }
                 column += 1;
             }
@@ -227,11 +263,17 @@ impl<'a> Draft<'a> {
                     (1..self.grid.columns).filter(|boundary| self.grid.down(row, *boundary))
                 {
                     let x = self.x(boundary);
-                    wires.push(((x, y), (x, below)));
+                    add(row, boundary, ((x, y), (x, below)));
                 }
             }
         }
-        Mark::Wires(wires)
+        if self.circuit.is_none() {
+            // A picture has a path of wires even if there are none.
+            return vec![Mark::Wires(wires.remove(&None).unwrap_or_default())];
+        }
+        let nets = wires.into_iter();
+        nets.map(|(net, wires)| fed(net, Mark::Wires(wires)))
+            .collect()
     }
 
     /// The contact of a master control in the left rail, which feeds what lies below.
@@ -256,7 +298,14 @@ impl<'a> Draft<'a> {
         Mark::About(device, marks)
     }
 
-    fn placed(&self, placed: Placed) -> Mark {
+    /// The nets on both sides of a cell.
+    fn nets(&self, placed: Placed) -> Sides {
+        let ends = [placed.column, placed.column + placed.span];
+        ends.map(|end| Some(self.circuit?.net(placed.row, end)))
+    }
+
+    /// The `index`-th cell of the grid.
+    fn placed(&self, placed: Placed, index: usize) -> Mark {
         let y = self.wires[placed.row];
         let (left, right) = (self.x(placed.column), self.x(placed.column + placed.span));
         // What a pointer hits.
@@ -267,26 +316,43 @@ impl<'a> Draft<'a> {
             radius: None,
         }];
         let middle = (left + right) / 2.0;
+        let nets = self.nets(placed);
+        let link = self.circuit.and_then(|circuit| circuit.link(index));
         match placed.cell {
             Cell::Contact(contact) if contact.shape != Shape::Compare => {
-                contact_marks(contact.shape, (left, right), y, &mut marks);
+                contact_marks(contact.shape, (left, right), y, nets, &mut marks);
                 let name = self.face.name(placed.cell);
                 marks.push(text("name middle", (middle, y - 12.0), &name));
             }
             Cell::Contact(_) | Cell::Output(_) => {
                 let label = self.face.symbol(placed.cell);
                 let is_output = matches!(placed.cell, Cell::Output(_));
-                boxed(&label, (left, right), y, is_output, &mut marks);
+                let nets = if is_output { [nets[0]; 2] } else { nets };
+                boxed(&label, (left, right), y, (is_output, nets), &mut marks);
+                if let Some(link) = link {
+                    let (class, x) = match is_output {
+                        true => ("value end", right - 8.0),
+                        false => ("value middle", middle),
+                    };
+                    let place = text(class, (x, y - 13.0), "");
+                    marks.push(Mark::Live(Live::Value(link), vec![place]));
+                }
             }
             Cell::Result(_) => {
-                marks.push(line("wire", (left, y), (right, y)));
+                let wires = match self.circuit {
+                    Some(_) => vec![((left, middle), nets[0]), ((middle, right), nets[1])],
+                    None => vec![((left, right), None)],
+                };
+                for ((from, to), net) in wires {
+                    marks.push(fed(net, line("wire", (from, y), (to, y))));
+                }
                 let ends = ((middle - 5.0, y + BAR), (middle + 5.0, y - BAR));
                 marks.push(line("wire", ends.0, ends.1));
                 let sign = self.face.symbol(placed.cell);
                 marks.push(text("name middle", (middle, y - 12.0), &sign));
             }
             Cell::FoldOut(_) | Cell::FoldIn(_) => {
-                marks.push(line("wire", (left, y), (right, y)));
+                marks.push(fed(nets[0], line("wire", (left, y), (right, y))));
                 let sign = self.face.symbol(placed.cell);
                 marks.push(text("name middle", (middle, y - 6.0), &sign));
             }
@@ -298,14 +364,36 @@ impl<'a> Draft<'a> {
                 _ => text("comment middle", (middle, y), comment),
             });
         }
-        Mark::About(self.face.device(placed.cell), marks)
+        let marks = Mark::About(self.face.device(placed.cell), marks);
+        match link {
+            Some(link) => Mark::Live(Live::Link(link), vec![marks]),
+            None => marks,
+        }
     }
 }
 
-fn contact_marks(shape: Shape, (left, right): (f64, f64), y: f64, marks: &mut Vec<Mark>) {
+/// A mark that belongs to a net, if the picture shows where power flows.
+fn fed(net: Option<usize>, mark: Mark) -> Mark {
+    match net {
+        Some(net) => Mark::Live(Live::Net(net), vec![mark]),
+        None => mark,
+    }
+}
+
+/// The nets to the left and right of a cell, if the picture shows where power flows.
+type Sides = [Option<usize>; 2];
+
+fn contact_marks(
+    shape: Shape,
+    (left, right): (f64, f64),
+    y: f64,
+    nets: Sides,
+    marks: &mut Vec<Mark>,
+) {
     let middle = (left + right) / 2.0;
-    for (from, to) in [(left, middle - GAP), (middle + GAP, right)] {
-        marks.push(line("wire", (from, y), (to, y)));
+    let halves = [(left, middle - GAP), (middle + GAP, right)];
+    for ((from, to), net) in halves.into_iter().zip(nets) {
+        marks.push(fed(net, line("wire", (from, y), (to, y))));
     }
     for bar in [middle - GAP, middle + GAP] {
         marks.push(line("wire", (bar, y - BAR), (bar, y + BAR)));
@@ -320,7 +408,13 @@ fn contact_marks(shape: Shape, (left, right): (f64, f64), y: f64, marks: &mut Ve
 }
 
 /// A comparison, coil or box: its text, which holds its brackets.
-fn boxed(label: &str, (left, right): (f64, f64), y: f64, at_rail: bool, marks: &mut Vec<Mark>) {
+fn boxed(
+    label: &str,
+    (left, right): (f64, f64),
+    y: f64,
+    (at_rail, nets): (bool, Sides),
+    marks: &mut Vec<Mark>,
+) {
     let is_coil = label.starts_with('(');
     let label = label.trim_matches(['(', ')', '[', ']']);
     let width = unicode_width::UnicodeWidthStr::width(label) as f64 * CHARACTER + 12.0;
@@ -328,8 +422,12 @@ fn boxed(label: &str, (left, right): (f64, f64), y: f64, at_rail: bool, marks: &
         true => right - width - 8.0,
         false => (left + right - width) / 2.0,
     };
-    marks.push(line("wire", (left, y), (start, y)));
-    marks.push(line("wire", (start + width, y), (right, y)));
+    for ((from, to), net) in [(left, start), (start + width, right)]
+        .into_iter()
+        .zip(nets)
+    {
+        marks.push(fed(net, line("wire", (from, y), (to, y))));
+    }
     marks.push(Mark::Frame {
         class: if is_coil { "box coil" } else { "box" },
         at: (start, y - 10.0),
@@ -363,7 +461,7 @@ fn unlink(marks: &mut [Mark]) {
                 unlink(inner);
                 *mark = Mark::About(None, std::mem::take(inner));
             }
-            Mark::About(_, inner) => unlink(inner),
+            Mark::About(_, inner) | Mark::Live(_, inner) => unlink(inner),
             Mark::Line { .. } | Mark::Wires(_) | Mark::Text { .. } | Mark::Frame { .. } => {}
         }
     }

@@ -1,8 +1,9 @@
 //! Drawing networks and charts as SVG.
 
+use crate::circuit::Circuit;
 use crate::compare::{Comparison, Drawn};
 use crate::network::Network;
-use crate::picture::{Drafter, Mark, Picture, text};
+use crate::picture::{Drafter, Live, Mark, Picture, text};
 use crate::sfc::Chart;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::text::one_line;
@@ -30,6 +31,15 @@ impl<'a> Painter<'a> {
     /// `area` and `box`; what is about a device is a group with the attribute `data-device`.
     pub fn network(&self, number: usize, network: &Network) -> Document {
         document(&self.drafter.network(number, network))
+    }
+
+    /// A network as a picture within a page that shows where power flows. What belongs to a net is in groups with the
+    /// attribute `data-net`, what belongs to a link of the circuit in one with `data-link`, and the place for the values
+    /// of a coil, box or comparison is one with `data-value`, the link's number. A network that is drawn as a list has
+    /// no circuit.
+    pub fn live(&self, number: usize, network: &Network) -> (Document, Option<Circuit>) {
+        let (picture, circuit) = self.drafter.live(number, network);
+        (document(&picture), circuit)
     }
 
     /// All these networks in one picture, below each other, with the style that a page would give them.
@@ -181,6 +191,16 @@ fn append(mark: &Mark, to: &mut impl Node) {
             if let Some(device) = device {
                 group.assign("data-device", device.to_string());
             }
+            marks.iter().for_each(|mark| append(mark, &mut group));
+            to.append(group);
+        }
+        Mark::Live(part, marks) => {
+            let (attribute, number) = match part {
+                Live::Net(number) => ("data-net", number),
+                Live::Link(number) => ("data-link", number),
+                Live::Value(number) => ("data-value", number),
+            };
+            let mut group = Group::new().set(attribute, *number);
             marks.iter().for_each(|mark| append(mark, &mut group));
             to.append(group);
         }

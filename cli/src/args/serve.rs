@@ -45,17 +45,32 @@ pub struct ServeArgs {
     /// Connect them as the project's settings say.
     #[arg(skip)]
     pub of_project: bool,
+    #[command(flatten)]
+    pub page: PageArgs,
+}
+
+/// The page of `run` and `serve`.
+#[derive(Args, Clone, Default, Debug)]
+pub struct PageArgs {
+    /// Serve a page that shows the ladder live and controls the run, at this port of this machine alone; default: a free
+    /// one. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
+    #[arg(long, value_parser = address, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "0")]
+    pub page: Option<SocketAddr>,
+    /// The page shows the run, and takes no commands.
+    #[arg(long, requires = "page")]
+    pub read_only: bool,
 }
 
 impl ServeArgs {
-    /// Whether there is a server.
+    /// Whether there is a server, a connection or a page.
     pub fn any(&self) -> bool {
         !(self.modbus_tcp.is_empty()
             && self.mc.is_empty()
             && self.fx.is_empty()
             && self.named_lines().next().is_none()
             && self.io.is_none()
-            && !self.of_project)
+            && !self.of_project
+            && self.page.page.is_none())
     }
 
     /// The lines of ports that are named: serial ports, and the CAN card.

@@ -5,6 +5,7 @@ mod connecting;
 mod device;
 mod errors;
 pub mod lines;
+mod live;
 mod plotting;
 mod recording;
 mod retaining;
@@ -17,11 +18,13 @@ mod wiring;
 
 use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};
+use super::view::title;
 use super::{
     Context, Failure, Result, Verbosity, conclude, findings, parent_dir, read, stem, tell,
 };
 use crate::args::RunArgs;
 use crate::report::Reporter;
+use live::Live;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::image;
 use rungc_ir::Module;
@@ -131,6 +134,23 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
+    let live = match args.serve.page.page {
+        Some(address) => {
+            let watched = match watched.is_empty() {
+                true => default_watch(&read.program, &module, &settings, described.as_ref()),
+                false => watched.clone(),
+            };
+            let title = title(subject, &read);
+            let page = live::Page {
+                title: &title,
+                address,
+                read_only: args.serve.page.read_only,
+                watched,
+            };
+            Some(Live::open(page, &read.program, module.model)?)
+        }
+        None => None,
+    };
     let run = simulate::Run {
         args,
         retain: args.retain.clone().or_else(|| usual_retain(subject)),
@@ -145,7 +165,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         program_memory: program_memory.as_deref(),
         connections,
     };
-    run.simulate(plant)
+    run.simulate(plant, live)
 }
 
 /// Where the project keeps latched devices.

@@ -22,7 +22,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         };
         let why = format!(
             "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, connect terminals as `[io.NAME]` (docs/src/linux.md), or use \
-             --modbus-tcp, --mc, --fx, --serial, --can or --io"
+             --modbus-tcp, --mc, --fx, --serial, --can, --io or --page"
         );
         return Err(Failure::Because(why));
     }
@@ -53,6 +53,7 @@ impl ServeArgs {
             trace_frames: self.trace_frames.clone(),
             io: self.io.clone(),
             of_project: self.of_project,
+            page: self.page.clone(),
         }
     }
 }

@@ -55,25 +55,30 @@ pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
         .trim()
         .parse()
         .map_err(|_| wrong(format!("`{value}` is not a number")))?;
+    fits(target, value).map_err(wrong)?;
+    Ok(Setting {
+        at_ms,
+        target,
+        value,
+    })
+}
+
+/// Whether a device can be set to a value; the error says why not.
+pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
     let fits = match target {
         Target::Bit(..) => value == 0.0 || value == 1.0,
         Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
         Target::Float(..) => true,
         Target::Channel(_) => value.abs() <= MOST_SIGNAL,
-        Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
+        Target::Text(..) => return Err("characters cannot be set here".to_string()),
         Target::Pulses(_) | Target::Frequency(_) => {
-            return Err(wrong("only the program can send pulses".to_string()));
+            return Err("only the program can send pulses".to_string());
         }
         _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
     };
-    if fits {
-        Ok(Setting {
-            at_ms,
-            target,
-            value,
-        })
-    } else {
-        Err(wrong(format!("`{value}` does not fit `{target}`")))
+    match fits {
+        true => Ok(()),
+        false => Err(format!("`{value}` does not fit `{target}`")),
     }
 }
 

@@ -162,7 +162,7 @@ impl Sheet<'_> {
 }
 
 /// What a page is headed: the project's title, or the name of its file.
-fn title(subject: &Subject, read: &Read) -> String {
+pub(super) fn title(subject: &Subject, read: &Read) -> String {
     let title = read
         .program
         .title

@@ -1,6 +1,7 @@
 //! Calling the command line and looking at what it does.
 #![allow(dead_code, reason = "not every test needs all of it")]
 
+pub mod chromium;
 pub mod running;
 
 use std::fs;

@@ -58,13 +58,8 @@ fn write_page(
                     writeln!(out, "<p class=\"statement\">{}</p>", Escaped(text))?;
                 }
             }
-            write_picture(
-                out,
-                &painters[side],
-                at + 1,
-                sides[side].network(at),
-                &sides[side].instructions(at),
-            )?;
+            let picture = painters[side].network(at + 1, sides[side].network(at));
+            write_picture(out, &picture.to_string(), &sides[side].instructions(at))?;
             writeln!(out, "</div>")?;
         }
         writeln!(out, "</section>")?;

@@ -137,7 +137,7 @@ impl Page {
                     };
                 }
             }
-            Mark::About(_, marks) | Mark::Link(_, marks) => {
+            Mark::About(_, marks) | Mark::Link(_, marks) | Mark::Live(_, marks) => {
                 marks.iter().for_each(|mark| self.mark(mark, on, part));
             }
         }

@@ -3,6 +3,7 @@
 use super::connecting::Connecting;
 use super::errors::Errors;
 use super::lines::Lines;
+use super::live::{Live, Running};
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::retaining::Retaining;
@@ -49,6 +50,7 @@ struct Simulation<'a> {
     lines: Lines,
     connecting: Connecting,
     watch: Watch,
+    live: Option<Live>,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
     overrun: bool,
@@ -86,8 +88,8 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Runs the program, wired to a machine.
-    pub fn simulate(&self, plant: Option<Plant>) -> Result {
+    /// Runs the program, wired to a machine, and shown on a page.
+    pub fn simulate(&self, plant: Option<Plant>, live: Option<Live>) -> Result {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
         let mut hal = hardware(args.in_real_time());
@@ -159,6 +161,7 @@ impl Run<'_> {
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
             watch,
+            live,
             now_ms: 0,
             overrun: false,
         };
@@ -205,7 +208,7 @@ impl Simulation<'_> {
 
     fn run(&mut self, args: &RunArgs) -> Result {
         self.out.line(&self.view.heading())?;
-        let begin = Instant::now();
+        let mut begin = Instant::now();
         self.apply_settings()?;
         let inputs = self.plant.as_ref().map_or(Vec::new(), Plant::inputs);
         for (number, on) in inputs {
@@ -244,8 +247,7 @@ impl Simulation<'_> {
                 if let Some(retaining) = &mut self.retaining {
                     retaining.poll(&self.machine, self.now_ms)?;
                 }
-                let next = Duration::from_millis(self.now_ms + scan_ms);
-                thread::sleep(next.saturating_sub(begin.elapsed()));
+                begin = self.rest(begin, scan_ms);
                 self.lines
                     .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
             }
@@ -282,12 +284,49 @@ impl Simulation<'_> {
         }
     }
 
+    /// Waits for the next scan in a run that began then; if time stood still or passed slower, the run began later.
+    fn rest(&mut self, begin: Instant, scan_ms: u64) -> Instant {
+        let next = Duration::from_millis(self.now_ms + scan_ms);
+        loop {
+            let Some(live) = &mut self.live else {
+                thread::sleep(next.saturating_sub(begin.elapsed()));
+                return begin;
+            };
+            let running = Running {
+                machine: &mut self.machine,
+                hal: &mut self.hal,
+                plant: self.plant.as_ref(),
+                now_ms: self.now_ms,
+            };
+            let is_due = live.obey(running, begin + next, scan_ms);
+            if is_due || interruption::is_asked() {
+                return match live.has_shifted() {
+                    true => Instant::now().checked_sub(next).unwrap_or(begin),
+                    false => begin,
+                };
+            }
+            let at_us = 1000 * self.now_ms;
+            self.servers.poll(&mut self.machine, &mut self.watch, at_us);
+        }
+    }
+
     /// A scan; how many milliseconds it lasts, if one takes `given_ms`.
     fn scan(&mut self, given_ms: Option<u64>) -> std::result::Result<u64, Failure> {
         self.hal.advance_to(self.now_ms as u32);
         let scan_us = (self.scan_ms(given_ms) * 1000).min(u64::from(u32::MAX)) as u32;
+        if let Some(live) = &self.live {
+            live.force(&mut self.machine, &mut self.hal);
+        }
         self.machine
             .scan(&mut self.hal, self.now_ms as u32, scan_us);
+        if let Some(live) = &mut self.live {
+            live.scanned(Running {
+                machine: &mut self.machine,
+                hal: &mut self.hal,
+                plant: self.plant.as_ref(),
+                now_ms: self.now_ms,
+            });
+        }
         let values = self
             .shown
             .iter()

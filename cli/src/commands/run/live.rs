@@ -1,0 +1,413 @@
+//! `rungc serve --page`: what the page shows of a run, and what it asks the run to do.
+
+use super::device;
+use crate::commands::setting::{fits, target};
+use crate::commands::{Failure, tell};
+use rungc_analysis::resolve::resolve;
+use rungc_interp::Machine;
+use rungc_ladder::build;
+use rungc_live::{Command, Frame, Log, Scene, Server};
+use rungc_models::Model;
+use rungc_rt::{Plc, Program as _, VirtualHal};
+use rungc_sim::Target;
+use rungc_sim::plant::Plant;
+use rungc_sim::record::{Reading, Seen};
+use rungc_syntax::{DeviceClass, Program};
+use serde_json::{Value, json};
+use std::net::SocketAddr;
+use std::time::{Duration, Instant};
+
+/// How often the page is brought up to date.
+const EVERY: Duration = Duration::from_millis(100);
+/// The slowest pace.
+const SLOWEST: u32 = 1000;
+
+/// What a page is to show, and where it is served.
+pub struct Page<'a> {
+    /// Its title.
+    pub title: &'a str,
+    /// Where it is served.
+    pub address: SocketAddr,
+    /// Whether it takes no commands.
+    pub read_only: bool,
+    /// What the watch list holds at first.
+    pub watched: Vec<Target>,
+}
+
+/// A run between two scans.
+pub struct Running<'a, 'm> {
+    /// The PLC.
+    pub machine: &'a mut Machine<'m>,
+    /// Its hardware.
+    pub hal: &'a mut VirtualHal,
+    /// The machine that it is wired to.
+    pub plant: Option<&'a Plant>,
+    /// The time.
+    pub now_ms: u64,
+}
+
+impl Running<'_, '_> {
+    fn seen(&self) -> Seen<'_> {
+        Seen {
+            machine: self.machine,
+            hal: self.hal,
+            plant: self.plant,
+        }
+    }
+
+    /// The device of this name, which exists.
+    fn device(&self, name: &str) -> Result<Target, String> {
+        let target = target(name).map_err(|failure| failure.to_string())?;
+        match Reading::of(self.seen(), target) {
+            Some(_) => Ok(target),
+            None => Err(format!(
+                "`{target}` does not exist on {}",
+                self.machine.module().model.title
+            )),
+        }
+    }
+
+    /// Sets a device; an input has an edge.
+    fn set(&mut self, target: Target, value: f64) {
+        let before = Reading::of(self.seen(), target);
+        // It exists: that was looked at when it was named.
+        let _ = device::set(self.machine, self.hal, target, value);
+        if let Target::Bit(DeviceClass::X, number) = target
+            && before != Some(Reading::Bit(value != 0.0))
+        {
+            self.machine.input_edge(self.hal, number, value != 0.0);
+            self.machine.take_interrupts(self.hal);
+        }
+    }
+}
+
+/// What lets time stand still.
+enum Break {
+    /// A device has changed, or has come to a value. With what it was after the scan before.
+    Device(Target, Option<f64>, Option<Reading>),
+    /// Power has reached an output of a network, from 0. With whether it was there after the scan before.
+    Network(usize, bool),
+}
+
+impl Break {
+    fn text(&self) -> String {
+        match self {
+            Break::Device(target, None, _) => format!("{} changes", super::name(*target)),
+            Break::Device(target, Some(value), _) => format!("{} = {value}", super::name(*target)),
+            Break::Network(network, _) => {
+                format!("power reaches an output of network {}", network + 1)
+            }
+        }
+    }
+}
+
+/// The page of a run.
+pub struct Live {
+    server: Server,
+    scene: Scene,
+    watched: Vec<Target>,
+    forced: Vec<(Target, f64)>,
+    breaks: Vec<Break>,
+    log: Log,
+    /// Why time stands still.
+    paused: Option<String>,
+    /// The network at whose breakpoint it does.
+    stopped_at: Option<usize>,
+    /// After how many scans it stands still again.
+    scans_left: Option<u32>,
+    slower: u32,
+    scans: u64,
+    /// Whether the run has fallen behind its clock because time stood still or passed slower.
+    shifted: bool,
+    was_running: bool,
+    /// When the page was brought up to date.
+    shown: Option<Instant>,
+}
+
+impl Live {
+    /// Serves the page of a program, and prints its address.
+    ///
+    /// # Errors
+    /// An address that cannot be had, or that others can reach.
+    pub fn open(page: Page, program: &Program, model: &'static Model) -> Result<Self, Failure> {
+        let (resolved, _) = resolve(program, model);
+        let ladder = build::ladder(&resolved);
+        let (html, scene) = rungc_live::page(page.title, &resolved, &ladder, page.read_only);
+        let address = page.address;
+        let server = Server::open(address, html, page.read_only)
+            .map_err(|error| Failure::Because(format!("--page {address}: {error}")))?;
+        tell(&format!("rungc: page at {}", server.url()));
+        Ok(Live {
+            server,
+            scene,
+            watched: page.watched,
+            forced: Vec::new(),
+            breaks: Vec::new(),
+            log: Log::default(),
+            paused: None,
+            stopped_at: None,
+            scans_left: None,
+            slower: 1,
+            scans: 0,
+            shifted: false,
+            was_running: true,
+            shown: None,
+        })
+    }
+
+    /// Gives forced devices their values, as before and after each scan.
+    pub fn force(&self, machine: &mut Machine, hal: &mut VirtualHal) {
+        for &(target, value) in &self.forced {
+            // It exists: that was looked at when it was forced.
+            let _ = device::set(machine, hal, target, value);
+        }
+    }
+
+    /// Takes notice of a scan.
+    pub fn scanned(&mut self, running: Running) {
+        self.force(running.machine, running.hal);
+        self.scans += 1;
+        let is_running = running.machine.sys().running;
+        if is_running != self.was_running {
+            self.was_running = is_running;
+            let mode = if is_running { "RUN" } else { "STOP" };
+            self.log.write(running.now_ms, "event", mode);
+        }
+        self.scene.scanned(running.seen());
+        if let Some(left) = &mut self.scans_left {
+            *left -= 1;
+            if *left == 0 {
+                self.pause("after single scans".to_string());
+            }
+        }
+        if let Some((why, network)) = self.broken(running.seen()) {
+            self.log
+                .write(running.now_ms, "event", &format!("breakpoint: {why}"));
+            self.pause(why);
+            self.stopped_at = network;
+        }
+        self.show(&running);
+    }
+
+    fn pause(&mut self, why: String) {
+        self.paused = Some(why);
+        self.scans_left = None;
+    }
+
+    /// The breakpoint that this scan has come to, and its network.
+    fn broken(&mut self, seen: Seen) -> Option<(String, Option<usize>)> {
+        let mut broken = None;
+        for point in &mut self.breaks {
+            let (is_met, network) = match point {
+                Break::Device(target, value, last) => {
+                    let now = Reading::of(seen, *target);
+                    let has_changed = now != *last;
+                    let is_there =
+                        value.is_none_or(|value| now.as_ref().and_then(number) == Some(value));
+                    *last = now;
+                    (has_changed && is_there, None)
+                }
+                Break::Network(network, was) => {
+                    let is = self.scene.reaches(*network, seen);
+                    let came = is && !*was;
+                    *was = is;
+                    (came, Some(*network))
+                }
+            };
+            if is_met && broken.is_none() {
+                broken = Some((point.text(), network));
+            }
+        }
+        broken
+    }
+
+    /// Carries out what the page asks for until the next scan is due; whether it is. It is not while time stands still,
+    /// though commands are waited for only a moment.
+    pub fn obey(&mut self, mut running: Running, due: Instant, scan_ms: u64) -> bool {
+        let slower = u64::from(self.slower);
+        let due = match slower {
+            1 => due,
+            _ => Instant::now() + Duration::from_millis(scan_ms.saturating_mul(slower)),
+        };
+        self.shifted |= slower > 1;
+        loop {
+            let left = due.saturating_duration_since(Instant::now());
+            let left = if self.paused.is_some() {
+                EVERY
+            } else {
+                left.min(EVERY)
+            };
+            if let Some(order) = self.server.order(left) {
+                let answer = self.carry_out(&order.command, &mut running);
+                if answer.is_ok() {
+                    self.shown = None;
+                }
+                order.answer(answer);
+            }
+            self.show(&running);
+            if self.paused.is_some() {
+                self.shifted = true;
+                return false;
+            }
+            if Instant::now() >= due {
+                return true;
+            }
+        }
+    }
+
+    /// Whether the run has fallen behind its clock since this was last asked.
+    pub fn has_shifted(&mut self) -> bool {
+        std::mem::take(&mut self.shifted)
+    }
+
+    fn carry_out(&mut self, command: &Command, running: &mut Running) -> Result<(), String> {
+        let now_ms = running.now_ms;
+        match command {
+            Command::Run => running.machine.set_running(true),
+            Command::Stop => running.machine.set_running(false),
+            Command::Pause => self.pause("by hand".to_string()),
+            Command::Continue => self.resume(None),
+            Command::Scan { count: 0 } => return Err("execute at least one scan".to_string()),
+            Command::Scan { count } => self.resume(Some(*count)),
+            Command::Pace { slower } if (1..=SLOWEST).contains(slower) => self.slower = *slower,
+            Command::Pace { .. } => return Err(format!("the pace is from 1 to {SLOWEST}")),
+            Command::Set { device, value } => {
+                let target = running.device(device)?;
+                fits(target, *value)?;
+                running.set(target, *value);
+                self.log
+                    .write(now_ms, "event", &format!("{target} set to {value}"));
+            }
+            Command::Force { device, value } => {
+                let target = running.device(device)?;
+                fits(target, *value)?;
+                running.set(target, *value);
+                self.forced.retain(|(other, _)| *other != target);
+                self.forced.push((target, *value));
+                self.log
+                    .write(now_ms, "event", &format!("{target} forced to {value}"));
+            }
+            Command::Release { device } => {
+                let target = running.device(device)?;
+                self.forced.retain(|(other, _)| *other != target);
+                self.log
+                    .write(now_ms, "event", &format!("{target} released"));
+            }
+            Command::ReleaseAll => {
+                self.forced.clear();
+                self.log.write(now_ms, "event", "all devices released");
+            }
+            Command::Watch { device } => {
+                let target = running.device(device)?;
+                if !self.watched.contains(&target) {
+                    self.watched.push(target);
+                }
+            }
+            Command::Unwatch { device } => {
+                let target = running.device(device)?;
+                self.watched.retain(|other| *other != target);
+            }
+            Command::BreakOnDevice { device, value } => {
+                let target = running.device(device)?;
+                if let Some(value) = value {
+                    fits(target, *value)?;
+                }
+                let now = Reading::of(running.seen(), target);
+                self.breaks.push(Break::Device(target, *value, now));
+            }
+            Command::BreakOnNetwork { network } => {
+                let count = self.scene.networks();
+                let index = network.checked_sub(1).filter(|index| *index < count);
+                let index =
+                    index.ok_or_else(|| format!("networks are numbered from 1 to {count}"))?;
+                let is = self.scene.reaches(index, running.seen());
+                self.breaks.push(Break::Network(index, is));
+            }
+            Command::Unbreak { index } if *index < self.breaks.len() => {
+                self.breaks.remove(*index);
+            }
+            Command::Unbreak { .. } => return Err("there is no such breakpoint".to_string()),
+        }
+        Ok(())
+    }
+
+    fn resume(&mut self, scans: Option<u32>) {
+        self.paused = None;
+        self.stopped_at = None;
+        self.scans_left = scans;
+    }
+
+    /// Shows how things are, if someone watches and it is time.
+    fn show(&mut self, running: &Running) {
+        let is_fresh = self.shown.is_some_and(|shown| shown.elapsed() < EVERY);
+        if is_fresh || !self.server.is_watched() {
+            return;
+        }
+        self.shown = Some(Instant::now());
+        let seen = running.seen();
+        let state = json!({
+            "ms": running.now_ms,
+            "scans": self.scans,
+            "running": seen.machine.sys().running,
+            "paused": self.paused,
+            "network": self.stopped_at.map(|network| network + 1),
+            "slower": self.slower,
+        });
+        let watched = self.watched.iter().map(|&target| {
+            let reading = Reading::of(seen, target);
+            let value = reading
+                .as_ref()
+                .map_or_else(String::new, ToString::to_string);
+            let number = reading.as_ref().and_then(number);
+            json!({ "device": super::name(target), "value": value, "number": number })
+        });
+        let forced = self.forced.iter();
+        let forced =
+            forced.map(|(target, value)| json!({ "device": super::name(*target), "value": value }));
+        let breaks = self.breaks.iter().map(|point| {
+            let network = match point {
+                Break::Network(network, _) => Some(network + 1),
+                Break::Device(..) => None,
+            };
+            json!({ "text": point.text(), "network": network })
+        });
+        let parts = [
+            ("state", state),
+            ("watch", watched.collect()),
+            ("forces", forced.collect()),
+            ("breaks", breaks.collect()),
+            ("axes", axes(seen)),
+        ];
+        let frame = Frame {
+            networks: self.scene.look(seen),
+            parts: parts
+                .map(|(name, part)| (name, part.to_string().into()))
+                .into(),
+            log: self.log.clone(),
+        };
+        self.server.show(frame);
+    }
+}
+
+/// The axes and processes of the machine that the PLC is wired to.
+fn axes(seen: Seen) -> Value {
+    let row = |name: &str, number: f64, unit: &str| {
+        let value = format!("{number:.2} {unit}");
+        json!({ "name": name, "value": value.trim_end(), "number": number })
+    };
+    let axes = seen.axes().iter();
+    let axes = axes.map(|axis| row(axis.name(), axis.position(), axis.unit()));
+    let processes = seen.processes().iter();
+    let processes = processes.map(|process| row(process.name(), process.value(), process.unit()));
+    axes.chain(processes).collect()
+}
+
+/// What a reading is as a number.
+fn number(reading: &Reading) -> Option<f64> {
+    match reading {
+        Reading::Bit(on) => Some(f64::from(u8::from(*on))),
+        Reading::Integer(value, _) => Some(*value as f64),
+        Reading::Float(value) => Some(*value),
+        Reading::Text(_) => None,
+    }
+}

@@ -1,0 +1,67 @@
+// Uses a page of `rungc serve --page`: watches, forces, stops and continues a run.
+const { look, open } = require("./browser.js");
+
+open(async (page) => {
+  const press = (name) => page.getByRole("button", { name, exact: true }).click();
+  const text = (selector) => page.locator(selector).innerText();
+  const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 20_000 });
+  const mode = (wanted) => settle((wanted) => document.getElementById("mode").textContent.startsWith(wanted), wanted);
+  const lit = (network) => page.locator(`#n${network} [data-net].on`).count();
+  const value = (device) => settle((device) => document.querySelector(`#watch tr[data-name="${device}"] td`)?.textContent, device);
+  const enter = async (device, value, button) => {
+    await page.getByLabel("Device", { exact: true }).fill(device);
+    await page.getByLabel("Value", { exact: true }).fill(value);
+    await press(button);
+  };
+  const report = {};
+
+  await mode("RUN");
+  await settle(() => document.querySelectorAll("#n1 [data-net].on").length > 0);
+  report.before = await lit(1);
+  await enter("x0", "1", "Force");
+  await settle(() => document.querySelectorAll("#n1 [data-net].on").length > 2);
+  await settle(() => document.querySelectorAll(".force-mark").length > 0);
+  report.forced = await text("#forces tbody");
+  report.marks = await page.locator("#n1 g.forced .force-mark").count();
+  report.timer = await page.locator("#n2 [data-value]").first().textContent();
+
+  await enter("D1", "7", "Set");
+  await enter("D1", "", "Watch");
+  await value("D1");
+  report.set = await text("#watch tr[data-name='D1'] td >> nth=0");
+  await enter("Q9", "", "Watch");
+  await settle(() => document.getElementById("problem").textContent !== "");
+  report.problem = await text("#problem");
+
+  await press("Pause");
+  await mode("RUN, paused");
+  const scan = async () => Number((await text("#clock")).match(/scan (\d+)/)[1]);
+  const paused = await scan();
+  await press("Single scan");
+  await settle((old) => document.getElementById("clock").textContent.endsWith(`scan ${old + 1}`), paused);
+  await page.waitForTimeout(300);
+  report.scanned = (await scan()) - paused;
+
+  await enter("Y000", "1", "Break");
+  await press("Release X000");
+  await press("Continue");
+  await mode("RUN, paused: Y000 = 1");
+  report.broken = await text("#breaks");
+  report.light = await look(page, "live-light");
+  await page.locator("#theme").click();
+  report.dark = await look(page, "live-dark");
+  await press("Continue");
+  await mode("RUN");
+  await press("STOP");
+  await mode("STOP");
+  await settle(() => document.querySelectorAll("main [data-net].on").length === 0);
+  report.stopped = await lit(1);
+  await press("RUN");
+  await mode("RUN");
+  await page.setViewportSize({ width: 420, height: 800 });
+  report.narrow = await look(page, "live-narrow");
+  report.wider_than_screen = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  report.elsewhere = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => !name.startsWith(location.href)).map(({ name }) => name));
+  report.log = await page.locator("#log li").evaluateAll((rows) => rows.map((row) => row.textContent.replace(/^\S+ /, "")));
+  return report;
+});

@@ -1,0 +1,279 @@
+//! `rungc serve --page`: the live page in a browser, who may ask for it, and requests that mean harm.
+
+mod common;
+
+use common::{chromium, folder, rungc, text};
+use serde_json::json;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const PROGRAM: &str = "\
+;! X000 = start button
+;! Y000 = main contactor of the conveyor
+; Latch of the motor
+LD X000
+OR M0
+ANI X001
+OUT M0
+; Run-up
+LD M0
+OUT T0 K30
+AND T0
+OUT Y000
+LD X002
+MPS
+AND X003
+MOV K5 D0
+MPP
+ANDP X004
+INC D1
+LD>= D1 K3
+AND M8013
+OUT Y001
+END
+";
+
+/// A run with a page, until it is dropped.
+struct Page {
+    child: Child,
+    url: String,
+    _folder: TempDir,
+}
+
+impl Page {
+    fn open(args: &[&str]) -> Page {
+        let folder = folder(&[("motor.il", PROGRAM.as_bytes())]);
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+            .args(["serve", "motor.il", "--page"])
+            .args(args)
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let mut errors = BufReader::new(child.stderr.take().unwrap());
+        errors.read_line(&mut line).unwrap();
+        let url = line.trim_end().strip_prefix("rungc: page at ");
+        let url = url.unwrap_or_else(|| panic!("{line}")).to_string();
+        Page {
+            child,
+            url,
+            _folder: folder,
+        }
+    }
+
+    /// `127.0.0.1:PORT`, and the path with the token.
+    fn parts(&self) -> (&str, &str) {
+        let address = self.url.strip_prefix("http://").unwrap();
+        address.split_at(address.find('/').unwrap())
+    }
+
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(self.parts().0).unwrap();
+        let patience = Some(Duration::from_secs(20));
+        stream.set_read_timeout(patience).unwrap();
+        stream
+    }
+
+    /// What is answered to these bytes: the status, and the rest.
+    fn ask(&self, request: &[u8]) -> (u16, String) {
+        let mut stream = self.connect();
+        // What rejects a request may close the connection before all of it is sent.
+        let _ = stream.write_all(request);
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        let answer = String::from_utf8(answer).unwrap();
+        let status = answer.split(' ').nth(1);
+        let status = status.and_then(|status| status.parse().ok());
+        (status.unwrap_or_else(|| panic!("{answer:?}")), answer)
+    }
+
+    /// The status of a GET of this name with these headers.
+    fn get(&self, name: &str, headers: &str) -> u16 {
+        let path = self.parts().1;
+        self.ask(format!("GET {path}{name} HTTP/1.1\r\n{headers}\r\n").as_bytes())
+            .0
+    }
+
+    /// The status of a command, with these headers.
+    fn command(&self, body: &str, headers: &str) -> u16 {
+        let (host, path) = self.parts();
+        let length = body.len();
+        let request = format!(
+            "POST {path}command HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n{headers}\r\n{body}"
+        );
+        self.ask(request.as_bytes()).0
+    }
+
+    /// The header that names this page.
+    fn host(&self) -> String {
+        format!("Host: {}\r\n", self.parts().0)
+    }
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+const JSON: &str = "Content-Type: application/json\r\n";
+const PAUSE: &str = r#"{"do":"pause"}"#;
+
+#[test]
+fn a_live_page_works_in_a_browser() {
+    let page = Page::open(&[]);
+    let Some(mut report) = chromium::report(&page.url, "live.js") else {
+        return;
+    };
+    for measured in ["loaded_ms", "requests"] {
+        report[measured].take();
+    }
+    let expected = json!({
+        "loaded_ms": null,
+        "before": 3,
+        "forced": "X000\t1\tRelease",
+        "marks": 1,
+        "timer": "\nT0=0\n",
+        "set": "7",
+        "problem": "`Q9` is not a device name; examples: `M0`, `X010`, `D0.i32`",
+        "scanned": 1,
+        "broken": "Y000 = 1 ×",
+        "light": [],
+        "dark": [],
+        "stopped": 0,
+        "narrow": [],
+        "wider_than_screen": false,
+        "elsewhere": [],
+        "log": ["X000 forced to 1", "D1 set to 7", "X000 released", "breakpoint: Y000 = 1", "STOP", "RUN"],
+        "requests": null,
+        "errors": [],
+    });
+    assert_eq!(report, expected);
+}
+
+#[test]
+fn only_the_page_itself_may_ask() {
+    let page = Page::open(&[]);
+    let (host, path) = page.parts();
+    let port = host.rsplit_once(':').unwrap().1;
+    let named = page.host();
+    assert_eq!(page.get("", &named), 200);
+    assert_eq!(page.get("", &format!("Host: LOCALHOST:{port}\r\n")), 200);
+    assert_eq!(page.get("live.js", &named), 200);
+    assert_eq!(page.get("other.js", &named), 404);
+    assert_eq!(page.get("command", &named), 404);
+    for elsewhere in [
+        "Host: evil.example\r\n",
+        &format!("Host: evil.example:{port}\r\n"),
+        "Host: 127.0.0.1\r\n",
+        "",
+    ] {
+        assert_eq!(page.get("", elsewhere), 403, "{elsewhere}");
+    }
+    let origin = |origin: &str| page.command(PAUSE, &format!("{JSON}Origin: {origin}\r\n"));
+    assert_eq!(origin(&format!("http://{host}")), 200);
+    assert_eq!(origin(&format!("http://localhost:{port}")), 403);
+    assert_eq!(origin("http://evil.example"), 403);
+    assert_eq!(origin("null"), 403);
+    assert_eq!(page.command(PAUSE, "Content-Type: text/plain\r\n"), 415);
+    assert_eq!(page.command(PAUSE, ""), 415);
+    assert_eq!(page.command("{\"do\":\"explode\"}", JSON), 422);
+    assert_eq!(
+        page.command("{\"do\":\"set\",\"device\":\"X9\",\"value\":1}", JSON),
+        422
+    );
+    let wrong = format!("/{}0/", &path[1..path.len() - 2]);
+    for path in ["/", "//", "/live.js", &wrong, "/../..", "*"] {
+        let request = format!("GET {path} HTTP/1.1\r\n{named}\r\n");
+        assert_eq!(page.ask(request.as_bytes()).0, 403, "{path}");
+    }
+    let answer = page
+        .ask(format!("GET {path} HTTP/1.1\r\n{named}\r\n").as_bytes())
+        .1;
+    assert!(answer.contains("Content-Security-Policy: default-src 'none';"));
+}
+
+#[test]
+fn a_page_that_is_read_only_takes_no_commands() {
+    let page = Page::open(&["--read-only"]);
+    assert_eq!(page.command(PAUSE, JSON), 403);
+    assert_eq!(page.get("", &page.host()), 200);
+}
+
+#[test]
+fn a_page_is_for_this_machine_alone() {
+    let folder = folder(&[("motor.il", PROGRAM.as_bytes())]);
+    let out = rungc(folder.path(), &["serve", "motor.il", "--page", "0.0.0.0:0"]);
+    assert_eq!(out.status.code(), Some(2));
+    insta::assert_snapshot!(text(&out.stderr));
+}
+
+#[test]
+fn requests_that_mean_harm_are_rejected() {
+    let page = Page::open(&[]);
+    let (host, path) = page.parts();
+    let get = |headers: &str| page.get("", &format!("Host: {host}\r\n{headers}\r\n"));
+    assert_eq!(get(&format!("A: {}", "b".repeat(100_000))), 431);
+    let many: Vec<_> = (0..200).map(|n| format!("A{n}: b")).collect();
+    assert_eq!(get(&many.join("\r\n")), 431);
+    assert_eq!(get("Host: evil.example"), 400);
+    assert_eq!(get("Transfer-Encoding: chunked"), 400);
+    assert_eq!(get("Content-Length: 99999999999999999999"), 400);
+    assert_eq!(get("Content-Length: 1000000"), 413);
+    assert_eq!(page.ask(b"\xff\xfe\x00\x01\r\n\r\n").0, 400);
+    assert_eq!(page.ask(b"GET / HTTP/1.1\r\nHost: \xc3\x28\r\n\r\n").0, 400);
+    let put = format!("PUT {path} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    assert_eq!(page.ask(put.as_bytes()).0, 405);
+    for body in ["", "{", "[]", "null", "\"\u{0}\"", &"[".repeat(4000)] {
+        assert_eq!(page.command(body, JSON), 422, "{body}");
+    }
+    assert_eq!(
+        page.command("{\"do\":\"scan\",\"count\":4294967296}", JSON),
+        422
+    );
+    assert_eq!(
+        page.command("{\"do\":\"set\",\"device\":\"D0\",\"value\":1e400}", JSON),
+        422
+    );
+}
+
+#[test]
+fn slow_clients_hold_up_neither_the_run_nor_others() {
+    let page = Page::open(&[]);
+    let (host, path) = page.parts();
+    // These dribble; one watches and reads nothing.
+    let mut slow: Vec<_> = (0..20).map(|_| page.connect()).collect();
+    for stream in &mut slow {
+        stream.write_all(b"GET / HTTP/1.1\r\nX: ").unwrap();
+    }
+    let mut deaf = page.connect();
+    let events = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    deaf.write_all(events.as_bytes()).unwrap();
+    let begin = Instant::now();
+    while begin.elapsed() < Duration::from_secs(12) {
+        for stream in &mut slow {
+            // Those that have had their time are closed.
+            let _ = stream.write_all(b"a");
+        }
+        assert_eq!(page.get("", &page.host()), 200);
+        thread::sleep(Duration::from_millis(500));
+    }
+    let mut answer = String::new();
+    slow[0].read_to_string(&mut answer).unwrap_or_default();
+    assert!(answer.is_empty() || answer.contains("408"), "{answer}");
+    assert_eq!(page.command(PAUSE, JSON), 200);
+    // More than there may be are sent away, and those that are there stay.
+    let crowd: Vec<_> = (0..40).map(|_| page.connect()).collect();
+    thread::sleep(Duration::from_millis(200));
+    assert_eq!(page.get("", &page.host()), 503);
+    drop(crowd);
+    thread::sleep(Duration::from_millis(500));
+    assert_eq!(page.get("", &page.host()), 200);
+}

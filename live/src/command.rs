@@ -1,0 +1,82 @@
+//! What the page asks for.
+
+use serde::Deserialize;
+
+/// What the page asks for. Devices have the names of test files: `M0`, `D0.i32`, `T0.value`.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Command {
+    /// Puts the PLC in RUN.
+    Run,
+    /// Puts the PLC in STOP.
+    Stop,
+    /// Lets time stand still after the scan that is executed.
+    Pause,
+    /// Lets time pass again.
+    Continue,
+    /// Executes this number of scans, and lets time stand still after them.
+    Scan {
+        /// From 1.
+        count: u32,
+    },
+    /// Lets time pass slower, or at its own speed.
+    Pace {
+        /// How many seconds a second of the program takes, from 1 to 1000.
+        slower: u32,
+    },
+    /// Sets a device once.
+    Set {
+        /// Its name.
+        device: String,
+        /// 0 or 1, or a number.
+        value: f64,
+    },
+    /// Holds a device at a value: it is written before and after each scan.
+    Force {
+        /// Its name.
+        device: String,
+        /// 0 or 1, or a number.
+        value: f64,
+    },
+    /// Releases a forced device.
+    Release {
+        /// Its name.
+        device: String,
+    },
+    /// Releases all forced devices.
+    ReleaseAll,
+    /// Adds a device to the watch list.
+    Watch {
+        /// Its name.
+        device: String,
+    },
+    /// Removes a device from the watch list.
+    Unwatch {
+        /// Its name.
+        device: String,
+    },
+    /// Lets time stand still after the scan in which a device changes, or comes to a value.
+    BreakOnDevice {
+        /// Its name.
+        device: String,
+        /// The value; without one, any change counts.
+        value: Option<f64>,
+    },
+    /// Lets time stand still after the scan in which power reaches an output of a network.
+    BreakOnNetwork {
+        /// Its number, from 1.
+        network: usize,
+    },
+    /// Removes a breakpoint.
+    Unbreak {
+        /// Its place in the list, from 0.
+        index: usize,
+    },
+}
+
+impl Command {
+    /// Reads a command; the error says what is wrong with it.
+    pub(crate) fn read(json: &[u8]) -> Result<Command, String> {
+        serde_json::from_slice(json).map_err(|error| error.to_string())
+    }
+}
