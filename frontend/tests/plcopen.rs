@@ -232,6 +232,21 @@ fn hostile_documents_end() {
     insta::assert_snapshot!(said.join("\n"));
 }
 
+#[test]
+fn a_long_list_of_problems_says_that_it_is_cut_short() {
+    let unknown = |count| {
+        let coils: Vec<_> = (0..count)
+            .map(|n| element("coil", n + 2, "", &[1], &format!("Hidden{n}")))
+            .collect();
+        findings(&read(&ladder(&coils)))
+    };
+    let last = |found: &str| found.lines().last().map(str::to_owned);
+    let end = last(&unknown(201)).expect("problems are found");
+    assert!(end.contains("further problems are not shown"), "{end}");
+    let end = last(&unknown(200)).expect("problems are found");
+    assert!(end.contains("Hidden199"), "{end}");
+}
+
 /// Devices for variables that have none.
 fn with_free(text: &str) -> Read {
     let free = "*,M100-M199\n*,T0-T9\n*,T200-T209\n*,C0-C9\n*,D100-D199\n*,S20-S29\nfixed,M55\n";

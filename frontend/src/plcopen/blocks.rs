@@ -158,7 +158,7 @@ pub(super) fn prepare<'a, 'i>(drawing: &mut Drawing<'a, 'i, '_>, elements: &[Nod
         let Some((kind, outputs, edges)) = known else {
             continue;
         };
-        if drawing.reader.has_given_up() {
+        if drawing.reader.gives_up() {
             return;
         }
         match instance(drawing, &pins, kind, outputs, edges) {

@@ -73,7 +73,7 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
     }
     super::blocks::prepare(&mut drawing, &ends);
     for node in ends {
-        if drawing.reader.has_given_up() {
+        if drawing.reader.gives_up() {
             return;
         }
         match drawing.end(node) {

@@ -27,7 +27,7 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
     let lines = source::lines(&text(body));
     list.find_blocks(&lines);
     for line in lines {
-        if list.reader.has_given_up() {
+        if list.reader.gives_up() {
             return;
         }
         let result = match line {

@@ -150,6 +150,8 @@ struct Reader {
     /// Contacts on all ways so far.
     contacts: usize,
     faults: Vec<Fault>,
+    /// Whether something was left unread after many mistakes.
+    cut_short: bool,
 }
 
 /// The children of a node that are called so.
@@ -234,9 +236,10 @@ impl Reader {
         }
     }
 
-    /// Whether there are enough mistakes that more would not help.
-    fn has_given_up(&self) -> bool {
-        self.faults.len() >= MOST_FAULTS
+    /// Whether there are so many mistakes that more would not help; what is left is not read then.
+    fn gives_up(&mut self) -> bool {
+        self.cut_short |= self.faults.len() >= MOST_FAULTS;
+        self.cut_short
     }
 
     /// Counts the contacts on a way to an element.
@@ -350,10 +353,15 @@ impl Reader {
         if self.faults.is_empty() {
             return read;
         }
+        let last = self.cut_short.then(|| Fault {
+            code: &codes::PLCOPEN_ELEMENT,
+            what: "further problems are not shown".to_owned(),
+            help: "correct these first: one cause may have several of them",
+        });
         // A list with gaps would mislead: what is quoted is the elements that make them.
         let mut listing = Listing::default();
         let mut diagnostics = Diagnostics::new();
-        for Fault { code, what, help } in self.faults {
+        for Fault { code, what, help } in self.faults.into_iter().chain(last) {
             listing.next_line();
             let span = listing.word(&format!("?? {what}"));
             diagnostics.push(code.at(span, what).label("in the project").help(help));
