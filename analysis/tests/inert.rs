@@ -90,6 +90,7 @@ fn modules_that_are_listed_work() {
         let fitted = vec![FittedModule {
             unit: 0,
             kind: kind.name,
+            delay_ms: 0,
             pins: Vec::new(),
         }];
         for text in users(row) {
@@ -100,6 +101,7 @@ fn modules_that_are_listed_work() {
         let fitted = vec![FittedModule {
             unit: 0,
             kind: other.name,
+            delay_ms: 0,
             pins: Vec::new(),
         }];
         let [_, reads] = users(row);

@@ -9,6 +9,8 @@ use rungc_syntax::OperandKind;
 const H1U: ModelSet = ModelSet::H1U;
 const H2U: ModelSet = ModelSet::H2U;
 const BOARDS: ModelSet = ModelSet::COMPATIBLE;
+/// Models with modules on CAN.
+const REMOTELY: ModelSet = H1U.or(H2U);
 const INOVANCE_FX: ModelSet = INOVANCE.or(FX);
 const BIG_FX: ModelSet = BIG.without(L01S);
 
@@ -213,22 +215,22 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(9, 17)
         .takes(FROM_FX)
         .variants(&[on(H1U).takes(FROM_H1U), on(H2U).takes(FROM)])
-        .flags(&["M8164", "D8164"])
-        .errors(&[6706, 6709])
+        .flags(&["M8164", "D8164", "M8299", "D8299"])
+        .errors(&[6381, 6706, 6709])
         .call(RtFn::From)
-        .lower_on(&[(L01S, Lower::Call(RtFn::FromHost))])
-        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n."),
+        .lower_on(&[(L01S, Lower::Call(RtFn::FromHost)), (REMOTELY, Lower::Call(RtFn::FromRemote))])
+        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n. A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("TO", 79, "Write to a module")
         .on(WITH_MODULES)
         .forms(ALL_FORMS)
         .steps(9, 17)
         .takes(TO_FX)
         .variants(&[on(H1U).takes(TO_H1U), on(H2U).takes(TO)])
-        .flags(&["M8164", "D8164"])
-        .errors(&[6706, 6709])
+        .flags(&["M8164", "D8164", "M8299", "D8299"])
+        .errors(&[6381, 6706, 6709])
         .call(RtFn::To)
-        .lower_on(&[(L01S, Lower::Call(RtFn::ToHost))])
-        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n."),
+        .lower_on(&[(L01S, Lower::Call(RtFn::ToHost)), (REMOTELY, Lower::Call(RtFn::ToRemote))])
+        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n. A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("RD3A", 176, "Read an analog module")
         .on(WITH_MODULES)
         .forms(W16_P)

@@ -245,6 +245,8 @@ static bool module_request(const char *verb, const long *number)
         value(found, word);
     } else if (strcmp(verb, "fit") == 0) {
         done(rungc_virtual_fit((uint16_t)number[0], (uint16_t)number[1]));
+    } else if (strcmp(verb, "delay") == 0) {
+        done(rungc_virtual_delay_module((uint16_t)number[0], (uint16_t)number[1]));
     } else if (strcmp(verb, "signal") == 0) {
         rungc_virtual_advance((uint32_t)number[0]);
         done(rungc_virtual_set_signal((uint16_t)number[1], (uint8_t)number[2], (uint8_t)number[3], (int32_t)number[4]));

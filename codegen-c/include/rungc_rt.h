@@ -839,6 +839,11 @@ typedef struct rungc_hal {
      */
     bool (*write_bfm)(void *context, uint16_t unit, uint16_t address, int16_t value);
     /**
+     * Waits until a remote module (101 to 162) answers, at most so many milliseconds; false if it has not. `NULL`: only
+     * its buffer memory shows whether it is there.
+     */
+    bool (*module_answers)(void *context, uint16_t unit, uint16_t most_ms);
+    /**
      * Raw value of a built-in analog input; false if there is none.
      */
     bool (*analog)(void *context, uint8_t channel, int16_t *value);
@@ -1338,6 +1343,11 @@ bool rungc_virtual_get_bfm(uint16_t unit, uint16_t address, int16_t *value);
  * Fits a special module, by its number in the table of kinds; false if there is no such kind or no place for it.
  */
 bool rungc_virtual_fit(uint16_t unit, uint16_t kind);
+
+/**
+ * A module answers after so many milliseconds from now on; false if too many are slow.
+ */
+bool rungc_virtual_delay_module(uint16_t unit, uint16_t ms);
 
 /**
  * The RUN/STOP switch, as modules see it.

@@ -246,7 +246,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
 }
 
 /// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
-pub const FUNCTIONS: [(&str, &str); 22] = [
+pub const FUNCTIONS: [(&str, &str); 23] = [
     ("init", "void NAME(void)"),
     (
         "input",
@@ -268,6 +268,10 @@ pub const FUNCTIONS: [(&str, &str); 22] = [
     (
         "write_bfm",
         "bool NAME(void *context, uint16_t unit, uint16_t address, int16_t value)",
+    ),
+    (
+        "module_answers",
+        "bool NAME(void *context, uint16_t unit, uint16_t most_ms)",
     ),
     (
         "analog",

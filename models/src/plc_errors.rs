@@ -54,6 +54,13 @@ pub const PLC_ERRORS: &[PlcError] = &[
          scans, or write a longer time to D8000.",
     ),
     row(
+        6381,
+        "a remote module does not answer",
+        "FROM or TO names a module on the CAN bus (100 and its station) that has not answered within D8299 ms. M8299 is on until the program \
+         switches it off; the instruction is skipped.",
+        "Check the module's supply, its station and the bit rate of the bus, or write a longer time to D8299 (5 to 1000).",
+    ),
+    row(
         6701,
         "a jump or call to a missing label",
         "An index register directs CJ or CALL to a pointer P that the program does not have. The scan continues after the instruction.",

@@ -18,6 +18,8 @@ pub struct Row {
     pub unit: u16,
     /// What it is.
     pub kind: &'static Kind,
+    /// How many milliseconds a remote one takes to answer in a simulation.
+    pub delay_ms: u16,
     /// Channels, counted from 0, and the analog pins of a board that they are.
     pub pins: Vec<(u8, String)>,
     /// Where that number is.
@@ -48,6 +50,7 @@ impl Project {
         let fitted = self.modules.iter().map(|row| FittedModule {
             unit: row.unit,
             kind: row.kind.name,
+            delay_ms: row.delay_ms,
             pins: row.pins.clone(),
         });
         program.parameters.get_or_insert_default().modules = fitted.collect();

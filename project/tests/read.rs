@@ -539,16 +539,18 @@ fn mistakes_in_rows_of_the_modbus_table() {
 
 #[test]
 fn modules_are_fitted_to_the_plc() {
-    let text =
-        "[[module]]\nat = 0\nkind = \"fx2n-4ad\"\n\n[[module]]\nat = 101\nkind = \"H2U-4DAR\"\n";
+    let text = "[[module]]\nat = 0\nkind = \"fx2n-4ad\"\n\n[[module]]\nat = 101\nkind = \"H2U-4DAR\"\nanswers-after = 20\n";
     let project = parse(text).unwrap();
     let mut program = rungc_frontend::read_text("p.il", "LD X0\nOUT Y0\nEND\n").program;
     let path = Path::new("plant/p.il");
     let h2u = Model::get(ModelId::H2u);
     project.complete(path, &mut program, h2u).unwrap();
     let fitted = program.parameters.unwrap().modules;
-    let fitted: Vec<_> = fitted.iter().map(|m| (m.unit, m.kind)).collect();
-    assert_eq!(fitted, [(0, "FX2N-4AD"), (101, "H2U-4DA")]);
+    let fitted: Vec<_> = fitted
+        .iter()
+        .map(|m| (m.unit, m.kind, m.delay_ms))
+        .collect();
+    assert_eq!(fitted, [(0, "FX2N-4AD", 0), (101, "H2U-4DA", 20)]);
     let mut program = rungc_frontend::read_text("p.il", "END\n").program;
     let of_fx = project.complete(path, &mut program, Model::get(ModelId::Fx3u));
     let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
@@ -590,7 +592,9 @@ fn modules_are_fitted_to_the_plc() {
              [[module]]\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4DA\"\n\
              [[module]]\nat = 3\nkind = \"FX2N-4DA\"\nid = 1\n\
              [[module]]\nat = 4\nkind = \"H2U-6A-BD\"\n[[module]]\nat = \"board\"\nkind = \"H2U-4AD\"\n[[module]]\nat = 5\n\
-             kind = \"H2U-0808ERDR\"\n[[module]]\nat = 6\nkind = \"EX1-4AD\"\n"
+             kind = \"H2U-0808ERDR\"\n[[module]]\nat = 6\nkind = \"EX1-4AD\"\n\
+             [[module]]\nat = 7\nkind = \"FX2N-4AD\"\nanswers-after = 5\n\
+             [[module]]\nat = 103\nkind = \"H2U-4AD\"\nanswers-after = 60_001\n"
         )
     );
 }

@@ -91,6 +91,10 @@ extern "C" fn unsent(_: *mut c_void, port: u8, now_us: u32) -> u16 {
     with(|hal| hal.line(port).map_or(0, |line| line.unsent(now_us)))
 }
 
+extern "C" fn module_answers(_: *mut c_void, unit: u16, most_ms: u16) -> bool {
+    with(|hal| hal.module_answers(unit, most_ms))
+}
+
 extern "C" fn power_fails(_: *mut c_void) -> bool {
     with(|hal| hal.power_fails()) == Some(true)
 }
@@ -104,6 +108,7 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
         set_clock: Some(set_clock),
         read_bfm: Some(read_bfm),
         write_bfm: Some(write_bfm),
+        module_answers: Some(module_answers),
         analog: Some(analog),
         input: None,
         set_output: None,
@@ -193,6 +198,12 @@ pub extern "C" fn rungc_virtual_fit(unit: u16, kind: u16) -> bool {
     let kind = KINDS.get(usize::from(kind));
     kind.and_then(|kind| with(|hal| hal.fit(unit, kind)))
         .is_some()
+}
+
+/// A module answers after so many milliseconds from now on; false if too many are slow.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_delay_module(unit: u16, ms: u16) -> bool {
+    with(|hal| hal.delay_module(unit, ms)).is_some()
 }
 
 /// The RUN/STOP switch, as modules see it.

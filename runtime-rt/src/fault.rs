@@ -16,6 +16,8 @@ impl Fault {
     pub const DOMAIN: Fault = Fault(6706);
     /// A value lies outside what the instruction takes; models show it as [`Plc::value_error`].
     pub const VALUE: Fault = Fault(6707);
+    /// A remote module has not answered in time (h1u-h2u-programming §5.9.5).
+    pub const NO_ANSWER: Fault = Fault(6381);
     /// A module is not there, or has no such buffer memory.
     pub const MODULE: Fault = Fault(6750);
 }

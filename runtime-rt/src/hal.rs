@@ -190,6 +190,12 @@ pub trait Hal {
         let _ = (unit, address, value);
         None
     }
+    /// Waits until remote module `unit` answers, `most_ms` milliseconds at most (h1u-h2u-programming §5.9.5, D8299);
+    /// false if it has not. By default only its buffer memory shows whether it is there.
+    fn module_answers(&mut self, unit: u16, most_ms: u16) -> bool {
+        let _ = (unit, most_ms);
+        true
+    }
     /// Raw value of a built-in analog input.
     fn analog(&mut self, channel: u8) -> Option<i16> {
         let _ = channel;

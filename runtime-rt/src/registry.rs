@@ -314,6 +314,8 @@ registry! {
     Pbtab = cut::pbtab(s, d) [state, always];
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     ToHost = modules::to_host(m1, m2, s, n) [hal];
+    FromRemote = modules::from_remote(m1, m2, d, n) [hal];
+    ToRemote = modules::to_remote(m1, m2, s, n) [hal];
     Ref = modules::refresh_terminals(d, n) [hal];
     RefHm = modules::refresh_terminals_hm(d, n) [hal];
     Reff = modules::reff(n) [hal];

@@ -35,6 +35,8 @@ pub struct VirtualHal {
     bfm: [BfmWord; BFM_WORDS],
     bfm_len: usize,
     modules: [Option<(u16, Module)>; MODULES],
+    /// Modules that take time to answer, and how many milliseconds.
+    delays_ms: [Option<(u16, u16)>; MODULES],
     analog: [Option<i16>; ANALOG_CHANNELS],
     /// The clock was `base` when it was set, `since_base_ms` ago.
     base: Clock,
@@ -61,6 +63,7 @@ impl VirtualHal {
             }; BFM_WORDS],
             bfm_len: 0,
             modules: [None; MODULES],
+            delays_ms: [None; MODULES],
             analog: [None; ANALOG_CHANNELS],
             base: Clock {
                 year: 2000,
@@ -137,6 +140,13 @@ impl VirtualHal {
     fn module_mut(&mut self, unit: u16) -> Option<&mut Module> {
         let mut modules = self.modules.iter_mut().flatten();
         modules.find_map(|(own, module)| (*own == unit).then_some(module))
+    }
+
+    /// A module answers after so many milliseconds from now on; `None` if too many are slow.
+    pub fn delay_module(&mut self, unit: u16, ms: u16) -> Option<()> {
+        let is_its = |place: &&mut Option<(u16, u16)>| place.is_none_or(|(own, _)| own == unit);
+        *self.delays_ms.iter_mut().find(is_its)? = Some((unit, ms));
+        Some(())
     }
 
     /// What is connected to an input of a fitted module from now on; channels are counted from 1. `None` if there is
@@ -223,6 +233,11 @@ impl Hal for VirtualHal {
         } else {
             None
         }
+    }
+
+    fn module_answers(&mut self, unit: u16, most_ms: u16) -> bool {
+        let mut delays = self.delays_ms.iter().flatten();
+        delays.all(|&(own, ms)| own != unit || ms <= most_ms)
     }
 
     fn power_fails(&mut self) -> Option<bool> {

@@ -81,6 +81,8 @@ pub enum Request {
     Bfm(u16, u16),
     /// Fits the module with this number: the kind by its number in the table of [`rungc_rt::modules::KINDS`].
     Fit(u16, usize),
+    /// A module answers after so many milliseconds from now on.
+    DelayModule(u16, u16),
     /// An analog signal reaches an input of a module.
     SetSignal {
         /// Milliseconds since power-on.
@@ -191,6 +193,7 @@ impl fmt::Display for Request {
             Request::SetBfm(unit, address, v) => write!(f, "bfm {unit} {address} {v}"),
             Request::Bfm(unit, address) => write!(f, "getbfm {unit} {address}"),
             Request::Fit(unit, kind) => write!(f, "fit {unit} {kind}"),
+            Request::DelayModule(unit, ms) => write!(f, "delay {unit} {ms}"),
             Request::SetSignal {
                 now_ms,
                 channel,

@@ -67,6 +67,8 @@ pub struct FittedModule {
     pub unit: u16,
     /// Its kind, as the table of modules names it.
     pub kind: &'static str,
+    /// How many milliseconds it takes to answer in a simulation. H1U and H2U wait for remote modules.
+    pub delay_ms: u16,
     /// Channels, counted from 0, and the analog pins of a board that they are.
     pub pins: Vec<(u8, String)>,
 }

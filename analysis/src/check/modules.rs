@@ -131,8 +131,8 @@ fn transferred(code: &Code, i: usize) -> Option<Words> {
     let operands = &code.instr(i).operands;
     let constant = |n: usize| operands.get(n)?.kind.constant();
     let (written, counted) = match function {
-        RtFn::From | RtFn::FromHost | RtFn::Rbfm => (false, true),
-        RtFn::To | RtFn::ToHost | RtFn::Wbfm => (true, true),
+        RtFn::From | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => (false, true),
+        RtFn::To | RtFn::ToHost | RtFn::ToRemote | RtFn::Wbfm => (true, true),
         RtFn::Rd3a | RtFn::Wr3a => (false, false),
         _ => return None,
     };

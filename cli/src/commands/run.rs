@@ -29,7 +29,6 @@ use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::image;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
-use rungc_rt::modules::Kind;
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
@@ -151,6 +150,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         }
         None => None,
     };
+    let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
         retain: args.retain.clone().or_else(|| usual_retain(subject)),
@@ -161,7 +161,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         watched: &watched,
         over,
         table: table == Table::Usual || !watched.is_empty(),
-        modules: &fitted(&read.program),
+        modules: parameters.map_or(&[], |parameters| &parameters.modules),
         program_memory: program_memory.as_deref(),
         connections,
     };
@@ -184,15 +184,6 @@ fn report_still_axes(plant: Option<&Plant>, module: &Module) {
             "rungc: the axis {name} never moves: the program sends no pulses to its output"
         ));
     }
-}
-
-/// The special modules that the settings fit to the PLC.
-fn fitted(program: &Program) -> Vec<(u16, &'static Kind)> {
-    let parameters = program.parameters.iter();
-    let modules = parameters.flat_map(|parameters| &parameters.modules);
-    modules
-        .filter_map(|module| Some((module.unit, Kind::find(module.kind)?)))
-        .collect()
 }
 
 /// What a watched device is called: T0 rather than T0.value, since it is seen at once that it is a number.

@@ -205,6 +205,7 @@ fn answer(
             let (unit, channel) = (next(words)?, next(words)?);
             return value(hal.signal(unit, channel, Quantity::of(next(words)?)?)?);
         }
+        "delay" => hal.delay_module(next(words)?, next(words)?)?,
         "supply" => hal.set_power_fails(next::<i64>(words)? != 0),
         "clock" => set_clock(hal, words)?,
         "analog" => hal.set_analog(next(words)?, next(words)?)?,

@@ -10,6 +10,12 @@ use toml::de::DeTable;
 /// The table of which each entry is a module.
 pub(super) const MODULE: &str = "module";
 
+/// The key that says after how many milliseconds a remote module answers.
+const DELAY: &str = "answers-after";
+
+/// The longest time that can be given there, in milliseconds.
+const LONGEST_MS: u32 = 60_000;
+
 /// How many modules a PLC has at most.
 const MOST: usize = 8;
 
@@ -68,7 +74,7 @@ impl Reader {
     }
 
     fn module(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
-        self.known(MODULE, table, &["at", "kind", "pins"]);
+        self.known(MODULE, table, &["at", "kind", DELAY, "pins"]);
         let unit = self.unit(table, at);
         let Some(named) = self.get(table, "kind") else {
             if !table.contains_key("kind") {
@@ -101,10 +107,18 @@ impl Reader {
             self.wrong(at, format!("no module has the number {unit}"), help);
             return None;
         }
+        let delay_ms = self.number(table, at, DELAY, 0..=LONGEST_MS, Some(0))?;
+        if let Some(value) = table.get(DELAY)
+            && !REMOTE.contains(&unit)
+        {
+            let message = format!("module {unit} is not remote: FROM and TO do not wait for it");
+            self.wrong(span(value.span()), message, "");
+        }
         let pins = self.pins(table, kind);
         Some(Row {
             unit,
             kind,
+            delay_ms: delay_ms as u16,
             pins,
             span: at,
         })

@@ -123,6 +123,12 @@ impl Hal for Board {
         (table.write_bfm?)(table.context, unit, address, value).then_some(())
     }
 
+    fn module_answers(&mut self, unit: u16, most_ms: u16) -> bool {
+        let table = self.table();
+        let asks = table.and_then(|table| Some((table.module_answers?, table.context)));
+        asks.is_none_or(|(asks, context)| asks(context, unit, most_ms))
+    }
+
     fn analog(&mut self, channel: u8) -> Option<i16> {
         let table = self.table()?;
         let mut value = 0;

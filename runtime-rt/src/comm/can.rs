@@ -35,7 +35,7 @@ const M_MISSING: Relay = Relay(8281);
 pub(crate) const D_LENGTH: Register = Register(8292);
 pub(crate) const D_DATA: Register = Register(8295);
 /// How long CANRX waits, in milliseconds.
-const D_TIME_OUT: Register = Register(8299);
+pub(crate) const D_TIME_OUT: Register = Register(8299);
 
 /// How long CANRX waits for its frame, in microseconds: 5 to 1000 ms (h1u-h2u-programming §5.9.5).
 pub(crate) fn turn_us(plc: &dyn Plc) -> u32 {

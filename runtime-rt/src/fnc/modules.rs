@@ -1,5 +1,6 @@
 //! Terminals and modules: FNC 50, 51, 78, 79, 176, 177, 278 and 279, h1u-h2u-programming §4.3.6 and §4.3.8.
 
+use crate::comm::can::{D_TIME_OUT, M_LATE};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
@@ -148,6 +149,42 @@ pub fn to(cx: &mut Cx) -> Done {
         }
     }
     Ok(())
+}
+
+/// Numbers of remote modules of H1U and H2U: 100 and the station on CAN.
+const REMOTE: core::ops::RangeInclusive<u16> = 101..=163;
+
+/// How long FROM and TO wait for a remote module (h1u-h2u-programming §5.9.5), in milliseconds.
+const PATIENCE_MS: core::ops::RangeInclusive<i16> = 5..=1000;
+
+/// Reads or writes a module of H1U or H2U. A remote one that has not answered within D8299 ms switches M8299 on, which
+/// the program switches off.
+fn exchange_remotely(cx: &mut Cx, exchange: fn(&mut Cx) -> Done) -> Done {
+    let unit = place(cx, 0)?;
+    if !REMOTE.contains(&unit) {
+        return exchange(cx);
+    }
+    let ms = cx.special_word(D_TIME_OUT);
+    let ms = ms.clamp(*PATIENCE_MS.start(), *PATIENCE_MS.end()) as u16;
+    if cx.hal().module_answers(unit, ms) {
+        let done = exchange(cx);
+        // A module that has a first word, but not this one, has answered.
+        if done != Err(Fault::MODULE) || cx.hal().read_bfm(unit, 0).is_some() {
+            return done;
+        }
+    }
+    cx.set_special(M_LATE, true);
+    Err(Fault::NO_ANSWER)
+}
+
+/// FROM of H1U and H2U, whose modules may be remote.
+pub fn from_remote(cx: &mut Cx) -> Done {
+    exchange_remotely(cx, from)
+}
+
+/// TO of H1U and H2U, whose modules may be remote.
+pub fn to_remote(cx: &mut Cx) -> Done {
+    exchange_remotely(cx, to)
 }
 
 /// How many built-in analog outputs L01S has.
@@ -323,6 +360,7 @@ pub fn wbfm(cx: &mut Cx) -> Done {
 #[cfg(test)]
 mod tests {
     use crate::double::{Double, reg};
+    use crate::modules::Kind;
     use crate::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, d, k, kn};
 
     #[test]
@@ -369,6 +407,38 @@ mod tests {
         plc.set_d(8164, &[3]);
         plc.call(RtFn::From, &[k(5), k(0), reg(0), k(1)]).unwrap();
         assert_eq!(plc.d(0, 1), [1]);
+    }
+
+    #[test]
+    fn remote_modules_that_do_not_answer_in_time_show_it() {
+        let mut plc = Double::new().with_d(8299, &[20]);
+        let ask = |plc: &mut Double, unit| {
+            plc.set_m(8299, "0");
+            let done = plc.call(RtFn::FromRemote, &[k(unit), k(3), reg(0), k(1)]);
+            (done, plc.m(8299, 1) == "1")
+        };
+        let late = (Err(Fault::NO_ANSWER), true);
+        assert_eq!(ask(&mut plc, 101), late);
+        assert_eq!(ask(&mut plc, 1), (Err(Fault::MODULE), false));
+        plc.hal.fit(101, Kind::find("H2U-4AD").unwrap()).unwrap();
+        assert_eq!(ask(&mut plc, 101), (Ok(()), false));
+        plc.hal.delay_module(101, 21).unwrap();
+        assert_eq!(ask(&mut plc, 101), late);
+        plc.hal.delay_module(101, 20).unwrap();
+        assert_eq!(ask(&mut plc, 101), (Ok(()), false));
+        // What is below 5 counts as 5, what is above 1000 as 1000.
+        for (setting, longest) in [(0, 5), (-1, 5), (1, 5), (5000, 1000)] {
+            plc.set_d(8299, &[setting]);
+            plc.hal.delay_module(101, longest).unwrap();
+            assert_eq!(ask(&mut plc, 101), (Ok(()), false), "{setting}");
+            plc.hal.delay_module(101, longest + 1).unwrap();
+            assert_eq!(ask(&mut plc, 101), late, "{setting}");
+        }
+        plc.hal.delay_module(101, 0).unwrap();
+        assert_eq!(
+            plc.call(RtFn::ToRemote, &[k(101), k(900), k(1), k(1)]),
+            Err(Fault::MODULE)
+        );
     }
 
     #[test]

@@ -156,6 +156,7 @@ impl Engine for Interpreter<'_> {
             Request::Fit(unit, kind) => {
                 Answer::done(KINDS.get(kind).and_then(|kind| hal.fit(unit, kind)))
             }
+            Request::DelayModule(unit, ms) => Answer::done(hal.delay_module(unit, ms)),
             Request::SetSignal {
                 now_ms,
                 channel,

@@ -106,6 +106,8 @@ struct RawStep {
     #[serde(default)]
     expect_bfm: Map<Spanned<Scalar>>,
     #[serde(default)]
+    answers_after: modules::RawDelays,
+    #[serde(default)]
     expect_position: BTreeMap<String, f64>,
     #[serde(default)]
     analog: Map<Spanned<Scalar>>,
@@ -377,6 +379,7 @@ impl Reader<'_> {
             power_fails: raw.power_fails,
             clock: raw.clock.and_then(|text| self.clock(&text)),
             bfm: self.buffer(raw.bfm),
+            answers_after: self.delays(raw.answers_after),
             analog: self.analog(raw.analog),
             set: self.settings(raw.set),
             signals: self.signals(raw.pulses.unwrap_or_default(), raw.encoder),

@@ -150,6 +150,8 @@ pub struct Step {
     pub clock: Option<Clock>,
     /// Sets buffer memory: module, address, value.
     pub bfm: Vec<(u16, u16, i16)>,
+    /// Modules that answer after so many milliseconds from now on.
+    pub answers_after: Vec<(u16, u16)>,
     /// Sets analog inputs: channel, value.
     pub analog: Vec<(u8, i16)>,
     /// Sets devices.
@@ -373,6 +375,6 @@ rejects = { code = 0 }
     #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_fails`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_fails`, `power_cycle`, `bfm`, `expect_bfm`, `answers_after`, `expect_position`, `analog`");
     }
 }

@@ -18,13 +18,29 @@ pub(super) type Raw = BTreeMap<Spanned<String>, Spanned<String>>;
 pub(super) const MILLION: f64 = 1e6;
 
 impl Reader<'_> {
+    /// Modules, and after how many milliseconds they answer.
+    pub(super) fn delays(&mut self, raw: RawDelays) -> Vec<(u16, u16)> {
+        let delays = raw.into_iter();
+        delays
+            .filter_map(|(unit, ms)| Some((self.unit(&unit)?, ms)))
+            .collect()
+    }
+
+    /// The number of a module.
+    fn unit(&mut self, name: &Spanned<String>) -> Option<u16> {
+        let unit = target::unit(name.get_ref());
+        if unit.is_none() {
+            let message = format!("`{}` is not the number of a module", name.get_ref());
+            self.report(name.span().start, message);
+        }
+        unit
+    }
+
     /// The modules of a file or case.
     pub(super) fn modules(&mut self, raw: Raw) -> Vec<(u16, &'static Kind)> {
         let mut modules = Vec::new();
         for (unit, name) in raw {
-            let Some(number) = target::unit(unit.get_ref()) else {
-                let message = format!("`{}` is not the number of a module", unit.get_ref());
-                self.report(unit.span().start, message);
+            let Some(number) = self.unit(&unit) else {
                 continue;
             };
             match Kind::find(name.get_ref()) {
@@ -54,6 +70,7 @@ impl Case {
         let fitted = fitted.map(|(unit, kind)| FittedModule {
             unit,
             kind: kind.name,
+            delay_ms: 0,
             pins: Vec::new(),
         });
         program.parameters.get_or_insert_default().modules = fitted.collect();
@@ -62,27 +79,43 @@ impl Case {
 
     /// The modules that are fitted to its PLC: those of the file or case, else those of the settings of its program.
     pub(super) fn fitted(&self) -> Vec<(u16, &'static Kind)> {
-        let CaseProgram::File(file) = &self.program else {
-            return self.modules.clone();
-        };
-        let parameters = file.read.program.parameters.as_ref();
-        let of_settings = parameters.map_or(&[][..], |parameters| &parameters.modules);
         let own = self.modules.iter().copied();
-        let others = of_settings.iter();
+        let others = self.of_settings().iter();
         let others = others.filter(|module| self.modules.iter().all(|own| own.0 != module.unit));
         let others = others.filter_map(|module| Some((module.unit, Kind::find(module.kind)?)));
         own.chain(others).collect()
     }
+
+    /// The modules that the settings of its program fit.
+    pub(super) fn of_settings(&self) -> &[FittedModule] {
+        match &self.program {
+            CaseProgram::File(file) => {
+                let parameters = file.read.program.parameters.as_ref();
+                parameters.map_or(&[], |parameters| &parameters.modules)
+            }
+            _ => &[],
+        }
+    }
 }
 
 impl Running<'_> {
-    /// Fits the modules of the case to its PLC.
-    pub(super) fn fit(&mut self, modules: &[(u16, &'static Kind)]) -> Result<(), Failure> {
+    /// Fits the modules of a case to its PLC.
+    pub(super) fn fit(&mut self, case: &Case) -> Result<(), Failure> {
         self.select(0)?;
-        for (unit, kind) in modules {
-            self.insist(Request::Fit(*unit, kind.index()))?;
+        for (unit, kind) in case.fitted() {
+            self.insist(Request::Fit(unit, kind.index()))?;
         }
-        Ok(())
+        let slow = case.of_settings().iter();
+        let slow = slow.filter(|module| module.delay_ms > 0);
+        self.delay_modules(slow.map(|module| (module.unit, module.delay_ms)))
+    }
+
+    /// Modules of the PLC that is selected answer after so many milliseconds from now on.
+    pub(super) fn delay_modules(
+        &mut self,
+        mut modules: impl Iterator<Item = (u16, u16)>,
+    ) -> Result<(), Failure> {
+        modules.try_for_each(|(unit, ms)| self.insist(Request::DelayModule(unit, ms)))
     }
 
     /// Connects a signal to a channel; false if there is no such input.
@@ -99,6 +132,9 @@ impl Running<'_> {
         Ok(answer != Answer::Missing)
     }
 }
+
+/// Times after which modules answer as a file gives them, in milliseconds: modules by numbers.
+pub(super) type RawDelays = BTreeMap<Spanned<String>, u16>;
 
 /// A value in millionths.
 pub(super) fn millionths(value: f64) -> i32 {

@@ -188,7 +188,7 @@ fn run_case(
         stopped: BTreeSet::new(),
     };
     running.power_up()?;
-    running.fit(&case.fitted())?;
+    running.fit(case)?;
     running.set_all(init)?;
     for other in &case.others {
         running.set_all(&other.init)?;
@@ -322,6 +322,7 @@ impl Running<'_> {
         for &(unit, address, value) in &step.bfm {
             self.insist(Request::SetBfm(unit, address, value))?;
         }
+        self.delay_modules(step.answers_after.iter().copied())?;
         for &(channel, value) in &step.analog {
             self.insist(Request::SetAnalog(channel, value))?;
         }

@@ -71,6 +71,13 @@ super::codes! {
     wrong: "LD M8000\nCANNET K1 K1 K500\nLD X0\nMOV K2 D7802\nEND\n",
     right: "LD M8000\nCANNET K1 K1 K500\nLD X0\nMOV D7802 D0\nEND\n";
 
+    CANLINK_AND_MODULES = "W0702" "canlink-and-modules" Warning None,
+    "remote modules beside CANlink",
+    "The manual does not allow FROM and TO of a master beside the configuration of CANlink 3.0. Both use the one CAN card, for remote modules (100 and their station) with another version of CANlink. A compiled program reaches both, if its hardware does.",
+    model: "h2u",
+    wrong: "LD M8000\nCANNET K1 K1 K500\nFROM K101 K0 D0 K1\nEND\n",
+    right: "LD M8000\nCANNET K1 K1 K500\nFROM K0 K0 D0 K1\nEND\n";
+
     OWN_FRAMES = "N0601" "own-frames" Note None,
     "a link whose frames the manuals do not print",
     "The manuals describe the registers and the effect of this link, but not its frames. rungc uses its own frames, so all partners have to run programs of rungc: a compiled program cannot replace one PLC among others. docs/src/links.md describes the frames.",

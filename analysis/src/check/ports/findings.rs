@@ -380,6 +380,7 @@ fn canlink(code: &Code, out: &mut Diagnostics) {
         .help("docs/src/links.md describes the frames");
     out.push(note);
     for i in 0..code.len {
+        remote_module(code, i, out);
         let mut writes = accesses::of(code.resolved, i).filter(accesses::Access::writes);
         let Some(access) = writes.find(|access| {
             let Device { class, number } = access.first;
@@ -396,6 +397,26 @@ fn canlink(code: &Code, out: &mut Diagnostics) {
             .at(code.span(i), message)
             .label("written here")
             .help("use registers below D7000");
+        out.push(warning);
+    }
+}
+
+/// A remote module that is read or written beside CANlink (h1u-h2u-programming §5.9.8).
+fn remote_module(code: &Code, i: usize, out: &mut Diagnostics) {
+    const STATIONS: i64 = 100;
+    let function = code.lower(i);
+    let (Some(Lower::Call(RtFn::FromRemote | RtFn::ToRemote)), Some(unit)) =
+        (function, code.instr(i).operands.first())
+    else {
+        return;
+    };
+    if unit.kind.constant().is_some_and(|unit| unit > STATIONS) {
+        let mnemonic = &code.instr(i).mnemonic;
+        let message = format!("{mnemonic} reaches a remote module beside CANlink");
+        let warning = codes::CANLINK_AND_MODULES
+            .at(unit.span, message)
+            .label("on the same CAN bus")
+            .help("use one of them, or modules beside the main unit");
         out.push(warning);
     }
 }

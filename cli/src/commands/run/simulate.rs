@@ -24,7 +24,7 @@ use rungc_rt::{Class, Clock, Hal, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
 use rungc_sim::record::{Reading, Seen};
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, FittedModule};
 use std::io::{self, Write};
 use std::iter::Peekable;
 use std::path::PathBuf;
@@ -80,7 +80,7 @@ pub struct Run<'a> {
     /// Whether there is a table.
     pub table: bool,
     /// The special modules that are fitted.
-    pub modules: &'a [(u16, &'static modules::Kind)],
+    pub modules: &'a [FittedModule],
     /// What the programming port shows as program memory.
     pub program_memory: Option<&'a [u8]>,
     /// What terminals and registers are connected to.
@@ -93,9 +93,10 @@ impl Run<'_> {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
         let mut hal = hardware(args.in_real_time());
-        for &(unit, kind) in self.modules {
-            // The settings name each number once, and no more modules than there is room for.
-            let _ = hal.fit(unit, kind);
+        for module in self.modules {
+            // The settings name each number once, kinds that are known, and no more modules than there is room for.
+            let _ = modules::Kind::find(module.kind).and_then(|kind| hal.fit(module.unit, kind));
+            let _ = hal.delay_module(module.unit, module.delay_ms);
         }
         machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.

@@ -157,7 +157,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8295 r 0 inert(CONTROLLER) "CAN state abnormal";
     M 8296 r 0 by("CANlink") "device address error";
     M 8298 r 0 by("CANTX, CANRX") "CANTX: 0 idle, 1 sending";
-    M 8299 r 0 by("CANTX, CANRX") "CAN receive time-out";
+    M 8299 rw 0 by("CANRX, FROM, TO") "CAN receive time-out: CANRX without its frame, a remote module without an answer";
     M 8300 r 0 inert(CANLINK) "device communication lost (device number in D8300)";
     M 8301 r 0 inert(CANLINK) "network overload";
     M 8302 r 0 inert(CANLINK) "device sent illegal (non-CANlink) data";
@@ -397,7 +397,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8296 r 0 by("CANTX, CANRX") "CANRX received MDL high 16 bits";
     D 8297 r 0 by("CANTX, CANRX") "CANRX received MDH low 16 bits";
     D 8298 r 0 by("CANTX, CANRX") "CANRX received MDH high 16 bits";
-    D 8299 rw 0 by("CANTX, CANRX") "CAN receive time-out in ms";
+    D 8299 rw 0 by("CANRX, FROM, TO") "CAN receive time-out in ms (5 to 1000)";
     D 8300 r 0 inert(CANLINK) "device number (with M8300)";
     D 8301 r 0 inert(CANLINK) "own fault information (PLC fault code)";
     D 8302-8304 r 0 inert(CANLINK) "device number (with M8302–8304)";
