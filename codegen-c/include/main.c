@@ -202,6 +202,7 @@ int main(int argc, char **argv)
     /* LOAD */
     /* REPORT */
     /* HAL */
+    /* ASK */
     while (!stopped) {
         const uint64_t begin = microseconds();
         const uint32_t now_ms = (uint32_t)((begin - start) / 1000u);

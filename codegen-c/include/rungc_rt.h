@@ -27,6 +27,11 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
 #define RUNGC_MEMORY_SIZE 912
 
 /**
+ * Most characters of an answer.
+ */
+#define RUNGC_LONGEST_ANSWER 260
+
+/**
  * Most characters of a request of any service.
  */
 #define RUNGC_LONGEST_REQUEST 3605
@@ -40,6 +45,92 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
  * The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
  */
 #define BOARD 200
+
+/**
+ * The serial ports that a family of models has. The numbers are part of the C ABI.
+ */
+enum rungc_ports
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * None.
+     */
+    RUNGC_PORTS_WITHOUT = 0,
+    /**
+     * H1U, H2U: COM0 to COM3.
+     */
+    RUNGC_PORTS_INOVANCE = 1,
+    /**
+     * L01S: ports 1 to 3.
+     */
+    RUNGC_PORTS_L01S = 2,
+    /**
+     * HM: COM0 and COM1.
+     */
+    RUNGC_PORTS_HM = 3,
+    /**
+     * FX1S, FX1N, FX2N: the programming port, and the communication board.
+     */
+    RUNGC_PORTS_FX = 4,
+    /**
+     * Boards that are compatible with FX3U.
+     */
+    RUNGC_PORTS_BOARD3U = 5,
+    /**
+     * FX3S, FX3U: the programming port, and two channels.
+     */
+    RUNGC_PORTS_FX3 = 6,
+    /**
+     * FX3G: the same, and RS2 on the programming port.
+     */
+    RUNGC_PORTS_FX3G = 7,
+    /**
+     * Boards that are compatible with FX2N.
+     */
+    RUNGC_PORTS_BOARD2N = 8,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_ports rungc_ports;
+#else
+typedef uint8_t rungc_ports;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a host does next with a connection.
+ */
+enum rungc_wish
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Nothing.
+     */
+    RUNGC_WISH_NOTHING = 0,
+    /**
+     * It opens the connection.
+     */
+    RUNGC_WISH_OPEN = 1,
+    /**
+     * It sends the request.
+     */
+    RUNGC_WISH_SEND = 2,
+    /**
+     * It closes the connection.
+     */
+    RUNGC_WISH_CLOSE = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_wish rungc_wish;
+#else
+typedef uint8_t rungc_wish;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * Device class. The numbers are part of the C ABI.
@@ -99,6 +190,35 @@ enum rungc_class
 typedef enum rungc_class rungc_class;
 #else
 typedef uint8_t rungc_class;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The state of a connection, as its host knows it.
+ */
+enum rungc_link
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * There is none.
+     */
+    RUNGC_LINK_CLOSED = 0,
+    /**
+     * It is being opened.
+     */
+    RUNGC_LINK_OPENING = 1,
+    /**
+     * Characters go over it.
+     */
+    RUNGC_LINK_OPEN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_link rungc_link;
+#else
+typedef uint8_t rungc_link;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -193,59 +313,6 @@ typedef uint8_t rungc_pulses;
 #endif // __cplusplus
 
 /**
- * The serial ports that a family of models has. The numbers are part of the C ABI.
- */
-enum rungc_ports
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint8_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-    /**
-     * None.
-     */
-    RUNGC_PORTS_WITHOUT = 0,
-    /**
-     * H1U, H2U: COM0 to COM3.
-     */
-    RUNGC_PORTS_INOVANCE = 1,
-    /**
-     * L01S: ports 1 to 3.
-     */
-    RUNGC_PORTS_L01S = 2,
-    /**
-     * HM: COM0 and COM1.
-     */
-    RUNGC_PORTS_HM = 3,
-    /**
-     * FX1S, FX1N, FX2N: the programming port, and the communication board.
-     */
-    RUNGC_PORTS_FX = 4,
-    /**
-     * Boards that are compatible with FX3U.
-     */
-    RUNGC_PORTS_BOARD3U = 5,
-    /**
-     * FX3S, FX3U: the programming port, and two channels.
-     */
-    RUNGC_PORTS_FX3 = 6,
-    /**
-     * FX3G: the same, and RS2 on the programming port.
-     */
-    RUNGC_PORTS_FX3G = 7,
-    /**
-     * Boards that are compatible with FX2N.
-     */
-    RUNGC_PORTS_BOARD2N = 8,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum rungc_ports rungc_ports;
-#else
-typedef uint8_t rungc_ports;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-/**
  * The bit that makes a character odd or even.
  */
 enum rungc_parity
@@ -312,6 +379,35 @@ typedef uint8_t rungc_char_fault;
 #endif // __cplusplus
 
 /**
+ * What a partner on a line has asked of the RUN/STOP switch.
+ */
+enum rungc_request
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Nothing.
+     */
+    RUNGC_REQUEST_NONE = 0,
+    /**
+     * RUN.
+     */
+    RUNGC_REQUEST_RUN = 1,
+    /**
+     * STOP.
+     */
+    RUNGC_REQUEST_STOP = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_request rungc_request;
+#else
+typedef uint8_t rungc_request;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * How to read an [`Operand`]. The numbers are part of the C ABI.
  */
 enum rungc_operand_kind
@@ -353,35 +449,6 @@ enum rungc_operand_kind
 typedef enum rungc_operand_kind rungc_operand_kind;
 #else
 typedef uint8_t rungc_operand_kind;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-/**
- * What a partner on a line has asked of the RUN/STOP switch.
- */
-enum rungc_request
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint8_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-    /**
-     * Nothing.
-     */
-    RUNGC_REQUEST_NONE = 0,
-    /**
-     * RUN.
-     */
-    RUNGC_REQUEST_RUN = 1,
-    /**
-     * STOP.
-     */
-    RUNGC_REQUEST_STOP = 2,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum rungc_request rungc_request;
-#else
-typedef uint8_t rungc_request;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -488,6 +555,91 @@ typedef uint8_t Quantity;
  * The special devices of one port.
  */
 typedef struct rungc_port_wiring rungc_port_wiring;
+
+/**
+ * What a client has asked.
+ */
+typedef struct rungc_tally {
+    /**
+     * Requests.
+     */
+    uint32_t requests;
+    /**
+     * Answers to them.
+     */
+    uint32_t answers;
+    /**
+     * Answers that reject a request, or do not fit it.
+     */
+    uint32_t rejected;
+} rungc_tally;
+
+/**
+ * The client of one server.
+ */
+typedef struct rungc_client {
+    rungc_ports family;
+    /**
+     * The last part of the server's IP address.
+     */
+    uint8_t part;
+    /**
+     * The request of `row` is not answered yet.
+     */
+    bool waits;
+    /**
+     * The row in work, or the next one.
+     */
+    uint16_t row;
+    uint16_t transaction;
+    /**
+     * When it began to wait: for an answer, for the connection, or for the next attempt to open it.
+     */
+    uint32_t since_us;
+    /**
+     * How much of `received` there is.
+     */
+    uint16_t length;
+    uint8_t received[RUNGC_LONGEST_ANSWER];
+    /**
+     * What has been asked.
+     */
+    struct rungc_tally tally;
+} rungc_client;
+
+/**
+ * A row of the table.
+ */
+typedef struct rungc_client_row {
+    /**
+     * M, S, T or C: the row works while this device is on.
+     */
+    rungc_class trigger;
+    /**
+     * The number of that device.
+     */
+    uint32_t number;
+    /**
+     * The unit that is asked, 1 for most servers.
+     */
+    uint8_t unit;
+    /**
+     * The function: 01 to 06, 0F, 10.
+     */
+    uint8_t function;
+    /**
+     * The first address in the server.
+     */
+    uint16_t address;
+    /**
+     * How many coils or registers.
+     */
+    uint16_t count;
+    /**
+     * Number of the first register D that is sent or filled; coils are sixteen to a register.
+     */
+    uint32_t buffer;
+} rungc_client_row;
 
 /**
  * Devices that are side by side in the program's struct.
@@ -927,6 +1079,24 @@ typedef struct rungc_map {
 } rungc_map;
 
 /**
+ * The answer to a request.
+ */
+typedef struct rungc_reply {
+    /**
+     * RUN or STOP, if the request asks for it.
+     */
+    rungc_request request;
+    /**
+     * How many characters it has; 0: the request is not answered.
+     */
+    uint16_t length;
+    /**
+     * Its characters.
+     */
+    uint8_t bytes[RUNGC_LONGEST_REPLY];
+} rungc_reply;
+
+/**
  * The position of a call in the program.
  */
 typedef struct rungc_site {
@@ -1031,24 +1201,6 @@ typedef struct rungc_connection {
     uint8_t received[RUNGC_LONGEST_REQUEST];
     struct rungc_memory memory;
 } rungc_connection;
-
-/**
- * The answer to a request.
- */
-typedef struct rungc_reply {
-    /**
-     * RUN or STOP, if the request asks for it.
-     */
-    rungc_request request;
-    /**
-     * How many characters it has; 0: the request is not answered.
-     */
-    uint16_t length;
-    /**
-     * Its characters.
-     */
-    uint8_t bytes[RUNGC_LONGEST_REPLY];
-} rungc_reply;
 
 /**
  * One pulse output. All zero is one that is idle.
@@ -1164,6 +1316,38 @@ typedef struct rungc_axis {
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+/**
+ * The client of a server whose IP address ends in `part` begins.
+ */
+void rungc_client_begin(struct rungc_client *client, rungc_ports family, uint8_t part);
+
+/**
+ * What to do now, `now_us` microseconds after any beginning; a request that is to be sent is in `request`. `rows` are
+ * the `count` rows of the server, the same in each call. Call it between two scans.
+ */
+rungc_wish rungc_client_next(struct rungc_client *client,
+                             const struct rungc_client_row *rows,
+                             uint16_t count,
+                             rungc_link link,
+                             uint32_t now_us,
+                             struct rungc_map *map,
+                             struct rungc_reply *request);
+
+/**
+ * Takes a character that has come; `RUNGC_WISH_CLOSE` if nothing that follows can be an answer.
+ */
+rungc_wish rungc_client_hear(struct rungc_client *client,
+                             const struct rungc_client_row *rows,
+                             uint16_t count,
+                             uint8_t byte,
+                             uint32_t now_us,
+                             struct rungc_map *map);
+
+/**
+ * The connection could not be opened, or has been closed by the server.
+ */
+void rungc_client_lost(struct rungc_client *client, uint32_t now_us, struct rungc_map *map);
 
 /**
  * The value of an operand, of the width of the form; false after a fault, which is shown in the program's special devices.

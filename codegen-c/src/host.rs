@@ -1,5 +1,7 @@
 //! The host program for Linux: scans in real time.
 
+mod clients;
+
 use crate::fields::PrintStorage;
 use crate::text;
 use rungc_emit::storage::{Field, Storage};
@@ -183,24 +185,30 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         lines: &["/dev/ttyUSB0", "pty"],
         servers,
     };
-    let (serve, connections) = match servers {
-        true => ("        poll_servers(plc);\n", "    print_connections();\n"),
-        false => ("", ""),
-    };
+    let (mut serve, mut connections) = (String::new(), String::new());
+    if servers {
+        serve.push_str("        poll_servers(plc);\n");
+        connections.push_str("    print_connections();\n");
+    }
+    let mut begin_clients = "";
+    if clients::are_there(module, servers) {
+        let [begin, poll, print] = clients::CALLS;
+        begin_clients = begin;
+        serve.push_str(poll);
+        connections.push_str(print);
+    }
     let keeps = rungc_emit::cycle::keeps_any(module);
     let [include, retain, load, save, end] = if keeps { RETAINING } else { [""; 5] };
     MAIN_C
         .replace("/* FEATURES */", features(module.has_ports()))
-        .replace(
-            "/* HEADERS */\n",
-            &headers(module.has_ports(), servers, keeps),
-        )
+        .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", include)
         .replace("    /* LOAD */\n", load)
         .replace("        /* SAVE */\n", save)
         .replace("    /* END */\n", end)
-        .replace("        /* SERVE */\n", serve)
-        .replace("    /* CONNECTIONS */\n", connections)
+        .replace("    /* ASK */\n", begin_clients)
+        .replace("        /* SERVE */\n", &serve)
+        .replace("    /* CONNECTIONS */\n", &connections)
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)
@@ -293,12 +301,18 @@ fn features(ports: bool) -> &'static str {
 }
 
 /// The lines that include the system's headers.
-fn headers(ports: bool, servers: bool, retain: bool) -> String {
-    let of_lines = LINES_HEADERS.iter().filter(|_| ports);
+fn headers(module: &Module, servers: bool, retain: bool) -> String {
+    let of_lines = LINES_HEADERS.iter().filter(|_| module.has_ports());
+    let of_clients = clients::HEADERS.iter();
+    let of_clients = of_clients.filter(|_| clients::are_there(module, servers));
     let of_servers = SERVERS_HEADERS.iter().filter(|_| servers);
     let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
     let usual = HEADERS.iter().chain(of_lines);
-    let all: BTreeSet<_> = usual.chain(of_servers).chain(of_retain).collect();
+    let all: BTreeSet<_> = usual
+        .chain(of_servers)
+        .chain(of_clients)
+        .chain(of_retain)
+        .collect();
     let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
     lines.collect()
 }
@@ -356,8 +370,11 @@ fn server_code(module: &Module, servers: bool) -> String {
         return String::new();
     }
     let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
-    SERVERS
-        .replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
+    let mut code = String::from(SERVERS);
+    if clients::are_there(module, servers) {
+        code.push_str(&clients::code(module));
+    }
+    code.replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
         .replace("TYPE_CODE", &module.model.type_code().to_string())
         .replace("HEADING", TABLE_HEADING)
         .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))

@@ -6,9 +6,10 @@ use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_ir::node::Origin;
 use rungc_models::plc_errors;
+use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
-use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
+use rungc_syntax::{DeviceClass, NetworkRequest};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -59,6 +60,12 @@ const SERVERS_USES: [&str; 3] = [
     "rungc_rt::servers::Servers",
 ];
 
+/// What asking other servers uses.
+const CLIENTS_USES: [&str; 2] = [
+    "rungc_rt::comm::modbus::client::ClientRow",
+    "rungc_rt::servers::Clients",
+];
+
 /// `src/main.rs` of a crate; `servers`: it takes options that open servers.
 pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> String {
     let module = generator.module;
@@ -86,10 +93,15 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     let exchange = if module.has_ports() { EXCHANGE } else { "" };
     let keeps = cycle::keeps_any(module);
     let [save, end] = if keeps { SAVE } else { [""; 2] };
-    let (poll, connections) = match servers {
-        true => (POLL, CONNECTIONS),
-        false => ("", ""),
+    let clients = servers && !module.requests.is_empty();
+    let (mut poll, mut connections) = match servers {
+        true => (POLL.to_string(), CONNECTIONS.to_string()),
+        false => Default::default(),
     };
+    if clients {
+        poll.push_str(ASK);
+        connections.push_str(ASKED);
+    }
     let host = Host {
         lines: &["/dev/ttyUSB0"],
         servers,
@@ -116,6 +128,9 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         (in_order, SIGNALS),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
+    if clients {
+        code.push_str(&requests(module));
+    }
     code.replace("        PERIOD;\n", period)
         .replace("    OVERRUN;\n", overrun)
         .replace("    CATCH;\n", catch)
@@ -124,7 +139,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
         .replace("        SERVE;\n", &format!("{poll}{exchange}"))
-        .replace("    CONNECTIONS;\n", connections)
+        .replace("    CONNECTIONS;\n", &connections)
         .replace("        SAVE;\n", save)
         .replace("    END;\n", end)
         .replace("OPTION_NAMES", &names.join(", "))
@@ -176,9 +191,15 @@ fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
     let usual = USES.iter().filter(|_| !ports);
     let of_lines = LINES_USES.iter().filter(|_| ports);
     let of_servers = SERVERS_USES.iter().filter(|_| servers);
+    let asks = servers && !module.requests.is_empty();
+    let of_clients = CLIENTS_USES.iter().filter(|_| asks);
     let retain = "rungc_rt::retain::RetainFile";
     let of_retain = cycle::keeps_any(module).then_some(&retain);
-    let all = usual.chain(of_lines).chain(of_servers).chain(of_retain);
+    let all = usual
+        .chain(of_lines)
+        .chain(of_servers)
+        .chain(of_clients)
+        .chain(of_retain);
     let mut all: BTreeSet<String> = all.map(|name| (*name).to_string()).collect();
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
@@ -206,6 +227,9 @@ fn open(module: &Module, host: &Host) -> String {
     }
     if host.servers {
         text.push_str("    let mut servers = Servers::new();\n");
+        if !module.requests.is_empty() {
+            text.push_str(CLIENTS);
+        }
     }
     let arms = options.iter().map(|option| {
         let does = match option.takes {
@@ -233,6 +257,11 @@ fn open(module: &Module, host: &Host) -> String {
         + &arms
         + OPENED
 }
+
+/// What asks servers over TCP.
+const CLIENTS: &str = "    let requests = REQUESTS.iter().filter_map(|(server, row)| Some((server.parse().ok()?, *row)));
+    let mut clients = Clients::new(Ports::FAMILY, requests);
+";
 
 /// The call that opens a server.
 fn open_server(speaks: Speaks) -> String {
@@ -284,6 +313,39 @@ const CONNECTIONS: &str = "    for row in servers.table() {
         eprintln!(\"{row}\");
     }
 ";
+
+/// Servers are asked between two scans.
+const ASK: &str = "        clients.poll(&mut plc, |_| {});\n";
+
+/// What they were asked, at the end.
+const ASKED: &str = "    for row in clients.table() {
+        eprintln!(\"{row}\");
+    }
+";
+
+/// The table of what the program asks.
+fn requests(module: &Module) -> String {
+    let rows = module.requests.iter().filter_map(|request| {
+        let NetworkRequest {
+            server,
+            unit,
+            function,
+            address,
+            count,
+            buffer,
+            trigger,
+        } = request;
+        let (class, number) = (rt_class(trigger.class)?, trigger.number);
+        Some(format!(
+            "    (\"{server}\", ClientRow {{ trigger: Class::{class:?}, number: {number}, unit: {unit}, function: {function}, \
+             address: {address}, count: {count}, buffer: {buffer} }}),\n"
+        ))
+    });
+    let rows: String = rows.collect();
+    format!(
+        "\n/// What the program asks of servers over TCP.\nconst REQUESTS: &[(&str, ClientRow)] = &[\n{rows}];\n"
+    )
+}
 
 /// The rows of the instructions at which an error can occur.
 fn instructions(module: &Module) -> String {

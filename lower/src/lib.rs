@@ -199,6 +199,11 @@ impl<'a> Lowerer<'a> {
             module: Module {
                 steps: resolved.steps,
                 ranges: latches::ranges(program, model),
+                requests: program
+                    .parameters
+                    .iter()
+                    .flat_map(|p| p.requests.clone())
+                    .collect(),
                 exprs: TiVec::with_capacity(2 * resolved.instrs.len()),
                 functions: Vec::new(),
                 ..Module::empty(

@@ -2,16 +2,17 @@
 
 mod canlink;
 mod io;
+mod modbus;
 mod module;
 mod plcopen;
 mod property;
 mod serve;
 
-use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use canlink::CANLINK;
 use encoding_rs::Encoding;
 use io::IO;
+use modbus::MODBUS;
 use module::MODULE;
 use property::PROPERTY;
 use rungc_models::{Model, ModelId, Plc};
@@ -40,14 +41,6 @@ const TABLES: [(&str, &[&str]); 16] = [
     (CANLINK, canlink::KEYS),
     (MODULE, &[]),
     (PROPERTY, &[]),
-];
-
-/// The table of which each entry is a row.
-const MODBUS: &str = "modbus";
-
-/// Keys of a row.
-const ROW: &[&str] = &[
-    "port", "station", "read", "write", "address", "count", "buffer", "trigger",
 ];
 
 /// Classes with devices that can be latched.
@@ -496,84 +489,6 @@ impl Reader {
             }
         }
         tables
-    }
-
-    fn modbus(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
-        for (at, table) in self.rows(MODBUS, at, value) {
-            project.modbus.extend(self.row(at, table));
-        }
-    }
-
-    /// A row of the Modbus table.
-    fn row(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
-        self.known(MODBUS, table, ROW);
-        let port = match self.get(table, "port") {
-            None => 1,
-            Some(named) => {
-                let number = named.text.strip_prefix("COM").and_then(|n| n.parse().ok());
-                number
-                    .filter(|number| (1..=3).contains(number))
-                    .or_else(|| {
-                        self.wrong(
-                            named.span,
-                            "a master's port is `COM1`, `COM2` or `COM3`",
-                            "",
-                        );
-                        None
-                    })?
-            }
-        };
-        let transfer = self.transfer(at, table)?;
-        let least = match transfer.key {
-            // A write may be for all stations.
-            "write" => 0,
-            _ => 1,
-        };
-        let row = Row {
-            port,
-            station: self.number(table, at, "station", least..=247, None)? as u8,
-            transfer,
-            address: self.number(table, at, "address", 0..=0xffff, None)? as u16,
-            count: self.number(table, at, "count", 1..=transfer.most.into(), Some(1))? as u16,
-            buffer: match self.row_device(table, "buffer", &[DeviceClass::D])? {
-                Some(device) => device.number,
-                None => {
-                    self.wrong(
-                        at,
-                        "a row has `buffer`",
-                        "add for example `buffer = \"D100\"`",
-                    );
-                    return None;
-                }
-            },
-            trigger: {
-                use DeviceClass::{C, M, S, T};
-                self.row_device(table, "trigger", &[M, C, T, S])?
-            },
-            span: at,
-        };
-        Some(row)
-    }
-
-    /// What a row reads or writes.
-    fn transfer(&mut self, at: Span, table: &DeTable<'_>) -> Option<modbus::Transfer> {
-        let (key, named) = match (self.get(table, "read"), self.get(table, "write")) {
-            (Some(named), None) => ("read", named),
-            (None, Some(named)) => ("write", named),
-            _ => {
-                let help = "add for example `read = \"registers\"`";
-                self.wrong(at, "a row has `read` or `write`", help);
-                return None;
-            }
-        };
-        let found = modbus::transfer(key, &named);
-        if found.is_none() {
-            let of_key = modbus::TRANSFERS.iter().filter(|other| other.key == key);
-            let names: Vec<_> = of_key.map(|other| other.what).collect();
-            let message = format!("a row cannot {key} `{}`", named.text);
-            self.wrong(named.span, message, &hint(&named.text, &names));
-        }
-        found
     }
 
     /// A number of a row; the usual one if the row does not say it.

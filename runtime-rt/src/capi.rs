@@ -12,6 +12,7 @@
 //!
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
+mod clients;
 mod exports;
 mod hal;
 mod map;

@@ -18,7 +18,7 @@ pub use classes::Classes;
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Edit, Fix, Label, Severity};
 pub use program::{
-    Device, DeviceRun, FittedModule, Index, Instr, Operand, OperandKind, Operands, Parameters,
-    Program, Remarks, SourceKind,
+    Device, DeviceRun, FittedModule, Index, Instr, NetworkRequest, Operand, OperandKind, Operands,
+    Parameters, Program, Remarks, SourceKind,
 };
 pub use source::{Source, Span};

@@ -5,6 +5,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::net::SocketAddr;
 
 /// A whole program from one source.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +47,8 @@ pub struct Parameters {
     pub programs: Vec<String>,
     /// Special modules that are fitted to it; empty if nothing is said.
     pub modules: Vec<FittedModule>,
+    /// What the PLC asks of servers over TCP; empty if nothing is said.
+    pub requests: Vec<NetworkRequest>,
     /// Whether a keyword keeps the program from being read.
     pub protected: bool,
 }
@@ -71,6 +74,25 @@ pub struct FittedModule {
     pub delay_ms: u16,
     /// Channels, counted from 0, and the analog pins of a board that they are.
     pub pins: Vec<(u8, String)>,
+}
+
+/// A row of the table of what a PLC asks of Modbus TCP servers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NetworkRequest {
+    /// The server.
+    pub server: SocketAddr,
+    /// The unit that is asked.
+    pub unit: u8,
+    /// The function.
+    pub function: u8,
+    /// The first address in the server.
+    pub address: u16,
+    /// How many coils or registers.
+    pub count: u16,
+    /// Number of the first register D of the buffer.
+    pub buffer: u32,
+    /// The row works while this device is on.
+    pub trigger: Device,
 }
 
 /// Devices of one class that follow each other.

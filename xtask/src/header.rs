@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 39] = [
+const NAMES: [(&str, &str); 45] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -46,6 +46,12 @@ const NAMES: [(&str, &str); 39] = [
     ("Memory", "rungc_memory"),
     ("Reply", "rungc_reply"),
     ("ModuleRoom", "rungc_module"),
+    ("ClientRow", "rungc_client_row"),
+    ("Link", "rungc_link"),
+    ("Wish", "rungc_wish"),
+    ("Tally", "rungc_tally"),
+    ("Client", "rungc_client"),
+    ("LONGEST_ANSWER", "RUNGC_LONGEST_ANSWER"),
     ("LONGEST_REQUEST", "RUNGC_LONGEST_REQUEST"),
     ("LONGEST_REPLY", "RUNGC_LONGEST_REPLY"),
     ("SIZE", "RUNGC_MEMORY_SIZE"),
@@ -123,9 +129,11 @@ pub fn make() -> Result<Made, Problem> {
         "wiring.rs",
         "comm/line.rs",
         "comm/memory.rs",
+        "comm/modbus/client.rs",
         "comm/service.rs",
         "comm/wiring.rs",
         "capi.rs",
+        "capi/clients.rs",
         "capi/exports.rs",
         "capi/modules.rs",
         "capi/servers.rs",

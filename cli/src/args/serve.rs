@@ -45,6 +45,9 @@ pub struct ServeArgs {
     /// Connect them as the project's settings say.
     #[arg(skip)]
     pub of_project: bool,
+    /// The program asks servers over TCP, which its settings name.
+    #[arg(skip)]
+    pub asks: bool,
     #[command(flatten)]
     pub page: PageArgs,
 }
@@ -70,6 +73,7 @@ impl ServeArgs {
             && self.named_lines().next().is_none()
             && self.io.is_none()
             && !self.of_project
+            && !self.asks
             && self.page.page.is_none())
     }
 

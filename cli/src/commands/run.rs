@@ -60,7 +60,16 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         let rules = &mut subject.reporting.rules;
         rules.allow.push(codes::ETHERNET_CARD.id);
     }
-    program(args, &subject, Table::Usual, cx)
+    let has_requests = subject
+        .project
+        .as_ref()
+        .is_some_and(|project| project.asks_servers());
+    if has_requests && !args.in_real_time() {
+        tell("rungc: servers of `[[modbus]]` are asked in real time only: add --real-time");
+    }
+    let mut args = args.clone();
+    args.serve.asks = has_requests && args.in_real_time();
+    program(&args, &subject, Table::Usual, cx)
 }
 
 /// Runs a program.

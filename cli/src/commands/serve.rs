@@ -15,6 +15,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         None => args.serve.clone(),
     };
     serve.of_project = project.is_some_and(|project| !project.io.is_empty());
+    serve.asks = project.is_some_and(|project| project.asks_servers());
     if !serve.any() {
         let place = match project {
             Some(project) => format!("`[serve]` of {}", project.path.display()),
@@ -54,6 +55,7 @@ impl ServeArgs {
             io: self.io.clone(),
             of_project: self.of_project,
             page: self.page.clone(),
+            asks: self.asks,
         }
     }
 }

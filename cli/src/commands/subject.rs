@@ -96,7 +96,7 @@ impl Projects<'_> {
         let mut reporting = self.reading.reporting.clone();
         if let Some(project) = &project {
             reporting.rules = project.check.clone();
-            if !project.serve.modbus_tcp.is_empty() {
+            if !project.serve.modbus_tcp.is_empty() || project.asks_servers() {
                 reporting.rules.allow.push(codes::ETHERNET_CARD.id);
             }
         }

@@ -92,6 +92,7 @@ fn parameters(bytes: &[u8]) -> Option<Parameters> {
         file_register_blocks: word(bytes, BLOCKS + 2)?.into(),
         programs: Vec::new(),
         modules: Vec::new(),
+        requests: Vec::new(),
         protected: is_protected(bytes),
     })
 }

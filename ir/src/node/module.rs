@@ -9,7 +9,7 @@ use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::modbus::Profile;
 use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_rt::{EdgeKind, Register, Relay};
-use rungc_syntax::{Device, DeviceClass, Index, Span};
+use rungc_syntax::{Device, DeviceClass, Index, NetworkRequest, Span};
 use std::borrow::Cow;
 use typed_index_collections::TiVec;
 
@@ -170,6 +170,8 @@ pub struct Module {
     pub ports: Vec<u8>,
     /// What each of these ports may speak, as far as its set-up is known.
     pub port_protocols: Vec<Protocols>,
+    /// What hosts with servers ask of other servers over TCP, between two scans.
+    pub requests: Vec<NetworkRequest>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
     /// The instructions at which faults can occur, by step.
@@ -212,6 +214,7 @@ impl Module {
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
+            requests: Vec::new(),
             networks: Vec::new(),
             origins: Vec::new(),
             comments: Vec::new(),

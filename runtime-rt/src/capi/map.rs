@@ -27,7 +27,7 @@ enum Found {
 }
 
 /// The elements that a pointer of a [`Layout`] stands for.
-fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
+pub(super) fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
     if first.is_null() {
         return &[];
     }

@@ -74,16 +74,8 @@ impl Servers {
         for (n, Open { server, address }) in self.servers.iter().enumerate() {
             let speaks = server.service().speaks.name();
             let mut row = |client: &str, counts: &Counts| {
-                let Counts {
-                    requests,
-                    answers,
-                    rejected,
-                } = counts;
-                let address = address.to_string();
-                rows.push(format!(
-                    "{address:<21}  {client:<15}  {speaks:<16}  \
-                     {requests:>8}  {answers:>8}  {rejected:>8}"
-                ));
+                let counts = [counts.requests, counts.answers, counts.rejected];
+                rows.push(self::row(&address.to_string(), client, speaks, counts));
             };
             let mut clients = self.clients.range((n, IpAddr::from([0; 4]))..).peekable();
             if clients.peek().is_none_or(|((at, _), _)| *at != n) {
@@ -98,4 +90,10 @@ impl Servers {
         }
         rows
     }
+}
+
+/// A row of the table: a server, its client, the protocol, and how many requests, answers and rejections.
+pub(super) fn row(server: &str, client: &str, speaks: &str, counts: [u64; 3]) -> String {
+    let [requests, answers, rejected] = counts;
+    format!("{server:<21}  {client:<15}  {speaks:<16}  {requests:>8}  {answers:>8}  {rejected:>8}")
 }

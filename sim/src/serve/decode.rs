@@ -37,6 +37,8 @@ const NAK: u8 = 0x15;
 pub enum Speech {
     /// A protocol over TCP.
     Tcp(Speaks),
+    /// Modbus over TCP, whose client is the PLC.
+    Client,
     /// The protocol of a serial port.
     Serial(Protocol),
 }
@@ -87,6 +89,7 @@ impl Decoder {
         let asks = direction == Direction::In;
         match speech {
             Speech::Tcp(Speaks::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
+            Speech::Client => modbus::over_tcp(!asks, bytes, before),
             Speech::Tcp(Speaks::Mc) if asks => self.mc_request(bytes),
             Speech::Tcp(Speaks::Mc) => mc_reply(bytes),
             Speech::Tcp(Speaks::ProgrammingPort) => self.programming_port(asks, bytes),
@@ -281,12 +284,17 @@ impl Speech {
     pub fn name(self) -> &'static str {
         match self {
             Speech::Tcp(speaks) => speaks.name(),
+            Speech::Client => Speaks::ModbusTcp.name(),
             Speech::Serial(protocol) => protocol.name(),
         }
     }
 
     /// Whether the PLC asks, and the other end answers.
     pub fn asks(self) -> bool {
-        matches!(self, Speech::Serial(protocol) if protocol.is_master())
+        match self {
+            Speech::Tcp(_) => false,
+            Speech::Client => true,
+            Speech::Serial(protocol) => protocol.is_master(),
+        }
     }
 }

@@ -4,19 +4,81 @@ use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, tell};
 use rungc_interp::Machine;
+use rungc_ir::Module;
 use rungc_models::Model;
+use rungc_models::runs::rt_class;
 use rungc_project::serve::FxEnd;
 use rungc_rt::Program;
 use rungc_rt::comm::Served;
+use rungc_rt::comm::modbus::client::ClientRow;
 use rungc_rt::comm::service::{Service, Speaks};
-use rungc_rt::servers::Server;
+use rungc_rt::servers::{Clients, Server};
 use rungc_sim::serve::{Direction, Place, Seen, Speech};
+use rungc_syntax::NetworkRequest;
 use std::net::SocketAddr;
 
 /// The servers of a run.
 pub struct Servers {
     servers: Vec<Open>,
     type_code: u16,
+}
+
+/// What a run asks of servers over TCP.
+pub struct Asked(Clients);
+
+impl Asked {
+    /// The table of a program; nothing is asked unless the run keeps step with the clock.
+    pub fn new(module: &Module, in_real_time: bool, watch: &mut Watch) -> Self {
+        let requests = module.requests.iter().filter(|_| in_real_time);
+        let clients = Clients::new(module.model.ports, requests.filter_map(row));
+        for server in clients.servers() {
+            watch.open(&place(server), Speech::Client);
+        }
+        Asked(clients)
+    }
+
+    /// Takes the answers that have come since the last scan, and asks what is next; `at_us` as for [`Servers::poll`].
+    pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) {
+        self.0.poll(machine, |frame| {
+            // Seen from the connection, this end is the one that frames go out of.
+            let way = Way::Tcp {
+                client: frame.server,
+                server: frame.client,
+            };
+            let seen = Seen {
+                place: &place(frame.server),
+                speech: Speech::Client,
+                direction: match frame.request {
+                    true => Direction::Out,
+                    false => Direction::In,
+                },
+                bytes: frame.bytes,
+            };
+            watch.frame(at_us, way, seen);
+        });
+    }
+}
+
+/// The row of a server that is asked in the table of connections.
+fn place(server: SocketAddr) -> Place {
+    Place {
+        port: "Modbus client".to_string(),
+        peer: server.to_string(),
+    }
+}
+
+/// A request as the runtime knows it.
+fn row(request: &NetworkRequest) -> Option<(SocketAddr, ClientRow)> {
+    let row = ClientRow {
+        trigger: rt_class(request.trigger.class)?,
+        number: request.trigger.number,
+        unit: request.unit,
+        function: request.function,
+        address: request.address,
+        count: request.count,
+        buffer: request.buffer,
+    };
+    Some((request.server, row))
 }
 
 /// A server, and where it listens.

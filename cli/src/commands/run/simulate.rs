@@ -8,7 +8,7 @@ use super::plotting::Plotting;
 use super::recording::Recording;
 use super::retaining::Retaining;
 use super::scope::Scope;
-use super::serving::Servers;
+use super::serving::{Asked, Servers};
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
 use super::wiring::Wiring;
@@ -47,6 +47,7 @@ struct Simulation<'a> {
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
+    asked: Asked,
     lines: Lines,
     connecting: Connecting,
     watch: Watch,
@@ -159,6 +160,7 @@ impl Run<'_> {
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
+            asked: Asked::new(module, args.in_real_time(), &mut watch),
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
             watch,
@@ -228,6 +230,8 @@ impl Simulation<'_> {
             self.servers
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
             self.connecting.take(&mut self.machine, &mut self.hal);
+            self.asked
+                .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
             let scan_ms = self.scan(args.scan)?;
             self.connecting.give(&mut self.machine);
             self.errors.notice(self.machine.errors());

@@ -181,11 +181,21 @@ pub fn request(
     map: &dyn Map,
     frame: &mut Frame,
 ) -> Result<(), LineFault> {
+    request_body(limits, job, map, frame)?;
+    close(framing, frame)
+}
+
+/// What is in it between the parts that a line puts around it: from the station on, without a check code.
+pub(super) fn request_body(
+    limits: &Limits,
+    job: &Job,
+    map: &dyn Map,
+    frame: &mut Frame,
+) -> Result<(), LineFault> {
     if limits.diagnosis && diagnosis::is_known(job.function) {
         frame.push(job.station);
         frame.push(job.function);
-        diagnosis::request(job, map, frame)?;
-        return close(framing, frame);
+        return diagnosis::request(job, map, frame);
     }
     let count = job.count(limits)?;
     if !job.buffer.holds(count, job.coils(), map) {
@@ -223,7 +233,7 @@ pub fn request(
         }
         _ => frame.push_be16(count),
     }
-    close(framing, frame)
+    Ok(())
 }
 
 /// Takes the answer to a job; see the contract of [`crate::comm`]. Nothing is written unless all of it fits the job.
@@ -234,7 +244,11 @@ pub fn accept(
     map: &mut dyn Map,
 ) -> Result<(), LineFault> {
     let mut decoded = [0; LONGEST_RTU];
-    let body = Body::open(framing, reply, &mut decoded)?;
+    accept_body(job, Body::open(framing, reply, &mut decoded)?, map)
+}
+
+/// The same without the parts that a line puts around it.
+pub(super) fn accept_body(job: &Job, body: Body, map: &mut dyn Map) -> Result<(), LineFault> {
     if body.byte(0) != Some(job.station) {
         return Err(LineFault::Address);
     }

@@ -17,12 +17,14 @@
 //! | `areas.rs` | address tables and limits of each model |
 //! | `slave.rs`, `tcp.rs` | answers |
 //! | `master.rs` | requests, and what answers mean |
+//! | `client.rs` | a client over TCP, and the table of what it asks |
 //! | `diagnosis.rs` | those of FX3's ADPRW beyond reading and writing |
 //! | `exchange.rs` | one exchange after the other on a port, and whose turn it is |
 
 mod adu;
 mod areas;
 mod check;
+pub mod client;
 mod diagnosis;
 mod exchange;
 mod master;

@@ -46,9 +46,7 @@ pub fn answer<M: Map + ?Sized>(
         }
         _ => return Err(LineFault::Form),
     };
-    reply.extend(&transaction);
-    // Protocol 0; the length is filled in at the end.
-    reply.extend(&[0; HEADER - 2]);
+    begin(transaction, reply);
     let unit = body.byte(0).unwrap_or(0);
     let done = if UNITS.contains(&unit) {
         serve_or_refuse(profile, body, map, reply)
@@ -56,12 +54,23 @@ pub fn answer<M: Map + ?Sized>(
         refuse(body, Exception::NO_PATH, reply);
         Err(Exception::NO_PATH.fault())
     };
-    let length = reply.len().saturating_sub(HEADER) as u16;
-    for (at, byte) in (LENGTH..).zip(length.to_be_bytes()) {
-        reply.set(at, byte);
-    }
-    fits(reply)?;
+    close(reply)?;
     done
+}
+
+/// Begins a frame: protocol 0, and a length that [`close`] fills in.
+pub(super) fn begin(transaction: [u8; 2], frame: &mut Frame) {
+    frame.extend(&transaction);
+    frame.extend(&[0; HEADER - 2]);
+}
+
+/// Fills in the length of a frame that is complete.
+pub(super) fn close(frame: &mut Frame) -> Result<(), LineFault> {
+    let length = frame.len().saturating_sub(HEADER) as u16;
+    for (at, byte) in (LENGTH..).zip(length.to_be_bytes()) {
+        frame.set(at, byte);
+    }
+    fits(frame)
 }
 
 #[cfg(test)]

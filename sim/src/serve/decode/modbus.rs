@@ -49,12 +49,7 @@ impl Decoder {
     }
 
     pub(super) fn modbus_tcp(&self, asks: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
-        let body = |bytes: &[u8]| bytes.get(TCP_HEADER..).map(<[u8]>::to_vec);
-        let own = body(bytes).filter(|_| tcp::cut(bytes) == Cut::Whole);
-        let Some(own) = own else {
-            return wrong(LineFault::Form);
-        };
-        let decoded = message("unit", asks, &own, before.and_then(body).as_deref());
+        let decoded = over_tcp(asks, bytes, before);
         if !asks || decoded.error.is_some() {
             return decoded;
         }
@@ -79,6 +74,15 @@ impl Decoder {
         }
         decoded.written = probe.written;
         decoded
+    }
+}
+
+/// A frame over TCP, whose addresses are not devices of the PLC.
+pub(super) fn over_tcp(asks: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
+    let body = |bytes: &[u8]| bytes.get(TCP_HEADER..).map(<[u8]>::to_vec);
+    match body(bytes).filter(|_| tcp::cut(bytes) == Cut::Whole) {
+        Some(own) => message("unit", asks, &own, before.and_then(body).as_deref()),
+        None => wrong(LineFault::Form),
     }
 }
 
