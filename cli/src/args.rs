@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 mod diff;
+mod emit;
 mod flash;
 mod forms;
 mod serve;
@@ -8,6 +9,7 @@ mod values;
 mod verify;
 
 pub use diff::{DiffArgs, DiffFormat};
+pub use emit::{Backend, Emit};
 pub use flash::FlashArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
 pub use serve::ServeArgs;
@@ -554,32 +556,6 @@ impl Default for Reporting {
             limit: DIAGNOSTICS,
         }
     }
-}
-
-/// Output forms of `build`.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Emit {
-    /// The intermediate representation, as text.
-    Ir,
-    /// A folder of C99.
-    C,
-    /// A Rust crate.
-    Rust,
-    /// An executable for this machine (built from C).
-    Bin,
-    /// A folder with a static library and its headers (built from C).
-    Lib,
-    /// An image for a board.
-    Elf,
-}
-
-/// Language used to build an image.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Backend {
-    /// C: the default.
-    C,
-    /// Rust: the board's pins only, no C functions.
-    Rust,
 }
 
 /// Output forms of `xref`.

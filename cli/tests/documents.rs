@@ -367,10 +367,10 @@ fn the_page_on_machines_shows_the_machine_of_the_drill() {
     assert!(blocks(&page).iter().any(|block| block.text == machine));
 }
 
-/// The project of the page on embedding builds with CMake, where there is one.
+/// The project of the page on builds builds with CMake, where there is one.
 #[test]
 fn the_cmake_project_builds() {
-    let page = fs::read_to_string(root().join("docs/src/embedding.md")).unwrap();
+    let page = fs::read_to_string(root().join("docs/src/builds.md")).unwrap();
     let folder = desk(&page);
     let tool = |args: &[&str]| {
         Command::new("cmake")

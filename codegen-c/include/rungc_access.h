@@ -69,7 +69,7 @@ static inline size_t plc_device_offset(const plc_area *area, uint32_t number)
     const uint32_t rows = ((uint32_t)area->count + area->columns - 1u) / area->columns;
     const uint32_t place = ((n % area->columns) * rows) + (n / area->columns);
 
-    return area->offset + (place * sizes[area->kind]);
+    return area->offset + ((size_t)place * sizes[area->kind]);
 }
 
 /* T and C of TS and CS, whose contacts they are. */

@@ -1,5 +1,5 @@
-//! The `CMakeLists.txt` beside emitted C, of one program or of several: `add_subdirectory()`, or `find_package()` after an
-//! installation, gives the target `rungc::NAME`.
+//! The `CMakeLists.txt` beside emitted C, of one program or of several: `add_subdirectory()` gives the target
+//! `rungc::NAME`, and so does `find_package()` after an installation.
 
 use crate::makefile::Recipe;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ include(GNUInstallDirs)
 const RUNTIME: &str = "
 # The runtime library is built from the sources in rungc-rt, without a network. For another machine name the target as
 # rustc does (-DRUNGC_TARGET=thumbv7em-none-eabihf; rustup target add ...), or name a library that is built already.
-set(RUNGC_TARGET \"\" CACHE STRING \"What the runtime library is built for; empty: for this machine\")
+@TARGET@
 set(RUNGC_RT \"\" CACHE FILEPATH \"A runtime library that is built already\")
 set(RUNGC_OPT \"\" CACHE STRING \"How the runtime library is optimised; empty: 3 for this machine, s for another\")
 set(RUNGC_CARGO_FLAGS --offline CACHE STRING \"Arguments for cargo, which builds the runtime library\")
@@ -28,18 +28,22 @@ if(NOT RUNGC_RT)
     if(NOT RUNGC_OPT)
         set(RUNGC_OPT $<IF:$<BOOL:${RUNGC_TARGET}>,s,3>)
     endif()
-    file(GLOB_RECURSE rungc_sources CONFIGURE_DEPENDS rungc-rt/src/*.rs rungc-rt/libm/*.rs)
+    file(GLOB_RECURSE rungc_sources CONFIGURE_DEPENDS @ROOT@rungc-rt/src/*.rs @ROOT@rungc-rt/libm/*.rs)
     add_custom_command(
         OUTPUT ${rungc_rt}
         COMMAND ${CMAKE_COMMAND} -E env CARGO_PROFILE_RELEASE_OPT_LEVEL=${RUNGC_OPT}
             cargo rustc --release --locked ${RUNGC_CARGO_FLAGS} ${rungc_target_flags}
             --target-dir ${CMAKE_CURRENT_BINARY_DIR}/rungc-rt --crate-type staticlib --features staticlib
-        DEPENDS ${rungc_sources} rungc-rt/Cargo.toml
-        WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/rungc-rt
+        DEPENDS ${rungc_sources} ${CMAKE_CURRENT_SOURCE_DIR}/@ROOT@rungc-rt/Cargo.toml
+        WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/@ROOT@rungc-rt
         VERBATIM)
 endif()
 add_custom_target(@PROJECT@_runtime DEPENDS ${rungc_rt})
 ";
+
+/// The target, where no build system knows it.
+const TARGET: &str = "\
+set(RUNGC_TARGET \"\" CACHE STRING \"What the runtime library is built for; empty: for this machine\")";
 
 /// The target of a program. -ffp-contract=off: no rounding of the PLC is left out.
 const LIBRARY: &str = "
@@ -93,12 +97,21 @@ pub fn cmake_lists(recipes: &[Recipe]) -> String {
         PROJECT.replace("@PROJECT@", &project)
     );
     if recipes.iter().any(|recipe| recipe.shared.runtime) {
-        text.push_str(&RUNTIME.replace("@PROJECT@", &project));
+        text.push_str(&runtime(&project, "", TARGET));
     }
     for recipe in recipes {
         program(&mut text, recipe, &project);
     }
     text
+}
+
+/// How CMake builds the runtime library from the sources in the folder `rungc-rt` of `root` (empty, or ending with
+/// `/`): the file is `${rungc_rt}`, the target `PROJECT_runtime`. `target` sets `RUNGC_TARGET`.
+pub fn runtime(project: &str, root: &str, target: &str) -> String {
+    RUNTIME
+        .replace("@PROJECT@", project)
+        .replace("@ROOT@", root)
+        .replace("@TARGET@", target)
 }
 
 /// The targets of one program.

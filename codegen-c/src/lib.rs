@@ -41,6 +41,7 @@ mod text;
 mod unit;
 mod writer;
 
+pub use cmake::runtime as cmake_runtime;
 pub use files::{Part, together};
 pub use makefile::Recipe;
 pub use members::Members;

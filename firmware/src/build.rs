@@ -1,5 +1,6 @@
 //! Calls of the compilers for another machine, and what to say where one is missing.
 
+use crate::package::Library;
 use crate::target::Target;
 use rungc_emit::OutFile;
 use rungc_ir::Module;
@@ -161,6 +162,16 @@ impl Tools {
                 said,
             },
             library::Error::Io { path, error } => BuildError::Io { path, error },
+        })
+    }
+
+    /// The runtime as a static library, for a package that needs it.
+    pub fn runtime_library(&self) -> Result<Library, BuildError> {
+        let folder = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
+        let path = self.runtime(folder.path())?;
+        Ok(Library {
+            triple: self.target.triple,
+            contents: read(&path)?,
         })
     }
 

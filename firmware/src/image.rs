@@ -39,7 +39,7 @@ pub struct Image<'a> {
 }
 
 /// Numbers of the terminals of a class that a program looks at.
-fn terminals(module: &Module, class: DeviceClass) -> impl Iterator<Item = u32> {
+pub(crate) fn terminals(module: &Module, class: DeviceClass) -> impl Iterator<Item = u32> {
     let areas = module.layout.areas.iter().filter(move |a| a.class == class);
     areas.flat_map(|a| a.first..a.first + a.count)
 }
@@ -153,7 +153,7 @@ fn linker_script(board: &Board) -> String {
 }
 
 /// A text that is safe in a comment of C, Rust, `make` or a linker script.
-fn comment(text: &str) -> String {
+pub(crate) fn comment(text: &str) -> String {
     one_line(text)
         .replace("*/", "* /")
         .replace("/*", "/ *")

@@ -1,8 +1,8 @@
 //! From a compiled program to a library or an image for another machine.
 //!
 //! [`target`] lists the machines, [`board`] reads the description of a board, [`image`] writes the sources of an image
-//! for it, [`sources`] those of a library, and [`build`] calls the compilers; [`report`] measures the resources it uses
-//! there, and [`flash`] writes an image into a microcontroller.
+//! for it, [`sources`] those of a library, [`package`] those of a library for another build system, and [`build`] calls
+//! the compilers; [`report`] measures the resources it uses there, and [`flash`] writes an image into a microcontroller.
 //!
 //! This crate must not know what a program computes: it calls the backends and compilers, and reads what they made.
 //! Start reading at [`target`] and [`image`].
@@ -11,6 +11,7 @@ pub mod board;
 pub mod build;
 pub mod flash;
 pub mod image;
+pub mod package;
 pub mod report;
 pub mod sources;
 pub mod target;

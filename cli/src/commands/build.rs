@@ -15,6 +15,7 @@ use rungc_emit::OutFile;
 use rungc_firmware::board::{self, Board, Retain, RetainMemory};
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
+use rungc_firmware::package::Package;
 use rungc_firmware::report::{self as firmware, Report};
 use rungc_firmware::sources;
 use rungc_firmware::target::{self, Target};
@@ -162,6 +163,10 @@ fn default_output(emit: Emit, name: &str) -> String {
         Emit::Lib => format!("{name}-lib"),
         Emit::Elf => format!("{name}.elf"),
         Emit::Bin | Emit::Ir => name.to_string(),
+        Emit::Arduino => format!("{name}-arduino"),
+        Emit::Platformio => format!("{name}-platformio"),
+        Emit::Zephyr => format!("{name}-zephyr"),
+        Emit::EspIdf => format!("{name}-esp-idf"),
     }
 }
 
@@ -188,9 +193,19 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::Ir if args.target.is_some() => {
             wrong("--target does not apply: the IR is the same for all targets")
         }
-        Emit::Ir | Emit::Bin | Emit::Lib if args.board.is_some() => wrong(
-            "--board only applies to --emit elf (an image), --emit c and --emit rust (its sources)",
-        ),
+        Emit::Ir
+        | Emit::Bin
+        | Emit::Lib
+        | Emit::Arduino
+        | Emit::Platformio
+        | Emit::Zephyr
+        | Emit::EspIdf
+            if args.board.is_some() =>
+        {
+            wrong(
+                "--board only applies to --emit elf (an image), --emit c and --emit rust (its sources)",
+            )
+        }
         Emit::Elf if args.board.is_none() => {
             wrong("--emit elf needs --board, a description of the board (docs/src/boards.md)")
         }
@@ -212,7 +227,7 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
             "--lanes does not apply to the sources of an image; emit the program without --board",
         ),
-        Emit::Lib | Emit::Elf | Emit::Ir if args.servers => wrong(NO_SERVERS),
+        _ if args.servers && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_SERVERS),
         Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
         Emit::Bin if target.is_bare() => {
             wrong("--emit bin: the target has no operating system; use --emit elf for an image")
@@ -221,6 +236,9 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
             "--main does not apply: an image has its own main program, generated from the board's description",
         ),
         Emit::Lib if args.main => wrong("--main does not apply: a library has no main program"),
+        _ if args.main && emit.package().is_some() => {
+            wrong("--main does not apply: the folder has an example that runs the program")
+        }
         _ => Ok(target),
     }
 }
@@ -458,8 +476,34 @@ impl Job<'_> {
                 built.map_err(because)
             })?,
             Emit::Elf => self.program(what, || self.elf())?,
+            Emit::Arduino | Emit::Platformio | Emit::Zephyr | Emit::EspIdf => {
+                self.folder(what, || self.package(what))?
+            }
         };
         Ok(Some(path))
+    }
+
+    /// The folder for a build system, with the runtime library if its builds do not make it of sources.
+    fn package(&self, what: Emit) -> Built<Vec<OutFile<Vec<u8>>>> {
+        let kind = what
+            .package()
+            .ok_or_else(|| because("not for a build system"))?;
+        let package = Package::new(kind, self.module, &self.options(false));
+        let library = match package.needs_library() {
+            false => None,
+            true if self.target().is_bare() => {
+                let built = progress::spin("building", || self.tools().runtime_library());
+                Some(built.map_err(because)?)
+            }
+            true => {
+                return Err(Failure::Because(format!(
+                    "{} calls the runtime library, which {} cannot build: name the processor with --target (docs/src/builds.md)",
+                    self.module.name,
+                    kind.title()
+                )));
+            }
+        };
+        Ok(package.folder(library))
     }
 
     /// Writes the program beside those that it shares files with.

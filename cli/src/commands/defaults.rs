@@ -76,7 +76,7 @@ pub fn plan(plan: &Plan, subject: &Subject) -> Result<Plan, Failure> {
         }
         plan.device_access |= project.build.access
             && plan.board.is_none()
-            && matches!(plan.emit, Some(Emit::C | Emit::Lib));
+            && plan.emit.is_some_and(Emit::has_headers);
         if plan.target.is_none() && plan.emit != Some(Emit::Ir) {
             plan.target = machine(project).map_err(because)?;
         }

@@ -1,6 +1,9 @@
 //! Emitted folders in the builds that firmware has.
 
+#[path = "../common/mod.rs"]
 mod common;
+mod packages;
+#[path = "../tools/mod.rs"]
 mod tools;
 
 use common::{folder, rungc, text};
@@ -47,7 +50,7 @@ fn run(folder: &Path, command: &str) -> String {
         .unwrap();
     let said = text(&output.stdout) + &text(&output.stderr);
     assert!(output.status.success(), "{command}: {said}");
-    text(&output.stdout)
+    said
 }
 
 /// Emits programs in C into the folder `plc`.

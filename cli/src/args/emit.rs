@@ -1,0 +1,56 @@
+//! What `build` emits.
+
+use clap::ValueEnum;
+use rungc_firmware::package::Kind;
+
+/// Output forms of `build`.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Emit {
+    /// The intermediate representation, as text.
+    Ir,
+    /// A folder of C99.
+    C,
+    /// A Rust crate.
+    Rust,
+    /// An executable for this machine (built from C).
+    Bin,
+    /// A folder with a static library and its headers (built from C).
+    Lib,
+    /// An image for a board.
+    Elf,
+    /// A library of Arduino: C, `library.properties`, a sketch.
+    Arduino,
+    /// A library of PlatformIO: C, `library.json`, an example.
+    Platformio,
+    /// A module of Zephyr: C, `zephyr/module.yml`, a sample.
+    Zephyr,
+    /// A component of ESP-IDF: C, `idf_component.yml`, an example.
+    EspIdf,
+}
+
+/// Language used to build an image.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Backend {
+    /// C: the default.
+    C,
+    /// Rust: the board's pins only, no C functions.
+    Rust,
+}
+
+impl Emit {
+    /// The build system that a folder of C is for.
+    pub fn package(self) -> Option<Kind> {
+        match self {
+            Emit::Arduino => Some(Kind::Arduino),
+            Emit::Platformio => Some(Kind::PlatformIo),
+            Emit::Zephyr => Some(Kind::Zephyr),
+            Emit::EspIdf => Some(Kind::EspIdf),
+            Emit::Ir | Emit::C | Emit::Rust | Emit::Bin | Emit::Lib | Emit::Elf => None,
+        }
+    }
+
+    /// Whether C headers are emitted, with what is added to them on request.
+    pub fn has_headers(self) -> bool {
+        matches!(self, Emit::C | Emit::Lib) || self.package().is_some()
+    }
+}
