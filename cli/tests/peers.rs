@@ -160,6 +160,40 @@ fn remote_io_of_pymodbus_is_lost_and_comes_back() {
 }
 
 #[test]
+fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
+    let Some(mut client) = python("pymodbus", "modbus_io.py") else {
+        return;
+    };
+    let mut socat = Command::new("socat");
+    socat.arg("-V");
+    if !there("socat", "RUNGC_REQUIRE_PEERS", socat) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let ends = ["station", "plc"].map(|end| folder.path().join(end));
+    let links = ends
+        .each_ref()
+        .map(|end| format!("pty,rawer,link={}", end.display()));
+    let mut line = Command::new("socat").args(links).spawn().unwrap();
+    while !ends.iter().all(|end| end.exists()) {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    client
+        .arg(env!("CARGO_BIN_EXE_rungc"))
+        .arg(folder.path())
+        .args(&ends);
+    let output = client.output().unwrap();
+    line.kill().unwrap();
+    line.wait().unwrap();
+    assert!(
+        output.status.success(),
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+}
+
+#[test]
 fn pymodbus_reads_and_writes_on_a_line() {
     on_a_line(python("pymodbus", "modbus_rtu.py"), SLAVES, "h2u", "COM1");
 }

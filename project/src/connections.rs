@@ -38,8 +38,12 @@ impl Project {
     pub fn connections(&self) -> Vec<Connection> {
         let connected = self.io.iter().map(|row| {
             let mut connection = row.connection.clone();
+            let seen = |path: &str| self.at(Path::new(path)).display().to_string();
             if connection.kind == Kind::Files {
-                connection.end = self.at(Path::new(&connection.end)).display().to_string();
+                connection.end = seen(&connection.end);
+            }
+            if let Some(file) = connection.options.get_mut("password-file") {
+                *file = seen(file);
             }
             connection
         });

@@ -38,8 +38,8 @@ pub struct ServeArgs {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
     pub trace_frames: Option<PathBuf>,
     /// Connect terminals and registers as the tables `[io.NAME]` of this file say (rungc.toml, docs/src/linux.md): to
-    /// remote I/O by Modbus TCP, to files, to standard input and output. Runs in real time. `rungc serve` uses those
-    /// of the project's rungc.toml.
+    /// remote I/O by Modbus, to a broker by MQTT, to pins (Linux), to files, to standard input and output. Runs in real
+    /// time. `rungc serve` uses those of the project's rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
     /// Connect them as the project's settings say.

@@ -85,11 +85,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let watched = args.watch.iter().map(|name| target(name));
     let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
     let over = args.over.as_deref().map(target).transpose()?;
-    let described = args.machine.as_ref().map(|path| plant::load(path));
-    let described = described.transpose().map_err(because)?;
-    if let Some(machine) = &described {
-        free_inputs(machine, &settings)?;
-    }
+    let described = machine(args, &settings)?;
     spare_inputs(args, subject)?;
     let wired_up = connecting::settings(&args.serve, subject, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
@@ -175,6 +171,19 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         connections,
     };
     run.simulate(plant, live)
+}
+
+/// The simulated machine, which drives none of the inputs that are set.
+fn machine(
+    args: &RunArgs,
+    settings: &[Setting],
+) -> std::result::Result<Option<Description>, Failure> {
+    let described = args.machine.as_ref().map(|path| plant::load(path));
+    let described = described.transpose().map_err(because)?;
+    if let Some(machine) = &described {
+        free_inputs(machine, settings)?;
+    }
+    Ok(described)
 }
 
 /// Where the project keeps latched devices.

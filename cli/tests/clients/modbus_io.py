@@ -1,6 +1,7 @@
-"""Remote I/O by a server of pymodbus, which is killed and comes back while `rungc serve` runs: python3 modbus_io.py RUNGC FOLDER.
+"""Remote I/O by a server of pymodbus, which is killed and comes back while `rungc serve` runs: python3 modbus_io.py RUNGC FOLDER [LINE LINE].
 
-With --server PORT, it is that server. It takes lines such as `2 0 1 0 1` from standard input: function, address, values.
+It is reached over TCP, or over the two ends of a serial line, the first its own. With --server and its place, this is that server: a port, or the
+end of a line. It takes lines from standard input: `set 2 0 1 0 1` (function, address, values) and `get 1 8 2` (count).
 """
 
 import asyncio
@@ -12,35 +13,44 @@ import sys
 import threading
 import time
 
+from pymodbus import FramerType
 from pymodbus.client import ModbusTcpClient
-from pymodbus.server import ModbusTcpServer
+from pymodbus.server import ModbusSerialServer, ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
 
 UNIT = 7
 
 
-async def serve(port):
+async def serve(place):
     def block(kind):
         return [SimData(0, count=64, datatype=kind)]
 
     blocks = tuple(block(kind) for kind in [DataType.BITS, DataType.BITS, DataType.REGISTERS, DataType.REGISTERS])
-    server = ModbusTcpServer(SimDevice(UNIT, blocks), address=("127.0.0.1", port))
+    device = SimDevice(UNIT, blocks)
+    if place.isdigit():
+        server = ModbusTcpServer(device, address=("127.0.0.1", int(place)))
+    else:
+        server = ModbusSerialServer(device, framer=FramerType.RTU, port=place, baudrate=38400)
     await server.serve_forever(background=True)
     loop = asyncio.get_running_loop()
     print("ready", flush=True)
     while line := await loop.run_in_executor(None, sys.stdin.readline):
-        function, address, *values = (int(word) for word in line.split())
-        if function in (1, 2):
-            values = [bool(value) for value in values]
-        await server.async_setValues(UNIT, function, address, values)
-        print("set", flush=True)
+        what, *numbers = line.split()
+        function, address, *values = map(int, numbers)
+        if what == "get":
+            values = await server.async_getValues(UNIT, function, address, values[0])
+        else:
+            if function in (1, 2):
+                values = [bool(value) for value in values]
+            await server.async_setValues(UNIT, function, address, values)
+        print(*map(int, values), flush=True)
 
 
 if sys.argv[1] == "--server":
-    asyncio.run(serve(int(sys.argv[2])))
+    asyncio.run(serve(sys.argv[2]))
     sys.exit()
 
-rungc, folder = sys.argv[1:3]
+rungc, folder, *line = sys.argv[1:]
 
 PROGRAM = """\
 LD X000
@@ -64,7 +74,7 @@ model = "h2u"
 modbus-tcp = 0
 
 [io.valves]
-modbus-tcp = "127.0.0.1:%d"
+%s
 unit = 7
 every = "5ms"
 timeout = "300ms"
@@ -82,38 +92,42 @@ D200 = "write registers 40"
 class Server:
     """The remote station as a process."""
 
-    def __init__(self, port):
-        command = [sys.executable, __file__, "--server", str(port)]
+    def __init__(self):
+        command = [sys.executable, __file__, "--server", place]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self.process.stdout.readline() == "ready\n"
-        self.client = ModbusTcpClient("127.0.0.1", port=port, timeout=20)
-        assert self.client.connect()
 
-    def set(self, function, address, *values):
-        words = [function, address, *values]
+    def ask(self, *words):
         self.process.stdin.write(" ".join(map(str, words)) + "\n")
         self.process.stdin.flush()
-        assert self.process.stdout.readline() == "set\n"
+        return [int(word) for word in self.process.stdout.readline().split()]
+
+    def set(self, function, address, *values):
+        assert self.ask("set", function, address, *values) == [*values]
 
     def coils(self):
-        return self.client.read_coils(8, count=8, device_id=UNIT).bits[:8]
+        return self.ask("get", 1, 8, 8)
 
     def registers(self):
-        return self.client.read_holding_registers(40, count=2, device_id=UNIT).registers
+        return self.ask("get", 3, 40, 2)
 
     def kill(self):
-        self.client.close()
         self.process.send_signal(signal.SIGKILL)
         self.process.wait()
 
 
-with socket.socket() as free:
-    free.bind(("127.0.0.1", 0))
-    port = free.getsockname()[1]
+if line:
+    place = line[0]
+    connection = f'modbus-rtu = "{line[1]}"\nbaud = 38400\nformat = "8N1"'
+else:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        place = str(free.getsockname()[1])
+    connection = f'modbus-tcp = "127.0.0.1:{place}"'
 with open(os.path.join(folder, "p.il"), "w") as file:
     file.write(PROGRAM)
 with open(os.path.join(folder, "rungc.toml"), "w") as file:
-    file.write(SETTINGS % port)
+    file.write(SETTINGS % connection)
 
 # The station is not there yet.
 run = subprocess.Popen([rungc, "serve"], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -158,7 +172,7 @@ def work(server, value):
     server.set(3, 20, value + 1)
     server.set(4, 5, 0x1234)
     assert not plc.write_register(11, 0x5678).isError()
-    on = [True] + [False] * 7
+    on = [1] + [0] * 7
     soon(server.coils, on)
     soon(server.registers, [value, 0x5678])
     soon(lambda: (word(100), word(110), word(10)), (value, value + 1, 0x1234))
@@ -168,7 +182,7 @@ try:
     soon(fault, True)
     soon(lambda: word(110), -7)
     scans()
-    server = Server(port)
+    server = Server()
     work(server, 321)
     for times in range(3):
         server.kill()
@@ -176,7 +190,7 @@ try:
         # What the connection says, and what a row says.
         soon(lambda: (word(100), word(110), word(10)), (0, -7, 0))
         scans()
-        server = Server(port)
+        server = Server()
         work(server, 400 + times)
     # An end that is there but silent.
     server.process.send_signal(signal.SIGSTOP)
@@ -188,12 +202,12 @@ try:
     plc.close()
     run.send_signal(signal.SIGINT)
     assert run.wait(20) == 130
-    assert server.coils() == [False] * 8
+    assert server.coils() == [0] * 8
     assert server.registers() == [500, 0]
     server.kill()
 finally:
     run.kill()
-lost = [line for line in said if "io valves: 127.0.0.1" in line]
-back = [line for line in said if "io valves: connected to" in line]
+lost = [text for text in said if "io valves: " in text and "connected" not in text]
+back = [text for text in said if "io valves: connected to" in text]
 assert len(lost) == 5 and len(back) == 5, said
 print("lost and reached again, five times")

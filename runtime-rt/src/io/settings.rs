@@ -281,8 +281,35 @@ impl Connection {
     }
 
     /// The unit of a Modbus slave.
+    ///
+    /// # Errors
+    /// What it is to be.
     pub fn unit(&self) -> Result<u8, String> {
         self.number("unit", 0..248, 1).map(|unit| unit as u8)
+    }
+
+    /// The rate of a serial line in bit/s.
+    ///
+    /// # Errors
+    /// What it is to be.
+    pub fn baud(&self) -> Result<u32, String> {
+        self.number("baud", 300..1_000_001, 9600)
+    }
+
+    /// The format of a serial line of eight data bits, `8E1`: parity (`N`, `E` or `O`) and stop bits.
+    ///
+    /// # Errors
+    /// What it is to be.
+    pub fn format(&self) -> Result<(char, u8), String> {
+        let text = self.options.get("format").map_or("8N1", String::as_str);
+        match text.as_bytes() {
+            &[b'8', parity @ (b'N' | b'E' | b'O'), stop @ (b'1' | b'2')] => {
+                Ok((char::from(parity), stop - b'0'))
+            }
+            _ => Err(String::from(
+                "`format` is for example \"8N1\", \"8E1\" or \"8N2\"",
+            )),
+        }
     }
 
     fn set(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {
@@ -318,7 +345,8 @@ impl Connection {
                 self.options.insert(key.to_owned(), value.to_owned());
                 let checked = match key {
                     "unit" => self.unit().map(drop),
-                    "baud" => self.number("baud", 300..1_000_001, 9600).map(drop),
+                    "baud" => self.baud().map(drop),
+                    "format" => self.format().map(drop),
                     _ => Ok(()),
                 };
                 checked.map_err(|message| (message, String::new()))?;

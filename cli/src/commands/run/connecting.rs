@@ -75,7 +75,7 @@ impl Connecting {
     /// # Errors
     /// A kind of connection that this executable has no driver for.
     pub fn start(connections: Vec<Connection>) -> Result<Self, Failure> {
-        let io = Io::start(connections, rungc_rt::io::opener);
+        let io = Io::start(connections, rungc_io::opener);
         io.map(Connecting).map_err(Failure::Because)
     }
 

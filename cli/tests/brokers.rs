@@ -1,0 +1,277 @@
+//! `[io.NAME]` with brokers: mosquitto is killed and comes back while `rungc serve` runs. `.ci/run` installs it; where
+//! it is not, the tests say so, unless `RUNGC_REQUIRE_PEERS` is set.
+#![cfg(all(unix, feature = "mqtt"))]
+
+mod common;
+
+use common::{folder, text};
+use std::fs;
+use std::net::{TcpListener, TcpStream};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+const PROGRAM: &str = "\
+LD X000
+OUT Y000
+LD M100
+OUT Y010
+LD M8000
+INC D0
+MOV D10 D20
+END
+";
+
+/// What the program is connected to: PORT is that of the broker. Files show what happens while it is away.
+const SETTINGS: &str = "\
+[project]
+program = 'p.il'
+model = 'fx3u'
+
+[io.broker]
+mqtt = '127.0.0.1:PORT'
+fault = 'M100'
+every = '10ms'
+status = 'plant/status'
+user = 'plc'
+password-file = 'password'
+X000 = 'read plant/start'
+X001-X002 = 'read plant/switch/{}'
+D10-D11 = 'read plant/recipe'
+Y000 = 'write plant/motor'
+Y001-Y002 = 'write plant/lamp/{}'
+D20-D21 = 'write plant/state'
+
+[io.files]
+files = '.'
+Y010 = 'write lost'
+D0 = 'write scans'
+D20 = 'write recipe'
+";
+
+/// A process that ends with the test.
+struct Ends(Child);
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn is_there() -> bool {
+    let there = ["mosquitto", "mosquitto_pub"].iter().all(|name| {
+        let mut command = Command::new(name);
+        command
+            .arg("-h")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        command.status().is_ok()
+    });
+    if !there {
+        let required = std::env::var_os("RUNGC_REQUIRE_PEERS").is_some();
+        assert!(
+            !required,
+            "RUNGC_REQUIRE_PEERS is set, but there is no mosquitto"
+        );
+        eprintln!("skipped: there is no mosquitto (see .ci/run)");
+    }
+    there
+}
+
+/// Waits until something is so.
+fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
+    let until = Instant::now() + Duration::from_secs(30);
+    while !is_so() {
+        assert!(Instant::now() < until, "{what}");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// A broker in a folder that has its configuration.
+fn broker(folder: &Path, port: u16) -> Ends {
+    let mut command = Command::new("mosquitto");
+    command.args(["-c", "mosquitto.conf"]).current_dir(folder);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let broker = Ends(command.spawn().unwrap());
+    soon("the broker listens", || {
+        TcpStream::connect(("127.0.0.1", port)).is_ok()
+    });
+    broker
+}
+
+fn publish(port: u16, topic: &str, payload: &str) {
+    let mut command = Command::new("mosquitto_pub");
+    command.args([
+        "-p",
+        &port.to_string(),
+        "-u",
+        "plc",
+        "-P",
+        "secret",
+        "-r",
+        "-t",
+        topic,
+        "-m",
+        payload,
+    ]);
+    assert!(command.status().unwrap().success());
+}
+
+/// The value of a topic that is kept by the broker.
+fn topic(port: u16, topic: &str) -> String {
+    let mut command = Command::new("mosquitto_sub");
+    command.args([
+        "-p",
+        &port.to_string(),
+        "-u",
+        "plc",
+        "-P",
+        "secret",
+        "-C",
+        "1",
+        "-W",
+        "1",
+        "-t",
+        topic,
+    ]);
+    text(&command.output().unwrap().stdout).trim().to_string()
+}
+
+fn shows(port: u16, name: &str, payload: &str) {
+    soon(&format!("{name} is {payload}"), || {
+        topic(port, name) == payload
+    });
+}
+
+/// What a row of files has written.
+fn file(folder: &Path, name: &str) -> String {
+    let text = fs::read_to_string(folder.join(name)).unwrap_or_default();
+    text.trim().to_string()
+}
+
+/// The program goes on.
+fn scans(folder: &Path) {
+    let before = file(folder, "scans");
+    soon("scans go on", || file(folder, "scans") != before);
+}
+
+/// Values go both ways.
+fn works(folder: &Path, port: u16, recipe: i16) {
+    soon("the broker is there", || file(folder, "lost") == "0");
+    shows(port, "plant/status", "online");
+    publish(port, "plant/start", "on");
+    shows(port, "plant/motor", "1");
+    publish(
+        port,
+        "plant/recipe",
+        &format!("{{\"D10\": {recipe}, \"D99\": 1}}"),
+    );
+    shows(
+        port,
+        "plant/state",
+        &format!("{{\"D20\":{recipe},\"D21\":0}}"),
+    );
+    shows(port, "plant/lamp/Y001", "0");
+    // What is no value changes nothing.
+    for wrong in ["", "2", "[", "{\"X000\": 0}", "999999999999999999999"] {
+        publish(port, "plant/start", wrong);
+    }
+    publish(port, "plant/recipe", "70000");
+    thread::sleep(Duration::from_millis(100));
+    assert_eq!(topic(port, "plant/motor"), "1");
+    publish(port, "plant/start", "false");
+    shows(port, "plant/motor", "0");
+    publish(port, "plant/start", "1");
+    shows(port, "plant/motor", "1");
+}
+
+#[test]
+fn a_broker_is_lost_and_comes_back() {
+    if !is_there() {
+        return;
+    }
+    let port = TcpListener::bind("127.0.0.1:0")
+        .unwrap()
+        .local_addr()
+        .unwrap()
+        .port();
+    let configuration = format!(
+        "listener {port} 127.0.0.1\nallow_anonymous false\npassword_file users\nuser root\n"
+    );
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        (
+            "rungc.toml",
+            SETTINGS.replace("PORT", &port.to_string()).as_bytes(),
+        ),
+        ("mosquitto.conf", configuration.as_bytes()),
+        ("password", b"secret\n"),
+    ]);
+    let folder = folder.path();
+    let mut users = Command::new("mosquitto_passwd");
+    let users = users
+        .args(["-b", "-c", "users", "plc", "secret"])
+        .current_dir(folder);
+    assert!(users.status().unwrap().success());
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    serve.arg("serve").current_dir(folder).stdout(Stdio::null());
+    let mut run = Ends(serve.stderr(Stdio::null()).spawn().unwrap());
+    soon("the broker is not there yet", || {
+        file(folder, "lost") == "1"
+    });
+    scans(folder);
+    for recipe in [7, 8] {
+        let broker = broker(folder, port);
+        works(folder, port, recipe);
+        drop(broker);
+        soon("the broker is lost", || file(folder, "lost") == "1");
+        assert_eq!(file(folder, "recipe"), "0");
+        scans(folder);
+    }
+    let _broker = broker(folder, port);
+    works(folder, port, 9);
+    let pid = run.0.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(run.0.wait().unwrap().code(), Some(130));
+    shows(port, "plant/status", "offline");
+    shows(port, "plant/motor", "0");
+}
+
+#[test]
+fn the_last_will_says_that_the_plc_is_gone() {
+    if !is_there() {
+        return;
+    }
+    let port = TcpListener::bind("127.0.0.1:0")
+        .unwrap()
+        .local_addr()
+        .unwrap()
+        .port();
+    let configuration = format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n");
+    let settings = SETTINGS.replace("PORT", &port.to_string());
+    let settings = settings.replace("user = 'plc'\npassword-file = 'password'\n", "");
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+        ("mosquitto.conf", configuration.as_bytes()),
+    ]);
+    let _broker = broker(folder.path(), port);
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    serve
+        .arg("serve")
+        .current_dir(&folder)
+        .stdout(Stdio::null());
+    let run = Ends(serve.stderr(Stdio::null()).spawn().unwrap());
+    shows(port, "plant/status", "online");
+    // Killed.
+    drop(run);
+    shows(port, "plant/status", "offline");
+}
