@@ -3,10 +3,10 @@
 mod common;
 
 use common::{chromium, folder, rungc, text};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStderr, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -41,12 +41,18 @@ END
 struct Page {
     child: Child,
     url: String,
+    /// Open for as long as the run, which writes to it.
+    errors: BufReader<ChildStderr>,
     _folder: TempDir,
 }
 
 impl Page {
     fn open(args: &[&str]) -> Page {
-        let folder = folder(&[("motor.il", PROGRAM.as_bytes())]);
+        Page::of(PROGRAM, args)
+    }
+
+    fn of(program: &str, args: &[&str]) -> Page {
+        let folder = folder(&[("motor.il", program.as_bytes())]);
         let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
             .args(["serve", "motor.il", "--page"])
             .args(args)
@@ -55,14 +61,14 @@ impl Page {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let mut line = String::new();
         let mut errors = BufReader::new(child.stderr.take().unwrap());
-        errors.read_line(&mut line).unwrap();
-        let url = line.trim_end().strip_prefix("rungc: page at ");
-        let url = url.unwrap_or_else(|| panic!("{line}")).to_string();
+        let mut lines = errors.by_ref().lines().map_while(Result::ok);
+        let url = lines.find_map(|line| Some(line.strip_prefix("rungc: page at ")?.to_string()));
+        let url = url.expect("the run has a page");
         Page {
             child,
             url,
+            errors: errors,
             _folder: folder,
         }
     }
@@ -110,6 +116,34 @@ impl Page {
         self.ask(request.as_bytes()).0
     }
 
+    /// Sends a command that is carried out.
+    fn order(&self, body: &str) {
+        assert_eq!(self.command(body, JSON), 200, "{body}");
+    }
+
+    /// What a page that is opened now shows.
+    fn look(&self) -> Value {
+        let (host, path) = self.parts();
+        let mut stream = self.connect();
+        let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut lines = BufReader::new(stream).lines().map_while(Result::ok);
+        let data = lines.find_map(|line| Some(line.strip_prefix("data: ")?.to_string()));
+        serde_json::from_str(&data.expect("an event comes")).unwrap()
+    }
+
+    /// What it shows when time stands still after scan `scan`.
+    fn look_at(&self, scan: u64) -> Value {
+        for _ in 0..200 {
+            let seen = self.look();
+            if seen["state"]["scans"] == scan && !seen["state"]["paused"].is_null() {
+                return seen;
+            }
+            thread::sleep(Duration::from_millis(50));
+        }
+        panic!("scan {scan} does not come");
+    }
+
     /// The header that names this page.
     fn host(&self) -> String {
         format!("Host: {}\r\n", self.parts().0)
@@ -145,17 +179,116 @@ fn a_live_page_works_in_a_browser() {
         "problem": "`Q9` is not a device name; examples: `M0`, `X010`, `D0.i32`",
         "scanned": 1,
         "broken": "Y000 = 1 ×",
+        "back": "0",
+        "again": 0,
         "light": [],
         "dark": [],
         "stopped": 0,
         "narrow": [],
         "wider_than_screen": false,
         "elsewhere": [],
-        "log": ["X000 forced to 1", "D1 set to 7", "X000 released", "breakpoint: Y000 = 1", "STOP", "RUN"],
+        "log": [
+            "X000 forced to 1",
+            "D1 set to 7",
+            "X000 released",
+            "breakpoint: Y000 = 1",
+            "back at scan",
+            "breakpoint: Y000 = 1",
+            "STOP",
+            "RUN",
+        ],
         "requests": null,
         "errors": [],
     });
     assert_eq!(report, expected);
+}
+
+/// Counts, times, remembers edges, and shifts what an input gives.
+const STEPS: &str = "\
+LD M8000
+INC D0
+LD M8013
+OUT C0 K30000
+LDI T0
+OUT T0 K7
+LDP T0
+ADD D1 D0 D1
+LDP X000
+MOV D0 D2
+LDF M8012
+MEP
+OUT M5
+LD M8012
+SFTL X000 M100 K16 K1
+END
+";
+
+#[test]
+fn a_run_goes_back_and_repeats_itself() {
+    let page = Page::of(
+        STEPS,
+        &["--watch", "D0,D1,D2,T0,C0,K4M100", "--model", "fx3u"],
+    );
+    page.order(PAUSE);
+    let scans = |seen: &Value| seen["state"]["scans"].as_u64().unwrap();
+    let begin = scans(&page.look());
+    let forward = |count: u64| page.order(&format!(r#"{{"do":"scan","count":{count}}}"#));
+    let back = |count: u64| page.order(&format!(r#"{{"do":"back","count":{count}}}"#));
+    forward(130);
+    let middle = begin + 130;
+    page.look_at(middle);
+    page.order(r#"{"do":"force","device":"X0","value":1}"#);
+    let mut seen = Vec::new();
+    for scan in middle + 1..=middle + 20 {
+        forward(1);
+        seen.push(page.look_at(scan));
+    }
+    // One scan at a time, and in a leap, with all that the page shows, edges among it.
+    let same = |scan: u64| {
+        let (then, now) = (&seen[(scan - middle - 1) as usize], page.look_at(scan));
+        for part in ["networks", "watch", "forces"] {
+            assert_eq!(now[part], then[part], "{part} of scan {scan}");
+        }
+        assert_eq!(now["state"]["ms"], then["state"]["ms"]);
+    };
+    for scan in (middle + 1..middle + 20).rev() {
+        back(1);
+        same(scan);
+    }
+    forward(19);
+    same(middle + 20);
+    back(140);
+    let early = page.look_at(middle + 20 - 140);
+    assert_eq!(early["forces"], json!([]));
+    assert_eq!(page.command(r#"{"do":"back","count":1000000}"#, JSON), 422);
+}
+
+#[test]
+fn errors_and_frames_are_in_the_log() {
+    let program = "LD M8000\nDIV D0 D1 D2\nEND\n";
+    let mut page = Page::of(program, &["--modbus-tcp", "0"]);
+    let mut line = String::new();
+    page.errors.read_line(&mut line).unwrap();
+    let address = line.trim_end().strip_prefix("rungc: Modbus TCP at ");
+    let mut client = TcpStream::connect(address.unwrap()).unwrap();
+    let write = [0, 1, 0, 0, 0, 6, 1, 6, 0, 100, 0, 7];
+    client.write_all(&write).unwrap();
+    client.read_exact(&mut [0; 12]).unwrap();
+    page.order(r#"{"do":"scan","count":3}"#);
+    let seen = (0..100).map(|_| page.look());
+    let mut seen = seen.skip_while(|seen| seen["state"]["paused"].is_null());
+    let seen = seen.next().expect("time stands still");
+    let log = seen["log"].as_array().unwrap();
+    let of = |kind: &str| {
+        let mut entries = log.iter().filter(|entry| entry["kind"] == kind);
+        let text = entries.next().map(|entry| entry["text"].as_str());
+        text.flatten().unwrap_or_default()
+    };
+    assert!(of("error").contains("error 6706"), "{seen}");
+    assert!(
+        of("frame").contains("00 01 00 00 00 06 01 06 00 64 00 07"),
+        "{seen}"
+    );
 }
 
 #[test]

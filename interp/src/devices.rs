@@ -121,7 +121,37 @@ pub(crate) struct Devices {
     aliases: &'static [IndexAlias],
 }
 
+/// What all devices of a model hold.
+#[derive(Clone)]
+pub(crate) struct Cells {
+    bits: Vec<bool>,
+    words: Vec<i16>,
+    timers: Vec<Timer>,
+    counters16: Vec<Counter16>,
+    counters32: Vec<Counter32>,
+}
+
 impl Devices {
+    /// What they hold now.
+    pub(crate) fn cells(&self) -> Cells {
+        Cells {
+            bits: self.bits.cells.clone(),
+            words: self.words.cells.clone(),
+            timers: self.timers.cells.clone(),
+            counters16: self.counters16.cells.clone(),
+            counters32: self.counters32.cells.clone(),
+        }
+    }
+
+    /// Gives them what devices of the same model have held.
+    pub(crate) fn set_cells(&mut self, cells: &Cells) {
+        self.bits.cells.clone_from(&cells.bits);
+        self.words.cells.clone_from(&cells.words);
+        self.timers.cells.clone_from(&cells.timers);
+        self.counters16.cells.clone_from(&cells.counters16);
+        self.counters32.cells.clone_from(&cells.counters32);
+    }
+
     /// The devices of a program's model, all 0.
     pub(crate) fn new(module: &Module) -> Self {
         use DeviceClass::{C, D, ER, M, R, S, T, V, X, Y, Z};

@@ -14,7 +14,9 @@ mod eval;
 mod exec;
 mod logic;
 mod machine;
+mod saved;
 
 pub use errors::OperationError;
 pub use machine::Machine;
 pub use rungc_models::runs::rt_class;
+pub use saved::Saved;

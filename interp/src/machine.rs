@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 /// The functions that a host calls, by their indexes in the module.
-struct Entries {
+pub(crate) struct Entries {
     take_interrupts: Option<usize>,
     /// By input terminal: of its falling, and of its rising edge.
     edges: Vec<[Option<usize>; 2]>,
@@ -66,35 +66,35 @@ impl Entries {
 /// and D8061 = 6105 and goes to STOP with all outputs off.
 pub struct Machine<'m> {
     pub(crate) module: &'m Module,
-    entries: Entries,
+    pub(crate) entries: Entries,
     pub(crate) logic: Logic,
     pub(crate) devices: Devices,
     pub(crate) temps: TiVec<TempId, Value>,
     pub(crate) edges: TiVec<EdgeId, bool>,
     pub(crate) flags: TiVec<FlagId, bool>,
     /// When the period of each flag that has one began.
-    periods: Vec<u32>,
+    pub(crate) periods: Vec<u32>,
     pub(crate) cells: TiVec<CellId, i32>,
     pub(crate) tables: TiVec<TableId, Vec<i32>>,
     pub(crate) sys: Sys,
     /// Steps that this scan may still repeat.
-    steps_left: u32,
+    pub(crate) steps_left: u32,
     pub(crate) last_error: LastError,
     pub(crate) errors: Vec<OperationError>,
     /// By step and code: the index of the error in `errors`.
     pub(crate) errors_by_site: BTreeMap<(u32, u16), usize>,
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
-    states: Vec<State>,
+    pub(crate) states: Vec<State>,
     /// Of the module's pulse outputs, in their order.
-    axes: Vec<Axis>,
+    pub(crate) axes: Vec<Axis>,
     /// Of the module's serial ports, in their order.
-    ports: Vec<Port>,
-    type_code: u16,
+    pub(crate) ports: Vec<Port>,
+    pub(crate) type_code: u16,
     /// What it keeps over power-off, and how records of that name it.
-    retained: (String, Vec<RetainedRun>),
+    pub(crate) retained: (String, Vec<RetainedRun>),
     /// What partners on a line read as program memory, from 8000h on.
-    program_memory: Option<&'m [u8]>,
+    pub(crate) program_memory: Option<&'m [u8]>,
 }
 
 impl<'m> Machine<'m> {

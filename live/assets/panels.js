@@ -42,7 +42,7 @@ export function showState(state) {
   if (mode.textContent !== shown) mode.textContent = shown;
   mode.dataset.mode = state.running ? "run" : "stop";
   find("clock").textContent = `${(now / 1000).toFixed(3)} s, scan ${state.scans}`;
-  const able = { run: !state.running, stop: state.running, pause: !state.paused, continue: state.paused };
+  const able = { run: !state.running, stop: state.running, pause: !state.paused, continue: state.paused, back: state.back > 0 };
   for (const [name, is] of Object.entries(able)) {
     for (const control of document.querySelectorAll(`[data-do=${name}]`)) control.disabled = !is;
   }

@@ -19,6 +19,11 @@ pub enum Command {
         /// From 1.
         count: u32,
     },
+    /// Goes back by this number of scans, and lets time stand still there.
+    Back {
+        /// From 1.
+        count: u32,
+    },
     /// Lets time pass slower, or at its own speed.
     Pace {
         /// How many seconds a second of the program takes, from 1 to 1000.
@@ -75,6 +80,28 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it changes the PLC.
+    pub fn changes_plc(&self) -> bool {
+        match self {
+            Command::Run
+            | Command::Stop
+            | Command::Set { .. }
+            | Command::Force { .. }
+            | Command::Release { .. }
+            | Command::ReleaseAll => true,
+            Command::Pause
+            | Command::Continue
+            | Command::Scan { .. }
+            | Command::Back { .. }
+            | Command::Pace { .. }
+            | Command::Watch { .. }
+            | Command::Unwatch { .. }
+            | Command::BreakOnDevice { .. }
+            | Command::BreakOnNetwork { .. }
+            | Command::Unbreak { .. } => false,
+        }
+    }
+
     /// Reads a command; the error says what is wrong with it.
     pub(crate) fn read(json: &[u8]) -> Result<Command, String> {
         serde_json::from_slice(json).map_err(|error| error.to_string())

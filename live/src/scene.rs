@@ -81,6 +81,22 @@ impl Scene {
         }
     }
 
+    /// What the edges have seen in the last scans, to come back to.
+    pub fn edges(&self) -> Vec<[bool; 2]> {
+        let links = self.networks.iter().flat_map(|shown| &shown.links);
+        let edges = links.filter(|link| link.is_edge());
+        edges.map(|link| link.seen).collect()
+    }
+
+    /// Gives the edges what they had seen.
+    pub fn set_edges(&mut self, seen: &[[bool; 2]]) {
+        let links = self.networks.iter_mut().flat_map(|shown| &mut shown.links);
+        let edges = links.filter(|link| link.is_edge());
+        for (link, seen) in edges.zip(seen) {
+            link.seen = *seen;
+        }
+    }
+
     /// Whether power reaches an output of a network, from 0.
     pub fn reaches(&mut self, network: usize, seen: Seen) -> bool {
         let Some(shown) = self.networks.get(network) else {
@@ -194,6 +210,11 @@ impl Shown {
 }
 
 impl Link {
+    /// Whether it remembers what it has seen.
+    fn is_edge(&self) -> bool {
+        matches!(self.watched.probe, Probe::Edge { .. } | Probe::Pulse { .. })
+    }
+
     /// Whether what it watches has come, or gone, in the last scan.
     fn edge(&self, rising: bool) -> bool {
         self.seen == [rising, !rising]

@@ -47,6 +47,13 @@ open(async (page) => {
   await press("Continue");
   await mode("RUN, paused: Y000 = 1");
   report.broken = await text("#breaks");
+  const broken = await scan();
+  await press("Scan back");
+  await settle((old) => document.getElementById("clock").textContent.endsWith(`scan ${old - 1}`), broken);
+  report.back = await text("#watch tr[data-name='Y000'] td >> nth=0");
+  await press("Single scan");
+  await mode("RUN, paused: Y000 = 1");
+  report.again = (await scan()) - broken;
   report.light = await look(page, "live-light");
   await page.locator("#theme").click();
   report.dark = await look(page, "live-dark");
@@ -62,6 +69,6 @@ open(async (page) => {
   report.narrow = await look(page, "live-narrow");
   report.wider_than_screen = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   report.elsewhere = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => !name.startsWith(location.href)).map(({ name }) => name));
-  report.log = await page.locator("#log li").evaluateAll((rows) => rows.map((row) => row.textContent.replace(/^\S+ /, "")));
+  report.log = await page.locator("#log li").evaluateAll((rows) => rows.map((row) => row.textContent.replace(/^\S+ /, "").replace(/(?<=at scan) \d+/, "")));
   return report;
 });

@@ -26,14 +26,15 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// Reports new ones, if requested.
-    pub fn notice(&mut self, errors: &[OperationError]) {
+    /// Reports new ones, if requested; what they are.
+    pub fn notice(&mut self, errors: &[OperationError]) -> Vec<String> {
+        let new = errors.iter().skip(self.reported);
+        let new: Vec<_> = new.map(|error| self.describe(error)).collect();
         if self.at_once {
-            for error in errors.iter().skip(self.reported) {
-                tell(&format!("rungc: {}", self.describe(error)));
-            }
-            self.reported = errors.len();
+            new.iter().for_each(|text| tell(&format!("rungc: {text}")));
         }
+        self.reported = errors.len();
+        new
     }
 
     /// Reports all of them at the end of the run.

@@ -6,7 +6,7 @@ use crate::commands::{Failure, tell};
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Machine;
 use rungc_ladder::build;
-use rungc_live::{Command, Frame, Log, Scene, Server};
+use rungc_live::{Command, Frame, Log, Order, Scene, Server};
 use rungc_models::Model;
 use rungc_rt::{Plc, Program as _, VirtualHal};
 use rungc_sim::Target;
@@ -44,6 +44,29 @@ pub struct Running<'a, 'm> {
     pub plant: Option<&'a Plant>,
     /// The time.
     pub now_ms: u64,
+    /// By how many scans it can go back.
+    pub back: u64,
+}
+
+/// How far a run has come, and what the page holds.
+#[derive(Clone)]
+pub struct Control {
+    /// How many scans have been executed.
+    pub scans: u64,
+    forced: Vec<(Target, f64)>,
+    was_running: bool,
+    /// What edges in the ladder had seen.
+    edges: Vec<[bool; 2]>,
+}
+
+/// Whether the next scan is due.
+pub enum Due {
+    /// It is.
+    Now,
+    /// Time stands still.
+    NotYet,
+    /// The page asks the run to go back by this number of scans.
+    Back(u32, Order),
 }
 
 impl Running<'_, '_> {
@@ -106,7 +129,6 @@ pub struct Live {
     server: Server,
     scene: Scene,
     watched: Vec<Target>,
-    forced: Vec<(Target, f64)>,
     breaks: Vec<Break>,
     log: Log,
     /// Why time stands still.
@@ -116,10 +138,13 @@ pub struct Live {
     /// After how many scans it stands still again.
     scans_left: Option<u32>,
     slower: u32,
-    scans: u64,
+    control: Control,
+    /// Whether the run goes through scans again that the page has seen.
+    again: bool,
+    /// Whether a command has changed the PLC.
+    disturbed: bool,
     /// Whether the run has fallen behind its clock because time stood still or passed slower.
     shifted: bool,
-    was_running: bool,
     /// When the page was brought up to date.
     shown: Option<Instant>,
 }
@@ -141,23 +166,28 @@ impl Live {
             server,
             scene,
             watched: page.watched,
-            forced: Vec::new(),
             breaks: Vec::new(),
             log: Log::default(),
             paused: None,
             stopped_at: None,
             scans_left: None,
             slower: 1,
-            scans: 0,
+            control: Control {
+                scans: 0,
+                forced: Vec::new(),
+                was_running: true,
+                edges: Vec::new(),
+            },
+            again: false,
+            disturbed: false,
             shifted: false,
-            was_running: true,
             shown: None,
         })
     }
 
     /// Gives forced devices their values, as before and after each scan.
     pub fn force(&self, machine: &mut Machine, hal: &mut VirtualHal) {
-        for &(target, value) in &self.forced {
+        for &(target, value) in &self.control.forced {
             // It exists: that was looked at when it was forced.
             let _ = device::set(machine, hal, target, value);
         }
@@ -166,14 +196,17 @@ impl Live {
     /// Takes notice of a scan.
     pub fn scanned(&mut self, running: Running) {
         self.force(running.machine, running.hal);
-        self.scans += 1;
+        self.control.scans += 1;
         let is_running = running.machine.sys().running;
-        if is_running != self.was_running {
-            self.was_running = is_running;
-            let mode = if is_running { "RUN" } else { "STOP" };
-            self.log.write(running.now_ms, "event", mode);
-        }
+        let changed = std::mem::replace(&mut self.control.was_running, is_running) != is_running;
         self.scene.scanned(running.seen());
+        if self.again {
+            return;
+        }
+        if changed {
+            let mode = if is_running { "RUN" } else { "STOP" };
+            self.note(running.now_ms, "event", mode);
+        }
         if let Some(left) = &mut self.scans_left {
             *left -= 1;
             if *left == 0 {
@@ -187,6 +220,11 @@ impl Live {
             self.stopped_at = network;
         }
         self.show(&running);
+    }
+
+    /// Writes into the page's log; `kind` is `error`, `frame` or `event`.
+    pub fn note(&mut self, now_ms: u64, kind: &str, text: &str) {
+        self.log.write(now_ms, kind, text);
     }
 
     fn pause(&mut self, why: String) {
@@ -223,7 +261,7 @@ impl Live {
 
     /// Carries out what the page asks for until the next scan is due; whether it is. It is not while time stands still,
     /// though commands are waited for only a moment.
-    pub fn obey(&mut self, mut running: Running, due: Instant, scan_ms: u64) -> bool {
+    pub fn obey(&mut self, mut running: Running, due: Instant, scan_ms: u64) -> Due {
         let slower = u64::from(self.slower);
         let due = match slower {
             1 => due,
@@ -238,19 +276,23 @@ impl Live {
                 left.min(EVERY)
             };
             if let Some(order) = self.server.order(left) {
-                let answer = self.carry_out(&order.command, &mut running);
-                if answer.is_ok() {
-                    self.shown = None;
+                match self.carry_out(&order.command, &mut running) {
+                    Ok(Some(count)) => return Due::Back(count, order),
+                    Ok(None) => {
+                        self.disturbed |= order.command.changes_plc();
+                        self.shown = None;
+                        order.answer(Ok(()));
+                    }
+                    Err(why) => order.answer(Err(why)),
                 }
-                order.answer(answer);
             }
             self.show(&running);
             if self.paused.is_some() {
                 self.shifted = true;
-                return false;
+                return Due::NotYet;
             }
             if Instant::now() >= due {
-                return true;
+                return Due::Now;
             }
         }
     }
@@ -260,13 +302,56 @@ impl Live {
         std::mem::take(&mut self.shifted)
     }
 
-    fn carry_out(&mut self, command: &Command, running: &mut Running) -> Result<(), String> {
+    /// Whether a command has changed the PLC since this was last asked.
+    pub fn has_disturbed(&mut self) -> bool {
+        std::mem::take(&mut self.disturbed)
+    }
+
+    /// How many scans have been executed.
+    pub fn scans(&self) -> u64 {
+        self.control.scans
+    }
+
+    /// How far the run has come, and what is forced.
+    pub fn control(&self) -> Control {
+        Control {
+            edges: self.scene.edges(),
+            ..self.control.clone()
+        }
+    }
+
+    /// The run goes back to an earlier moment, and comes from there to the scan that is asked for.
+    pub fn begin_again(&mut self, control: Control) {
+        self.scene.set_edges(&control.edges);
+        self.control = control;
+        self.again = true;
+    }
+
+    /// It has come there, where time stands still.
+    pub fn is_back(&mut self, running: &Running) {
+        self.again = false;
+        // Breakpoints compare with how things are now.
+        self.broken(running.seen());
+        let scan = format!("back at scan {}", self.scans());
+        self.note(running.now_ms, "event", &scan);
+        self.pause(scan);
+        self.stopped_at = None;
+        self.shown = None;
+    }
+
+    /// Carries out a command. By how many scans it asks the run to go back, if it does; an error says what is wrong with it.
+    fn carry_out(
+        &mut self,
+        command: &Command,
+        running: &mut Running,
+    ) -> Result<Option<u32>, String> {
         let now_ms = running.now_ms;
         match command {
             Command::Run => running.machine.set_running(true),
             Command::Stop => running.machine.set_running(false),
             Command::Pause => self.pause("by hand".to_string()),
             Command::Continue => self.resume(None),
+            Command::Back { count } => return Ok(Some(*count)),
             Command::Scan { count: 0 } => return Err("execute at least one scan".to_string()),
             Command::Scan { count } => self.resume(Some(*count)),
             Command::Pace { slower } if (1..=SLOWEST).contains(slower) => self.slower = *slower,
@@ -282,20 +367,20 @@ impl Live {
                 let target = running.device(device)?;
                 fits(target, *value)?;
                 running.set(target, *value);
-                self.forced.retain(|(other, _)| *other != target);
-                self.forced.push((target, *value));
+                self.control.forced.retain(|(other, _)| *other != target);
+                self.control.forced.push((target, *value));
                 self.log
                     .write(now_ms, "event", &format!("{target} forced to {value}"));
             }
             Command::Release { device } => {
                 let target = running.device(device)?;
-                self.forced.retain(|(other, _)| *other != target);
+                self.control.forced.retain(|(other, _)| *other != target);
                 self.log
                     .write(now_ms, "event", &format!("{target} released"));
             }
             Command::ReleaseAll => {
-                self.forced.clear();
-                self.log.write(now_ms, "event", "all devices released");
+                self.control.forced.clear();
+                self.note(now_ms, "event", "all devices released");
             }
             Command::Watch { device } => {
                 let target = running.device(device)?;
@@ -328,7 +413,7 @@ impl Live {
             }
             Command::Unbreak { .. } => return Err("there is no such breakpoint".to_string()),
         }
-        Ok(())
+        Ok(None)
     }
 
     fn resume(&mut self, scans: Option<u32>) {
@@ -347,7 +432,8 @@ impl Live {
         let seen = running.seen();
         let state = json!({
             "ms": running.now_ms,
-            "scans": self.scans,
+            "scans": self.scans(),
+            "back": running.back,
             "running": seen.machine.sys().running,
             "paused": self.paused,
             "network": self.stopped_at.map(|network| network + 1),
@@ -361,7 +447,7 @@ impl Live {
             let number = reading.as_ref().and_then(number);
             json!({ "device": super::name(target), "value": value, "number": number })
         });
-        let forced = self.forced.iter();
+        let forced = self.control.forced.iter();
         let forced =
             forced.map(|(target, value)| json!({ "device": super::name(*target), "value": value }));
         let breaks = self.breaks.iter().map(|point| {

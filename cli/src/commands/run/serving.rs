@@ -117,14 +117,16 @@ impl Servers {
     }
 
     /// Carries out and answers what clients have asked since the last scan; `at_us` is the time since the run began, in
-    /// microseconds.
-    pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) {
+    /// microseconds. Whether there was anything.
+    pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) -> bool {
         if self.servers.is_empty() {
-            return;
+            return false;
         }
+        let mut any = false;
         let mut map = Served::new(machine, self.type_code);
         for open in &mut self.servers {
             for (client, exchange) in open.server.poll(&mut map) {
+                any = true;
                 let server = open.address;
                 let frames = [
                     (Direction::In, &exchange.request),
@@ -145,6 +147,7 @@ impl Servers {
         if let Some(running) = map.take_request() {
             machine.set_running(running);
         }
+        any
     }
 }
 

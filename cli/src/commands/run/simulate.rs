@@ -2,8 +2,9 @@
 
 use super::connecting::Connecting;
 use super::errors::Errors;
+use super::history::{History, Moment};
 use super::lines::Lines;
-use super::live::{Live, Running};
+use super::live::{Due, Live, Running};
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::retaining::Retaining;
@@ -52,6 +53,11 @@ struct Simulation<'a> {
     connecting: Connecting,
     watch: Watch,
     live: Option<Live>,
+    history: History<'a>,
+    /// Whether the run writes nothing that would go back with it.
+    can_go_back: bool,
+    /// Whether anything may come from outside before each scan.
+    comes_from_outside: bool,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
     overrun: bool,
@@ -140,6 +146,9 @@ impl Run<'_> {
             None => None,
         };
         let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
+        if live.is_some() {
+            watch.hear();
+        }
         let mut simulation = Simulation {
             machine,
             hal,
@@ -165,6 +174,11 @@ impl Run<'_> {
             connecting: Connecting::start(self.connections.clone())?,
             watch,
             live,
+            history: History::default(),
+            can_go_back: args.vcd.is_none() && args.plot.is_none() && args.scope.is_none(),
+            comes_from_outside: !self.connections.is_empty()
+                || !module.requests.is_empty()
+                || !args.serve.lines(module.model).is_empty(),
             now_ms: 0,
             overrun: false,
         };
@@ -174,7 +188,7 @@ impl Run<'_> {
     }
 }
 
-impl Simulation<'_> {
+impl<'a> Simulation<'a> {
     /// Reports what has happened, and completes the files; a run that is denied errors fails by them.
     fn end(mut self, args: &RunArgs, outcome: Outcome) -> Result {
         self.lines.end(self.now_ms, &mut self.watch);
@@ -227,14 +241,14 @@ impl Simulation<'_> {
         }
         let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
-            self.servers
-                .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
+            self.answer_clients();
             self.connecting.take(&mut self.machine, &mut self.hal);
             self.asked
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
-            let scan_ms = self.scan(args.scan)?;
+            self.remember();
+            let mut scan_ms = self.scan(args.scan)?;
             self.connecting.give(&mut self.machine);
-            self.errors.notice(self.machine.errors());
+            self.note_events();
             if self.machine.watchdog_tripped() {
                 let error = self.machine.last_error();
                 let message = self.errors.watchdog(self.now_ms, error);
@@ -252,21 +266,11 @@ impl Simulation<'_> {
                 if let Some(retaining) = &mut self.retaining {
                     retaining.poll(&self.machine, self.now_ms)?;
                 }
-                begin = self.rest(begin, scan_ms);
+                (begin, scan_ms) = self.rest(begin, scan_ms, args.scan)?;
                 self.lines
                     .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
             }
-            if self.is_idle_between_scans() {
-                self.pass(scan_ms)?;
-            } else {
-                for left in (0..scan_ms).rev() {
-                    self.millisecond()?;
-                    // What a scan begins with is recorded as it leaves it.
-                    if left > 0 {
-                        self.record()?;
-                    }
-                }
-            }
+            self.pass(scan_ms)?;
             let (hal, machine) = (&mut self.hal, &mut self.machine);
             self.lines.send(hal, machine, self.now_ms, &mut self.watch);
         }
@@ -289,30 +293,147 @@ impl Simulation<'_> {
         }
     }
 
-    /// Waits for the next scan in a run that began then; if time stood still or passed slower, the run began later.
-    fn rest(&mut self, begin: Instant, scan_ms: u64) -> Instant {
-        let next = Duration::from_millis(self.now_ms + scan_ms);
-        loop {
-            let Some(live) = &mut self.live else {
-                thread::sleep(next.saturating_sub(begin.elapsed()));
-                return begin;
-            };
-            let running = Running {
-                machine: &mut self.machine,
-                hal: &mut self.hal,
-                plant: self.plant.as_ref(),
-                now_ms: self.now_ms,
-            };
-            let is_due = live.obey(running, begin + next, scan_ms);
-            if is_due || interruption::is_asked() {
-                return match live.has_shifted() {
-                    true => Instant::now().checked_sub(next).unwrap_or(begin),
-                    false => begin,
-                };
+    /// Reports new operation errors, and shows them and frames on the page.
+    fn note_events(&mut self) {
+        let errors = self.errors.notice(self.machine.errors());
+        let frames = self.watch.heard();
+        if let Some(live) = &mut self.live {
+            let errors = errors.iter().map(|text| ("error", text));
+            let frames = frames.iter().map(|text| ("frame", text));
+            for (kind, text) in errors.chain(frames) {
+                live.note(self.now_ms, kind, text);
             }
-            let at_us = 1000 * self.now_ms;
-            self.servers.poll(&mut self.machine, &mut self.watch, at_us);
         }
+    }
+
+    /// Carries out and answers what clients of servers have asked.
+    fn answer_clients(&mut self) {
+        let at_us = 1000 * self.now_ms;
+        let servers = &mut self.servers;
+        if servers.poll(&mut self.machine, &mut self.watch, at_us) {
+            self.history.disturb();
+        }
+    }
+
+    /// The run as the page sees it.
+    fn running(&mut self) -> Option<(&mut Live, Running<'_, 'a>)> {
+        let live = self.live.as_mut()?;
+        let back = match self.can_go_back {
+            true => self.history.reach(live.scans()),
+            false => 0,
+        };
+        let running = Running {
+            machine: &mut self.machine,
+            hal: &mut self.hal,
+            plant: self.plant.as_ref(),
+            now_ms: self.now_ms,
+            back,
+        };
+        Some((live, running))
+    }
+
+    /// Waits for the next scan in a run that began then, if one takes `given_ms`. When it began, and how long the last
+    /// scan takes, which is another one if the run went back; if time stood still or passed slower, it began later.
+    fn rest(
+        &mut self,
+        begin: Instant,
+        mut scan_ms: u64,
+        given_ms: Option<u64>,
+    ) -> std::result::Result<(Instant, u64), Failure> {
+        loop {
+            let next = Duration::from_millis(self.now_ms + scan_ms);
+            let Some((live, running)) = self.running() else {
+                thread::sleep(next.saturating_sub(begin.elapsed()));
+                return Ok((begin, scan_ms));
+            };
+            let due = live.obey(running, begin + next, scan_ms);
+            if live.has_disturbed() {
+                self.history.disturb();
+            }
+            match due {
+                Due::Back(count, order) => match self.go_back(count, given_ms)? {
+                    Ok(ms) => {
+                        scan_ms = ms;
+                        order.answer(Ok(()));
+                    }
+                    Err(why) => order.answer(Err(why)),
+                },
+                Due::NotYet if !interruption::is_asked() => {
+                    self.answer_clients();
+                    self.note_events();
+                }
+                Due::Now | Due::NotYet => {
+                    let shifted = self.live.as_mut().is_some_and(Live::has_shifted);
+                    let begin = match shifted {
+                        true => Instant::now().checked_sub(next).unwrap_or(begin),
+                        false => begin,
+                    };
+                    return Ok((begin, scan_ms));
+                }
+            }
+        }
+    }
+
+    /// Keeps the moment before a scan, if the run is to come back to it.
+    fn remember(&mut self) {
+        let Some(live) = self.live.as_ref().filter(|_| self.can_go_back) else {
+            return;
+        };
+        if self.comes_from_outside || self.history.is_due(live.scans()) {
+            self.history.keep(Moment {
+                now_ms: self.now_ms,
+                machine: self.machine.save(),
+                hal: self.hal.clone(),
+                plant: self.plant.clone(),
+                pending: self.pending.clone(),
+                control: live.control(),
+            });
+        }
+    }
+
+    /// Goes back by some scans: how many milliseconds the scan that was last then takes, or why that cannot be.
+    fn go_back(
+        &mut self,
+        count: u32,
+        given_ms: Option<u64>,
+    ) -> std::result::Result<std::result::Result<u64, String>, Failure> {
+        let scans = self.live.as_ref().map_or(0, Live::scans);
+        if !self.can_go_back {
+            let why = "a run with --vcd, --plot or --scope does not go back";
+            return Ok(Err(why.to_string()));
+        }
+        let reach = self.history.reach(scans);
+        if u64::from(count) > reach {
+            return Ok(Err(format!("the run can go back by {reach} scans")));
+        }
+        let scan = scans - u64::from(count);
+        let Some(moment) = self.history.before(scan) else {
+            return Ok(Err("the run cannot go back".to_string()));
+        };
+        self.now_ms = moment.now_ms;
+        self.machine.restore(&moment.machine);
+        self.hal = moment.hal;
+        self.plant = moment.plant;
+        self.pending = moment.pending;
+        let Some(live) = &mut self.live else {
+            return Ok(Err("the run has no page".to_string()));
+        };
+        let mut left = scan - moment.control.scans;
+        live.begin_again(moment.control);
+        let muted = std::mem::replace(&mut self.out.muted, true);
+        let scan_ms = loop {
+            let scan_ms = self.scan(given_ms)?;
+            left -= 1;
+            if left == 0 {
+                break scan_ms;
+            }
+            self.pass(scan_ms)?;
+        };
+        self.out.muted = muted;
+        if let Some((live, running)) = self.running() {
+            live.is_back(&running);
+        }
+        Ok(Ok(scan_ms))
     }
 
     /// A scan; how many milliseconds it lasts, if one takes `given_ms`.
@@ -324,13 +445,8 @@ impl Simulation<'_> {
         }
         self.machine
             .scan(&mut self.hal, self.now_ms as u32, scan_us);
-        if let Some(live) = &mut self.live {
-            live.scanned(Running {
-                machine: &mut self.machine,
-                hal: &mut self.hal,
-                plant: self.plant.as_ref(),
-                now_ms: self.now_ms,
-            });
+        if let Some((live, running)) = self.running() {
+            live.scanned(running);
         }
         let values = self
             .shown
@@ -373,8 +489,23 @@ impl Simulation<'_> {
             && !self.machine.module().takes_time()
     }
 
-    /// The time from one scan to the next, in which nothing happens but what is set.
+    /// The time from one scan to the next.
     fn pass(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
+        if self.is_idle_between_scans() {
+            return self.pass_idly(scan_ms);
+        }
+        for left in (0..scan_ms).rev() {
+            self.millisecond()?;
+            // What a scan begins with is recorded as it leaves it.
+            if left > 0 {
+                self.record()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The time from one scan to the next, in which nothing happens but what is set.
+    fn pass_idly(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
         let next_ms = self.now_ms + scan_ms;
         while let Some(setting) = self.pending.peek().filter(|s| s.at_ms <= next_ms) {
             self.now_ms = setting.at_ms;

@@ -18,7 +18,12 @@ pub const STANDARD_ERROR: &str = "-";
 pub struct Watch {
     traffic: Traffic,
     log: Log,
+    /// The last frames, for who hears them.
+    heard: Option<Vec<String>>,
 }
+
+/// How many frames are kept until they are heard.
+const HEARD: usize = 200;
 
 /// Where frames are logged.
 enum Log {
@@ -66,7 +71,21 @@ impl Watch {
         };
         let decoder = Decoder::new(model.ports, model.type_code());
         let traffic = Traffic::new(decoder);
-        Ok(Watch { traffic, log })
+        Ok(Watch {
+            traffic,
+            log,
+            heard: None,
+        })
+    }
+
+    /// Frames are kept from now on until they are [heard](Self::heard).
+    pub fn hear(&mut self) {
+        self.heard = Some(Vec::new());
+    }
+
+    /// The frames since this was last asked, decoded and as bytes.
+    pub fn heard(&mut self) -> Vec<String> {
+        self.heard.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
     /// A server or port is open.
@@ -79,12 +98,11 @@ impl Watch {
         let decoded = self.traffic.frame(seen);
         let line = || {
             let Place { port, peer } = seen.place;
-            let seconds = at_us as f64 / 1e6;
             let arrow = match seen.direction {
                 Direction::In => "<-",
                 Direction::Out => "->",
             };
-            let mut line = format!("{seconds:12.6} {port} {arrow} {peer}  {}", decoded.text);
+            let mut line = format!("{port} {arrow} {peer}  {}", decoded.text);
             if let Some(error) = decoded
                 .error
                 .as_ref()
@@ -99,13 +117,17 @@ impl Watch {
             line.push(']');
             line
         };
+        if let Some(heard) = self.heard.as_mut().filter(|heard| heard.len() < HEARD) {
+            heard.push(line());
+        }
+        let timed = || format!("{:12.6} {}", at_us as f64 / 1e6, line());
         let logged = match &mut self.log {
             Log::Nowhere | Log::Failed => Ok(()),
             Log::StandardError => {
-                tell(&line());
+                tell(&timed());
                 Ok(())
             }
-            Log::Text(file) => writeln!(file, "{}", visible(&line())),
+            Log::Text(file) => writeln!(file, "{}", visible(&timed())),
             Log::Capture(capture) => capture.frame(at_us, way, seen),
         };
         if let Err(error) = logged {
