@@ -4,6 +4,7 @@ mod common;
 
 use common::{chromium, folder, rungc, text};
 use serde_json::{Value, json};
+use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, ChildStderr, Command, Stdio};
@@ -174,7 +175,7 @@ fn a_live_page_works_in_a_browser() {
         "before": 3,
         "forced": "X000\t1\tRelease",
         "marks": 1,
-        "timer": "\nT0=0\n",
+        "timer": "T0=",
         "set": "7",
         "problem": "`Q9` is not a device name; examples: `M0`, `X010`, `D0.i32`",
         "scanned": 1,
@@ -288,6 +289,53 @@ fn errors_and_frames_are_in_the_log() {
     assert!(
         of("frame").contains("00 01 00 00 00 06 01 06 00 64 00 07"),
         "{seen}"
+    );
+}
+
+/// A program of 16,000 steps: most of it rests, a tenth of its networks changes ten times a second.
+fn large() -> String {
+    let mut list = String::new();
+    for i in 0..1070 {
+        let (a, b, x) = (i % 1000, (i * 7 + 3) % 1000, i % 128);
+        let _ = write!(
+            list,
+            "LD M{a}\nOR M{b}\nLDP X{x:o}\nANB\nMPS\nANI M{b}\nMOV K{i} D{a}\nMPP\nOUT M{}\n",
+            a + 1000
+        );
+        if i % 10 == 0 {
+            let _ = write!(list, "LD M8012\nANDP M8011\nINC D{}\n", a + 1000);
+        }
+    }
+    list + "END\n"
+}
+
+#[test]
+fn a_page_of_16000_steps_is_sent_what_changes() {
+    let page = Page::of(&large(), &[]);
+    let html = page
+        .ask(format!("GET {} HTTP/1.1\r\n{}\r\n", page.parts().1, page.host()).as_bytes())
+        .1;
+    let steps = html
+        .split(" steps, ")
+        .next()
+        .unwrap()
+        .rsplit(' ')
+        .next()
+        .unwrap();
+    let steps: u32 = steps.parse().unwrap();
+    assert!((15_000..17_000).contains(&steps), "{steps}");
+    let (host, path) = page.parts();
+    let mut stream = page.connect();
+    let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    stream.write_all(request.as_bytes()).unwrap();
+    let lines = BufReader::new(stream).lines().map_while(Result::ok);
+    let data = lines.filter(|line| line.starts_with("data: "));
+    let sizes: Vec<usize> = data.take(30).map(|line| line.len()).collect();
+    // First all networks, then those that have changed: at most the tenth that counts.
+    assert!(sizes[0] > 20_000, "{sizes:?}");
+    assert!(
+        sizes[1..].iter().all(|&size| size < sizes[0] / 3),
+        "{sizes:?}"
     );
 }
 

@@ -8,13 +8,13 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::{Class, Plc, Program as _, VirtualHal};
 
-const SCANS: u32 = 40;
+const SCANS: u32 = 20;
 
 /// All devices of a machine that programs work with.
 fn devices(machine: &Machine) -> Vec<Option<i32>> {
     let bits = [Class::X, Class::Y, Class::M, Class::S, Class::T, Class::C];
     let words = [Class::D, Class::R, Class::T, Class::C, Class::V, Class::Z];
-    let numbers = || (0..512).chain(8000..8512);
+    let numbers = || (0..200).chain(8000..8200);
     let bits = bits
         .into_iter()
         .flat_map(|class| numbers().map(move |n| (class, n)));
@@ -47,7 +47,7 @@ fn a_machine_repeats_what_it_has_done_from_a_saved_state() {
     let mut compared = 0;
     for model in [ModelId::Fx3u, ModelId::H2u, ModelId::Hm] {
         let candidates = candidates(model);
-        for seed in 0..12 {
+        for seed in 0..6 {
             let text = program(seed, model, &candidates, 40);
             let options = CompileOptions {
                 model: Some(model),
@@ -75,5 +75,5 @@ fn a_machine_repeats_what_it_has_done_from_a_saved_state() {
             compared += 1;
         }
     }
-    assert!(compared > 24, "only {compared} programs compile");
+    assert!(compared > 12, "only {compared} programs compile");
 }

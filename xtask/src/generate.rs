@@ -33,6 +33,8 @@ pub enum What {
     Benchmarks,
     /// The snapshots of all tests; review what changed.
     Snapshots,
+    /// The picture of the live page in the book, taken in Chromium (`RUNGC_BROWSER`).
+    Screens,
 }
 
 impl What {
@@ -72,7 +74,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             What::Book => book::make()?,
             What::Commands => rungc::commands()?,
             What::Diagram => rungc::diagrams()?,
-            What::Figures | What::Benchmarks | What::Snapshots if args.check => {
+            What::Figures | What::Benchmarks | What::Snapshots | What::Screens if args.check => {
                 return Err(format!(
                     "{} cannot be checked here: cargo test does that where it can be done",
                     what.to_possible_value()
@@ -87,6 +89,10 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             }
             What::Snapshots => {
                 tools::snapshots()?;
+                continue;
+            }
+            What::Screens => {
+                tools::screens()?;
                 continue;
             }
         };

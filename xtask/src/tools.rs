@@ -3,6 +3,7 @@
 use crate::{Problem, root};
 use rungc_benches::figures;
 use std::env;
+use std::fs;
 use std::process::Command;
 
 /// Cargo with these arguments, in the repository's root.
@@ -47,6 +48,20 @@ pub fn benchmarks() -> Result<(), Problem> {
 pub fn snapshots() -> Result<(), Problem> {
     let args = ["test", "--workspace", "--no-fail-fast"];
     run(cargo(&args).envs([("INSTA_UPDATE", "always"), ("INSTA_FORCE_PASS", "1")]))
+}
+
+/// Takes a picture of the live page, and puts it into the book.
+pub fn screens() -> Result<(), Problem> {
+    let taken = root().join("target/screens");
+    fs::create_dir_all(&taken)?;
+    let args = ["test", "-p", "rungc", "--test", "live", "in_a_browser"];
+    run(cargo(&args).env("RUNGC_PICTURES", &taken))?;
+    let page = fs::copy(
+        taken.join("live-light.png"),
+        root().join("docs/src/live.png"),
+    );
+    page.map_err(|error| format!("{error}: is RUNGC_BROWSER set?"))?;
+    Ok(())
 }
 
 /// The crates of the workspace that are not published.
