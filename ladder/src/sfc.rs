@@ -72,11 +72,15 @@ pub struct Transition {
     pub condition: String,
     /// Number of its network, counted from 1.
     pub network: usize,
+    /// The instructions that switch the states that begin.
+    pub instrs: Vec<InstrIndex>,
 }
 
 /// An instruction outside the sections of states that switches some.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Other {
+    /// The instruction.
+    pub instr: InstrIndex,
     /// Its step.
     pub step: u32,
     /// The instruction as a box.
@@ -211,13 +215,15 @@ impl Reader<'_> {
             }
             (Some(Basic::Nop), _) => self.in_row = was_in_row,
             (Some(Basic::Ret | Basic::Fend | Basic::End), _) => self.current.clear(),
-            (Some(Basic::Set | Basic::Out), Some(target)) => self.transition(target, condition),
+            (Some(Basic::Set | Basic::Out), Some(target)) => {
+                self.transition(target, condition, output.instr)
+            }
             _ if self.current.is_empty() => self.outside(output),
             _ => self.action(output, condition),
         }
     }
 
-    fn transition(&mut self, target: usize, condition: &Condition) {
+    fn transition(&mut self, target: usize, condition: &Condition, instr: InstrIndex) {
         let condition = condition.text();
         let same = |made: &&mut Transition| {
             made.from == self.current && made.condition == condition && !made.from.is_empty()
@@ -227,6 +233,7 @@ impl Reader<'_> {
             if !made.to.contains(&target) {
                 made.to.push(target);
             }
+            made.instrs.push(instr);
             return;
         }
         self.chart.transitions.push(Transition {
@@ -234,6 +241,7 @@ impl Reader<'_> {
             to: vec![target],
             condition,
             network: self.network,
+            instrs: vec![instr],
         });
     }
 
@@ -263,6 +271,7 @@ impl Reader<'_> {
         let mut devices = operands.iter().filter_map(|operand| operand.kind.device());
         if devices.any(|device| device.class == DeviceClass::S) {
             self.chart.others.push(Other {
+                instr: output.instr,
                 step: resolved.instrs[output.instr].step,
                 text: self.face.output_text(output),
             });

@@ -95,6 +95,8 @@ pub enum PlcopenBody {
     Ld,
     /// Instruction list of IEC 61131-3.
     Il,
+    /// Sequential function chart, of a program with states (STL).
+    Sfc,
 }
 
 impl ConvertTo {

@@ -4,8 +4,8 @@
 //! set, then the actions of the active steps are executed.
 
 use super::drawing::Drawing;
-use super::logic::{Logic, Output, Part};
-use super::{FREE, Fault, Reader, called, children, expression, flag, list, text};
+use super::logic::{Logic, Output, Part, Sense};
+use super::{FREE, Fault, Reader, called, children, expression, flag, list, text, variables};
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -49,6 +49,12 @@ pub(super) fn read(reader: &mut Reader, pou: Node, body: Node) -> Result<(), Fau
     }
     chart.check(body)?;
     chart.find_steps(reader, body)?;
+    for block in children(body, "actionBlock") {
+        let lists = children(block, "action").filter_map(|action| body_of(pou, action));
+        for list in lists.flat_map(|inside| children(inside, "IL")) {
+            list::prepare(reader, list);
+        }
+    }
     let mut transitions = Vec::new();
     for node in in_order(body) {
         let id = node.attribute("localId").unwrap_or_default();
@@ -90,7 +96,7 @@ pub(super) fn read(reader: &mut Reader, pou: Node, body: Node) -> Result<(), Fau
             network(reader, fires, lines.collect());
         }
     }
-    chart.actions(reader, body)
+    chart.actions(reader, pou, body)
 }
 
 fn network(reader: &mut Reader, logic: Logic, lines: Vec<SmolStr>) {
@@ -167,9 +173,12 @@ impl<'a, 'i> Chart<'a, 'i> {
     fn find_steps(&mut self, reader: &mut Reader, body: Node) -> Result<(), Fault> {
         for node in children(body, "step") {
             let name = node.attribute("name").unwrap_or_default();
-            let variables = &mut reader.variables;
             let key = format!("{name}.X");
-            let state = variables.part(&key, DeviceClass::S, 1, |_| true);
+            let variables = &mut reader.variables;
+            // A step that is called like a state is this state, unless the table says otherwise.
+            let own = variables::device(name).filter(|device| device.class == DeviceClass::S);
+            let own = own.filter(|_| !variables.is_named(&key));
+            let state = own.or_else(|| variables.part(&key, DeviceClass::S, 1, |_| true));
             let device = state.or_else(|| variables.part(&key, DeviceClass::M, 1, |_| true));
             let device = device.ok_or_else(|| {
                 Fault::at(
@@ -284,64 +293,192 @@ impl<'a, 'i> Chart<'a, 'i> {
         Ok(())
     }
 
-    /// The actions of steps: variables that are on while a step is active, or that it sets and resets.
-    fn actions(&self, reader: &mut Reader, body: Node<'a, 'i>) -> Result<(), Fault> {
-        let mut by_variable: BTreeMap<Device, Vec<(&str, Device)>> = BTreeMap::new();
+    /// The actions of steps: variables that are on while a step is active, or that it sets and resets, and bodies whose
+    /// networks begin with their step.
+    fn actions(&self, reader: &mut Reader, pou: Node, body: Node<'a, 'i>) -> Result<(), Fault> {
+        let mut uses: BTreeMap<Device, Vec<Use>> = BTreeMap::new();
+        let mut bodies = Vec::new();
         for block in children(body, "actionBlock") {
             let steps = sources(block);
             let step = steps.first().and_then(|id| self.step(id));
             let step =
                 step.ok_or_else(|| Fault::at(block, "no step has these actions", "connect them"))?;
             for action in children(block, "action") {
+                let qualifier = action.attribute("qualifier").unwrap_or("N");
                 let reference = children(action, "reference").next();
                 let name = reference.and_then(|reference| reference.attribute("name"));
+                if let Some(inside) = body_of(pou, action) {
+                    bodies.push(networks(reader, inside, qualifier, step)?);
+                    continue;
+                }
                 let Some(name) = name else {
-                    let what = "an action that is a separate program has no counterpart";
+                    let what = "an action that is neither a variable nor a body";
                     return Err(Fault::at(action, what, "name a BOOL variable"));
                 };
-                let qualifier = action.attribute("qualifier").unwrap_or("N");
-                if !matches!(qualifier, "N" | "S" | "R") {
-                    let what =
-                        format!("the qualifier `{qualifier}` of `{name}` has no counterpart");
-                    return Err(Fault::at(action, what, "rungc reads N, S and R"));
-                }
+                let mnemonic = match qualifier {
+                    "N" => "OUT",
+                    "S" => "SET",
+                    "R" => "RST",
+                    _ => {
+                        let what =
+                            format!("the qualifier `{qualifier}` of `{name}` has no counterpart");
+                        return Err(Fault::at(action, what, "rungc reads N, S and R"));
+                    }
+                };
                 let device = reader.bit(action, name)?;
-                by_variable
-                    .entry(device)
-                    .or_default()
-                    .push((qualifier, step));
+                let entry = uses.entry(device).or_default();
+                entry.push(Use {
+                    mnemonic,
+                    line: format_smolstr!("{mnemonic} {device}"),
+                    logic: Logic::contact(entry.len() as u32, true, step.to_smolstr()),
+                });
             }
         }
-        for (device, uses) in by_variable {
-            let ways = |wanted: &str| {
-                let steps = uses.iter().filter(|(qualifier, _)| *qualifier == wanted);
-                let contact = |(nth, (_, step)): (usize, &(&str, Device))| {
-                    Logic::contact(nth as u32, true, step.to_smolstr())
-                };
-                let ways: Vec<_> = steps.enumerate().map(contact).collect();
-                (!ways.is_empty()).then(|| Logic::joined(ways))
-            };
-            let stored = ways("S").into_iter().map(|logic| (logic, "SET"));
-            let stored: Vec<_> = stored
-                .chain(ways("R").map(|logic| (logic, "RST")))
-                .collect();
-            match (ways("N"), stored.is_empty()) {
-                (Some(_), false) => {
-                    let what = format!("{device} is both stored and not stored by actions");
-                    return Err(Fault::at(body, what, "use two variables"));
-                }
-                (Some(logic), true) => {
-                    network(reader, logic, vec![format_smolstr!("OUT {device}")])
-                }
-                (None, _) => {
-                    for (logic, mnemonic) in stored {
-                        network(reader, logic, vec![format_smolstr!("{mnemonic} {device}")]);
-                    }
-                }
-            }
+        share(&mut bodies, &mut uses);
+        reader.parts.extend(bodies.into_iter().flatten());
+        for (device, uses) in uses {
+            drive(reader, body, device, &uses)?;
         }
         Ok(())
     }
+}
+
+/// What an action does to a variable.
+struct Use {
+    /// OUT, SET or RST.
+    mnemonic: &'static str,
+    /// The instruction.
+    line: SmolStr,
+    logic: Logic,
+}
+
+/// The body of an action: its own, or that of the action of the program that it names.
+fn body_of<'a, 'i>(pou: Node<'a, 'i>, action: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
+    let inline = children(action, "inline").next();
+    inline.or_else(|| {
+        let name = children(action, "reference").next()?.attribute("name")?;
+        let lists = children(pou, "actions").flat_map(|list| children(list, "action"));
+        let mut named = lists.filter(|node| node.attribute("name") == Some(name));
+        children(named.next()?, "body").next()
+    })
+}
+
+/// The networks of an action with a body. Each begins with a contact of its step, so that it is off in the last
+/// execution, which the standard adds when the step has ended: so nothing changes if it is executed in each scan.
+fn networks(
+    reader: &mut Reader,
+    body: Node,
+    qualifier: &str,
+    step: Device,
+) -> Result<Vec<Part>, Fault> {
+    if qualifier != "N" {
+        let what = format!("an action with a body and the qualifier `{qualifier}`");
+        return Err(Fault::at(body, what, "use N"));
+    }
+    let start = reader.parts.len();
+    for language in body.children().filter(Node::is_element) {
+        match language.tag_name().name() {
+            "IL" => list::read(reader, language),
+            "LD" | "FBD" => super::drawing::read(reader, language),
+            _ => {
+                let help = "write the action as LD, FBD or IL";
+                return Err(Fault::outside(language, help));
+            }
+        }
+    }
+    let parts = reader.parts.split_off(start);
+    let step = step.to_smolstr();
+    let begins = |logic: &Logic| {
+        let contact = matches!(logic.first(), Some(Logic::Contact(contact))
+            if contact.sense == Sense::On && contact.operands == step);
+        contact && !logic.is_changed()
+    };
+    let ends = |part: &Part| match part {
+        Part::Output(output) => begins(&output.logic),
+        Part::Line(line) => line.starts_with(';'),
+    };
+    if !parts.iter().all(ends) {
+        let what = format!("an action of {step} has a network that does not end with its step");
+        let help = "begin each network with the step: `LD` of its name and `.X`";
+        return Err(Fault::at(body, what, help));
+    }
+    Ok(parts)
+}
+
+/// The device that a coil drives or, with another mnemonic, sets or resets.
+fn coil(line: &str, mnemonic: &str) -> Option<Device> {
+    let mut words = line.strip_prefix(mnemonic)?.strip_prefix(' ')?.split(' ');
+    variables::device(words.next()?)
+}
+
+/// Takes the coils that several actions drive out of their bodies: one network drives each.
+fn share(bodies: &mut [Vec<Part>], uses: &mut BTreeMap<Device, Vec<Use>>) {
+    let mut count: BTreeMap<Device, usize> = BTreeMap::new();
+    let mut stored = BTreeSet::new();
+    let lines = bodies.iter().flatten().flat_map(|part| match part {
+        Part::Output(output) => output.lines.as_slice(),
+        Part::Line(_) => &[],
+    });
+    for line in lines {
+        if let Some(device) = coil(line, "OUT") {
+            *count.entry(device).or_default() += 1;
+        }
+        let device = coil(line, "SET").or_else(|| coil(line, "RST"));
+        // RST of a timer or counter is not of its coil.
+        stored.extend(device.filter(|d| !matches!(d.class, DeviceClass::T | DeviceClass::C)));
+    }
+    for body in bodies {
+        body.retain(|part| {
+            let Part::Output(output) = part else {
+                return true;
+            };
+            let line = output.lines.first();
+            let driven = line.and_then(|line| coil(line, "OUT"));
+            let shared = driven.filter(|device| {
+                count[device] > 1 || stored.contains(device) || uses.contains_key(device)
+            });
+            let (Some(device), Some(line)) = (shared, line) else {
+                return true;
+            };
+            let entry = uses.entry(device).or_default();
+            if stored.contains(&device) {
+                entry.push(Use {
+                    mnemonic: "SET",
+                    line: format_smolstr!("SET {device}"),
+                    logic: Logic::wire(),
+                });
+            }
+            entry.push(Use {
+                mnemonic: "OUT",
+                line: line.clone(),
+                logic: output.logic.clone(),
+            });
+            false
+        });
+    }
+}
+
+/// Drives a variable as actions say.
+fn drive(reader: &mut Reader, body: Node, device: Device, uses: &[Use]) -> Result<(), Fault> {
+    let of = |mnemonic: &str| {
+        let uses = uses.iter().filter(|found| found.mnemonic == mnemonic);
+        uses.collect::<Vec<_>>()
+    };
+    let [driven, set, reset] = ["OUT", "SET", "RST"].map(of);
+    if !driven.is_empty() && driven.len() < uses.len() {
+        let what = format!("{device} is both stored and not stored by actions");
+        return Err(Fault::at(body, what, "use two variables"));
+    }
+    for uses in [driven, set, reset] {
+        let Some(first) = uses.first() else { continue };
+        if uses.iter().any(|other| other.line != first.line) {
+            let what = format!("actions drive {device} with different presets");
+            return Err(Fault::at(body, what, "use one preset"));
+        }
+        let ways = uses.iter().map(|found| found.logic.clone()).collect();
+        network(reader, Logic::joined(ways), vec![first.line.clone()]);
+    }
+    Ok(())
 }
 
 /// When a transition fires, once the steps before it are active.

@@ -21,12 +21,15 @@ const KEPT: &str = "MPS_";
 /// What a label begins with that follows a skipped function.
 const SKIP: &str = "SKIP_";
 
-/// Reads the body of a program.
+/// Finds the timers that a list calls, so that their outputs can be read before them.
+pub(super) fn prepare(reader: &mut Reader, body: Node) {
+    List::new(reader, body).find_blocks(&source::lines(&text(body)));
+}
+
+/// Reads the body of a program or action, whose timers have been found.
 pub(super) fn read(reader: &mut Reader, body: Node) {
     let mut list = List::new(reader, body);
-    let lines = source::lines(&text(body));
-    list.find_blocks(&lines);
-    for line in lines {
+    for line in source::lines(&text(body)) {
         if list.reader.gives_up() {
             return;
         }

@@ -96,6 +96,15 @@ impl Logic {
         Logic::Series(items)
     }
 
+    /// Whether the result of all of it is changed by INV, MEP or MEF.
+    pub fn is_changed(&self) -> bool {
+        match self {
+            Logic::Series(items) => items.iter().any(|item| matches!(item, Logic::Result(_))),
+            Logic::Result(_) => true,
+            Logic::Contact(_) | Logic::Parallel(_) => false,
+        }
+    }
+
     /// It with its result changed by INV, MEP or MEF.
     pub fn changed(self, by: &str) -> Self {
         if self.is_wire() {

@@ -221,6 +221,7 @@ impl Reader {
                 Ok(())
             }
             "IL" => {
+                list::prepare(self, body);
                 list::read(self, body);
                 Ok(())
             }

@@ -324,6 +324,14 @@ impl Variables {
         self.first_scan.extend(value);
     }
 
+    /// Whether the table names the device of a block's instance or of a part of it.
+    pub fn is_named(&self, name: &str) -> bool {
+        let name = name.trim().to_uppercase();
+        let full = format!("{}.{name}", self.program);
+        let devices = &self.names.devices;
+        devices.contains_key(&full) || devices.contains_key(&name)
+    }
+
     /// The device of a block's instance or of a part of it, such as `DELAY` or `DELAY.Q`: that of the table, else a
     /// free one of the class that fits.
     pub fn part(

@@ -184,7 +184,7 @@ super::codes! {
 
     PLCOPEN_ELEMENT = "E0063" "plcopen-element" Error None,
     "element of a PLCopen project without a counterpart",
-    "Of PLCopen XML, rungc reads programs as LD, FBD, IL and SFC, with contacts, coils and those functions and blocks of IEC 61131-3 that instructions of the PLC compute exactly. The message names the element, its line and what is different: structured text, blocks of the project's own, types such as REAL, actions with bodies, a comparison with EN, a timer whose preset is not a constant..",
+    "Of PLCopen XML, rungc reads programs as LD, FBD, IL and SFC, with contacts, coils and those functions and blocks of IEC 61131-3 that instructions of the PLC compute exactly. The message names the element, its line and what is different: structured text, blocks of the project's own, types such as REAL, actions that do not end with their step, a comparison with EN, a timer whose preset is not a constant..",
     wrong: "",
     right: "";
 
@@ -215,6 +215,18 @@ super::codes! {
     PLCOPEN_FORM = "N0741" "plcopen-form" Note None,
     "PLCopen project that reads back as another list",
     "Several lists have the same drawing: contacts may be joined by ANB without need, and a stack may hold what no branch needs. From this network on, the project that `rungc convert --to plcopen` writes reads back as another list that does the same.",
+    wrong: "",
+    right: "";
+
+    PLCOPEN_CHART = "E0741" "plcopen-chart" Error None,
+    "step ladder that no chart can say",
+    "`rungc convert --to plcopen --body sfc` writes states as the steps of a sequential function chart. A step begins by a transition after other steps or, if it is initial, in the first scan (M8002); it ends by a transition. States that other instructions set or reset (SET, RST and ZRST outside of the states, RST in a state), states that networks outside read, and jumps, calls and loops in a state cannot be said so. `--body ld` and `--body il` write such programs.",
+    wrong: "",
+    right: "";
+
+    PLCOPEN_EVOLUTION = "N0742" "plcopen-evolution" Note None,
+    "chart that switches by the rules of IEC 61131-3",
+    "The steps of a chart do not switch exactly as states do. In a chart, all transitions are evaluated first, then steps end, then others begin, and the actions of the active steps are executed last. STL executes a state before it leaves it, begins the next one at once, and lets both overlap for a scan. Of several transitions after a step, a chart takes the first whose condition holds; STL takes all of them. Outputs can therefore differ by a scan, and what a state stores (SET, MOV) under the condition by which it ends, a chart does not store.",
     wrong: "",
     right: "";
 

@@ -1,9 +1,11 @@
-//! `--to plcopen`: a project of PLCopen XML (TC6 2.01) with the program as a ladder or an instruction list.
+//! `--to plcopen`: a project of PLCopen XML (TC6 2.01) with the program as a ladder, an instruction list or a
+//! sequential function chart.
 //!
 //! Contacts, coils, timers, comparisons, MOV, ADD and SUB are elements, functions and blocks of the standard; other
 //! instructions are blocks whose types begin with `FX_`. What is written reads back to the same list, unless this has
 //! blocks or stacks that the drawing does not need.
 
+mod chart;
 mod lines;
 mod sheet;
 mod words;
@@ -12,10 +14,11 @@ mod xml;
 use crate::args::PlcopenBody;
 use lines::Lines;
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::read_bytes;
+use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
 use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_lower::compile::{CompileOptions, model};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, codes};
+use rungc_syntax::codes::{self, Code};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity};
 use sheet::Sheet;
 use std::collections::BTreeMap;
 use words::Words;
@@ -33,20 +36,20 @@ pub fn to_plcopen(
 ) -> String {
     let (resolved, _) = resolve(program, model(program, options));
     let mut words = Words::new(&resolved);
+    let ladder = build::ladder(&resolved);
     let written = match body {
-        PlcopenBody::Ld => as_ladder(&build::ladder(&resolved), &mut words),
-        PlcopenBody::Il => as_list(&build::ladder(&resolved), &mut words),
+        PlcopenBody::Ld => as_ladder("main", &ladder, &mut words).map(|pou| vec![pou]),
+        PlcopenBody::Il => as_list(&ladder, &mut words).map(|pou| vec![pou]),
+        PlcopenBody::Sfc => as_chart(&ladder, &mut words),
     };
-    let pou = match written {
-        Ok(pou) => pou,
-        Err((at, why)) => {
-            let what = format!("this network has no drawing, which PLCopen XML needs: {why}");
+    let pous = match written {
+        Ok(pous) => pous,
+        Err(refused) => {
+            let diagnostic = refused
+                .code
+                .at(program.instrs[refused.at].span, refused.what);
             let help = "`--to il` and `--to csv` write it as a list";
-            diagnostics.push(
-                codes::PLCOPEN_UNDRAWN
-                    .at(program.instrs[at].span, what)
-                    .help(help),
-            );
+            diagnostics.push(diagnostic.help(help));
             return String::new();
         }
     };
@@ -54,7 +57,7 @@ pub fn to_plcopen(
         let names: Vec<_> = words.instructions.iter().map(String::as_str).collect();
         let kind = match body {
             PlcopenBody::Ld => "blocks",
-            PlcopenBody::Il => "functions",
+            PlcopenBody::Il | PlcopenBody::Sfc => "functions",
         };
         let what = format!(
             "written as {kind} that only rungc knows, `FX_…`: {}",
@@ -62,7 +65,16 @@ pub fn to_plcopen(
         );
         diagnostics.push(codes::PLCOPEN_INSTRUCTIONS.at(Default::default(), what));
     }
-    let text = document(program, &pou, &words);
+    let text = document(program, &pous, &words);
+    match body {
+        PlcopenBody::Ld | PlcopenBody::Il => check_list(program, &text, diagnostics),
+        PlcopenBody::Sfc => check_chart(&text, diagnostics),
+    }
+    text
+}
+
+/// Says where a project reads back as another list.
+fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
     let back = read_bytes("plcopen", text.as_bytes());
     let back = back.map(|read| read.program.instrs).unwrap_or_default();
     let same = |(a, b): &(&Instr, &Instr)| {
@@ -77,11 +89,36 @@ pub fn to_plcopen(
         let what = "what is written means the same, but reads back as another list from here on";
         diagnostics.push(codes::PLCOPEN_FORM.at(instr.span, what));
     }
-    text
+}
+
+/// Says that a chart does not switch as a step ladder does; what rungc itself cannot read back is an error.
+fn check_chart(text: &str, diagnostics: &mut Diagnostics) {
+    // Its transitions need relays, whichever they are.
+    let free = Names {
+        free: vec![(DeviceClass::M, 0, 7679)],
+        ..Names::default()
+    };
+    let options = ReadOptions {
+        names: free,
+        ..ReadOptions::default()
+    };
+    let what = "the steps switch as IEC 61131-3 says: a step ends before the next one begins, and of several \
+                transitions the first one fires";
+    diagnostics.push(codes::PLCOPEN_EVOLUTION.at(Default::default(), what));
+    if let Ok(read) = read_bytes_with("plcopen", text.as_bytes(), &options) {
+        let errors = read
+            .diagnostics
+            .iter()
+            .filter(|found| found.severity == Severity::Error);
+        diagnostics.extend(
+            errors.map(|found| codes::PLCOPEN_CHART.at(Default::default(), found.message.clone())),
+        );
+    }
 }
 
 /// A program organization unit.
 struct Pou {
+    name: &'static str,
     /// The element of its body.
     language: &'static str,
     /// What the body holds.
@@ -90,17 +127,57 @@ struct Pou {
     kept: usize,
 }
 
-/// Why a program cannot be written: the first network without a structure.
-type Refused = (InstrIndex, &'static str);
+/// Why a program cannot be written.
+struct Refused {
+    code: &'static Code,
+    at: InstrIndex,
+    what: String,
+}
 
-fn as_ladder(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
+impl Refused {
+    /// A network without a structure.
+    fn network(at: InstrIndex, why: &str) -> Self {
+        Refused {
+            code: &codes::PLCOPEN_UNDRAWN,
+            at,
+            what: format!("this network has no drawing, which PLCopen XML needs: {why}"),
+        }
+    }
+
+    /// Something that a chart cannot say.
+    fn state(at: InstrIndex, what: impl Into<String>) -> Self {
+        Refused {
+            code: &codes::PLCOPEN_CHART,
+            at,
+            what: what.into(),
+        }
+    }
+}
+
+fn as_ladder(name: &'static str, ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
     let mut sheet = Sheet::new(words);
     sheet.draw(ladder)?;
     Ok(Pou {
+        name,
         language: "LD",
         content: sheet.xml,
         kept: 0,
     })
+}
+
+/// The chart as a program of its own, between ladders of what stands before and after the states.
+fn as_chart(ladder: &Ladder, words: &mut Words) -> Result<Vec<Pou>, Refused> {
+    let parts = chart::parts(words, ladder)?;
+    let before = as_ladder("before", &parts.before, words)?;
+    let chart = Pou {
+        name: "main",
+        language: "SFC",
+        content: parts.chart,
+        kept: parts.kept,
+    };
+    let after = as_ladder("after", &parts.after, words)?;
+    let all = [before, chart, after].into_iter();
+    Ok(all.filter(|pou| !pou.content.text.is_empty()).collect())
 }
 
 fn as_list(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
@@ -109,13 +186,14 @@ fn as_list(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
     let mut content = Xml::default();
     content.text("xhtml:p", &lines.text);
     Ok(Pou {
+        name: "main",
         language: "IL",
         content,
         kept: lines.kept,
     })
 }
 
-fn document(program: &Program, pou: &Pou, words: &Words) -> String {
+fn document(program: &Program, pous: &[Pou], words: &Words) -> String {
     let title = program
         .title
         .as_deref()
@@ -151,42 +229,78 @@ fn document(program: &Program, pou: &Pou, words: &Words) -> String {
         xml.node("types", &[], |xml| {
             xml.leaf("dataTypes", &[]);
             xml.node("pous", &[], |xml| {
-                xml.node("pou", &[("name", "main"), ("pouType", "program")], |xml| {
-                    xml.node("interface", &[], |xml| {
-                        xml.node("localVars", &[], |xml| {
-                            variables(xml, program, words);
-                            for nth in 1..=pou.kept {
-                                variable(xml, &format!("MPS_{nth}"), None, "BOOL", None);
-                            }
+                for pou in pous {
+                    let attributes = [("name", pou.name), ("pouType", "program")];
+                    xml.node("pou", &attributes, |xml| {
+                        xml.node("interface", &[], |xml| {
+                            interface(xml, program, pous, pou, words)
+                        });
+                        xml.node("body", &[], |xml| {
+                            xml.node(pou.language, &[], |xml| xml.append(&pou.content));
                         });
                     });
-                    xml.node("body", &[], |xml| {
-                        xml.node(pou.language, &[], |xml| xml.append(&pou.content));
-                    });
-                });
+                }
             });
         });
-        xml.node("instances", &[], |xml| {
-            xml.node("configurations", &[], |xml| {
-                xml.node("configuration", &[("name", "config")], |xml| {
-                    xml.node("resource", &[("name", "plc")], |xml| {
-                        let task = [("name", "scan"), ("interval", "T#10ms"), ("priority", "1")];
-                        xml.node("task", &task, |xml| {
-                            xml.leaf("pouInstance", &[("name", "instance"), ("typeName", "main")]);
-                        });
-                    });
-                });
-            });
-        });
+        instances(xml, program, pous, words);
     });
     xml.text
 }
 
-/// The devices that elements name and those that have comments, with their addresses and types.
-fn variables(xml: &mut Xml, program: &Program, words: &Words) {
+/// The variables of a program: its own, or those that it shares with others.
+fn interface(xml: &mut Xml, program: &Program, pous: &[Pou], pou: &Pou, words: &Words) {
+    let kept = |xml: &mut Xml| {
+        for nth in 1..=pou.kept {
+            variable(xml, &format!("MPS_{nth}"), None, "BOOL", None);
+        }
+    };
+    if pous.len() == 1 {
+        return xml.node("localVars", &[], |xml| {
+            variables(xml, program, words);
+            kept(xml);
+        });
+    }
+    if pou.kept > 0 {
+        xml.node("localVars", &[], kept);
+    }
+    xml.node("externalVars", &[], |xml| {
+        for (device, kind) in types(program, words) {
+            variable(xml, &device.to_string(), None, kind, None);
+        }
+    });
+}
+
+fn instances(xml: &mut Xml, program: &Program, pous: &[Pou], words: &Words) {
+    xml.node("instances", &[], |xml| {
+        xml.node("configurations", &[], |xml| {
+            xml.node("configuration", &[("name", "config")], |xml| {
+                xml.node("resource", &[("name", "plc")], |xml| {
+                    let task = [("name", "scan"), ("interval", "T#10ms"), ("priority", "1")];
+                    xml.node("task", &task, |xml| {
+                        for (nth, pou) in pous.iter().enumerate() {
+                            let name = match nth {
+                                0 => "instance".to_owned(),
+                                _ => format!("instance{nth}"),
+                            };
+                            let attributes = [("name", name.as_str()), ("typeName", pou.name)];
+                            xml.leaf("pouInstance", &attributes);
+                        }
+                    });
+                    if pous.len() > 1 {
+                        xml.node("globalVars", &[], |xml| variables(xml, program, words));
+                    }
+                });
+            });
+        });
+    });
+}
+
+/// The devices that elements name and those that have comments, with their types.
+fn types(program: &Program, words: &Words) -> BTreeMap<Device, &'static str> {
     use DeviceClass::{C, D, M, S, T, X, Y};
     let mut types: BTreeMap<Device, &str> = BTreeMap::new();
-    for device in program.comments.keys() {
+    let commented = program.comments.keys();
+    for device in commented.filter(|device| !words.steps.contains(device)) {
         match device.class {
             X | Y | M | S | T | C => _ = types.insert(*device, "BOOL"),
             D => _ = types.insert(*device, "INT"),
@@ -194,7 +308,13 @@ fn variables(xml: &mut Xml, program: &Program, words: &Words) {
         }
     }
     types.extend(&words.variables);
-    for (device, kind) in types {
+    types
+}
+
+/// The variables of all devices, with their addresses.
+fn variables(xml: &mut Xml, program: &Program, words: &Words) {
+    use DeviceClass::{D, M, X, Y};
+    for (device, kind) in types(program, words) {
         let number = device.number;
         let address = match device.class {
             X => Some(format!("%IX{}.{}", number / 8, number % 8)),

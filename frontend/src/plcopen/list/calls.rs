@@ -28,7 +28,7 @@ fn operands(written: &str) -> Vec<&str> {
 }
 
 impl List<'_, '_, '_> {
-    /// Finds the timers that the list calls, so that their outputs can be read before them.
+    /// Finds the timers that the list calls.
     pub(super) fn find_blocks(&mut self, lines: &[Line]) {
         let codes = lines.iter().filter_map(|line| match line {
             Line::Code(code) => code.trim().split_once(char::is_whitespace),

@@ -3,11 +3,10 @@
 //! MPS, MRD and MPP keep a result in a variable `MPS_1`, …, and a function of words is executed under the condition
 //! that `JMPCN` tests, which jumps over it to `SKIP_1`, ….
 
+use super::Refused;
 use super::words::{Drive, Gate, Words};
 use rungc_ladder::list::Entry;
-use rungc_ladder::{
-    Branch, Contact, InstrIndex, Item, Join, Ladder, NetworkBody, Node, Output, Part,
-};
+use rungc_ladder::{Branch, Contact, Item, Join, Ladder, NetworkBody, Node, Output, Part};
 use std::fmt::Write as _;
 
 /// A list while it is written.
@@ -22,16 +21,21 @@ pub(super) struct Lines<'s, 'a> {
 
 impl<'s, 'a> Lines<'s, 'a> {
     pub fn new(words: &'s mut Words<'a>) -> Self {
+        Lines::continued(words, 0)
+    }
+
+    /// A list in which results are kept after those of others.
+    pub fn continued(words: &'s mut Words<'a>, kept: usize) -> Self {
         Lines {
             text: String::new(),
-            kept: 0,
+            kept,
             words,
             skips: 0,
         }
     }
 
-    /// Writes all networks; gives the first that has no structure, and why.
-    pub fn write(&mut self, ladder: &Ladder) -> Result<(), (InstrIndex, &'static str)> {
+    /// Writes all networks; gives the first that has no structure.
+    pub fn write(&mut self, ladder: &Ladder) -> Result<(), Refused> {
         for network in &ladder.networks {
             let first = network.instrs.start;
             for remark in self.words.remarks(network.instrs.clone()) {
@@ -50,7 +54,7 @@ impl<'s, 'a> Lines<'s, 'a> {
                 }
             }
             match &network.body {
-                NetworkBody::List { why } => return Err((first, why)),
+                NetworkBody::List { why } => return Err(Refused::network(first, why)),
                 NetworkBody::Rung(node) if node.items.is_empty() => {}
                 NetworkBody::Rung(node) if self.words.is_end(node) => {}
                 NetworkBody::Rung(node) => self.node(node, Entry::Ld),
@@ -64,7 +68,7 @@ impl<'s, 'a> Lines<'s, 'a> {
     }
 
     /// Contacts and what they feed.
-    fn node(&mut self, node: &Node, entry: Entry) {
+    pub fn node(&mut self, node: &Node, entry: Entry) {
         if node.series.is_empty() && entry == Entry::Ld {
             self.line("LD TRUE");
         }
@@ -140,7 +144,7 @@ impl<'s, 'a> Lines<'s, 'a> {
     }
 
     /// A block in parentheses, or as it is where it begins the list.
-    fn nested(&mut self, entry: Entry, inside: impl FnOnce(&mut Self)) {
+    pub fn nested(&mut self, entry: Entry, inside: impl FnOnce(&mut Self)) {
         if entry == Entry::Ld {
             return inside(self);
         }

@@ -1,7 +1,8 @@
 //! The networks of a program as elements of a ladder, with places and wires.
 
+use super::Refused;
 use super::words::{Drive, Gate, Words};
-use super::xml::Xml;
+use super::xml::{Xml, position, relative};
 use rungc_ladder::{Contact, InstrIndex, Item, Ladder, NetworkBody, Node, Output, Part, Series};
 use rungc_syntax::Device;
 
@@ -42,8 +43,8 @@ impl<'s, 'a> Sheet<'s, 'a> {
         }
     }
 
-    /// Draws all networks; gives the first that cannot be drawn, and why.
-    pub fn draw(&mut self, ladder: &Ladder) -> Result<(), (InstrIndex, &'static str)> {
+    /// Draws all networks; gives the first that cannot be drawn.
+    pub fn draw(&mut self, ladder: &Ladder) -> Result<(), Refused> {
         for network in &ladder.networks {
             let first = network.instrs.start;
             let remarks = self.words.remarks(network.instrs.clone());
@@ -54,7 +55,7 @@ impl<'s, 'a> Sheet<'s, 'a> {
                 self.label(at);
             }
             match &network.body {
-                NetworkBody::List { why } => return Err((first, why)),
+                NetworkBody::List { why } => return Err(Refused::network(first, why)),
                 NetworkBody::Rung(node) if node.items.is_empty() => {}
                 NetworkBody::Rung(node) if self.words.is_end(node) => {}
                 NetworkBody::Rung(node) => {
@@ -452,16 +453,6 @@ const OPERANDS: [&str; 16] = [
 fn named(operands: Vec<String>) -> Vec<(&'static str, Pin)> {
     let texts = operands.into_iter().map(Pin::Text);
     OPERANDS.into_iter().zip(texts).collect()
-}
-
-fn position(xml: &mut Xml, x: i64, y: i64) {
-    let (x, y) = (x.to_string(), y.to_string());
-    xml.leaf("position", &[("x", &x), ("y", &y)]);
-}
-
-fn relative(xml: &mut Xml, x: i64, y: i64) {
-    let (x, y) = (x.to_string(), y.to_string());
-    xml.leaf("relPosition", &[("x", &x), ("y", &y)]);
 }
 
 /// An input with its wires, from the input back to each source.

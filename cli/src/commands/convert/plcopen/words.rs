@@ -61,6 +61,8 @@ pub(super) struct Words<'a> {
     pub variables: BTreeMap<Device, &'static str>,
     /// Instructions that no function or block of the standard stands for.
     pub instructions: BTreeSet<String>,
+    /// States that are steps of a chart.
+    pub steps: BTreeSet<Device>,
     resolved: &'a Resolved<'a>,
     /// Timers that are TON, with the milliseconds that they count to.
     timers: BTreeMap<Device, u64>,
@@ -71,9 +73,14 @@ impl<'a> Words<'a> {
         Words {
             variables: BTreeMap::new(),
             instructions: BTreeSet::new(),
+            steps: BTreeSet::new(),
             resolved,
             timers: timers(resolved),
         }
+    }
+
+    pub fn resolved(&self) -> &'a Resolved<'a> {
+        self.resolved
     }
 
     pub fn instr(&self, at: InstrIndex) -> &'a Instr {
@@ -206,6 +213,9 @@ impl<'a> Words<'a> {
     /// The name of the variable that a bit is.
     fn bit(&mut self, device: Device) -> Option<String> {
         use DeviceClass::{C, M, S, T, X, Y};
+        if self.steps.contains(&device) {
+            return Some(format!("{device}.X"));
+        }
         if self.timers.contains_key(&device) {
             self.variables.insert(device, "TON");
             return Some(format!("{device}.Q"));

@@ -70,3 +70,15 @@ fn clean(text: &str) -> String {
     let fits = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
     text.chars().filter(fits).collect()
 }
+
+/// Where an element stands.
+pub(super) fn position(xml: &mut Xml, x: i64, y: i64) {
+    let (x, y) = (x.to_string(), y.to_string());
+    xml.leaf("position", &[("x", &x), ("y", &y)]);
+}
+
+/// Where a pin is in its element.
+pub(super) fn relative(xml: &mut Xml, x: i64, y: i64) {
+    let (x, y) = (x.to_string(), y.to_string());
+    xml.leaf("relPosition", &[("x", &x), ("y", &y)]);
+}
