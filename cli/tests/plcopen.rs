@@ -165,8 +165,8 @@ fn what_other_editors_do_not_know_is_said() {
     assert_eq!(code(path, &["explain", "E0740"]), 0);
 }
 
-/// Balls that are sorted by size (h1u-h2u-programming §4.2.3), but that X03, not Y03, lets a flow begin: no state drives
-/// Y03 while S0 waits for it.
+/// Balls that are sorted by size (h1u-h2u-programming §4.2.3), but that X03, not Y03, lets a flow begin: while S0 waits
+/// for it, no state drives Y03.
 const BALLS: &str = "\
 LD M8002\nSET S0\nLD X01\nAND X03\nANI Y01\nOUT Y07\nSTL S0\nLD X26\nAND Y07\nSET S21\n\
 STL S21\nOUT Y00\nOUT T0 K20\nLD T0\nAND X02\nSET S22\nLD T0\nANI X02\nSET S25\nSTL S22\n\

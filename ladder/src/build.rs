@@ -97,7 +97,10 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
         Ok(node) => Network {
             instrs: start..reader.at,
             labels,
-            body: NetworkBody::Rung(node),
+            body: match changes_a_block(&node) {
+                true => NetworkBody::List { why: ONE_BLOCK },
+                false => NetworkBody::Rung(node),
+            },
         },
         Err(why) => Network {
             instrs: start..end_of_list(instrs, at),
@@ -105,6 +108,47 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
             body: NetworkBody::List { why },
         },
     }
+}
+
+const ONE_BLOCK: Undrawable =
+    "INV, MEP or MEF changes the result of a block, not of all that is to its left";
+
+/// Whether the result of a block to the right of other contacts is changed. A drawing would say that all is changed
+/// that is to the left, back to the rail.
+fn changes_a_block(node: &Node) -> bool {
+    fn changes(series: &[Part]) -> bool {
+        series.iter().any(|part| match part {
+            Part::Contact(_) => false,
+            Part::Result(_) => true,
+            Part::Group(parts) => changes(parts),
+            Part::Parallel(branches) => branches.iter().any(|branch| changes(&branch.series)),
+        })
+    }
+    fn in_series(series: &[Part], mut at_rail: bool) -> bool {
+        series.iter().any(|part| {
+            let at_rail = std::mem::take(&mut at_rail);
+            match part {
+                Part::Contact(_) | Part::Result(_) => false,
+                Part::Group(parts) => changes(parts),
+                Part::Parallel(branches) => {
+                    let mut all = branches.iter().map(|branch| &branch.series);
+                    all.any(|series| match at_rail {
+                        true => in_series(series, true),
+                        false => changes(series),
+                    })
+                }
+            }
+        })
+    }
+    fn in_node(node: &Node, at_rail: bool) -> bool {
+        in_series(&node.series, at_rail)
+            || node.items.iter().any(|item| match item {
+                Item::Output(_) => false,
+                Item::Stack(branches) => branches.iter().any(|branch| in_node(branch, false)),
+                Item::Continue(next) => in_node(next, false),
+            })
+    }
+    in_node(node, true)
 }
 
 /// Where the network after one that cannot be drawn may start: at the next contact, label or box on the rail after an

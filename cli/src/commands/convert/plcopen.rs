@@ -165,7 +165,7 @@ fn as_ladder(name: &'static str, ladder: &Ladder, words: &mut Words) -> Result<P
     })
 }
 
-/// The chart as a program of its own, between ladders of what stands before and after the states.
+/// The chart as a separate program, between ladders of what stands before and after the states.
 fn as_chart(ladder: &Ladder, words: &mut Words) -> Result<Vec<Pou>, Refused> {
     let parts = chart::parts(words, ladder)?;
     let before = as_ladder("before", &parts.before, words)?;

@@ -180,7 +180,7 @@ fn without(node: &Node, left_out: &BTreeSet<InstrIndex>) -> Option<Node> {
     })
 }
 
-/// Refuses networks of a section that an action cannot hold.
+/// Rejects networks of a section that an action cannot hold.
 fn check_section(
     words: &Words,
     chart: &Chart,
@@ -208,7 +208,7 @@ fn check_section(
     Ok(())
 }
 
-/// Refuses networks outside of the sections that read states.
+/// Rejects networks outside of the sections that read states.
 fn check_outside(words: &Words, chart: &Chart, network: &Network) -> Result<(), Refused> {
     for at in network.instrs.clone() {
         let is_contact = !matches!(words.instr(at).mnemonic.as_str(), "SET" | "OUT");
