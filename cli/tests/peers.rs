@@ -319,6 +319,72 @@ fn node_red_reads_and_writes_by_a_flow() {
     );
 }
 
+/// Rows of what a program asks, with `host` before each.
+const ROWS: [&str; 6] = [
+    "read = 'registers'\naddress = 500\ncount = 2\nbuffer = 'D205'",
+    "write = 'registers'\naddress = 600\ncount = 2\nbuffer = 'D220'\ntrigger = 'M10'",
+    "write = 'coils'\naddress = 10\nbuffer = 'D230'\ntrigger = 'M11'",
+    "read = 'coils'\naddress = 20\ncount = 20\nbuffer = 'D240'\ntrigger = 'M12'",
+    "write = 'coils'\naddress = 40\ncount = 10\nbuffer = 'D245'\ntrigger = 'M13'",
+    "read = 'registers'\naddress = 2000\nbuffer = 'D250'\ntrigger = 'M14'",
+];
+
+/// A port of this machine that is free, or was a moment ago.
+fn free_port() -> u16 {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.local_addr().unwrap().port()
+}
+
+/// A program that asks a server at this port.
+fn that_asks(server: u16) -> TempDir {
+    let mut settings = String::from("[project]\nprogram = 'p.il'\nmodel = 'h2u'\n");
+    for row in ROWS {
+        settings += &format!("\n[[modbus]]\nhost = '127.0.0.1:{server}'\n{row}\n");
+    }
+    let list = b"LD M8000\nOUT Y000\nEND\n";
+    folder(&[("p.il", list), ("rungc.toml", settings.as_bytes())])
+}
+
+#[test]
+fn a_program_asks_a_server_of_pymodbus() {
+    let Some(mut server) = python("pymodbus", "modbus_server.py") else {
+        return;
+    };
+    let own = free_port();
+    let folder = that_asks(own);
+    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
+    server.arg(run.port("Modbus TCP").to_string());
+    server.arg(own.to_string());
+    succeeds(server);
+}
+
+#[test]
+fn executables_ask_a_server_of_pymodbus() {
+    let Some(mut server) = python("pymodbus", "modbus_server.py") else {
+        return;
+    };
+    let [own, port] = [free_port(), free_port()];
+    let folder = that_asks(own);
+    let build = ["build", "p.il", "--emit", "bin", "--servers", "-o", "p"];
+    let mut rungc = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    rungc.args(build).current_dir(folder.path());
+    succeeds(rungc);
+    let mut program = Command::new(folder.path().join("p"));
+    let program = program.args(["--modbus-tcp", &port.to_string()]);
+    let mut running = program
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    server.args([port.to_string(), own.to_string()]);
+    let output = server.output().unwrap();
+    running.kill().unwrap();
+    running.wait().unwrap();
+    let (shown, errors) = (text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success(), "{shown}{errors}");
+}
+
 #[test]
 fn umodbus_reads_and_writes_over_tcp() {
     by_tcp(

@@ -991,8 +991,8 @@ typedef struct rungc_hal {
      */
     bool (*write_bfm)(void *context, uint16_t unit, uint16_t address, int16_t value);
     /**
-     * Waits until a remote module (101 to 162) answers, at most so many milliseconds; false if it has not. `NULL`: only
-     * its buffer memory shows whether it is there.
+     * Waits until a remote module (101 to 162) answers, for this many milliseconds at most; false if it has not.
+     * `NULL`: only its buffer memory shows whether it is there.
      */
     bool (*module_answers)(void *context, uint16_t unit, uint16_t most_ms);
     /**
@@ -1529,7 +1529,7 @@ bool rungc_virtual_get_bfm(uint16_t unit, uint16_t address, int16_t *value);
 bool rungc_virtual_fit(uint16_t unit, uint16_t kind);
 
 /**
- * A module answers after so many milliseconds from now on; false if too many are slow.
+ * A module answers after this many milliseconds from now on; false if too many are slow.
  */
 bool rungc_virtual_delay_module(uint16_t unit, uint16_t ms);
 

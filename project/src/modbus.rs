@@ -29,7 +29,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// How many registers of the PLC so many coils or registers of the other side take.
+    /// How many registers of the PLC this many coils or registers of the other side take.
     fn words(&self, count: u16) -> u32 {
         match self.what {
             "coils" | "inputs" => count.div_ceil(16).into(),

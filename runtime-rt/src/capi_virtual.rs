@@ -200,7 +200,7 @@ pub extern "C" fn rungc_virtual_fit(unit: u16, kind: u16) -> bool {
         .is_some()
 }
 
-/// A module answers after so many milliseconds from now on; false if too many are slow.
+/// A module answers after this many milliseconds from now on; false if too many are slow.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_delay_module(unit: u16, ms: u16) -> bool {
     with(|hal| hal.delay_module(unit, ms)).is_some()

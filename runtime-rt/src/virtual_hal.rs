@@ -142,7 +142,7 @@ impl VirtualHal {
         modules.find_map(|(own, module)| (*own == unit).then_some(module))
     }
 
-    /// A module answers after so many milliseconds from now on; `None` if too many are slow.
+    /// A module answers after this many milliseconds from now on; `None` if too many are slow.
     pub fn delay_module(&mut self, unit: u16, ms: u16) -> Option<()> {
         let is_its = |place: &&mut Option<(u16, u16)>| place.is_none_or(|(own, _)| own == unit);
         *self.delays_ms.iter_mut().find(is_its)? = Some((unit, ms));

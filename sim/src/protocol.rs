@@ -81,7 +81,7 @@ pub enum Request {
     Bfm(u16, u16),
     /// Fits the module with this number: the kind by its number in the table of [`rungc_rt::modules::KINDS`].
     Fit(u16, usize),
-    /// A module answers after so many milliseconds from now on.
+    /// A module answers after this many milliseconds from now on.
     DelayModule(u16, u16),
     /// An analog signal reaches an input of a module.
     SetSignal {

@@ -237,7 +237,7 @@ impl Reader {
         }
     }
 
-    /// Whether there are so many mistakes that more would not help; what is left is not read then.
+    /// Whether there are enough mistakes that more would not help; what is left is not read then.
     fn gives_up(&mut self) -> bool {
         self.cut_short |= self.faults.len() >= MOST_FAULTS;
         self.cut_short

@@ -7,6 +7,7 @@ use crate::text::{ascii, enq, rtu, stx};
 use rungc_models::ModelId;
 use rungc_rt::comm::canlink::Head;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
+use rungc_rt::comm::modbus::client::{Client, ClientRow, Link};
 use rungc_rt::comm::modbus::{self, Buffer, Framing, Job, tcp};
 use rungc_rt::comm::{CanFrame, Cut, Frame, Map, Memory, Served, fx_port, mc};
 use rungc_rt::{Class, Ports};
@@ -72,6 +73,29 @@ fn modbus_master(variant: u8, bytes: &[u8], map: &mut dyn Map, _: &mut Frame) {
     let framing = [Framing::Rtu, Framing::Ascii][usize::from(variant & 1)];
     for frame in [rest.to_vec(), sealed(framing, rest)] {
         let _ = modbus::accept(framing, &job, &frame, map);
+    }
+}
+
+/// What a server over TCP answers to a request, whose function and count come first: as it is, and as the answer to it.
+fn modbus_client(_: u8, bytes: &[u8], map: &mut dyn Map, request: &mut Frame) {
+    let [function, count, rest @ ..] = bytes else {
+        return;
+    };
+    let rows = [ClientRow {
+        trigger: Class::M,
+        number: 8000,
+        unit: 1,
+        function: *function,
+        address: 0,
+        count: (*count).into(),
+        buffer: 100,
+    }];
+    let mut client = Client::new(Ports::Inovance, 1);
+    let _ = client.next(&rows, Link::Open, 0, map, request);
+    let length = (rest.len() as u16).to_be_bytes();
+    let whole = [&[0, 1, 0, 0][..], &length, rest].concat();
+    for &byte in rest.iter().chain(&whole) {
+        let _ = client.hear(&rows, byte, 0, map);
     }
 }
 
@@ -147,7 +171,7 @@ fn can(_: u8, bytes: &[u8], _: &mut dyn Map, text: &mut Frame) {
     }
 }
 
-pub(super) fn targets() -> [Target; 6] {
+pub(super) fn targets() -> [Target; 7] {
     [
         target(
             "decode-can",
@@ -165,6 +189,15 @@ pub(super) fn targets() -> [Target; 6] {
             &[
                 &[0, 3, 1, 1, 3, 2, 0, 7],
                 &[1, 12, 0, 1, 12, 6, 0, 0, 0, 1, 0, 1],
+            ],
+        ),
+        target(
+            "decode-modbus-client",
+            modbus_client,
+            &[
+                &[0, 3, 1, 1, 3, 2, 0, 7],
+                &[0, 1, 20, 1, 1, 3, 1, 2, 3],
+                &[0, 16, 2, 1, 0x90, 3],
             ],
         ),
         target(

@@ -150,7 +150,7 @@ pub struct Step {
     pub clock: Option<Clock>,
     /// Sets buffer memory: module, address, value.
     pub bfm: Vec<(u16, u16, i16)>,
-    /// Modules that answer after so many milliseconds from now on.
+    /// Modules that answer after this many milliseconds from now on.
     pub answers_after: Vec<(u16, u16)>,
     /// Sets analog inputs: channel, value.
     pub analog: Vec<(u8, i16)>,

@@ -110,7 +110,7 @@ impl Running<'_> {
         self.delay_modules(slow.map(|module| (module.unit, module.delay_ms)))
     }
 
-    /// Modules of the PLC that is selected answer after so many milliseconds from now on.
+    /// Modules of the PLC that is selected answer after this many milliseconds from now on.
     pub(super) fn delay_modules(
         &mut self,
         mut modules: impl Iterator<Item = (u16, u16)>,

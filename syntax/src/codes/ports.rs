@@ -59,7 +59,7 @@ super::codes! {
 
     ETHERNET_CARD = "W0700" "ethernet-card" Warning None,
     "a port that is set up for an Ethernet card",
-    "`D8270` = HC1, `D8271` = 1 and `D8276` = 2 set up COM3 of H2U for the card H2U-ENET-BD, which serves registers D by Modbus TCP. There is no card in a compiled program, and its IP address, shared registers and table of requests are in the editor's project, not in the program. COM3 is a Modbus RTU slave. `rungc run --modbus-tcp`, `[serve] modbus-tcp` and executables of `rungc build --servers` serve all devices by Modbus TCP at the addresses that the card has (D500 is 1F4h); `[[modbus]]` asks slaves on a serial line. With one of the first two this is not reported.",
+    "`D8270` = HC1, `D8271` = 1 and `D8276` = 2 set up COM3 of H2U for the card H2U-ENET-BD, which serves registers D by Modbus TCP. There is no card beside a compiled program, and its IP address, shared registers and table of requests are in the editor's project, not in the program. COM3 is a Modbus RTU slave. `rungc run --modbus-tcp`, `[serve] modbus-tcp` and executables of `rungc build --servers` serve all devices by Modbus TCP at the addresses that the card has (D500 is 1F4h); rows of `[[modbus]]` with `host` ask other servers, as the card's table does. With `modbus-tcp` or such a row in rungc.toml, and with `run --modbus-tcp`, this is not reported.",
     model: "h2u",
     wrong: "LD M8002\nMOV HC1 D8270\nMOV K1 D8271\nMOV H2 D8276\nEND\n",
     right: "LD M8002\nMOV H81 D8270\nMOV K1 D8271\nMOV H2 D8276\nEND\n";
