@@ -3,8 +3,8 @@
 //! [`build::ladder`] turns the instructions into [`Network`]s of series and parallel contacts, branches and outputs;
 //! [`list::instructions`] is its inverse. [`layout::lay_out`] places a network on a grid of rows and columns as the
 //! editors do; [`text::draw`] draws the grid in characters, [`svg::draw`] as a picture, and [`html::page`] makes a page
-//! of all pictures. [`circuit::Circuit`] says where power flows in a picture. This crate knows neither files nor output languages nor what an instruction does. Start reading at
-//! [`Network`].
+//! of all pictures. [`circuit::Circuit`] says where power flows in a picture. This crate knows neither files nor output
+//! languages nor what an instruction does. Start reading at [`Network`].
 
 pub mod build;
 pub mod circuit;

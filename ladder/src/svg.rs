@@ -34,9 +34,9 @@ impl<'a> Painter<'a> {
     }
 
     /// A network as a picture within a page that shows where power flows. What belongs to a net is in groups with the
-    /// attribute `data-net`, what belongs to a link of the circuit in one with `data-link`, and the place for the values
-    /// of a coil, box or comparison is one with `data-value`, the link's number. A network that is drawn as a list has
-    /// no circuit.
+    /// attribute `data-net`, what belongs to a link of the circuit in one with `data-link`, and the place for the
+    /// values of a coil, box or comparison is one with `data-value`, the link's number. A network that is drawn as a
+    /// list has no circuit.
     pub fn live(&self, number: usize, network: &Network) -> (Document, Option<Circuit>) {
         let (picture, circuit) = self.drafter.live(number, network);
         (document(&picture), circuit)

@@ -13,8 +13,8 @@ const BODY: usize = 4 * 1024;
 const HEADERS: usize = 64;
 
 /// What every response says: nothing from elsewhere is loaded, and no one else may load or frame it.
-const PROTECTION: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-     img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
+const PROTECTION: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; \
+     connect-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
      X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\
      Cache-Control: no-store\r\nConnection: close\r\n";
 
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn requests_are_parsed() {
-        let text = b"POST /a HTTP/1.1\r\nHOST: localhost:1\r\nOrigin: http://localhost:1\r\ncontent-length: 2\r\n\r\n{}";
+        let text = b"POST /a HTTP/1.1\r\nHOST: localhost:1\r\nOrigin: http://a\r\ncontent-length: 2\r\n\r\n{}";
         let (request, head, length) = parse(text).unwrap().unwrap();
         assert_eq!([head, length], [text.len() - 2, 2]);
         assert_eq!([&*request.method, &*request.path], ["POST", "/a"]);

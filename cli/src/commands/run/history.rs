@@ -1,7 +1,7 @@
 //! Going back in a run: moments to which it can return, from which it is executed again to the scan that is asked for.
 //!
 //! What comes from outside between two scans, such as a device that the page sets or a frame, is not repeated: the
-//! scan after it begins with a moment of its own.
+//! scan after it begins with a separate moment.
 
 use super::Setting;
 use super::live::Control;

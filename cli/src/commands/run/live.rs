@@ -143,7 +143,7 @@ pub struct Live {
     again: bool,
     /// Whether a command has changed the PLC.
     disturbed: bool,
-    /// Whether the run has fallen behind its clock because time stood still or passed slower.
+    /// Whether the run is late by its clock because time stood still or passed slower.
     shifted: bool,
     /// When the page was brought up to date.
     shown: Option<Instant>,
@@ -297,7 +297,7 @@ impl Live {
         }
     }
 
-    /// Whether the run has fallen behind its clock since this was last asked.
+    /// Whether the run has become late by its clock since this was last asked.
     pub fn has_shifted(&mut self) -> bool {
         std::mem::take(&mut self.shifted)
     }
@@ -339,7 +339,8 @@ impl Live {
         self.shown = None;
     }
 
-    /// Carries out a command. By how many scans it asks the run to go back, if it does; an error says what is wrong with it.
+    /// Carries out a command. By how many scans it asks the run to go back, if it does; an error says what is wrong
+    /// with it.
     fn carry_out(
         &mut self,
         command: &Command,
