@@ -1,35 +1,13 @@
 //! What a file says, and what is said about its mistakes.
 
+mod common;
+
+use common::{mistakes, parse};
 use proptest::prelude::*;
 use rungc_models::{Model, ModelId};
 use rungc_project::{Error, FILE, Project};
 use rungc_syntax::DeviceClass;
-use std::fmt::Write;
 use std::path::Path;
-
-fn parse(text: &str) -> Result<Project, Error> {
-    Project::parse(Path::new("plant/rungc.toml"), text)
-}
-
-/// The mistakes of a file: code, place, message, quoted text, help.
-fn mistakes(text: &str) -> String {
-    let Err(Error::Mistakes {
-        text, diagnostics, ..
-    }) = parse(text)
-    else {
-        panic!("no mistake is found in {text}");
-    };
-    let mut shown = String::new();
-    for d in diagnostics.sorted() {
-        let (line, column) = text.line_col(d.span.start);
-        let quoted = text.slice(d.span);
-        writeln!(shown, "{} {line}:{column} {} `{quoted}`", d.code, d.message).unwrap();
-        if let Some(help) = d.help {
-            writeln!(shown, "    help: {help}").unwrap();
-        }
-    }
-    shown
-}
 
 /// A file with every setting.
 const EVERY_SETTING: &str = r#"
@@ -182,43 +160,6 @@ K = "K0"
         ]
         .join("\n")
     );
-}
-
-#[test]
-fn connections_that_cannot_be_made() {
-    insta::assert_snapshot!(
-        "io",
-        mistakes(
-            r#"
-[io]
-name = "valves"
-[io.valves]
-modbus-tcp = "192.168.1.20"
-unit = 300
-fault = true
-X000-X007 = "read coil 0"
-[io.both]
-modbus-tcp = "192.168.1.20"
-mqtt = "192.168.1.21"
-[io.list]
-files = ["a", "b"]
-[io.one]
-files = "."
-X000-X007 = "read a"
-[io.two]
-files = "."
-X007-X010 = "read b"
-"#
-        )
-    );
-    let project = parse("[io.a]\nfiles = '.'\nX000 = 'read a'\nX777 = 'read b'\n").unwrap();
-    let Err(Error::Mistakes { diagnostics, .. }) = project.check_io(Model::get(ModelId::Fx1s))
-    else {
-        panic!("X777 is taken");
-    };
-    let why = &diagnostics.sorted()[0];
-    assert_eq!(why.message, "X777 does not exist on Mitsubishi FX1S");
-    assert_eq!(project.source.slice(why.span), "X777");
 }
 
 #[test]

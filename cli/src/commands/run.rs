@@ -7,6 +7,8 @@ mod errors;
 mod history;
 pub mod lines;
 mod live;
+mod mode;
+mod pace;
 mod plotting;
 mod recording;
 mod retaining;
@@ -128,13 +130,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
-    let connections = connecting::connections(
-        wired_up.as_deref(),
-        subject,
-        module.model,
-        described.as_ref(),
-        cx,
-    )?;
+    let connections = connecting::connections(wired_up, subject, &module, described.as_ref(), cx)?;
     let plant = described.as_ref().map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);

@@ -147,6 +147,11 @@ impl Io {
         Ok(io)
     }
 
+    /// Whether there is a connection.
+    pub fn any(&self) -> bool {
+        !self.running.is_empty()
+    }
+
     /// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
     /// Returns what there is to report.
     pub fn take(&mut self, plc: &mut impl Program, hal: &mut dyn Hal) -> Vec<String> {

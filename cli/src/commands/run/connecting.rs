@@ -4,7 +4,7 @@ use super::super::subject::{self, Subject};
 use super::super::{Context, Failure, tell};
 use crate::args::ServeArgs;
 use rungc_interp::{Machine, rt_class};
-use rungc_models::Model;
+use rungc_ir::Module;
 use rungc_project::Project;
 use rungc_rt::VirtualHal;
 use rungc_rt::io::{Connection, Io};
@@ -35,16 +35,16 @@ pub fn settings(
 
 /// The connections of these settings, held to the model and to the simulated machine.
 pub fn connections(
-    settings: Option<&Project>,
+    settings: Option<Rc<Project>>,
     subject: &Subject,
-    model: &Model,
+    module: &Module,
     machine: Option<&Description>,
     cx: Context,
 ) -> Result<Vec<Connection>, Failure> {
     let Some(settings) = settings else {
         return Ok(Vec::new());
     };
-    let checked = settings.check_io(model);
+    let checked = settings.check_io(module.model);
     checked.map_err(|error| subject::refuse(error, &subject.reporting, cx))?;
     let connections = settings.connections();
     if let Some(machine) = machine {
@@ -77,6 +77,11 @@ impl Connecting {
     pub fn start(connections: Vec<Connection>) -> Result<Self, Failure> {
         let io = Io::start(connections, rungc_io::opener);
         io.map(Connecting).map_err(Failure::Because)
+    }
+
+    /// Whether there is one.
+    pub fn any(&self) -> bool {
+        self.0.any()
     }
 
     /// Before a scan.

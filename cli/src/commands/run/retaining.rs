@@ -12,6 +12,8 @@ const EVERY_MS: u32 = 1000;
 /// The file of a run.
 pub struct Retaining {
     file: RetainFile,
+    /// Saving has failed, which was reported.
+    fails: bool,
 }
 
 impl Retaining {
@@ -25,13 +27,27 @@ impl Retaining {
         }
         let say = |text: String| tell(&format!("rungc: {text}"));
         let file = RetainFile::begin(path, machine, say).map_err(|why| because(&why))?;
-        Ok(Retaining { file })
+        Ok(Retaining { file, fails: false })
     }
 
-    /// Saves what has changed, once in a second.
-    pub fn poll(&mut self, machine: &Machine, now_ms: u64) -> std::result::Result<(), Failure> {
-        let polled = self.file.poll(machine, now_ms as u32, EVERY_MS);
-        polled.map(drop).map_err(|error| self.failed(&error))
+    /// Saves what has changed, once in a second. A disk that takes nothing does not stop the PLC: it is tried again.
+    pub fn poll(&mut self, machine: &Machine, now_ms: u64) {
+        match self.file.poll(machine, now_ms as u32, EVERY_MS) {
+            Ok(saved) => {
+                if saved && std::mem::take(&mut self.fails) {
+                    let path = self.file.path().display();
+                    tell(&format!("rungc: {path}: latched devices are saved again"));
+                }
+            }
+            Err(error) if !self.fails => {
+                self.fails = true;
+                let path = self.file.path().display();
+                tell(&format!(
+                    "rungc: {path}: {error}; latched devices are not saved"
+                ));
+            }
+            Err(_) => {}
+        }
     }
 
     /// Saves what has changed since.

@@ -5,6 +5,8 @@ use super::errors::Errors;
 use super::history::{History, Moment};
 use super::lines::Lines;
 use super::live::{Due, Live, Running};
+use super::mode::Mode;
+use super::pace::{self, Pace};
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::retaining::Retaining;
@@ -30,7 +32,6 @@ use std::io::{self, Write};
 use std::iter::Peekable;
 use std::path::PathBuf;
 use std::slice::Iter;
-use std::thread;
 use std::time::{Duration, Instant};
 
 /// A program that runs.
@@ -51,6 +52,8 @@ struct Simulation<'a> {
     asked: Asked,
     lines: Lines,
     connecting: Connecting,
+    pace: Pace,
+    mode: Mode,
     watch: Watch,
     live: Option<Live>,
     history: History<'a>,
@@ -133,18 +136,7 @@ impl Run<'_> {
             Some(path) => Some(Scope::begin(path, &machine)?),
             None => None,
         };
-        let plotting = match &args.plot {
-            Some(path) => {
-                let duration = args.end_ms().ok_or_else(|| {
-                    let message = "--plot: state with --for how long the run takes";
-                    Failure::Because(message.to_string())
-                })?;
-                let what = (self.watched, self.over);
-                let plotting = Plotting::begin(path, seen, what, duration);
-                Some(plotting?)
-            }
-            None => None,
-        };
+        let plotting = self.plotting(seen)?;
         let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
         if live.is_some() {
             watch.hear();
@@ -172,6 +164,8 @@ impl Run<'_> {
             asked: Asked::new(module, args.in_real_time(), &mut watch),
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
+            pace: Pace::new(),
+            mode: Mode::listen(args.in_real_time()),
             watch,
             live,
             history: History::default(),
@@ -183,8 +177,24 @@ impl Run<'_> {
             overrun: false,
         };
         interruption::note();
+        if let Some(priority) = args.serve.priority {
+            pace::raise(priority);
+        }
         let outcome = simulation.run(args)?;
         simulation.end(args, outcome)
+    }
+
+    /// The diagram that is drawn of the run.
+    fn plotting(&self, seen: Seen<'_>) -> std::result::Result<Option<Plotting>, Failure> {
+        let Some(path) = &self.args.plot else {
+            return Ok(None);
+        };
+        let duration = self.args.end_ms().ok_or_else(|| {
+            let message = "--plot: state with --for how long the run takes";
+            Failure::Because(message.to_string())
+        })?;
+        let what = (self.watched, self.over);
+        Plotting::begin(path, seen, what, duration).map(Some)
     }
 }
 
@@ -192,7 +202,14 @@ impl<'a> Simulation<'a> {
     /// Reports what has happened, and completes the files; a run that is denied errors fails by them.
     fn end(mut self, args: &RunArgs, outcome: Outcome) -> Result {
         self.lines.end(self.now_ms, &mut self.watch);
-        std::mem::take(&mut self.connecting).end();
+        let connected = std::mem::take(&mut self.connecting);
+        if connected.any() || args.serve.priority.is_some() {
+            let summary = self.pace.summary();
+            summary
+                .iter()
+                .for_each(|text| tell(&format!("rungc: {text}")));
+        }
+        connected.end();
         let table = self.watch.table();
         if !table.is_empty() {
             say(&format!("\n{}\n", table.join("\n")))?;
@@ -243,6 +260,7 @@ impl<'a> Simulation<'a> {
         loop {
             self.answer_clients();
             self.connecting.take(&mut self.machine, &mut self.hal);
+            self.turn_switch();
             self.asked
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
             self.remember();
@@ -264,7 +282,7 @@ impl<'a> Simulation<'a> {
             }
             if args.in_real_time() {
                 if let Some(retaining) = &mut self.retaining {
-                    retaining.poll(&self.machine, self.now_ms)?;
+                    retaining.poll(&self.machine, self.now_ms);
                 }
                 (begin, scan_ms) = self.rest(begin, scan_ms, args.scan)?;
                 self.lines
@@ -283,6 +301,16 @@ impl<'a> Simulation<'a> {
             ));
         }
         Ok(self.outcome())
+    }
+
+    /// Goes to RUN or STOP if a signal has asked for it.
+    fn turn_switch(&mut self) {
+        if let Some(running) = self.mode.asked() {
+            self.machine.set_running(running);
+            self.history.disturb();
+            let mode = if running { "RUN" } else { "STOP" };
+            tell(&format!("rungc: {mode} at {} ms", self.now_ms));
+        }
     }
 
     /// How the run has gone.
@@ -343,8 +371,7 @@ impl<'a> Simulation<'a> {
         loop {
             let next = Duration::from_millis(self.now_ms + scan_ms);
             let Some((live, running)) = self.running() else {
-                thread::sleep(next.saturating_sub(begin.elapsed()));
-                return Ok((begin, scan_ms));
+                return Ok((self.pace.wait(begin, next), scan_ms));
             };
             let due = live.obey(running, begin + next, scan_ms);
             if live.has_disturbed() {
