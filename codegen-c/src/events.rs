@@ -124,6 +124,14 @@ pub fn advance_ports(module: &Module) -> String {
         return String::new();
     }
     let name = &module.name;
+    if let Some(number) = module.slave_alone {
+        let family = module.model.ports.name();
+        return format!(
+            "/* Brings the serial port up to date. */\n\
+             static void {name}_advance_ports({name}_plc *plc, uint32_t now_us)\n{{\n    rungc_map map = {name}_map(plc);\n\n    \
+             rungc_advance_slave_{family}_{number}(&map, now_us);\n}}\n\n"
+        );
+    }
     format!(
         "/* Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it. */\n\
          static void {name}_advance_ports({name}_plc *plc, uint32_t now_us)\n{{\n    rungc_map map = {name}_map(plc);\n    \

@@ -320,6 +320,17 @@ fn runtime_header() -> String {
             );
         }
     }
+    prototypes.push_str("\n/* Bring the only port of a program to `now_us`, if it is nothing but a slave by Modbus RTU. */\n");
+    for family in Ports::families() {
+        let ports = family.all().iter().filter(|port| port.may_be_slave_alone());
+        for port in ports {
+            let (name, number) = (family.name(), port.number);
+            let _ = writeln!(
+                prototypes,
+                "void rungc_advance_slave_{name}_{number}(rungc_map *map, uint32_t now_us);"
+            );
+        }
+    }
     prototypes.push_str(
         "\n/* The instructions. An operation error is shown in the program's special devices. */\n",
     );

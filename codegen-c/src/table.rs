@@ -51,33 +51,7 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         layout.push(format!(".pulses = RUNGC_PULSES_{family}"));
     }
     if module.has_ports() {
-        let places = module.serial_ports().map(|(number, protocols)| {
-            let length = protocols.longest_frame();
-            let progress = protocols.has_progress();
-            let keeps = protocols.keeps_memory();
-            let family = module.model.ports.name();
-            format!("{{&rungc_port_{family}_{number}, offsetof({name}_plc, com{number}), {length}, {number}, {progress}, {keeps}}}")
-        });
-        let codecs = module
-            .codecs()
-            .map(|codec| format!("&rungc_codec_{}", codec.name()));
-        let _ = writeln!(
-            out,
-            "/* Serial ports, and what they do. */\nstatic const rungc_port_place {name}_ports[] = {{{}}};\n\
-             static const rungc_codec *const {name}_codecs[] = {{{}}};\n",
-            places.collect::<Vec<_>>().join(", "),
-            codecs.collect::<Vec<_>>().join(", ")
-        );
-        layout.push(format!(".ports = {name}_ports"));
-        layout.push(format!(".port_count = {}", module.ports.len()));
-        if let Some(profile) = module.modbus() {
-            layout.push(format!(".modbus = &rungc_modbus_{}", profile.name));
-        }
-        layout.push(format!(".codecs = {name}_codecs"));
-        layout.push(format!(".codec_count = {}", module.codecs().count()));
-        let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
-        layout.push(format!(".port_family = RUNGC_PORTS_{family}"));
-        layout.push(format!(".type_code = {}", module.model.type_code()));
+        ports(out, &mut layout, module);
     }
     if module.model.z_pairs_with_v {
         layout.push(".z_pairs_with_v = true".to_string());
@@ -103,6 +77,56 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
          const rungc_map map = {{.layout = &{name}_layout, .plc = plc, .hal = plc->hal}};\n    return map;\n}}\n\n",
         layout.join(",\n    ")
     );
+}
+
+/// Writes the table of serial ports; the members of the layout that are about them go into `layout`.
+fn ports(out: &mut String, layout: &mut Vec<String>, module: &Module) {
+    let name = &module.name;
+    let family = module.model.ports.name();
+    let places = module.serial_ports().map(|(number, protocols)| {
+        let length = protocols.longest_frame();
+        let progress = protocols.has_progress();
+        let keeps = protocols.keeps_memory();
+        let wiring = match module.slave_alone {
+            Some(_) => "NULL".to_string(),
+            None => format!("&rungc_port_{family}_{number}"),
+        };
+        format!(
+            "{{{wiring}, offsetof({name}_plc, com{number}), {length}, {number}, {progress}, {keeps}}}"
+        )
+    });
+    let places: Vec<String> = places.collect();
+    // Writing to a String does not fail.
+    let what = match module.slave_alone {
+        Some(_) => "The serial port.",
+        None => "Serial ports, and what they do.",
+    };
+    let _ = writeln!(
+        out,
+        "/* {what} */\nstatic const rungc_port_place {name}_ports[] = {{{}}};",
+        places.join(", ")
+    );
+    layout.push(format!(".ports = {name}_ports"));
+    layout.push(format!(".port_count = {}", module.ports.len()));
+    if let Some(profile) = module.modbus() {
+        layout.push(format!(".modbus = &rungc_modbus_{}", profile.name));
+    }
+    if module.slave_alone.is_none() {
+        let codecs = module.codecs();
+        let codecs = codecs.map(|codec| format!("&rungc_codec_{}", codec.name()));
+        let codecs: Vec<String> = codecs.collect();
+        let _ = writeln!(
+            out,
+            "static const rungc_codec *const {name}_codecs[] = {{{}}};",
+            codecs.join(", ")
+        );
+        layout.push(format!(".codecs = {name}_codecs"));
+        layout.push(format!(".codec_count = {}", codecs.len()));
+    }
+    out.push('\n');
+    let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
+    layout.push(format!(".port_family = RUNGC_PORTS_{family}"));
+    layout.push(format!(".type_code = {}", module.model.type_code()));
 }
 
 /// Writes the tables; the members of the layout that name them go into `layout`.

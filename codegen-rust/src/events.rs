@@ -138,6 +138,19 @@ impl Generator<'_> {
         if !self.module.has_ports() {
             return None;
         }
+        if let Some(number) = self.module.slave_alone {
+            let (advance, hal) = (self.rt("advance_slave"), self.rt("Hal"));
+            let doc = self.doc("Brings the serial port up to date.");
+            let ports = self.rt("Ports");
+            let family = format_ident!("{}", format!("{:?}", self.module.model.ports));
+            let number = Literal::u8_unsuffixed(number);
+            return Some(quote! {
+                #doc
+                fn advance_ports(&mut self, hal: &mut dyn #hal, now_us: u32) {
+                    #advance::<{ #ports::#family as u8 }, #number>(self, hal, now_us);
+                }
+            });
+        }
         let (advance, hal, program) =
             (self.rt("advance_ports"), self.rt("Hal"), self.rt("Program"));
         let doc = self.doc("Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it.");
@@ -191,18 +204,28 @@ impl Generator<'_> {
             quote!((#class, #first, #last))
         });
         let rows: Vec<_> = rows.collect();
+        let what = self.module.slave_alone.is_none().then(|| {
+            quote! {
+                fn port_wiring(&self, index: usize) -> Option<&'static #comm::PortWiring> {
+                    static WIRING: [#comm::PortWiring; #count] = [#(#wirings),*];
+                    WIRING.get(index)
+                }
+            }
+        });
+        let codecs = self.module.slave_alone.is_none().then(|| {
+            quote! {
+                fn codecs(&self) -> &'static [&'static #comm::codec::Codec] {
+                    &[#(#codecs),*]
+                }
+            }
+        });
         Some(quote! {
             fn port(&mut self, number: u8) -> Option<#comm::PortMut<'_>> {
                 match number { #(#arms)* _ => None }
             }
-            fn port_wiring(&self, index: usize) -> Option<&'static #comm::PortWiring> {
-                static WIRING: [#comm::PortWiring; #count] = [#(#wirings),*];
-                WIRING.get(index)
-            }
+            #what
             #modbus
-            fn codecs(&self) -> &'static [&'static #comm::codec::Codec] {
-                &[#(#codecs),*]
-            }
+            #codecs
             fn ports(&self) -> #ports { #ports::#family }
             fn stored_run(&self, class: #class, number: u32) -> Option<#run> {
                 #runs(&[#(#rows),*]).stored_run(class, number)

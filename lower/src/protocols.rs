@@ -4,6 +4,7 @@
 use super::Lowerer;
 use rungc_ir::layout::Wanted;
 use rungc_rt::RtFn;
+use rungc_rt::comm::codec::Codec;
 use rungc_rt::comm::{Choice, PortWiring, Protocol, Protocols};
 use rungc_rt::special::Register;
 use rungc_rt::{Class, Plc, Ports, State, Sys};
@@ -26,6 +27,19 @@ impl Lowerer<'_> {
             None => Protocols::NONE,
         });
         self.module.port_protocols = protocols.collect();
+        self.module.slave_alone = self.slave_alone();
+    }
+
+    /// The only port, if it is nothing but a slave by Modbus RTU that no instruction uses.
+    fn slave_alone(&self) -> Option<u8> {
+        let [number] = self.module.ports[..] else {
+            return None;
+        };
+        let known = self.model.ports.get(number)?.may_be_slave_alone();
+        let mut codecs = self.module.codecs().map(Codec::protocols);
+        let is_slave = codecs.next() == Some(Protocols::of(&[Protocol::ModbusRtu]));
+        let alone = codecs.next().is_none() && self.port_functions.is_empty();
+        (known && is_slave && alone).then_some(number)
     }
 
     /// What a port may speak.

@@ -18,6 +18,7 @@ mod hal;
 mod map;
 mod modules;
 mod servers;
+mod stored;
 
 use crate::comm::codec::Codec;
 use crate::comm::modbus::Profile;

@@ -66,7 +66,7 @@ pub use axis::{
     Axis, advance as advance_pulses, millihertz as pulse_millihertz, pass as pass_pulses,
     pulse_timer,
 };
-pub use comm::{Port, Ports, advance as advance_ports};
+pub use comm::{Port, Ports, advance as advance_ports, advance_slave};
 pub use compare::CmpOp;
 pub use cx::{Cx, call, fetch, send};
 pub use edge::{Edge, EdgeKind};

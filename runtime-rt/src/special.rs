@@ -45,24 +45,24 @@ numbered!(Relay Register);
 
 impl Relay {
     /// Whether it is on; one that the program does not use is off.
-    pub(crate) fn is_on(self, plc: &dyn Plc) -> bool {
+    pub(crate) fn is_on(self, plc: &(impl Plc + ?Sized)) -> bool {
         plc.bit(Class::M, self.number()) == Some(true)
     }
 
     /// Sets it, if the program uses it.
-    pub(crate) fn set(self, plc: &mut dyn Plc, on: bool) {
+    pub(crate) fn set(self, plc: &mut (impl Plc + ?Sized), on: bool) {
         let _ = plc.set_bit(Class::M, self.number(), on);
     }
 }
 
 impl Register {
     /// Its value; 0 of one that the program does not use.
-    pub(crate) fn value(self, plc: &dyn Plc) -> u16 {
+    pub(crate) fn value(self, plc: &(impl Plc + ?Sized)) -> u16 {
         plc.word(Class::D, self.number()).unwrap_or(0) as u16
     }
 
     /// Sets it, if the program uses it.
-    pub(crate) fn set(self, plc: &mut dyn Plc, value: u16) {
+    pub(crate) fn set(self, plc: &mut (impl Plc + ?Sized), value: u16) {
         let _ = plc.set_word(Class::D, self.number(), value as i16);
     }
 }

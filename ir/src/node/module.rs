@@ -172,6 +172,9 @@ pub struct Module {
     pub port_protocols: Vec<Protocols>,
     /// What hosts with servers ask of other servers over TCP, between two scans.
     pub requests: Vec<NetworkRequest>,
+    /// The number of its only port, if that is nothing but a slave by Modbus RTU, set up by registers, which no
+    /// instruction uses: [`rungc_rt::advance_slave`] brings it up to date.
+    pub slave_alone: Option<u8>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
     /// The instructions at which faults can occur, by step.
@@ -211,6 +214,7 @@ impl Module {
             pulse_outputs: Vec::new(),
             ports: Vec::new(),
             port_protocols: Vec::new(),
+            slave_alone: None,
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),

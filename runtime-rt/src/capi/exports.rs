@@ -1,11 +1,14 @@
 //! The functions that C calls, except those of the registry.
 
 use super::hal::{Board, Lines};
+use super::stored::Stored;
 use super::{Map, Request};
 use crate::axis::{advance, millihertz, pass, pulse_timer};
 use crate::comm::codec::{self, Codec};
 use crate::comm::modbus::{self, Profile};
-use crate::comm::{Port, PortWiring, Ports, Progress, Status, advance as advance_ports};
+use crate::comm::{
+    Port, PortWiring, Ports, Progress, Status, advance as advance_ports, advance_slave,
+};
 use crate::cx::{fetch, send};
 use crate::hal::Hal;
 use crate::operand::Operand;
@@ -151,6 +154,35 @@ export_constants! {
     "rungc_port_board3u_2" = Ports::Board3u.all()[2];
 }
 
+/// Exports what brings a port up to date that is nothing but a slave by Modbus RTU.
+macro_rules! export_slaves {
+    ($($symbol:literal = $family:ident $number:literal;)*) => {
+        $(const _: () = {
+            #[allow(unsafe_code, reason = "each name occurs once, and no other symbol begins like it")]
+            #[unsafe(export_name = $symbol)]
+            extern "C" fn exported(map: &mut Map, now_us: u32) {
+                let mut hal = Lines::new(map.hal);
+                advance_slave::<{ Ports::$family as u8 }, $number>(&mut Stored(map), &mut hal, now_us);
+            }
+        };)*
+
+        /// Their names for a linker.
+        #[cfg(test)]
+        const SLAVES: &[&str] = &[$($symbol),*];
+    };
+}
+
+export_slaves! {
+    "rungc_advance_slave_inovance_0" = Inovance 0;
+    "rungc_advance_slave_inovance_1" = Inovance 1;
+    "rungc_advance_slave_inovance_2" = Inovance 2;
+    "rungc_advance_slave_inovance_3" = Inovance 3;
+    "rungc_advance_slave_l01s_2" = L01s 2;
+    "rungc_advance_slave_l01s_3" = L01s 3;
+    "rungc_advance_slave_hm_0" = Hm 0;
+    "rungc_advance_slave_hm_1" = Hm 1;
+}
+
 /// A program holds ports as words of 32 bits.
 const _: () = assert!(
     align_of::<Port>() <= 4
@@ -201,5 +233,12 @@ mod tests {
             numbers.map(move |number| std::format!("rungc_port_{}_{number}", family.name()))
         });
         assert!(ports.eq(WIRINGS.iter().copied()));
+        let slaves = Ports::families().iter().flat_map(|&family| {
+            let ports = family.all().iter().filter(|port| port.may_be_slave_alone());
+            ports.map(move |port| {
+                std::format!("rungc_advance_slave_{}_{}", family.name(), port.number)
+            })
+        });
+        assert!(slaves.eq(SLAVES.iter().copied()));
     }
 }

@@ -159,39 +159,37 @@ impl Map {
 
     /// The word of a device, however it is stored; NULL if the program does not look at it.
     fn word_place(&self, area: u8, class: Class, number: u32) -> Option<*mut i16> {
-        let (at, offset) = match self.find_in(area, class, number) {
-            Found::At(Kind::Words, at) => (at, 0),
-            Found::At(Kind::Timers, at) => (at, offset_of!(Timer, value)),
-            Found::At(Kind::Counters16, at) => (at, offset_of!(Counter16, value)),
-            Found::Elsewhere if is_word(class, number) => return Some(null_mut()),
-            _ => return None,
-        };
-        // SAFETY: the field of an element that `find` points to, and in which C places it as Rust does.
-        Some(unsafe { at.add(offset) }.cast())
+        match self.find_in(area, class, number) {
+            Found::At(kind, at) => word_of(kind, at),
+            Found::Elsewhere if is_word(class, number) => Some(null_mut()),
+            _ => None,
+        }
     }
 
     /// The state of a device, likewise.
     fn bit_place(&self, area: u8, class: Class, number: u32) -> Option<*mut bool> {
-        let (at, offset) = match self.find_in(area, class, number) {
-            Found::At(Kind::Bits, at) => (at, 0),
-            Found::At(Kind::Timers, at) => (at, offset_of!(Timer, done)),
-            Found::At(Kind::Counters16, at) => (at, offset_of!(Counter16, done)),
-            Found::At(Kind::Counters32, at) => (at, offset_of!(Counter32, done)),
-            Found::Elsewhere if is_bit(class) => return Some(null_mut()),
-            _ => return None,
-        };
-        // SAFETY: as for words.
-        Some(unsafe { at.add(offset) }.cast())
+        match self.find_in(area, class, number) {
+            Found::At(kind, at) => bit_of(kind, at),
+            Found::Elsewhere if is_bit(class) => Some(null_mut()),
+            _ => None,
+        }
     }
 
     /// The 32-bit value of a counter, likewise.
     fn counter_place(&self, number: u32) -> Option<*mut i32> {
         match self.find(Class::C, number) {
-            // SAFETY: as for words.
-            Found::At(Kind::Counters32, at) => {
-                Some(unsafe { at.add(offset_of!(Counter32, value)) }.cast())
-            }
+            Found::At(kind, at) => counter_of(kind, at),
             Found::Elsewhere if number >= FIRST_COUNTER32 => Some(null_mut()),
+            _ => None,
+        }
+    }
+
+    /// Where a device is stored, if it is.
+    pub(super) fn stored(&self, class: Class, number: u32) -> Option<(Kind, *mut u8)> {
+        let (class, number) = self.alias(class, number).unwrap_or((class, number));
+        let area = self.index_of(class, number)?;
+        match self.at(&self.areas()[area], class, number)? {
+            Found::At(kind, at) => Some((kind, at)),
             _ => None,
         }
     }
@@ -221,14 +219,48 @@ impl Map {
     }
 }
 
+/// The word of an element of the program's struct.
+pub(super) fn word_of(kind: Kind, at: *mut u8) -> Option<*mut i16> {
+    let offset = match kind {
+        Kind::Words => 0,
+        Kind::Timers => offset_of!(Timer, value),
+        Kind::Counters16 => offset_of!(Counter16, value),
+        Kind::Bits | Kind::Counters32 => return None,
+    };
+    // SAFETY: the field of an element that `at` points to, and in which C places it as Rust does.
+    Some(unsafe { at.add(offset) }.cast())
+}
+
+/// Its state.
+pub(super) fn bit_of(kind: Kind, at: *mut u8) -> Option<*mut bool> {
+    let offset = match kind {
+        Kind::Bits => 0,
+        Kind::Timers => offset_of!(Timer, done),
+        Kind::Counters16 => offset_of!(Counter16, done),
+        Kind::Counters32 => offset_of!(Counter32, done),
+        Kind::Words => return None,
+    };
+    // SAFETY: as for words.
+    Some(unsafe { at.add(offset) }.cast())
+}
+
+/// Its 32-bit value.
+pub(super) fn counter_of(kind: Kind, at: *mut u8) -> Option<*mut i32> {
+    match kind {
+        // SAFETY: as for words.
+        Kind::Counters32 => Some(unsafe { at.add(offset_of!(Counter32, value)) }.cast()),
+        _ => None,
+    }
+}
+
 /// What a place in the program's struct holds; 0 or off where there is none.
-fn read<T: Copy + Default>(at: *mut T) -> T {
+pub(super) fn read<T: Copy + Default>(at: *mut T) -> T {
     // SAFETY: NULL, or what the program's struct holds there, as the C compiler placed it.
     unsafe { at.as_ref() }.copied().unwrap_or_default()
 }
 
 /// Writes to a place in the program's struct, if there is one.
-fn write<T>(at: *mut T, value: T) {
+pub(super) fn write<T>(at: *mut T, value: T) {
     // SAFETY: as for `read`; nothing else uses the struct during a call.
     if let Some(place) = unsafe { at.as_mut() } {
         *place = value;

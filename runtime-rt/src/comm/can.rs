@@ -139,10 +139,19 @@ impl Session<'_> {
         is_bus
     }
 
+    /// A frame has come as SLCAN.
+    pub(super) fn take_can(&mut self, received: usize) {
+        let port = self.plc.port(self.own.wiring.number);
+        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
+        if let Some(frame) = frame.and_then(CanFrame::parse) {
+            self.take_from_bus(frame);
+        }
+    }
+
     /// A frame has come: one of CANlink, if the program is a station of it, or one for an instruction that waits.
     pub(super) fn take_from_bus(&mut self, frame: CanFrame) {
         if !self.take_canlink(&frame) {
-            self.progress.can.receive(frame);
+            self.own.progress.can.receive(frame);
         }
     }
 }

@@ -32,6 +32,7 @@ impl<'a> Frame<'a> {
     }
 
     /// Appends a character.
+    #[inline(never)]
     pub fn push(&mut self, byte: u8) {
         match self.bytes.get_mut(self.len) {
             Some(place) => {

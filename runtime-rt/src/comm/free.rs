@@ -152,7 +152,7 @@ fn place(first: u32, index: u16, one_a_word: bool) -> (u32, bool) {
 impl Session<'_> {
     /// A character of a protocol of the program's own.
     pub(super) fn take_free(&mut self, character: Received) {
-        match self.wiring.choice {
+        match self.own.wiring.choice {
             Choice::Uinit => self.take_hm(character),
             _ => self.take_rs(character),
         }
@@ -160,7 +160,7 @@ impl Session<'_> {
 
     /// Sends, and takes notice of time, for a protocol of the program's own.
     pub(super) fn advance_free(&mut self) {
-        match self.wiring.choice {
+        match self.own.wiring.choice {
             Choice::Uinit => self.advance_hm(),
             _ => self.advance_rs(),
         }
@@ -168,7 +168,7 @@ impl Session<'_> {
 
     /// Hands data characters, with what surrounds them, to the hardware; returns how many of all are not out yet.
     fn send_data(&mut self, marks: &Marks) -> u16 {
-        while self.progress.free.taken < self.progress.free.total {
+        while self.own.progress.free.taken < self.own.progress.free.total {
             let (byte, summed) = self.next_character(marks);
             if !self
                 .serial()
@@ -176,20 +176,20 @@ impl Session<'_> {
             {
                 break;
             }
-            self.progress.free.taken += 1;
+            self.own.progress.free.taken += 1;
             if summed {
-                let sum = &mut self.progress.free.sent_sum;
+                let sum = &mut self.own.progress.free.sent_sum;
                 *sum = sum.wrapping_add(byte.into());
             }
         }
         let unsent = self.serial().map_or(0, |(port, now)| port.unsent(now));
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         (free.total - free.taken).saturating_add(unsent)
     }
 
     /// The character that is to be sent next, and whether the sum counts it: the data and what ends it.
     fn next_character(&self, marks: &Marks) -> (u8, bool) {
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         let at = free.taken;
         let Some(at) = at.checked_sub(marks.before.length.into()) else {
             return (marks.before.at(at), false);
@@ -205,7 +205,7 @@ impl Session<'_> {
 
     /// Data character number `index` to send.
     fn data(&self, index: u16) -> Option<u8> {
-        let transfer = self.progress.free.transfer;
+        let transfer = self.own.progress.free.transfer;
         let (number, high) = place(transfer.source, index, transfer.one_a_word);
         let word = self.plc.word(class(transfer.source_class), number)?;
         let [low, high_byte] = word.to_le_bytes();
@@ -214,7 +214,7 @@ impl Session<'_> {
 
     /// Stores data character number `index`.
     fn store_data(&mut self, index: u16, byte: u8) {
-        let transfer = self.progress.free.transfer;
+        let transfer = self.own.progress.free.transfer;
         let (number, high) = place(transfer.target, index, transfer.one_a_word);
         let class = class(transfer.target_class);
         let Some(before) = self.plc.word(class, number) else {
@@ -231,8 +231,8 @@ impl Session<'_> {
 
     /// The next character begins another reception.
     fn end_reception(&mut self) {
-        self.progress.free.listens = false;
-        self.progress.free.window = 0;
+        self.own.progress.free.listens = false;
+        self.own.progress.free.window = 0;
     }
 
     /// When a character began.
@@ -287,25 +287,25 @@ impl Session<'_> {
         let is = |this: &Self, word: u32| this.work(word) == u16::from(byte);
         if is(self, work::START) {
             self.raise(flag::START);
-        } else if control & control::FROM_START != 0 && !self.progress.free.listens {
+        } else if control & control::FROM_START != 0 && !self.own.progress.free.listens {
             return;
         }
-        if !core::mem::replace(&mut self.progress.free.listens, true) {
-            self.progress.free.received = 0;
-            self.progress.free.transfer = Transfer {
+        if !core::mem::replace(&mut self.own.progress.free.listens, true) {
+            self.own.progress.free.received = 0;
+            self.own.progress.free.transfer = Transfer {
                 target: self.work(work::RECEIVE).into(),
                 receive: self.work(work::RECEIVE_COUNT),
                 one_a_word: true,
                 target_class: Class::D as u8,
-                ..self.progress.free.transfer
+                ..self.own.progress.free.transfer
             };
         }
-        self.progress.free.last_us = character.at_us;
-        self.progress.free.awaits = false;
-        self.store_data(self.progress.free.received, byte);
-        self.progress.free.received += 1;
-        self.set_work(work::RECEIVED, self.progress.free.received);
-        let mut ends = self.progress.free.received >= self.progress.free.transfer.receive;
+        self.own.progress.free.last_us = character.at_us;
+        self.own.progress.free.awaits = false;
+        self.store_data(self.own.progress.free.received, byte);
+        self.own.progress.free.received += 1;
+        self.set_work(work::RECEIVED, self.own.progress.free.received);
+        let mut ends = self.own.progress.free.received >= self.own.progress.free.transfer.receive;
         if is(self, work::END) {
             self.raise(flag::END);
             ends |= control & control::TO_END != 0;
@@ -324,7 +324,7 @@ impl Session<'_> {
 
     /// A reception ends when nothing more comes; an answer that does not come is late.
     fn close_hm(&mut self, at_us: u32) {
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         if !free.listens && !free.awaits {
             return;
         }
@@ -336,7 +336,7 @@ impl Session<'_> {
         if free.listens {
             self.end_hm();
         } else {
-            self.progress.free.awaits = false;
+            self.own.progress.free.awaits = false;
             self.raise(flag::TIME_OUT);
         }
     }
@@ -345,15 +345,15 @@ impl Session<'_> {
         self.close_hm(self.now_us);
         if !self.status.sending && self.work(work::FLAGS) & flag::SEND != 0 {
             let send = self.work(work::SEND_COUNT).min(HM_LONGEST);
-            self.progress.free.transfer = Transfer {
+            self.own.progress.free.transfer = Transfer {
                 source: self.work(work::SEND).into(),
                 source_class: Class::D as u8,
                 send,
                 one_a_word: true,
-                ..self.progress.free.transfer
+                ..self.own.progress.free.transfer
             };
-            self.progress.free.total = send;
-            self.progress.free.taken = 0;
+            self.own.progress.free.total = send;
+            self.own.progress.free.taken = 0;
             self.status.sending = true;
         }
         if !self.status.sending || self.send_data(&Marks::NONE) > 0 {
@@ -365,8 +365,8 @@ impl Session<'_> {
         if self.work(work::CONTROL) & control::THEN_RECEIVE != 0 {
             self.clear(flag::RECEIVED);
             self.raise(flag::RECEIVE);
-            self.progress.free.awaits = true;
-            self.progress.free.last_us = self.now_us;
+            self.own.progress.free.awaits = true;
+            self.own.progress.free.last_us = self.now_us;
         }
     }
 }

@@ -15,7 +15,7 @@ impl Session<'_> {
 
     /// Forgets what a slave keeps, when the protocol changes.
     pub(super) fn forget(&mut self) {
-        let port = self.plc.port(self.wiring.number);
+        let port = self.plc.port(self.own.wiring.number);
         if let Some(memory) = port.and_then(|port| port.memory) {
             *memory = Memory::new();
         }
@@ -26,10 +26,11 @@ impl Session<'_> {
         let Some(role) = self.role() else {
             return;
         };
-        let buffer = self.copy_frame::<FRAME>(received);
+        let buffer = self.copy_frame::<FRAME>();
         let mut map = Served::new(self.plc, 0);
         let frame = buffer.get(..received).unwrap_or_default();
         let taken = self
+            .own
             .progress
             .link
             .receive(role, frame, self.now_us, &mut map);
@@ -50,6 +51,7 @@ impl Session<'_> {
         let mut frame = Frame::new(&mut bytes);
         let mut map = Served::new(self.plc, 0);
         let polled = self
+            .own
             .progress
             .link
             .poll(role, self.now_us, &mut map, &mut frame);
@@ -67,7 +69,11 @@ impl Session<'_> {
                 self.plc.ports(),
                 Ports::Inovance | Ports::L01s | Ports::Fx | Ports::Fx3 | Ports::Fx3g
             );
-        self.wiring.format.filter(|_| has).map(Devices::of_block)
+        self.own
+            .wiring
+            .format
+            .filter(|_| has)
+            .map(Devices::of_block)
     }
 
     /// Sends what the program asks to be sent on demand.

@@ -1,6 +1,8 @@
 //! The PLC's devices as codecs see them.
 
+use super::modbus::Place;
 use crate::plc::{Class, Plc, StoredRun};
+use crate::word::{pair, words};
 use core::cell::Cell;
 
 /// The devices of a PLC as its partners on a line see them.
@@ -35,6 +37,38 @@ pub trait Map {
         None
     }
 
+    /// The register or the coil at a place of Modbus.
+    fn value_at(&self, place: Place) -> Option<u16> {
+        match place {
+            Place::Bits(class, first, count) => (0..count).try_fold(0, |word, bit| {
+                Some(word | u16::from(self.bit(class, first + bit)?) << bit)
+            }),
+            Place::Word(class, n) => self.word(class, n).map(|word| word as u16),
+            Place::Half { counter, high } => {
+                let value = self.counter32(counter)?;
+                Some((if high { value >> 16 } else { value }) as u16)
+            }
+        }
+    }
+
+    /// Writes the register or the coil at a place of Modbus.
+    fn set_value_at(&mut self, place: Place, value: u16) -> Option<()> {
+        match place {
+            Place::Bits(class, first, count) => (0..count)
+                .try_for_each(|bit| self.set_bit(class, first + bit, value >> bit & 1 == 1)),
+            Place::Word(class, n) => self.set_word(class, n, value as i16),
+            Place::Half { counter, high } => {
+                let [low, old_high] = words(self.counter32(counter)?);
+                let value = value as i16;
+                let whole = match high {
+                    true => pair(low, value),
+                    false => pair(value, old_high),
+                };
+                self.set_counter32(counter, whole)
+            }
+        }
+    }
+
     /// Whether `count` bit devices from `first` on are all there.
     fn has_bits(&self, class: Class, first: u32, count: u32) -> bool {
         let end = first.checked_add(count);
@@ -50,17 +84,17 @@ pub trait Map {
 
 /// A running program as its ports serve it: all devices that it stores. An emitted program stores those that it names;
 /// the interpreter, and programs compiled with `observe_all`, store all.
-pub struct Served<'a> {
-    plc: &'a mut dyn Plc,
+pub struct Served<'a, P: ?Sized = dyn Plc + 'a> {
+    plc: &'a mut P,
     type_code: u16,
     request: Option<bool>,
     /// Class, first device and place of the devices that were asked for last: most frames are about a run of them.
     last: Cell<(Class, u32, StoredRun)>,
 }
 
-impl<'a> Served<'a> {
+impl<'a, P: Plc + ?Sized> Served<'a, P> {
     /// Serves the devices of `plc`, a model whose D8001 shows `type_code`.
-    pub fn new(plc: &'a mut dyn Plc, type_code: u16) -> Self {
+    pub fn new(plc: &'a mut P, type_code: u16) -> Self {
         Served {
             plc,
             type_code,
@@ -75,7 +109,7 @@ impl<'a> Served<'a> {
     }
 }
 
-impl Served<'_> {
+impl<P: Plc + ?Sized> Served<'_, P> {
     /// Where a device is stored; rejects one that is not.
     fn stored(&self, class: Class, number: u32) -> Option<u8> {
         let (last_class, first, run) = self.last.get();
@@ -88,7 +122,7 @@ impl Served<'_> {
     }
 }
 
-impl Map for Served<'_> {
+impl<P: Plc + ?Sized> Map for Served<'_, P> {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
         let area = self.stored(class, number)?;
         self.plc.bit_in(area, class, number)

@@ -43,6 +43,8 @@
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
 //! | `parts.rs` | [`Port`]: what a port consists of in memory |
 //! | `port.rs` | the state machine of one port |
+//! | `speech.rs` | what a port may speak: all that a program links, or less |
+//! | `slave_alone.rs` | a port that is nothing but a slave by Modbus RTU |
 //! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
 //! | `protocols.rs` | sets of protocols, and how much memory they take |
 //! | `slaves.rs` | how the codecs that answer are set up |
@@ -78,7 +80,9 @@ mod port_tests;
 mod protocols;
 mod qlink;
 pub mod service;
+mod slave_alone;
 mod slaves;
+mod speech;
 #[cfg(test)]
 mod watched;
 mod wiring;
@@ -92,6 +96,7 @@ pub use memory::Memory;
 pub use parts::{Part, Port, PortMut, Progress, Status, Without};
 pub use port::{FRAME, advance};
 pub use protocols::Protocols;
+pub use slave_alone::advance_slave;
 pub(crate) use wiring::note_missing;
 pub use wiring::{Choice, D_ADPRW_PORT, PortWiring, Ports, Protocol};
 
@@ -109,11 +114,11 @@ pub enum Cut {
 }
 
 /// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1:
-/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
+/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port). The first ten are numbered as the codes of Modbus are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineFault {
     /// The station number is out of range (63x0).
-    Station,
+    Station = 0,
     /// The frame is too short or too long (63x1).
     Length,
     /// A device that is not there, or another address than asked for (63x2).

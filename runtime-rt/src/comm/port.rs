@@ -1,13 +1,12 @@
 //! The state machine of one port, beside the scan.
 
-use super::can::CanFrame;
 use super::codec::Codec;
 use super::computer_link::Remote;
 use super::line::{CharFault, Received};
-use super::modbus::LONGEST_RTU;
-use super::parts::{Progress, Status};
-use super::protocols::Protocols;
+use super::modbus::{self, Framing, LONGEST_RTU};
+use super::parts::Status;
 use super::slaves::Slave;
+use super::speech::{Spoken, Whole};
 use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, value};
 use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
@@ -17,28 +16,20 @@ use crate::special::Relay;
 /// Characters of the longest frame: Modbus ASCII has 513, computer link fewer.
 pub const FRAME: usize = 528;
 
-/// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line
-/// §2.5.2.1).
-const GIVEN_UP_US: u32 = 1_000_000;
-
-/// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off
-/// must not hold up the others.
-const LINK_GIVEN_UP_US: u32 = 50_000;
-
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
 const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
-/// One port while it is advanced.
-pub(super) struct Session<'a> {
-    pub(super) plc: &'a mut dyn Plc,
-    pub(super) hal: &'a mut dyn Hal,
-    pub(super) wiring: &'static PortWiring,
+/// One port while it is advanced. `S` is what it may speak as far as that is known when a program is built: then the
+/// devices and the hardware are known, too, and the rest of this is not linked.
+pub(super) struct Session<'a, P: ?Sized = dyn Plc + 'a, H: ?Sized = dyn Hal + 'a, S = Whole> {
+    pub(super) plc: &'a mut P,
+    pub(super) hal: &'a mut H,
     pub(super) status: Status,
-    /// As it begins, where the port has no memory for it.
-    pub(super) progress: Progress,
+    /// What it may speak, and what that needs.
+    pub(super) own: S,
     pub(super) now_us: u32,
     /// RUN or STOP, if a frame has asked for it.
-    request: Option<bool>,
+    pub(super) request: Option<bool>,
 }
 
 /// Whether `at_us` has come, both wrapping.
@@ -54,84 +45,89 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
     let mut index = 0;
     while let Some(wiring) = plc.port_wiring(index) {
         index += 1;
-        let Some(status) = plc.port(wiring.number).map(|port| *port.status) else {
-            continue;
-        };
         let wiring = wiring.chosen(plc);
-        let mut session = Session {
-            plc,
-            hal,
-            wiring,
-            status,
-            progress: Progress::new(),
-            now_us,
-            request: None,
-        };
-        let port = session.plc.port(wiring.number);
-        if let Some(progress) = port.and_then(|port| port.progress) {
-            keep(&mut session.progress, progress);
-        }
-        session.run();
-        request = request.or(session.request);
-        if let Some(port) = session.plc.port(wiring.number) {
-            keep(port.status, &session.status);
-            if let Some(place) = port.progress {
-                keep(place, &session.progress);
-            }
-        }
+        request = request.or(advance_port(plc, hal, wiring, now_us));
     }
     request
+}
+
+/// Brings one of the ports to `now_us`, if the program has it.
+fn advance_port<'a>(
+    plc: &'a mut dyn Plc,
+    hal: &'a mut dyn Hal,
+    wiring: &'static PortWiring,
+    now_us: u32,
+) -> Option<bool> {
+    let port = plc.port(wiring.number)?;
+    let (status, own) = (*port.status, Whole::of(wiring, &port));
+    let mut session: Session<'a> = Session {
+        plc,
+        hal,
+        status,
+        own,
+        now_us,
+        request: None,
+    };
+    session.run();
+    if let Some(port) = session.plc.port(wiring.number) {
+        keep(port.status, &session.status);
+        if let Some(place) = port.progress {
+            keep(place, &session.own.progress);
+        }
+    }
+    session.request
 }
 
 /// A separate function says that the two do not overlap: else it is done by `memmove`, which is larger than all else
 /// here.
 #[inline(never)]
-fn keep<T: Copy>(place: &mut T, value: &T) {
+pub(super) fn keep<T: Copy>(place: &mut T, value: &T) {
     *place = *value;
 }
 
-impl Session<'_> {
-    fn run(&mut self) {
+impl<'a, P, H, S> Session<'a, P, H, S>
+where
+    P: Plc + ?Sized,
+    H: Hal + ?Sized,
+    S: Spoken<'a, P, H>,
+{
+    pub(super) fn run(&mut self) {
         self.choose();
-        if self.wiring.rules.bus(self) || !self.set_up() {
+        if S::has_bus(self) || !self.set_up() {
+            return;
+        }
+        if !S::is_spoken(self) {
+            while self.receive().is_some() {}
             return;
         }
         self.send();
-        while let Some(character) = self.serial().and_then(|(port, now)| port.receive(now)) {
+        while let Some(character) = self.receive() {
             self.take(character);
         }
         let quiet_us = self.now_us.wrapping_sub(self.status.last_us);
-        if self.status.open && quiet_us >= self.silence_us() {
+        if self.status.open && quiet_us >= S::silence_us(self) {
             self.silence();
         }
-        if let Some(codec) = self.codec() {
-            codec.advance(self);
-        }
+        S::advance(self);
         self.send();
-    }
-
-    /// What the port does under its protocol, if the program has that.
-    fn codec(&self) -> Option<&'static Codec> {
-        self.codec_of(Protocols::of(&[self.status.protocol]))
-    }
-
-    /// What a port does under one of these protocols, if the program has that.
-    pub(super) fn codec_of(&self, protocols: Protocols) -> Option<&'static Codec> {
-        let mut codecs = self.plc.codecs().iter();
-        codecs
-            .find(|codec| codec.protocols().meets(protocols))
-            .copied()
     }
 
     /// The hardware of the port, and the time.
     pub(super) fn serial(&mut self) -> Option<(&mut dyn SerialPort, u32)> {
-        let port = self.hal.serial_port(self.wiring.number)?;
+        let port = self.hal.serial_port(S::wiring(self).number)?;
         Some((port, self.now_us))
+    }
+
+    /// The oldest character that has come.
+    fn receive(&mut self) -> Option<Received> {
+        self.serial()
+            .and_then(|(port, now_us)| port.receive(now_us))
     }
 
     /// What the port speaks from now on.
     fn choose(&mut self) {
-        if self.wiring.choice == Choice::Com1 {
+        let wiring = S::wiring(self);
+        if wiring.choice == Choice::Com1 {
             let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
             M_SET_UP_WRONGLY.set(self.plc, both);
         }
@@ -141,28 +137,24 @@ impl Session<'_> {
             ..
         } = *self.plc.sys();
         let settled = running && !first_scan;
-        if self.status.bound && settled {
-            return;
+        if !self.status.bound || !settled {
+            let protocol = S::protocol(self);
+            self.status.bound = settled && wiring.binds();
+            if protocol != self.status.protocol {
+                self.status.protocol = protocol;
+                self.drop_frame();
+                self.status.sending = false;
+                self.status.rate = 0;
+                S::forget(self);
+            }
         }
-        let protocol = self.wiring.protocol(self.plc, self.status.uinit);
-        self.status.bound = settled && self.wiring.binds();
-        if protocol != self.status.protocol {
-            self.status.protocol = protocol;
-            self.drop_frame();
-            self.status.sending = false;
-            self.status.rate = 0;
-            self.progress = Progress::new();
-            self.forget();
-        }
+        S::find_codec(self);
     }
 
     /// Tells the hardware the format of the line; false if there is no hardware.
     fn set_up(&mut self) -> bool {
         let status = self.status;
-        let mut format = match self.codec() {
-            Some(codec) => codec.line(self.wiring, self.plc, status.protocol, status.uinit),
-            None => self.wiring.own_line(self.plc, status.uinit, false),
-        };
+        let mut format = S::line(self);
         if status.rate != 0 {
             format.bits_per_second = u32::from(status.rate) * 100;
         }
@@ -180,26 +172,12 @@ impl Session<'_> {
         true
     }
 
-    /// After how much silence a frame ends or is given up. Characters come with times in whole microseconds.
-    fn silence_us(&self) -> u32 {
-        if self.status.protocol.ends_by_silence() {
-            let modbus = self.wiring.modbus;
-            let asked_us = modbus.map_or(0, |modbus| modbus.silence_us(self.plc));
-            self.status.format.silence_us().max(asked_us) - 2
-        } else if Protocols::LINKS.contains(self.status.protocol) {
-            LINK_GIVEN_UP_US
-        } else {
-            GIVEN_UP_US
-        }
-    }
-
     /// A character has come.
     fn take(&mut self, character: Received) {
         if self.status.sending && self.status.format.half_duplex {
             return;
         }
-        let codec = self.codec();
-        if codec.is_some_and(|codec| codec.character(self, character)) {
+        if S::character(self, character) {
             return;
         }
         let begin_us = character
@@ -208,7 +186,7 @@ impl Session<'_> {
         let quiet_us = begin_us.wrapping_sub(self.status.last_us);
         if self.status.open
             && has_come(begin_us, self.status.last_us)
-            && quiet_us >= self.silence_us()
+            && quiet_us >= S::silence_us(self)
         {
             self.silence();
         }
@@ -218,8 +196,8 @@ impl Session<'_> {
         if !self.store(character) {
             return;
         }
-        if !self.status.protocol.ends_by_silence() {
-            self.cut(codec);
+        if !S::ends_by_silence(self) {
+            self.cut();
         }
     }
 
@@ -235,9 +213,10 @@ impl Session<'_> {
         }
         let at = usize::from(self.status.received);
         let byte = character.byte & self.status.format.mask();
-        let port = self.plc.port(self.wiring.number);
+        let by_silence = S::ends_by_silence(self);
+        let port = self.plc.port(self.number());
         // A port of several protocols has room for more.
-        let fits = !self.status.protocol.ends_by_silence() || at < LONGEST_RTU;
+        let fits = !by_silence || at < LONGEST_RTU;
         let place = port.filter(|_| fits);
         match place.and_then(|port| port.buffer.get_mut(at)) {
             Some(place) => {
@@ -250,7 +229,7 @@ impl Session<'_> {
                 false
             }
             // No frame is as long. One that silence ends continues until then; else this character may begin another.
-            None if self.status.protocol.ends_by_silence() => {
+            None if by_silence => {
                 if !self.status.spoiled {
                     self.note(LineFault::Overflow);
                 }
@@ -266,30 +245,23 @@ impl Session<'_> {
     }
 
     /// Looks whether the frame is whole, in a protocol whose frames have an end.
-    fn cut(&mut self, codec: Option<&'static Codec>) {
+    fn cut(&mut self) {
         let received = usize::from(self.status.received);
-        let slave = self.slave();
-        let Some(port) = self.plc.port(self.wiring.number) else {
-            return;
-        };
-        let frame = port.buffer.get(..received).unwrap_or_default();
-        let cut = codec.map_or(Cut::Drop, |codec| {
-            codec.cut(&self.status, &self.progress, slave, frame)
-        });
-        match cut {
+        match S::cut(self, received) {
             Cut::More => {}
             Cut::Whole if self.status.spoiled => self.drop_frame(),
             Cut::Whole => self.take_frame(),
             Cut::Restart => {
-                let last = frame.last().copied();
-                if let Some((first, last)) = port.buffer.first_mut().zip(last) {
-                    *first = last;
+                let port = self.plc.port(self.number());
+                let frame = port.and_then(|port| port.buffer.get_mut(..received));
+                if let Some([first, .., last]) = frame {
+                    *first = *last;
                 }
                 self.status.received = 1;
                 self.status.spoiled = false;
                 // The character may be a whole frame.
                 if received > 1 {
-                    self.cut(codec);
+                    self.cut();
                 }
             }
             Cut::Drop => self.drop_frame(),
@@ -299,7 +271,7 @@ impl Session<'_> {
     /// The line has been silent for as long as ends a frame.
     fn silence(&mut self) {
         let whole = self.status.received > 0 && !self.status.spoiled;
-        if self.status.protocol.ends_by_silence() && whole {
+        if S::ends_by_silence(self) && whole {
             self.take_frame();
         } else {
             self.drop_frame();
@@ -315,79 +287,45 @@ impl Session<'_> {
 
     /// Shows an error of the port.
     pub(super) fn note(&mut self, fault: LineFault) {
-        match self.codec() {
-            Some(codec) => codec.note(self.wiring, self.plc, self.status.protocol, fault),
-            None => self.wiring.note_general(self.plc, fault),
-        }
+        S::note(self, fault);
     }
 
-    /// Who answers, as the registers say now.
-    pub(super) fn slave(&self) -> Slave {
-        let uinit = self.status.uinit;
-        let (station, format) = match self.wiring.station {
-            None => (uinit[0] & 0xff, uinit[1]),
-            Some(_) => (
-                value(self.plc, self.wiring.station_of(self.status.protocol)),
-                value(self.plc, self.wiring.format),
-            ),
-        };
-        Slave {
-            family: self.plc.ports(),
-            type_code: self.plc.type_code(),
-            station,
-            format,
-            profile: self.plc.modbus(),
-        }
+    /// Its number in the model's manual.
+    fn number(&self) -> u8 {
+        S::wiring(self).number
     }
 
     /// A frame is whole: answers it, or takes it for an answer.
     fn take_frame(&mut self) {
         let received = usize::from(self.status.received);
         self.drop_frame();
-        if let Some(codec) = self.codec() {
-            codec.take(self, received);
-        }
+        S::take(self, received);
     }
 
     /// Copies the frame that has been received.
-    pub(super) fn copy_frame<const LENGTH: usize>(&mut self, received: usize) -> [u8; LENGTH] {
+    pub(super) fn copy_frame<const LENGTH: usize>(&mut self) -> [u8; LENGTH] {
         let mut frame = [0; LENGTH];
-        let port = self.plc.port(self.wiring.number);
-        let received = port.as_ref().and_then(|port| port.buffer.get(..received));
-        if let Some((place, received)) =
-            received.and_then(|r| frame.get_mut(..r.len()).zip(Some(r)))
-        {
-            place.copy_from_slice(received);
+        if let Some(port) = self.plc.port(self.number()) {
+            for (place, byte) in frame.iter_mut().zip(port.buffer) {
+                *place = *byte;
+            }
         }
         frame
     }
 
-    /// Whether what has been received is a frame of this codec.
-    pub(super) fn is_whole(&mut self, codec: &Codec, received: usize) -> bool {
-        let slave = self.slave();
-        let port = self.plc.port(self.wiring.number);
-        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
-        frame.is_some_and(|frame| {
-            codec.cut(&self.status, &self.progress, slave, frame) == Cut::Whole
-        })
-    }
-
-    /// Answers a frame, none of which has more than `LENGTH` characters.
-    pub(super) fn answer<const LENGTH: usize>(
+    /// Answers a frame of this many characters; no answer has more than `LENGTH`.
+    fn reply<const LENGTH: usize>(
         &mut self,
         received: usize,
-        answer: impl FnOnce(Slave, &[u8], &mut Remote, &mut Served, &mut Frame) -> Result<(), LineFault>,
+        answer: impl FnOnce(&[u8], &mut Served<P>, &mut Frame) -> Result<(), LineFault>,
     ) {
-        let slave = self.slave();
-        let request = self.copy_frame::<LENGTH>(received);
-        let mut remote = self.status.remote;
+        let request = self.copy_frame::<LENGTH>();
         let mut bytes = [0; LENGTH];
         let mut reply = Frame::new(&mut bytes);
-        let mut map = Served::new(self.plc, slave.type_code);
+        let mut map = Served::new(self.plc, self.plc.type_code());
         let request = request.get(..received).unwrap_or_default();
-        let answered = answer(slave, request, &mut remote, &mut map, &mut reply);
+        let answered = answer(request, &mut map, &mut reply);
         self.request = map.take_request().or(self.request);
-        self.status.remote = remote;
         if let Err(fault) = answered {
             self.note(fault);
         }
@@ -395,37 +333,30 @@ impl Session<'_> {
         self.begin_sending(reply.as_slice(), wait_us);
     }
 
-    /// The same with what the slave keeps.
-    pub(super) fn answer_with_memory<const LENGTH: usize>(
-        &mut self,
-        received: usize,
-        answer: impl FnOnce(Slave, &[u8], &mut Memory, &mut Served, &mut Frame) -> Result<(), LineFault>,
-    ) {
-        let number = self.wiring.number;
-        let port = self.plc.port(number);
-        let Some(mut memory) = port.and_then(|port| port.memory.map(core::mem::take)) else {
-            return;
+    /// Answers a frame as a slave by Modbus RTU.
+    pub(super) fn answer_rtu(&mut self, received: usize) {
+        let settings = modbus::Settings {
+            framing: Framing::Rtu,
+            station: self.station(),
+            profile: self.plc.modbus(),
         };
-        self.answer::<LENGTH>(received, |slave, request, _, map, reply| {
-            answer(slave, request, &mut memory, map, reply)
+        self.reply::<LONGEST_RTU>(received, |request, map, reply| {
+            modbus::answer_rtu(&settings, request, map, reply)
         });
-        if let Some(place) = self.plc.port(number).and_then(|port| port.memory) {
-            *place = memory;
-        }
     }
 
-    /// A frame of CAN has come.
-    pub(super) fn take_can(&mut self, received: usize) {
-        let port = self.plc.port(self.wiring.number);
-        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
-        if let Some(frame) = frame.and_then(CanFrame::parse) {
-            self.take_from_bus(frame);
+    /// Own station number, as the registers say now.
+    fn station(&self) -> u16 {
+        let wiring = S::wiring(self);
+        match wiring.station {
+            None => self.status.uinit[0] & 0xff,
+            Some(_) => value(self.plc, wiring.station_of(self.status.protocol)),
         }
     }
 
     /// Sends a frame, not before `wait_us` after the last character received.
     pub(super) fn begin_sending(&mut self, frame: &[u8], wait_us: u32) {
-        let Some(port) = self.plc.port(self.wiring.number) else {
+        let Some(port) = self.plc.port(self.number()) else {
             return;
         };
         if let Some(place) = port
@@ -443,20 +374,17 @@ impl Session<'_> {
 
     /// Hands the frame to the hardware, and takes notice of its end.
     fn send(&mut self) {
-        let codec = self.codec();
-        if codec.is_some_and(Codec::has_no_frames)
+        if !S::has_frames(self)
             || !self.status.sending
             || !has_come(self.now_us, self.status.due_us)
         {
             return;
         }
-        let number = self.wiring.number;
+        let number = self.number();
         while self.status.taken < self.status.to_send {
             let at = usize::from(self.status.taken);
-            let byte = self
-                .plc
-                .port(number)
-                .and_then(|port| port.buffer.get(at).copied());
+            let port = self.plc.port(number);
+            let byte = port.and_then(|port| port.buffer.get(at).copied());
             let Some((byte, (port, now_us))) = byte.zip(self.serial()) else {
                 break;
             };
@@ -470,9 +398,86 @@ impl Session<'_> {
             .is_none_or(|(port, now_us)| port.unsent(now_us) == 0)
         {
             self.status.sending = false;
-            if let Some(codec) = codec {
-                codec.sent(self);
-            }
+            S::sent(self);
+        }
+    }
+}
+
+/// The devices of a program that is not known when this is built.
+type Devices<'a, 'b> = Served<'b, dyn Plc + 'a>;
+
+impl<'a> Session<'a> {
+    /// Who answers, as the registers say now.
+    pub(super) fn slave(&self) -> Slave {
+        let format = match self.own.wiring.station {
+            None => self.status.uinit[1],
+            Some(_) => value(self.plc, self.own.wiring.format),
+        };
+        Slave {
+            family: self.plc.ports(),
+            type_code: self.plc.type_code(),
+            station: self.station(),
+            format,
+            profile: self.plc.modbus(),
+        }
+    }
+
+    /// Whether what has been received is a frame of this codec.
+    pub(super) fn is_whole(&mut self, codec: &Codec, received: usize) -> bool {
+        self.cut_by(codec, received) == Cut::Whole
+    }
+
+    /// What this codec says of the characters so far.
+    pub(super) fn cut_by(&mut self, codec: &Codec, received: usize) -> Cut {
+        let slave = self.slave();
+        let port = self.plc.port(self.own.wiring.number);
+        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
+        let frame = frame.unwrap_or_default();
+        codec.cut(&self.status, &self.own.progress, slave, frame)
+    }
+
+    /// Answers a frame, none of which has more than `LENGTH` characters.
+    pub(super) fn answer<const LENGTH: usize>(
+        &mut self,
+        received: usize,
+        answer: impl FnOnce(
+            Slave,
+            &[u8],
+            &mut Remote,
+            &mut Devices<'a, '_>,
+            &mut Frame,
+        ) -> Result<(), LineFault>,
+    ) {
+        let slave = self.slave();
+        let mut remote = self.status.remote;
+        self.reply::<LENGTH>(received, |request, map, reply| {
+            answer(slave, request, &mut remote, map, reply)
+        });
+        self.status.remote = remote;
+    }
+
+    /// The same with what the slave keeps.
+    pub(super) fn answer_with_memory<const LENGTH: usize>(
+        &mut self,
+        received: usize,
+        answer: impl FnOnce(
+            Slave,
+            &[u8],
+            &mut Memory,
+            &mut Devices<'a, '_>,
+            &mut Frame,
+        ) -> Result<(), LineFault>,
+    ) {
+        let number = self.own.wiring.number;
+        let port = self.plc.port(number);
+        let Some(mut memory) = port.and_then(|port| port.memory.map(core::mem::take)) else {
+            return;
+        };
+        self.answer::<LENGTH>(received, |slave, request, _, map, reply| {
+            answer(slave, request, &mut memory, map, reply)
+        });
+        if let Some(place) = self.plc.port(number).and_then(|port| port.memory) {
+            *place = memory;
         }
     }
 }

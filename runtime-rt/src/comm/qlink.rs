@@ -129,7 +129,7 @@ fn read(
         let mut byte = 0;
         for (bit, address) in group.chunks_exact(2).enumerate() {
             let on = match modbus::place(profile.coils, word_of(address)) {
-                Some(Place::Bit(class, number)) => map.bit(class, number),
+                Some(Place::Bits(class, number, 1)) => map.bit(class, number),
                 _ => None,
             };
             byte |= u8::from(on.ok_or(NO_DEVICE)?) << bit;
@@ -152,9 +152,7 @@ fn read(
                 reply.push_be16(map.word(class, number).ok_or(NO_DEVICE)? as u16);
                 devices += 1;
             }
-            Place::Bit(..) | Place::Packed(..) | Place::Half { high: true, .. } => {
-                return Err(NO_DEVICE);
-            }
+            Place::Bits(..) | Place::Half { high: true, .. } => return Err(NO_DEVICE),
         }
     }
     if devices > usize::from(most) || reply.len() - start > MOST_DATA {

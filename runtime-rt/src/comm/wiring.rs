@@ -368,6 +368,22 @@ impl Ports {
         self.get(number).map(|port| port.number)
     }
 
+    /// The special devices of a port, which is there, of the family with a number.
+    pub(super) const fn wired(family: u8, number: u8) -> PortWiring {
+        let mut families = Ports::families();
+        while let [first, rest @ ..] = families {
+            let mut ports = first.all();
+            while let [port, others @ ..] = ports {
+                if *first as u8 == family && port.number == number {
+                    return *port;
+                }
+                ports = others;
+            }
+            families = rest;
+        }
+        panic!("the family has no such port")
+    }
+
     /// The port of a number.
     pub fn get(self, number: u8) -> Option<&'static PortWiring> {
         self.all().iter().find(|port| port.number == number)
@@ -375,24 +391,24 @@ impl Ports {
 }
 
 /// Whether a relay is on; off where there is none.
-pub(crate) fn is_on(plc: &dyn Plc, relay: Option<Relay>) -> bool {
+pub(crate) fn is_on(plc: &(impl Plc + ?Sized), relay: Option<Relay>) -> bool {
     relay.is_some_and(|relay| relay.is_on(plc))
 }
 
 /// Sets a relay, if there is one.
-pub(crate) fn set(plc: &mut dyn Plc, relay: Option<Relay>, on: bool) {
+pub(crate) fn set(plc: &mut (impl Plc + ?Sized), relay: Option<Relay>, on: bool) {
     if let Some(relay) = relay {
         relay.set(plc, on);
     }
 }
 
 /// Value of a register; 0 where there is none.
-pub(crate) fn value(plc: &dyn Plc, register: Option<Register>) -> u16 {
+pub(crate) fn value(plc: &(impl Plc + ?Sized), register: Option<Register>) -> u16 {
     register.map_or(0, |register| register.value(plc))
 }
 
 /// Sets a register, if there is one.
-pub(crate) fn set_value(plc: &mut dyn Plc, register: Option<Register>, value: u16) {
+pub(crate) fn set_value(plc: &mut (impl Plc + ?Sized), register: Option<Register>, value: u16) {
     if let Some(register) = register {
         register.set(plc, value);
     }
@@ -400,7 +416,7 @@ pub(crate) fn set_value(plc: &mut dyn Plc, register: Option<Register>, value: u1
 
 impl ErrorPlace {
     /// Shows an error, until the program clears it.
-    fn show(self, plc: &mut dyn Plc, code: u16) {
+    fn show(self, plc: &mut (impl Plc + ?Sized), code: u16) {
         self.relay.set(plc, true);
         self.register.set(plc, code);
     }
@@ -512,16 +528,19 @@ impl PortWiring {
     }
 
     /// Shows an error of the port in the PLC's relay and register, where it stays until the program clears it.
-    pub(super) fn note_general(&self, plc: &mut dyn Plc, fault: LineFault) {
+    #[inline]
+    pub(super) fn note_general(&self, plc: &mut (impl Plc + ?Sized), fault: LineFault) {
         self.show(plc, self.codes + fault.of_all());
     }
 
     /// Shows an error with the codes of Modbus, if the port has them.
-    fn note_usual(&self, plc: &mut dyn Plc, fault: LineFault) {
-        match fault.of_modbus() {
-            Some(kind) if self.modbus_errors != 0 => self.show(plc, self.modbus_errors + kind),
-            _ => self.note_general(plc, fault),
-        }
+    #[inline(always)]
+    pub(super) fn note_usual(&self, plc: &mut (impl Plc + ?Sized), fault: LineFault) {
+        let code = match fault.of_modbus() {
+            Some(kind) if self.modbus_errors != 0 => self.modbus_errors + kind,
+            _ => self.codes + fault.of_all(),
+        };
+        self.show(plc, code);
     }
 
     /// Shows an error of Modbus, of a master or a slave.
@@ -539,7 +558,8 @@ impl PortWiring {
         }
     }
 
-    fn show(&self, plc: &mut dyn Plc, code: u16) {
+    #[inline(always)]
+    fn show(&self, plc: &mut (impl Plc + ?Sized), code: u16) {
         if let Some(place) = self.error {
             place.show(plc, code);
         }
@@ -629,7 +649,8 @@ pub(crate) fn note_missing(plc: &mut dyn Plc) {
 }
 
 /// Computer link by bit 14 of the format word, else the protocol of a number.
-fn by_number(wiring: &PortWiring, plc: &dyn Plc) -> Protocol {
+#[inline]
+fn by_number(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     let protocol = Protocol::from_number(value(plc, wiring.protocol));
     match protocol {
         Protocol::NnMaster
@@ -669,20 +690,13 @@ impl LineFault {
         }
     }
 
-    /// The last digit of the code of a Modbus error; `None` for what all protocols share.
+    /// The last digit of the code of a Modbus error, which is the number of the fault; `None` for what all protocols
+    /// share.
+    #[inline]
     fn of_modbus(self) -> Option<u16> {
-        Some(match self {
-            LineFault::Station => 0,
-            LineFault::Length => 1,
-            LineFault::Address => 2,
-            LineFault::Sum => 3,
-            LineFault::Command => 4,
-            LineFault::TimeOut => 5,
-            LineFault::Data => 6,
-            LineFault::Overflow => 7,
-            LineFault::Form => 8,
-            LineFault::Protocol => 9,
-            LineFault::Character | LineFault::Unknown => return None,
-        })
+        match self {
+            LineFault::Character | LineFault::Unknown => None,
+            _ => Some(self as u16),
+        }
     }
 }

@@ -113,9 +113,9 @@ impl Marks {
 impl Session<'_> {
     /// What the format word puts around data.
     fn marks(&self) -> Marks {
-        let format = value(self.plc, self.wiring.format);
+        let format = value(self.plc, self.own.wiring.format);
         let is = |bit: u16| format & bit != 0;
-        if let Some(envelope) = self.wiring.envelope {
+        if let Some(envelope) = self.own.wiring.envelope {
             let mark = |bit: u16, first: Register| match is(bit) {
                 true => Mark::of_registers(first.run().map(|register| register.value(self.plc))),
                 false => Mark::NONE,
@@ -132,48 +132,48 @@ impl Session<'_> {
             None => Mark::NONE,
         };
         Marks {
-            before: mark(START, self.wiring.start),
-            after: mark(END, self.wiring.end),
+            before: mark(START, self.own.wiring.start),
+            after: mark(END, self.own.wiring.end),
             ..Marks::NONE
         }
     }
 
     /// Shows a sum of RS2.
     fn show_sum(&mut self, register: fn(Envelope) -> Option<Register>, sum: u16) {
-        if let Some(register) = self.wiring.envelope.and_then(register) {
+        if let Some(register) = self.own.wiring.envelope.and_then(register) {
             register.set(self.plc, sum & 0xff);
         }
     }
 
     pub(super) fn take_rs(&mut self, character: Received) {
         self.close_rs(self.begin_of(character));
-        let transfer = self.progress.free.transfer;
-        let wants = self.progress.free.owner != 0 && transfer.receive > 0;
-        if !wants || is_on(self.plc, self.wiring.done) || self.is_wrong(character) {
+        let transfer = self.own.progress.free.transfer;
+        let wants = self.own.progress.free.owner != 0 && transfer.receive > 0;
+        if !wants || is_on(self.plc, self.own.wiring.done) || self.is_wrong(character) {
             return;
         }
         let byte = character.byte & self.status.format.mask();
         let marks = self.marks();
-        self.progress.free.window = self.progress.free.window << 8 | u32::from(byte);
-        if !self.progress.free.listens {
-            let begins = marks.before.ends(self.progress.free.window);
+        self.own.progress.free.window = self.own.progress.free.window << 8 | u32::from(byte);
+        if !self.own.progress.free.listens {
+            let begins = marks.before.ends(self.own.progress.free.window);
             if marks.before.length > 0 && !begins {
                 return;
             }
-            self.progress.free.listens = true;
-            self.progress.free.received = 0;
-            self.progress.free.sum = 0;
-            self.progress.free.tail = 0;
-            self.progress.free.last_us = character.at_us;
+            self.own.progress.free.listens = true;
+            self.own.progress.free.received = 0;
+            self.own.progress.free.sum = 0;
+            self.own.progress.free.tail = 0;
+            self.own.progress.free.last_us = character.at_us;
             self.show_sum(|envelope| Some(envelope.computed_sum), 0);
             if begins {
-                self.progress.free.window = 0;
+                self.own.progress.free.window = 0;
                 return;
             }
-            self.progress.free.window = byte.into();
+            self.own.progress.free.window = byte.into();
         }
-        self.progress.free.last_us = character.at_us;
-        match self.progress.free.tail {
+        self.own.progress.free.last_us = character.at_us;
+        match self.own.progress.free.tail {
             0 => self.take_data(byte, &marks),
             _ => self.take_tail(byte, &marks),
         }
@@ -181,29 +181,30 @@ impl Session<'_> {
 
     /// A character of the data, or of what ends it. RS2 stores that, too.
     fn take_data(&mut self, byte: u8, marks: &Marks) {
-        let with_end = self.wiring.envelope.is_some();
+        let with_end = self.own.wiring.envelope.is_some();
         let (end, tail) = marks.end();
-        let received = self.progress.free.received;
+        let received = self.own.progress.free.received;
         let whole = received >= u16::from(end.length.saturating_sub(1));
-        let ends = whole && end.ends(self.progress.free.window);
+        let ends = whole && end.ends(self.own.progress.free.window);
         if !ends || with_end {
             self.store_data(received, byte);
-            self.progress.free.received += 1;
-            let sum = self.progress.free.sum.wrapping_add(byte.into());
-            self.progress.free.sum = sum;
+            self.own.progress.free.received += 1;
+            let sum = self.own.progress.free.sum.wrapping_add(byte.into());
+            self.own.progress.free.sum = sum;
             self.show_sum(|envelope| Some(envelope.computed_sum), sum);
         }
         if ends && tail > 0 {
-            self.progress.free.tail = tail;
-            self.progress.free.claimed = 0;
-        } else if ends || self.progress.free.received >= self.progress.free.transfer.receive {
+            self.own.progress.free.tail = tail;
+            self.own.progress.free.claimed = 0;
+        } else if ends || self.own.progress.free.received >= self.own.progress.free.transfer.receive
+        {
             self.complete_rs();
         }
     }
 
     /// A character of the sum, CR or LF.
     fn take_tail(&mut self, byte: u8, marks: &Marks) {
-        let free = &mut self.progress.free;
+        let free = &mut self.own.progress.free;
         let index = marks.tail_length().saturating_sub(free.tail);
         free.tail -= 1;
         if marks.sum && index < 2 {
@@ -230,35 +231,36 @@ impl Session<'_> {
     /// What was to be received is there.
     fn complete_rs(&mut self) {
         self.end_reception();
-        self.progress.free.complete = true;
-        set(self.plc, self.wiring.done, true);
+        self.own.progress.free.complete = true;
+        set(self.plc, self.own.wiring.done, true);
     }
 
     /// An answer that does not continue in time is over. On FX3 that completes it.
     fn close_rs(&mut self, at_us: u32) {
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         let quiet_us = at_us.wrapping_sub(free.last_us);
-        let late = has_come(at_us, free.last_us) && quiet_us > self.wiring.time_out_us(self.plc);
+        let late =
+            has_come(at_us, free.last_us) && quiet_us > self.own.wiring.time_out_us(self.plc);
         if free.listens && late {
             self.end_reception();
-            set(self.plc, self.wiring.late, true);
-            if matches!(self.wiring.choice, Choice::Channel | Choice::Channel0) {
+            set(self.plc, self.own.wiring.late, true);
+            if matches!(self.own.wiring.choice, Choice::Channel | Choice::Channel0) {
                 self.complete_rs();
             }
         }
     }
 
     pub(super) fn advance_rs(&mut self) {
-        let wiring = self.wiring;
+        let wiring = self.own.wiring;
         self.close_rs(self.now_us);
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         let asked = free.owner != 0 && is_on(self.plc, wiring.sends);
         let busy = free.listens && self.status.format.half_duplex;
         let marks = self.marks();
         if asked && !self.status.sending && !busy {
-            self.progress.free.total = free.transfer.send + marks.length();
-            self.progress.free.taken = 0;
-            self.progress.free.sent_sum = 0;
+            self.own.progress.free.total = free.transfer.send + marks.length();
+            self.own.progress.free.taken = 0;
+            self.own.progress.free.sent_sum = 0;
             self.status.sending = true;
         }
         if self.status.sending {
@@ -274,7 +276,7 @@ impl Session<'_> {
             set_value(self.plc, wiring.left, shown);
             self.show_sum(
                 |envelope| Some(envelope.sent_sum),
-                self.progress.free.sent_sum,
+                self.own.progress.free.sent_sum,
             );
             if left == 0 {
                 self.status.sending = false;
@@ -284,11 +286,11 @@ impl Session<'_> {
         let waits = asked && busy && !self.status.sending;
         set(self.plc, wiring.waits, waits);
         // The program's reset of the flag opens the next reception.
-        if self.progress.free.complete && !is_on(self.plc, wiring.done) {
-            self.progress.free.complete = false;
-            self.progress.free.received = 0;
+        if self.own.progress.free.complete && !is_on(self.plc, wiring.done) {
+            self.own.progress.free.complete = false;
+            self.own.progress.free.received = 0;
         }
-        let free = self.progress.free;
+        let free = self.own.progress.free;
         set_value(self.plc, wiring.received, free.received);
         set(self.plc, wiring.receives, free.listens);
     }

@@ -50,30 +50,31 @@ impl Area {
         self
     }
 
-    /// The content of `address`, if it is one of these.
-    fn place(&self, address: u16) -> Option<Place> {
-        let offset = address.checked_sub(self.address)?;
-        if offset >= self.count {
-            return None;
-        }
-        let offset = u32::from(offset);
-        Some(match self.fill {
-            Fill::Bits => Place::Bit(self.class, self.first + offset),
+    /// Whether `address` is one of these.
+    fn holds(&self, address: u16) -> bool {
+        address.wrapping_sub(self.address) < self.count
+    }
+
+    /// The content of an address that is one of these.
+    fn place(&self, address: u16) -> Place {
+        let offset = u32::from(address.wrapping_sub(self.address));
+        match self.fill {
+            Fill::Bits => Place::Bits(self.class, self.first + offset, 1),
             Fill::Words => Place::Word(self.class, self.first + offset),
             Fill::Counters => Place::Half {
                 counter: self.first + offset / 2,
                 high: offset % 2 == 1,
             },
-            Fill::Packed => Place::Packed(self.class, self.first + 16 * offset),
-        })
+            Fill::Packed => Place::Bits(self.class, self.first + 16 * offset, 16),
+        }
     }
 }
 
 /// The content of one address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::comm) enum Place {
-    /// A bit device.
-    Bit(Class, u32),
+pub enum Place {
+    /// A bit device, or 16 of them from this one on, the first the lowest.
+    Bits(Class, u32, u32),
     /// A word device.
     Word(Class, u32),
     /// Half of a 32-bit counter.
@@ -83,13 +84,12 @@ pub(in crate::comm) enum Place {
         /// Whether it is the high word.
         high: bool,
     },
-    /// Sixteen bit devices from this one on.
-    Packed(Class, u32),
 }
 
 /// The content of an address.
 pub(in crate::comm) fn place(areas: &[Area], address: u16) -> Option<Place> {
-    areas.iter().find_map(|area| area.place(address))
+    let area = areas.iter().find(|area| area.holds(address))?;
+    Some(area.place(address))
 }
 
 /// Shows the content of the `count` addresses starting at `first`, with its index; `None` as soon as there is none, or
@@ -99,19 +99,19 @@ pub(super) fn visit(
     first: u16,
     count: u16,
     writes: bool,
-    show: &mut dyn FnMut(u16, Place) -> Option<()>,
+    mut show: impl FnMut(u16, Place) -> Option<()>,
 ) -> Option<()> {
     // Most ranges lie in one area: the last one is asked first.
-    let mut last: Option<&Area> = None;
+    let mut area = areas.first()?;
     for index in 0..count {
         let address = first.checked_add(index)?;
-        let mut found = last.into_iter().chain(areas);
-        let (area, place) = found.find_map(|area| Some((area, area.place(address)?)))?;
+        if !area.holds(address) {
+            area = areas.iter().find(|area| area.holds(address))?;
+        }
         if writes && !area.writable {
             return None;
         }
-        last = Some(area);
-        show(index, place)?;
+        show(index, area.place(address))?;
     }
     Some(())
 }
@@ -349,7 +349,7 @@ mod tests {
     /// The contents of addresses, as far as there are some.
     fn contents(areas: &[Area], first: u16, count: u16, writes: bool) -> std::vec::Vec<Place> {
         let mut found = std::vec::Vec::new();
-        let all = visit(areas, first, count, writes, &mut |index, place| {
+        let all = visit(areas, first, count, writes, |index, place| {
             assert_eq!(usize::from(index), found.len());
             found.push(place);
             Some(())
@@ -392,12 +392,12 @@ mod tests {
             high: false,
         };
         assert_eq!(at(H2U.registers, 0xf70a), Some(c205));
-        assert_eq!(at(H2U.coils, 0xf808), Some(Place::Bit(Class::X, 8)));
+        assert_eq!(at(H2U.coils, 0xf808), Some(Place::Bits(Class::X, 8, 1)));
         assert_eq!(at(HM.registers, 0x20af), Some(Place::Word(Class::D, 7999)));
-        assert_eq!(at(HM.coils, 0x12ff), Some(Place::Bit(Class::S, 1023)));
+        assert_eq!(at(HM.coils, 0x12ff), Some(Place::Bits(Class::S, 1023, 1)));
         assert_eq!(
             at(L01S.registers, 0xa657),
-            Some(Place::Packed(Class::M, 7664))
+            Some(Place::Bits(Class::M, 7664, 16))
         );
         assert_eq!(
             at(L01S.registers, 0x7eff),

@@ -36,8 +36,8 @@ mod storm_tests;
 pub mod tcp;
 
 pub use adu::{Framing, LONGEST_ASCII, LONGEST_RTU, cut_ascii};
-pub use areas::{ALL, Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits, NOTHING};
-pub(super) use areas::{Place, place};
+pub(super) use areas::place;
+pub use areas::{ALL, Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits, NOTHING, Place};
 pub use check::{CRC_START, crc_step, crc16};
 pub use exchange::{End, Exchange, Visit};
 pub use master::{Buffer, Job, Layout, accept, refusal, request};

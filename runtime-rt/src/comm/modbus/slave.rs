@@ -1,14 +1,13 @@
 //! Answers of a slave.
 
 use super::adu::{Bits, Body, Framing, LONGEST_RTU, close_ascii, close_rtu};
-use super::areas::{Place, place, visit};
+use super::areas::{Place, visit};
 use super::function::{
     READ_COILS, READ_INPUT_REGISTERS, READ_INPUTS, READ_REGISTERS, REFUSED, WRITE_COIL,
     WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS,
 };
 use super::{Area, COIL_ON, Exception, Profile};
 use crate::comm::{Frame, LineFault, Map};
-use crate::word::{pair, words};
 
 /// How a port is set up as a slave.
 #[derive(Clone, Copy, Debug)]
@@ -124,38 +123,96 @@ pub(super) fn refuse(body: Body, why: Exception, reply: &mut Frame) {
     reply.push(why.code());
 }
 
-/// Where the data of 0F and 10 begin.
-const DATA: usize = 7;
-
-/// Carries out a request. Nothing is written unless all of it can be.
-fn serve<M: Map + ?Sized>(
-    profile: &Profile,
-    body: Body,
-    map: &mut M,
-    reply: &mut Frame,
-) -> Result<(), Exception> {
-    let limits = &profile.limits;
-    let (areas, most, bits) = match body.byte(1).unwrap_or(0) {
-        READ_COILS => (profile.coils, limits.read_bits, true),
-        READ_INPUTS => (profile.inputs, limits.read_bits, true),
-        READ_REGISTERS => (profile.registers, limits.read_words, false),
-        READ_INPUT_REGISTERS => (profile.input_registers, limits.read_words, false),
-        WRITE_COIL => return write_one(profile, true, body, map, reply),
-        WRITE_REGISTER => return write_one(profile, false, body, map, reply),
-        WRITE_COILS => return write_several(profile, true, body, map, reply),
-        WRITE_REGISTERS => return write_several(profile, false, body, map, reply),
-        _ => return Err(Exception::Function),
-    };
-    read(areas, most, bits, body, map, reply)
+/// What is done with the devices of a request, one after the other.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pass {
+    /// They are read.
+    Read,
+    /// Whether all of them are there.
+    Check,
+    /// They are written.
+    Write,
 }
 
-/// Address and quantity of a request, which has this many bytes and is about 1 to `most` devices.
-fn range(body: Body, length: usize, most: u16) -> Result<(u16, u16), Exception> {
-    match (body.word(2), body.word(4)) {
-        (Some(first), Some(count)) if body.len() == length && (1..=most).contains(&count) => {
-            Ok((first, count))
+/// What a request is about.
+struct Request<'a> {
+    areas: &'static [Area],
+    /// The first address.
+    first: u16,
+    /// How many addresses.
+    count: u16,
+    /// Coils rather than registers.
+    bits: bool,
+    /// What is written; `None`: they are read.
+    new: Option<&'a [u8]>,
+}
+
+impl<'a> Request<'a> {
+    /// The request in `body`, whose quantity, number of bytes and length agree.
+    fn of(profile: &Profile, body: Body<'a>) -> Result<Self, Exception> {
+        let limits = &profile.limits;
+        let function = body.byte(1).unwrap_or(0);
+        // The table, and how many devices of it.
+        let (table, most) = match function {
+            READ_COILS..=READ_INPUTS => (function - READ_COILS, limits.read_bits),
+            READ_REGISTERS..=READ_INPUT_REGISTERS => (function - READ_COILS, limits.read_words),
+            WRITE_COIL => (0, 1),
+            WRITE_REGISTER => (2, 1),
+            WRITE_COILS => (0, limits.write_bits),
+            WRITE_REGISTERS => (2, limits.write_words),
+            _ => return Err(Exception::Function),
+        };
+        let tables = [
+            profile.coils,
+            profile.inputs,
+            profile.registers,
+            profile.input_registers,
+        ];
+        let bits = table < 2;
+        let &[_, _, high, low, ref value @ ..] = body.0 else {
+            return Err(Exception::Value);
+        };
+        let &[upper, lower, ref rest @ ..] = value else {
+            return Err(Exception::Value);
+        };
+        let word = u16::from_be_bytes([upper, lower]);
+        let one = matches!(function, WRITE_COIL | WRITE_REGISTER);
+        let count = if one { 1 } else { word };
+        if !(1..=most).contains(&count) {
+            return Err(Exception::Value);
         }
-        _ => Err(Exception::Value),
+        let bytes = bytes_of(count, bits);
+        let several = matches!(function, WRITE_COILS | WRITE_REGISTERS);
+        let (new, is_right) = match rest {
+            [said, new @ ..] if several => {
+                (Some(new), *said == bytes && new.len() == usize::from(bytes))
+            }
+            [] if one && bits => {
+                let is_right = profile.any_value_is_on || matches!(word, 0 | COIL_ON);
+                (Some(if word == 0 { &[0][..] } else { &[1] }), is_right)
+            }
+            [] => (one.then_some(value), !several),
+            _ => (None, false),
+        };
+        match (tables.get(usize::from(table)), is_right) {
+            (Some(areas), true) => Ok(Request {
+                areas,
+                first: u16::from_be_bytes([high, low]),
+                count,
+                bits,
+                new,
+            }),
+            _ => Err(Exception::Value),
+        }
+    }
+
+    /// What the address at an index is to be written with.
+    fn new_value(&self, index: u16) -> Option<u16> {
+        let (new, index) = (Body(self.new?), usize::from(index));
+        match self.bits {
+            true => new.bit(0, index).map(u16::from),
+            false => new.word(2 * index),
+        }
     }
 }
 
@@ -167,138 +224,55 @@ fn bytes_of(count: u16, bits: bool) -> u8 {
     }
 }
 
-fn read<M: Map + ?Sized>(
-    areas: &[Area],
-    most: u16,
-    bits: bool,
+/// Carries out a request. Nothing is written unless all of it can be.
+fn serve<M: Map + ?Sized>(
+    profile: &Profile,
     body: Body,
     map: &mut M,
     reply: &mut Frame,
 ) -> Result<(), Exception> {
-    let (first, count) = range(body, 6, most)?;
-    body.0.iter().take(2).for_each(|&byte| reply.push(byte));
-    reply.push(bytes_of(count, bits));
+    let request = Request::of(profile, body)?;
+    // A write is confirmed by its first six bytes.
+    let echoed = if request.new.is_none() { 2 } else { 6 };
+    body.0
+        .iter()
+        .take(echoed)
+        .for_each(|&byte| reply.push(byte));
+    let no_half = body.byte(1) == Some(WRITE_REGISTER) && !profile.counters_by_06;
+    let mut pass = Pass::Check;
+    if request.new.is_none() {
+        reply.push(bytes_of(request.count, request.bits));
+        pass = Pass::Read;
+    }
     let mut packed = Bits::new();
-    let done = visit(areas, first, count, false, &mut |_, place| {
-        let value = value(place, map)?;
-        match bits {
-            true => packed.push(value != 0, reply),
-            false => reply.push_be16(value),
+    loop {
+        let writes = pass != Pass::Read;
+        let done = visit(
+            request.areas,
+            request.first,
+            request.count,
+            writes,
+            |index, place| {
+                if pass == Pass::Write {
+                    return map.set_value_at(place, request.new_value(index)?);
+                }
+                let value = map.value_at(place)?;
+                match (pass, request.bits) {
+                    (Pass::Read, true) => packed.push(value != 0, reply),
+                    (Pass::Read, false) => reply.push_be16(value),
+                    _ if no_half && matches!(place, Place::Half { .. }) => return None,
+                    _ => {}
+                }
+                Some(())
+            },
+        );
+        done.ok_or(Exception::Address)?;
+        if pass != Pass::Check {
+            packed.finish(reply);
+            return Ok(());
         }
-        Some(())
-    });
-    packed.finish(reply);
-    done.ok_or(Exception::Address)
-}
-
-/// The register or the coil at a place.
-fn value<M: Map + ?Sized>(place: Place, map: &M) -> Option<u16> {
-    match place {
-        Place::Bit(class, n) => map.bit(class, n).map(u16::from),
-        Place::Word(class, n) => map.word(class, n).map(|word| word as u16),
-        Place::Half { counter, high } => {
-            let value = map.counter32(counter)?;
-            Some((if high { value >> 16 } else { value }) as u16)
-        }
-        Place::Packed(class, first) => (0..16).try_fold(0, |word, bit| {
-            Some(word | u16::from(map.bit(class, first + bit)?) << bit)
-        }),
+        pass = Pass::Write;
     }
-}
-
-/// Writes the register or the coil at a place.
-fn set_value<M: Map + ?Sized>(place: Place, value: u16, map: &mut M) -> Option<()> {
-    match place {
-        Place::Bit(class, n) => map.set_bit(class, n, value != 0),
-        Place::Word(class, n) => map.set_word(class, n, value as i16),
-        Place::Half { counter, high } => {
-            let [low, old_high] = words(map.counter32(counter)?);
-            let value = value as i16;
-            let whole = match high {
-                true => pair(low, value),
-                false => pair(value, old_high),
-            };
-            map.set_counter32(counter, whole)
-        }
-        Place::Packed(class, first) => {
-            (0..16).try_for_each(|bit| map.set_bit(class, first + bit, value >> bit & 1 == 1))
-        }
-    }
-}
-
-/// Writes the values to the places of a range, if all of them are there.
-fn write<M: Map + ?Sized>(
-    areas: &[Area],
-    (first, count): (u16, u16),
-    map: &mut M,
-    new: &dyn Fn(u16) -> Option<u16>,
-) -> Option<()> {
-    visit(areas, first, count, true, &mut |_, place| {
-        value(place, map).map(drop)
-    })?;
-    visit(areas, first, count, true, &mut |index, place| {
-        set_value(place, new(index)?, map)
-    })
-}
-
-/// Appends the first six bytes of the request: the answer to a write.
-fn confirm(written: Option<()>, body: Body, reply: &mut Frame) -> Result<(), Exception> {
-    written.ok_or(Exception::Address)?;
-    body.0.iter().take(6).for_each(|&byte| reply.push(byte));
-    Ok(())
-}
-
-/// 05 and 06.
-fn write_one<M: Map + ?Sized>(
-    profile: &Profile,
-    coil: bool,
-    body: Body,
-    map: &mut M,
-    reply: &mut Frame,
-) -> Result<(), Exception> {
-    let (Some(address), Some(new), 6) = (body.word(2), body.word(4), body.len()) else {
-        return Err(Exception::Value);
-    };
-    if coil && !profile.any_value_is_on && new != 0 && new != COIL_ON {
-        return Err(Exception::Value);
-    }
-    let areas = match coil {
-        true => profile.coils,
-        false => profile.registers,
-    };
-    let half = matches!(place(areas, address), Some(Place::Half { .. }));
-    if half && !profile.counters_by_06 {
-        return Err(Exception::Address);
-    }
-    let written = write(areas, (address, 1), map, &|_| Some(new));
-    confirm(written, body, reply)
-}
-
-/// 0F and 10: quantity, number of bytes and length agree.
-fn write_several<M: Map + ?Sized>(
-    profile: &Profile,
-    coils: bool,
-    body: Body,
-    map: &mut M,
-    reply: &mut Frame,
-) -> Result<(), Exception> {
-    let (areas, most) = match coils {
-        true => (profile.coils, profile.limits.write_bits),
-        false => (profile.registers, profile.limits.write_words),
-    };
-    let bytes = body.byte(DATA - 1).ok_or(Exception::Value)?;
-    let range = range(body, DATA + usize::from(bytes), most)?;
-    if bytes != bytes_of(range.1, coils) {
-        return Err(Exception::Value);
-    }
-    let written = write(areas, range, map, &|index| {
-        let index = usize::from(index);
-        match coils {
-            true => body.bit(DATA, index).map(u16::from),
-            false => body.word(DATA + 2 * index),
-        }
-    });
-    confirm(written, body, reply)
 }
 
 #[cfg(test)]

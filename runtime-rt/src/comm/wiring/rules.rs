@@ -30,13 +30,7 @@ impl Rules {
     const fn new(protocol: fn(&PortWiring, &dyn Plc, [u16; 3]) -> Protocol) -> Self {
         Rules {
             protocol,
-            line: |wiring, plc, _, free| {
-                let format = LineFormat::from_word(value(plc, wiring.format));
-                match free && !wiring.one_pair {
-                    true => format,
-                    false => format.half_duplex(),
-                }
-            },
+            line: |wiring, plc, _, free| by_word(wiring, plc, free),
             note_modbus: |wiring, plc, _, fault| wiring.note_usual(plc, fault),
             bus: None,
         }
@@ -66,22 +60,85 @@ impl Rules {
     }
 }
 
-const COM0: Rules = Rules::new(|wiring, plc, _| match value(plc, wiring.protocol) {
-    2 if plc.sys().running => Protocol::ModbusRtu,
-    3 if plc.sys().running => Protocol::ModbusAscii,
-    _ => Protocol::ProgrammingPort,
-});
+/// The format of characters that the format word chooses.
+fn by_word(wiring: &PortWiring, plc: &(impl Plc + ?Sized), free: bool) -> LineFormat {
+    let format = LineFormat::from_word(value(plc, wiring.format));
+    match free && !wiring.one_pair {
+        true => format,
+        false => format.half_duplex(),
+    }
+}
+
+impl PortWiring {
+    /// Whether [`advance_slave`](crate::comm::advance_slave) knows the port: what chooses its protocol is all known when
+    /// a program is built.
+    pub const fn may_be_slave_alone(&self) -> bool {
+        matches!(
+            self.choice,
+            Choice::Com0
+                | Choice::Com1
+                | Choice::Number
+                | Choice::L01sPort2
+                | Choice::L01sPort3
+                | Choice::Uinit
+        )
+    }
+
+    /// What the registers choose now on such a port, as [`Rules::protocol`] says of all; the words are what UINIT has
+    /// set up.
+    #[inline(always)]
+    pub(in crate::comm) fn protocol_of(
+        &self,
+        plc: &(impl Plc + ?Sized),
+        uinit: [u16; 3],
+    ) -> Protocol {
+        match self.choice {
+            Choice::Com0 => com0(self, plc),
+            Choice::Com1 => com1(self, plc),
+            Choice::Number => by_number(self, plc),
+            Choice::L01sPort2 => l01s_port_2(self, plc),
+            Choice::L01sPort3 => l01s_port_3(self, plc),
+            Choice::Uinit => by_uinit(uinit),
+            _ => Protocol::Off,
+        }
+    }
+
+    /// The format of characters of a slave on such a port.
+    #[inline(always)]
+    pub(in crate::comm) fn line_of(
+        &self,
+        plc: &(impl Plc + ?Sized),
+        uinit: [u16; 3],
+    ) -> LineFormat {
+        match self.choice {
+            Choice::Uinit => LineFormat::from_uinit(uinit[1], self.one_pair),
+            _ => by_word(self, plc, false),
+        }
+    }
+}
+
+fn com0(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
+    match value(plc, wiring.protocol) {
+        2 if plc.sys().running => Protocol::ModbusRtu,
+        3 if plc.sys().running => Protocol::ModbusAscii,
+        _ => Protocol::ProgrammingPort,
+    }
+}
+
+const COM0: Rules = Rules::new(|wiring, plc, _| com0(wiring, plc));
 
 const NUMBER: Rules = Rules::new(|wiring, plc, _| by_number(wiring, plc));
 
-const COM1: Rules = Rules::new(|wiring, plc, _| {
+fn com1(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     match [M_PARALLEL_MASTER, M_PARALLEL_SLAVE].map(|relay| relay.is_on(plc)) {
         [true, true] => Protocol::Off,
         [true, false] => Protocol::ParallelMaster,
         [false, true] => Protocol::ParallelSlave,
         [false, false] => by_number(wiring, plc),
     }
-});
+}
+
+const COM1: Rules = Rules::new(|wiring, plc, _| com1(wiring, plc));
 
 const PROGRAMMING_PORT: Rules = Rules::new(|_, _, _| Protocol::ProgrammingPort);
 
@@ -96,7 +153,7 @@ const CAN: Rules = Rules {
 };
 
 /// l01s-programming §9.2: a master of Modbus has station 255.
-const L01S_PORT_2: Rules = Rules::new(|wiring, plc, _| {
+fn l01s_port_2(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     const MASTER: u16 = 255;
     let format = value(plc, wiring.format);
     let ascii = format & 1 << 12 != 0;
@@ -115,9 +172,11 @@ const L01S_PORT_2: Rules = Rules::new(|wiring, plc, _| {
             (true, true) => Protocol::MasterAscii,
         }
     }
-});
+}
 
-const L01S_PORT_3: Rules = Rules::new(|wiring, plc, _| {
+const L01S_PORT_2: Rules = Rules::new(|wiring, plc, _| l01s_port_2(wiring, plc));
+
+fn l01s_port_3(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     if !M_PORT_3_SET_UP.is_on(plc) {
         return Protocol::ProgrammingPort;
     }
@@ -129,11 +188,12 @@ const L01S_PORT_3: Rules = Rules::new(|wiring, plc, _| {
         0x111 => Protocol::ModbusAscii,
         _ => Protocol::Off,
     }
-});
+}
 
-const UINIT: Rules = Rules {
-    line: |wiring, _, uinit, _| LineFormat::from_uinit(uinit[1], wiring.one_pair),
-    ..Rules::new(|_, _, uinit| match (uinit[0] >> 8, uinit[0] & 0xff) {
+const L01S_PORT_3: Rules = Rules::new(|wiring, plc, _| l01s_port_3(wiring, plc));
+
+fn by_uinit(uinit: [u16; 3]) -> Protocol {
+    match (uinit[0] >> 8, uinit[0] & 0xff) {
         (0, 0) | (1, _) => Protocol::ProgrammingPort,
         (2, _) => Protocol::ComputerLinkMaster,
         (3, _) => Protocol::ComputerLink,
@@ -141,7 +201,12 @@ const UINIT: Rules = Rules {
         (4, _) => Protocol::ModbusRtu,
         (5, _) => Protocol::Free,
         _ => Protocol::Off,
-    })
+    }
+}
+
+const UINIT: Rules = Rules {
+    line: |wiring, _, uinit, _| LineFormat::from_uinit(uinit[1], wiring.one_pair),
+    ..Rules::new(|_, _, uinit| by_uinit(uinit))
 };
 
 const FORMAT: Rules = Rules::new(|wiring, plc, _| match wiring.fx_link(plc) {
