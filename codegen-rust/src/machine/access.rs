@@ -58,6 +58,7 @@ impl Generator<'_> {
             )
         });
         let noted = self.note_error();
+        let elements = self.elements_impl();
         self.item_of(quote! {
             impl #plc for #name {
                 #(#methods)*
@@ -70,6 +71,44 @@ impl Generator<'_> {
                 #errors
                 #values
                 #noted
+            }
+            #elements
+        })
+    }
+
+    /// Where devices are stored, by number, for a slave by Modbus that is all that a port may be.
+    fn elements_impl(&mut self) -> Option<TokenStream> {
+        self.module.slave_alone?;
+        let name = self.type_name.clone();
+        let (comm, class) = (self.rt("comm"), self.rt("Class"));
+        let fields = self.storage.fields().to_vec();
+        let mut arms = TokenStream::new();
+        for field in &fields {
+            let pattern = self.pattern(field, true);
+            let cell = Self::matched(field);
+            let kind = match field.kind {
+                Kind::Bit => quote!(Bit),
+                Kind::NumericBit => quote!(Number),
+                Kind::Word => quote!(Word),
+                Kind::Timer => quote!(Timer),
+                Kind::Counter16 => quote!(Counter16),
+                Kind::Counter32 => quote!(Counter32),
+            };
+            arms.extend(quote!(#pattern => Element::#kind(&mut #cell),));
+        }
+        for alias in self.module.model.index_aliases {
+            if let Some(cell) = self.storage.word(&quote!(self), alias.class, alias.index) {
+                let d = self.class(DeviceClass::D);
+                let number = Literal::u32_unsuffixed(alias.register.number());
+                arms.extend(quote!((#d, #number) => Element::Word(&mut #cell),));
+            }
+        }
+        Some(quote! {
+            impl #comm::Elements for #name {
+                fn element(&mut self, class: #class, number: u32) -> Option<#comm::Element<'_>> {
+                    use #comm::Element;
+                    Some(match (class, number) { #arms _ => return None })
+                }
             }
         })
     }

@@ -1,12 +1,13 @@
 //! The devices that a program stores, for what asks for no others: less code than all devices of its model need.
 
-use super::Map;
 use super::map::{bit_of, counter_of, read, word_of, write};
-use crate::comm::PortMut;
+use super::{Kind, Map};
 use crate::comm::modbus::Profile;
+use crate::comm::{Element, Elements, PortMut};
 use crate::plc::{Class, Plc, State, Sys};
 
 /// The devices that a program stores. Others do not exist.
+/// Its layout names what it serves by Modbus.
 pub(super) struct Stored<'a>(pub(super) &'a mut Map);
 
 impl Plc for Stored<'_> {
@@ -57,10 +58,27 @@ impl Plc for Stored<'_> {
     }
 
     fn modbus(&self) -> &'static Profile {
-        self.0.modbus()
+        // SAFETY: one of the library's, which the layout of a program with a slave names.
+        unsafe { &*self.0.layout().modbus }
     }
 
     fn type_code(&self) -> u16 {
         self.0.type_code()
+    }
+}
+
+impl Elements for Stored<'_> {
+    fn element(&mut self, class: Class, number: u32) -> Option<Element<'_>> {
+        let (kind, at) = self.0.stored(class, number)?;
+        // SAFETY: the program's struct holds an element of this kind there, and nothing else uses it during a call.
+        Some(unsafe {
+            match kind {
+                Kind::Bits => Element::Bit(&mut *at.cast()),
+                Kind::Words => Element::Word(&mut *at.cast()),
+                Kind::Timers => Element::Timer(&mut *at.cast()),
+                Kind::Counters16 => Element::Counter16(&mut *at.cast()),
+                Kind::Counters32 => Element::Counter32(&mut *at.cast()),
+            }
+        })
     }
 }

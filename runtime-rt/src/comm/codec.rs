@@ -183,7 +183,9 @@ pub const PROGRAMMING_PORT: Codec = Codec {
 pub const MODBUS_RTU: Codec = Codec {
     take: |session, received| match session.codec_of(Protocols::QLINK) {
         Some(qlink) if session.is_whole(qlink, received) => qlink.take(session, received),
-        _ => session.answer_rtu(received),
+        _ => session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
+            modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
+        }),
     },
     ..Codec::of_modbus(
         "modbus_rtu",

@@ -29,10 +29,9 @@ pub struct LineFormat {
     pub half_duplex: bool,
 }
 
-/// Bit rates by the digit of a format word (h1u-h2u-programming §5.6, table of D8120); 0 stands for none.
-const RATES: [u32; 16] = [
-    0, 0, 0, 300, 600, 1200, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 0, 0, 0,
-];
+/// Bit rates by the digit of a format word, in hundreds of bits per second (h1u-h2u-programming §5.6, table of D8120); 0
+/// stands for none.
+const RATES: [u16; 16] = [0, 0, 0, 3, 6, 12, 24, 48, 96, 192, 384, 576, 1152, 0, 0, 0];
 
 /// The digit of L01S for 115,200 bit/s (l01s-programming §9.2, table of D8120), which means nothing on other models.
 const L01S_HIGHEST: u16 = 13;
@@ -71,7 +70,7 @@ impl LineFormat {
         let digit = word >> 4 & 15;
         let rate = match digit {
             L01S_HIGHEST => 115_200,
-            _ => RATES[usize::from(digit)],
+            _ => u32::from(RATES[usize::from(digit)]) * 100,
         };
         LineFormat {
             bits_per_second: if rate == 0 { 9600 } else { rate },
@@ -134,6 +133,7 @@ impl LineFormat {
     }
 
     /// The same in microseconds, for fewer than 600 halves.
+    #[inline(never)]
     const fn microseconds(&self, halves: u32) -> u32 {
         self.bits() * halves * 500_000 / self.rate()
     }

@@ -1,8 +1,6 @@
 //! The PLC's devices as codecs see them.
 
-use super::modbus::Place;
 use crate::plc::{Class, Plc, StoredRun};
-use crate::word::{pair, words};
 use core::cell::Cell;
 
 /// The devices of a PLC as its partners on a line see them.
@@ -35,38 +33,6 @@ pub trait Map {
     fn program_byte(&self, offset: u32) -> Option<u8> {
         let _ = offset;
         None
-    }
-
-    /// The register or the coil at a place of Modbus.
-    fn value_at(&self, place: Place) -> Option<u16> {
-        match place {
-            Place::Bits(class, first, count) => (0..count).try_fold(0, |word, bit| {
-                Some(word | u16::from(self.bit(class, first + bit)?) << bit)
-            }),
-            Place::Word(class, n) => self.word(class, n).map(|word| word as u16),
-            Place::Half { counter, high } => {
-                let value = self.counter32(counter)?;
-                Some((if high { value >> 16 } else { value }) as u16)
-            }
-        }
-    }
-
-    /// Writes the register or the coil at a place of Modbus.
-    fn set_value_at(&mut self, place: Place, value: u16) -> Option<()> {
-        match place {
-            Place::Bits(class, first, count) => (0..count)
-                .try_for_each(|bit| self.set_bit(class, first + bit, value >> bit & 1 == 1)),
-            Place::Word(class, n) => self.set_word(class, n, value as i16),
-            Place::Half { counter, high } => {
-                let [low, old_high] = words(self.counter32(counter)?);
-                let value = value as i16;
-                let whole = match high {
-                    true => pair(low, value),
-                    false => pair(value, old_high),
-                };
-                self.set_counter32(counter, whole)
-            }
-        }
     }
 
     /// Whether `count` bit devices from `first` on are all there.

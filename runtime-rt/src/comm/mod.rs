@@ -37,6 +37,7 @@
 //! | file | what |
 //! |---|---|
 //! | `map.rs` | [`Map`]: the PLC's devices as codecs see them |
+//! | `elements.rs` | [`Places`]: registers and coils, by the devices of a [`Map`] or where a program stores them |
 //! | `memory.rs` | [`Memory`]: what a slave keeps from one frame to the next |
 //! | `frame.rs` | [`Frame`]: a buffer of fixed capacity; digits and sums |
 //! | `line.rs` | format words, character times, line errors |
@@ -62,6 +63,7 @@ pub(crate) mod can;
 pub mod canlink;
 pub mod codec;
 pub mod computer_link;
+mod elements;
 mod frame;
 pub(crate) mod free;
 pub mod fx_port;
@@ -88,6 +90,7 @@ mod watched;
 mod wiring;
 
 pub use can::{CAN_PORT, CanFrame, CanTurn};
+pub use elements::{Element, Elements, Places};
 pub use frame::{Frame, hex_byte, hex_digits};
 pub use free::{Free, Transfer};
 pub use line::{CharFault, LineFormat, Parity, Received};

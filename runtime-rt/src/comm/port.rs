@@ -3,7 +3,7 @@
 use super::codec::Codec;
 use super::computer_link::Remote;
 use super::line::{CharFault, Received};
-use super::modbus::{self, Framing, LONGEST_RTU};
+use super::modbus::LONGEST_RTU;
 use super::parts::Status;
 use super::slaves::Slave;
 use super::speech::{Spoken, Whole};
@@ -96,18 +96,13 @@ where
         if S::has_bus(self) || !self.set_up() {
             return;
         }
-        if !S::is_spoken(self) {
-            while self.receive().is_some() {}
-            return;
-        }
         self.send();
         while let Some(character) = self.receive() {
-            self.take(character);
+            if S::is_spoken(self) {
+                self.take(character);
+            }
         }
-        let quiet_us = self.now_us.wrapping_sub(self.status.last_us);
-        if self.status.open && quiet_us >= S::silence_us(self) {
-            self.silence();
-        }
+        self.pass_silence(self.now_us);
         S::advance(self);
         self.send();
     }
@@ -183,13 +178,7 @@ where
         let begin_us = character
             .at_us
             .wrapping_sub(self.status.format.character_us());
-        let quiet_us = begin_us.wrapping_sub(self.status.last_us);
-        if self.status.open
-            && has_come(begin_us, self.status.last_us)
-            && quiet_us >= S::silence_us(self)
-        {
-            self.silence();
-        }
+        self.pass_silence(begin_us);
         if self.status.sending {
             return;
         }
@@ -268,8 +257,16 @@ where
         }
     }
 
-    /// The line has been silent for as long as ends a frame.
-    fn silence(&mut self) {
+    /// Takes or gives up the frame, if the line has been silent until then for as long as ends one.
+    #[inline(never)]
+    fn pass_silence(&mut self, until_us: u32) {
+        let quiet_us = until_us.wrapping_sub(self.status.last_us);
+        if !self.status.open
+            || !has_come(until_us, self.status.last_us)
+            || quiet_us < S::silence_us(self)
+        {
+            return;
+        }
         let whole = self.status.received > 0 && !self.status.spoiled;
         if S::ends_by_silence(self) && whole {
             self.take_frame();
@@ -286,6 +283,7 @@ where
     }
 
     /// Shows an error of the port.
+    #[inline(never)]
     pub(super) fn note(&mut self, fault: LineFault) {
         S::note(self, fault);
     }
@@ -314,39 +312,24 @@ where
     }
 
     /// Answers a frame of this many characters; no answer has more than `LENGTH`.
-    fn reply<const LENGTH: usize>(
+    pub(super) fn reply<const LENGTH: usize>(
         &mut self,
         received: usize,
-        answer: impl FnOnce(&[u8], &mut Served<P>, &mut Frame) -> Result<(), LineFault>,
+        answer: impl FnOnce(&mut P, &[u8], &mut Frame) -> Result<(), LineFault>,
     ) {
         let request = self.copy_frame::<LENGTH>();
         let mut bytes = [0; LENGTH];
         let mut reply = Frame::new(&mut bytes);
-        let mut map = Served::new(self.plc, self.plc.type_code());
         let request = request.get(..received).unwrap_or_default();
-        let answered = answer(request, &mut map, &mut reply);
-        self.request = map.take_request().or(self.request);
-        if let Err(fault) = answered {
+        if let Err(fault) = answer(self.plc, request, &mut reply) {
             self.note(fault);
         }
         let wait_us = u32::from(reply.wait_ms()) * 1000;
         self.begin_sending(reply.as_slice(), wait_us);
     }
 
-    /// Answers a frame as a slave by Modbus RTU.
-    pub(super) fn answer_rtu(&mut self, received: usize) {
-        let settings = modbus::Settings {
-            framing: Framing::Rtu,
-            station: self.station(),
-            profile: self.plc.modbus(),
-        };
-        self.reply::<LONGEST_RTU>(received, |request, map, reply| {
-            modbus::answer_rtu(&settings, request, map, reply)
-        });
-    }
-
     /// Own station number, as the registers say now.
-    fn station(&self) -> u16 {
+    pub(super) fn station(&self) -> u16 {
         let wiring = S::wiring(self);
         match wiring.station {
             None => self.status.uinit[0] & 0xff,
@@ -450,9 +433,14 @@ impl<'a> Session<'a> {
     ) {
         let slave = self.slave();
         let mut remote = self.status.remote;
-        self.reply::<LENGTH>(received, |request, map, reply| {
-            answer(slave, request, &mut remote, map, reply)
+        let mut asked = None;
+        self.reply::<LENGTH>(received, |plc, request, reply| {
+            let mut map = Served::new(plc, slave.type_code);
+            let done = answer(slave, request, &mut remote, &mut map, reply);
+            asked = map.take_request();
+            done
         });
+        self.request = asked.or(self.request);
         self.status.remote = remote;
     }
 

@@ -1,7 +1,9 @@
 //! A program whose only port is nothing but a slave by Modbus RTU: all that this does not need is left out when it is
 //! built, for microcontrollers.
 
+use super::elements::{ByElement, Elements};
 use super::line::{LineFormat, Received};
+use super::modbus::{Framing, LONGEST_RTU, Settings, answer_rtu};
 use super::port::{Session, keep};
 use super::speech::{Spoken, end_of_frame_us};
 use super::wiring::{PortWiring, Ports, Protocol};
@@ -20,7 +22,7 @@ impl<const FAMILY: u8, const NUMBER: u8> SlaveAlone<FAMILY, NUMBER> {
 /// Brings the only port of a program to `now_us`, as [`super::advance`] does, if a slave by Modbus RTU is all that it may
 /// be: port `NUMBER` of the family with the number `FAMILY`. Such a slave asks for neither RUN nor STOP.
 pub fn advance_slave<const FAMILY: u8, const NUMBER: u8>(
-    plc: &mut impl Plc,
+    plc: &mut (impl Plc + Elements),
     hal: &mut (impl Hal + ?Sized),
     now_us: u32,
 ) {
@@ -44,7 +46,7 @@ pub fn advance_slave<const FAMILY: u8, const NUMBER: u8>(
 type Slave<'a, P, H, const FAMILY: u8, const NUMBER: u8> =
     Session<'a, P, H, SlaveAlone<FAMILY, NUMBER>>;
 
-impl<'a, P: Plc, H: Hal + ?Sized, const FAMILY: u8, const NUMBER: u8> Spoken<'a, P, H>
+impl<'a, P: Plc + Elements, H: Hal + ?Sized, const FAMILY: u8, const NUMBER: u8> Spoken<'a, P, H>
     for SlaveAlone<FAMILY, NUMBER>
 {
     fn wiring(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> &'static PortWiring {
@@ -99,7 +101,14 @@ impl<'a, P: Plc, H: Hal + ?Sized, const FAMILY: u8, const NUMBER: u8> Spoken<'a,
     }
 
     fn take(session: &mut Slave<'a, P, H, FAMILY, NUMBER>, received: usize) {
-        session.answer_rtu(received);
+        let settings = Settings {
+            framing: Framing::Rtu,
+            station: session.station(),
+            profile: session.plc.modbus(),
+        };
+        session.reply::<LONGEST_RTU>(received, |plc, request, reply| {
+            answer_rtu(&settings, request, &mut ByElement(plc), reply)
+        });
     }
 
     fn advance(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) {}

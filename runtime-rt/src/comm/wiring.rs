@@ -56,6 +56,7 @@ pub enum Protocol {
 
 impl Protocol {
     /// What a protocol number (D8126 and similar registers) means on H1U and H2U (h1u-h2u-programming §5.1).
+    #[inline(always)]
     pub fn from_number(number: u16) -> Self {
         match number {
             0x00 | 0x10 => Protocol::Free,
@@ -528,7 +529,7 @@ impl PortWiring {
     }
 
     /// Shows an error of the port in the PLC's relay and register, where it stays until the program clears it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn note_general(&self, plc: &mut (impl Plc + ?Sized), fault: LineFault) {
         self.show(plc, self.codes + fault.of_all());
     }
@@ -649,7 +650,7 @@ pub(crate) fn note_missing(plc: &mut dyn Plc) {
 }
 
 /// Computer link by bit 14 of the format word, else the protocol of a number.
-#[inline]
+#[inline(always)]
 fn by_number(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     let protocol = Protocol::from_number(value(plc, wiring.protocol));
     match protocol {

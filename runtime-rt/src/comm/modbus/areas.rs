@@ -56,6 +56,7 @@ impl Area {
     }
 
     /// The content of an address that is one of these.
+    #[inline(always)]
     fn place(&self, address: u16) -> Place {
         let offset = u32::from(address.wrapping_sub(self.address));
         match self.fill {

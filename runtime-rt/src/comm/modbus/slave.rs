@@ -7,7 +7,7 @@ use super::function::{
     WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS,
 };
 use super::{Area, COIL_ON, Exception, Profile};
-use crate::comm::{Frame, LineFault, Map};
+use crate::comm::{Frame, LineFault, Places};
 
 /// How a port is set up as a slave.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ const STATIONS: core::ops::RangeInclusive<u8> = 1..=247;
 pub(super) const BROADCAST: u8 = 0;
 
 /// Answers a frame, which silence (RTU) or a line feed (ASCII) has ended; see the contract of [`crate::comm`].
-pub fn answer<M: Map + ?Sized>(
+pub fn answer<M: Places + ?Sized>(
     settings: &Settings,
     request: &[u8],
     map: &mut M,
@@ -39,7 +39,7 @@ pub fn answer<M: Map + ?Sized>(
 }
 
 /// Answers an RTU frame, whatever the settings say.
-pub(in crate::comm) fn answer_rtu<M: Map + ?Sized>(
+pub(in crate::comm) fn answer_rtu<M: Places + ?Sized>(
     settings: &Settings,
     request: &[u8],
     map: &mut M,
@@ -55,7 +55,7 @@ pub(in crate::comm) fn answer_rtu<M: Map + ?Sized>(
 }
 
 /// Answers an ASCII frame, whatever the settings say.
-pub(in crate::comm) fn answer_ascii<M: Map + ?Sized>(
+pub(in crate::comm) fn answer_ascii<M: Places + ?Sized>(
     settings: &Settings,
     request: &[u8],
     map: &mut M,
@@ -81,7 +81,7 @@ impl Settings {
 }
 
 /// Answers the request in `body`, if it is for this station or for all, without check code.
-fn answer_body<M: Map + ?Sized>(
+fn answer_body<M: Places + ?Sized>(
     profile: &Profile,
     station: u8,
     body: Body,
@@ -89,20 +89,23 @@ fn answer_body<M: Map + ?Sized>(
     reply: &mut Frame,
 ) -> Result<(), LineFault> {
     let [to, function] = [0, 1].map(|at| body.byte(at).unwrap_or(0));
-    if to == station {
-        return serve_or_refuse(profile, body, map, reply);
-    }
-    let writes = [WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS].contains(&function);
-    if to != BROADCAST || !writes {
+    let to_all = to == BROADCAST
+        && matches!(
+            function,
+            WRITE_COIL | WRITE_REGISTER | WRITE_COILS | WRITE_REGISTERS
+        );
+    if to != station && !to_all {
         return Ok(());
     }
-    let done = serve(profile, body, map, reply);
-    reply.clear();
-    done.map_err(Exception::fault)
+    let done = serve_or_refuse(profile, body, map, reply);
+    if to_all {
+        reply.clear();
+    }
+    done
 }
 
 /// Answers the request in `body`, from the station on, with data or with a refusal after what is in the reply already.
-pub(super) fn serve_or_refuse<M: Map + ?Sized>(
+pub(super) fn serve_or_refuse<M: Places + ?Sized>(
     profile: &Profile,
     body: Body,
     map: &mut M,
@@ -149,40 +152,33 @@ struct Request<'a> {
 
 impl<'a> Request<'a> {
     /// The request in `body`, whose quantity, number of bytes and length agree.
+    #[inline(always)]
     fn of(profile: &Profile, body: Body<'a>) -> Result<Self, Exception> {
         let limits = &profile.limits;
         let function = body.byte(1).unwrap_or(0);
-        // The table, and how many devices of it.
-        let (table, most) = match function {
-            READ_COILS..=READ_INPUTS => (function - READ_COILS, limits.read_bits),
-            READ_REGISTERS..=READ_INPUT_REGISTERS => (function - READ_COILS, limits.read_words),
-            WRITE_COIL => (0, 1),
-            WRITE_REGISTER => (2, 1),
-            WRITE_COILS => (0, limits.write_bits),
-            WRITE_REGISTERS => (2, limits.write_words),
+        let (areas, most) = match function {
+            READ_COILS => (profile.coils, limits.read_bits),
+            READ_INPUTS => (profile.inputs, limits.read_bits),
+            READ_REGISTERS => (profile.registers, limits.read_words),
+            READ_INPUT_REGISTERS => (profile.input_registers, limits.read_words),
+            WRITE_COIL => (profile.coils, 1),
+            WRITE_REGISTER => (profile.registers, 1),
+            WRITE_COILS => (profile.coils, limits.write_bits),
+            WRITE_REGISTERS => (profile.registers, limits.write_words),
             _ => return Err(Exception::Function),
         };
-        let tables = [
-            profile.coils,
-            profile.inputs,
-            profile.registers,
-            profile.input_registers,
-        ];
-        let bits = table < 2;
-        let &[_, _, high, low, ref value @ ..] = body.0 else {
-            return Err(Exception::Value);
-        };
-        let &[upper, lower, ref rest @ ..] = value else {
+        let Some((&[_, _, high, low, upper, lower], rest)) = body.0.split_first_chunk() else {
             return Err(Exception::Value);
         };
         let word = u16::from_be_bytes([upper, lower]);
+        let bits = matches!(
+            function,
+            READ_COILS | READ_INPUTS | WRITE_COIL | WRITE_COILS
+        );
         let one = matches!(function, WRITE_COIL | WRITE_REGISTER);
-        let count = if one { 1 } else { word };
-        if !(1..=most).contains(&count) {
-            return Err(Exception::Value);
-        }
-        let bytes = bytes_of(count, bits);
         let several = matches!(function, WRITE_COILS | WRITE_REGISTERS);
+        let count = if one { 1 } else { word };
+        let bytes = bytes_of(count, bits);
         let (new, is_right) = match rest {
             [said, new @ ..] if several => {
                 (Some(new), *said == bytes && new.len() == usize::from(bytes))
@@ -191,22 +187,24 @@ impl<'a> Request<'a> {
                 let is_right = profile.any_value_is_on || matches!(word, 0 | COIL_ON);
                 (Some(if word == 0 { &[0][..] } else { &[1] }), is_right)
             }
-            [] => (one.then_some(value), !several),
+            [] if one => (body.0.get(4..), true),
+            [] => (None, !several),
             _ => (None, false),
         };
-        match (tables.get(usize::from(table)), is_right) {
-            (Some(areas), true) => Ok(Request {
+        match is_right && (1..=most).contains(&count) {
+            true => Ok(Request {
                 areas,
                 first: u16::from_be_bytes([high, low]),
                 count,
                 bits,
                 new,
             }),
-            _ => Err(Exception::Value),
+            false => Err(Exception::Value),
         }
     }
 
     /// What the address at an index is to be written with.
+    #[inline(always)]
     fn new_value(&self, index: u16) -> Option<u16> {
         let (new, index) = (Body(self.new?), usize::from(index));
         match self.bits {
@@ -216,16 +214,16 @@ impl<'a> Request<'a> {
     }
 }
 
-/// How many bytes of data there are for a quantity, which is within the limits of a frame.
+/// How many bytes of data there are for a quantity that is within the limits of a frame.
 fn bytes_of(count: u16, bits: bool) -> u8 {
     match bits {
         true => count.div_ceil(8) as u8,
-        false => (2 * count) as u8,
+        false => count.wrapping_mul(2) as u8,
     }
 }
 
 /// Carries out a request. Nothing is written unless all of it can be.
-fn serve<M: Map + ?Sized>(
+fn serve<M: Places + ?Sized>(
     profile: &Profile,
     body: Body,
     map: &mut M,
@@ -253,10 +251,11 @@ fn serve<M: Map + ?Sized>(
             request.count,
             writes,
             |index, place| {
-                if pass == Pass::Write {
-                    return map.set_value_at(place, request.new_value(index)?);
-                }
-                let value = map.value_at(place)?;
+                let new = match pass {
+                    Pass::Write => Some(request.new_value(index)?),
+                    Pass::Read | Pass::Check => None,
+                };
+                let value = map.exchange(place, new)?;
                 match (pass, request.bits) {
                     (Pass::Read, true) => packed.push(value != 0, reply),
                     (Pass::Read, false) => reply.push_be16(value),

@@ -3,7 +3,7 @@
 use super::adu::{Body, fits};
 use super::slave::{refuse, serve_or_refuse};
 use super::{Exception, Profile};
-use crate::comm::{Cut, Frame, LineFault, Map};
+use crate::comm::{Cut, Frame, LineFault, Places};
 
 /// Where the length of a frame is.
 const LENGTH: usize = 4;
@@ -34,7 +34,7 @@ pub fn cut(received: &[u8]) -> Cut {
 }
 
 /// Answers a frame that [`cut`] has found whole.
-pub fn answer<M: Map + ?Sized>(
+pub fn answer<M: Places + ?Sized>(
     profile: &Profile,
     request: &[u8],
     map: &mut M,

@@ -61,6 +61,7 @@ impl Rules {
 }
 
 /// The format of characters that the format word chooses.
+#[inline(always)]
 fn by_word(wiring: &PortWiring, plc: &(impl Plc + ?Sized), free: bool) -> LineFormat {
     let format = LineFormat::from_word(value(plc, wiring.format));
     match free && !wiring.one_pair {
@@ -117,6 +118,7 @@ impl PortWiring {
     }
 }
 
+#[inline(always)]
 fn com0(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     match value(plc, wiring.protocol) {
         2 if plc.sys().running => Protocol::ModbusRtu,
@@ -129,6 +131,7 @@ const COM0: Rules = Rules::new(|wiring, plc, _| com0(wiring, plc));
 
 const NUMBER: Rules = Rules::new(|wiring, plc, _| by_number(wiring, plc));
 
+#[inline(always)]
 fn com1(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     match [M_PARALLEL_MASTER, M_PARALLEL_SLAVE].map(|relay| relay.is_on(plc)) {
         [true, true] => Protocol::Off,
@@ -153,6 +156,7 @@ const CAN: Rules = Rules {
 };
 
 /// l01s-programming §9.2: a master of Modbus has station 255.
+#[inline(always)]
 fn l01s_port_2(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     const MASTER: u16 = 255;
     let format = value(plc, wiring.format);
@@ -176,6 +180,7 @@ fn l01s_port_2(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
 
 const L01S_PORT_2: Rules = Rules::new(|wiring, plc, _| l01s_port_2(wiring, plc));
 
+#[inline(always)]
 fn l01s_port_3(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
     if !M_PORT_3_SET_UP.is_on(plc) {
         return Protocol::ProgrammingPort;
