@@ -21,6 +21,7 @@ impl Plc for Stored<'_> {
         bit_of(kind, at).map(|at| write(at, value))
     }
 
+    #[inline(never)]
     fn word(&self, class: Class, number: u32) -> Option<i16> {
         let (kind, at) = self.0.stored(class, number)?;
         word_of(kind, at).map(read)

@@ -29,12 +29,11 @@ pub struct LineFormat {
     pub half_duplex: bool,
 }
 
-/// Bit rates by the digit of a format word, in hundreds of bits per second (h1u-h2u-programming §5.6, table of D8120); 0
-/// stands for none.
-const RATES: [u16; 16] = [0, 0, 0, 3, 6, 12, 24, 48, 96, 192, 384, 576, 1152, 0, 0, 0];
-
-/// The digit of L01S for 115,200 bit/s (l01s-programming §9.2, table of D8120), which means nothing on other models.
-const L01S_HIGHEST: u16 = 13;
+/// Bit rates by the digit of a format word, in hundreds of bits per second (h1u-h2u-programming §5.6, table of D8120; 13
+/// is that of L01S for 115,200 bit/s, l01s-programming §9.2, and means nothing on other models); 0 stands for none.
+const RATES: [u16; 16] = [
+    0, 0, 0, 3, 6, 12, 24, 48, 96, 192, 384, 576, 1152, 1152, 0, 0,
+];
 
 /// Bit rates of HM by the high byte of UINIT's format word (hm-motion-controller §6.2).
 const HM_RATES: [u32; 5] = [9600, 19_200, 38_400, 57_600, 115_200];
@@ -67,11 +66,7 @@ impl LineFormat {
 
     /// The meaning of a format word (D8120 and similar registers). A rate that it does not name is 9600 bit/s.
     pub fn from_word(word: u16) -> Self {
-        let digit = word >> 4 & 15;
-        let rate = match digit {
-            L01S_HIGHEST => 115_200,
-            _ => u32::from(RATES[usize::from(digit)]) * 100,
-        };
+        let rate = u32::from(RATES[usize::from(word >> 4 & 15)]) * 100;
         LineFormat {
             bits_per_second: if rate == 0 { 9600 } else { rate },
             data_bits: 7 + (word & 1) as u8,
@@ -83,8 +78,7 @@ impl LineFormat {
 
     /// Whether a format word names a bit rate.
     pub fn has_rate(word: u16) -> bool {
-        let digit = word >> 4 & 15;
-        digit == L01S_HIGHEST || RATES[usize::from(digit)] != 0
+        RATES[usize::from(word >> 4 & 15)] != 0
     }
 
     /// Whether the format word of HM's UINIT names a bit rate.

@@ -148,19 +148,20 @@ where
 
     /// Tells the hardware the format of the line; false if there is no hardware.
     fn set_up(&mut self) -> bool {
-        let status = self.status;
+        let asked = S::asked_rate(self);
+        let (sending, set_up) = (self.status.sending, self.status.format);
         let mut format = S::line(self);
-        if status.rate != 0 {
-            format.bits_per_second = u32::from(status.rate) * 100;
+        if asked != 0 {
+            format.bits_per_second = u32::from(asked) * 100;
         }
         let Some((port, _)) = self.serial() else {
             return false;
         };
         // The answer to a request for another rate still has the old one.
-        if status.sending && status.rate != 0 {
+        if sending && asked != 0 {
             return true;
         }
-        if format != status.format {
+        if format != set_up {
             port.set_format(format);
             self.status.format = format;
         }

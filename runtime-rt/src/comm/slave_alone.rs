@@ -26,9 +26,10 @@ pub fn advance_slave<const FAMILY: u8, const NUMBER: u8>(
     hal: &mut (impl Hal + ?Sized),
     now_us: u32,
 ) {
-    let Some(status) = plc.port(NUMBER).map(|port| *port.status) else {
+    let Some(port) = plc.port(NUMBER) else {
         return;
     };
+    let status = *port.status;
     let mut session = Session {
         plc,
         hal,
@@ -78,6 +79,10 @@ impl<'a, P: Plc + Elements, H: Hal + ?Sized, const FAMILY: u8, const NUMBER: u8>
             true => format.eight_bits(),
             false => format,
         }
+    }
+
+    fn asked_rate(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> u16 {
+        0
     }
 
     fn ends_by_silence(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> bool {

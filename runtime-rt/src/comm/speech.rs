@@ -34,6 +34,8 @@ pub(super) trait Spoken<'a, P: Plc + ?Sized, H: Hal + ?Sized>: Sized {
     fn has_bus(session: &mut Session<'a, P, H, Self>) -> bool;
     /// The format of characters on the line.
     fn line(session: &Session<'a, P, H, Self>) -> LineFormat;
+    /// The bit rate that a partner has asked for, in hundreds of bits per second; 0: none has.
+    fn asked_rate(session: &Session<'a, P, H, Self>) -> u16;
     /// Whether silence ends frames; those of others have an end.
     fn ends_by_silence(session: &Session<'a, P, H, Self>) -> bool;
     /// After how much silence a frame ends or is given up.
@@ -126,6 +128,10 @@ impl<'a> Spoken<'a, dyn Plc + 'a, dyn Hal + 'a> for Whole {
             Some(codec) => codec.line(wiring, session.plc, status.protocol, status.uinit),
             None => wiring.own_line(session.plc, status.uinit, false),
         }
+    }
+
+    fn asked_rate(session: &Session<'a>) -> u16 {
+        session.status.rate
     }
 
     fn ends_by_silence(session: &Session<'a>) -> bool {

@@ -121,9 +121,8 @@ pub(super) fn serve_or_refuse<M: Places + ?Sized>(
 
 /// Appends the refusal of the request in `body`.
 pub(super) fn refuse(body: Body, why: Exception, reply: &mut Frame) {
-    reply.push(body.byte(0).unwrap_or(0));
-    reply.push(body.byte(1).unwrap_or(0) | REFUSED);
-    reply.push(why.code());
+    let [station, function] = body.0.first_chunk().copied().unwrap_or_default();
+    reply.extend(&[station, function | REFUSED, why.code()]);
 }
 
 /// What is done with the devices of a request, one after the other.

@@ -133,11 +133,11 @@ const NUMBER: Rules = Rules::new(|wiring, plc, _| by_number(wiring, plc));
 
 #[inline(always)]
 fn com1(wiring: &PortWiring, plc: &(impl Plc + ?Sized)) -> Protocol {
-    match [M_PARALLEL_MASTER, M_PARALLEL_SLAVE].map(|relay| relay.is_on(plc)) {
-        [true, true] => Protocol::Off,
-        [true, false] => Protocol::ParallelMaster,
-        [false, true] => Protocol::ParallelSlave,
-        [false, false] => by_number(wiring, plc),
+    match (M_PARALLEL_MASTER.is_on(plc), M_PARALLEL_SLAVE.is_on(plc)) {
+        (true, true) => Protocol::Off,
+        (true, false) => Protocol::ParallelMaster,
+        (false, true) => Protocol::ParallelSlave,
+        (false, false) => by_number(wiring, plc),
     }
 }
 
