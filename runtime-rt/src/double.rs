@@ -2,7 +2,7 @@
 
 use crate::comm::codec::{self, Codec};
 use crate::comm::modbus::Profile;
-use crate::comm::{PortMut, PortWiring};
+use crate::comm::{Element, Elements, PortMut, PortWiring};
 use crate::{
     Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Port, Ports, Pulses, RtFn, Site,
     State, Sys, VirtualHal, d,
@@ -168,6 +168,13 @@ impl Double {
         request
     }
 
+    /// The same of COM1, which is nothing but a slave by Modbus RTU.
+    pub fn advance_slave(&mut self, now_us: u32) {
+        let mut hal = core::mem::take(&mut self.hal);
+        crate::advance_slave::<{ Ports::Inovance as u8 }, 1>(self, &mut hal, now_us);
+        self.hal = hal;
+    }
+
     /// Calls a function that is called in every scan, with this drive, `dt_ms` after the last scan.
     pub fn scan(&mut self, dt_ms: u32, drive: bool, function: RtFn, ops: &[Operand]) -> Done {
         self.sys.dt_ms = dt_ms;
@@ -176,6 +183,21 @@ impl Double {
         self.hal.advance_to(self.sys.now_ms);
         self.site.drive = drive;
         self.call(function, ops)
+    }
+}
+
+/// Without timers and counters, whose parts are stored apart here.
+impl Elements for Double {
+    fn element(&mut self, class: Class, number: u32) -> Option<Element<'_>> {
+        let at = (class, number);
+        match class {
+            _ if number >= size(class) => None,
+            Class::X | Class::Y | Class::M | Class::S => {
+                Some(Element::Bit(self.bits.entry(at).or_default()))
+            }
+            Class::T | Class::C => None,
+            _ => Some(Element::Word(self.words.entry(at).or_default())),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Ports against a virtual line: whole exchanges, and any characters at all.
 
+use super::modbus::crc16;
 use super::{CharFault, Ports, Received};
 use crate::double::{Double, reg};
 use crate::{Class, Plc, RtFn, k};
@@ -188,6 +189,77 @@ fn rs_under_another_protocol_is_an_error_of_the_port() {
 
 fn any_character() -> impl Strategy<Value = (u8, u8, u32)> {
     (any::<u8>(), 0..20u8, 0..40u32)
+}
+
+/// A request to station 0, 1 or 2, with or without a right sum.
+fn any_request() -> impl Strategy<Value = Vec<u8>> {
+    let head = (0..3u8, 0..=17u8, 0..4u8, any::<u8>(), 0..2u8, 0..=130u8);
+    let data = prop::collection::vec(any::<u8>(), 0..250);
+    (head, data, any::<bool>(), 0..8u8).prop_map(|(head, data, fits, damage)| {
+        let (to, function, high, low, many, count) = head;
+        let mut frame = std::vec![to, function, high, low, many, count];
+        let bytes = match function {
+            0x0f => (usize::from(many) << 8 | usize::from(count)).div_ceil(8),
+            0x10 => 2 * usize::from(count),
+            _ => 0,
+        };
+        if bytes > 0 {
+            frame.push(bytes as u8);
+        }
+        let all = data.iter().cycle().copied();
+        frame.extend(all.take(if fits { bytes } else { data.len() }));
+        frame.truncate(254);
+        frame.extend((crc16(&frame) ^ u16::from(damage == 0)).to_le_bytes());
+        frame
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// A slave that is all that its port may be does what the port of a whole program does.
+    #[test]
+    fn a_slave_alone_is_a_slave(
+        requests in prop::collection::vec((any_request(), 0..12u8), 1..6),
+        format in prop::sample::select(std::vec![0x81, 0x8f, 0xc1, 0x87]),
+        protocol in prop::sample::select(std::vec![2, 2, 2, 3, 0x20]),
+    ) {
+        let [mut whole, mut alone] = [(); 2].map(|()| {
+            let mut plc = plc(0, format);
+            plc.sys.first_scan = true;
+            plc.set_d(8126, &[protocol]);
+            plc
+        });
+        let mut now_us = 0;
+        for (request, fault) in requests {
+            for (at, byte) in request.into_iter().enumerate() {
+                now_us += CHARACTER_US;
+                let fault = if at == 3 { CharFault::of(fault) } else { CharFault::None };
+                let character = Received { at_us: now_us, byte, fault };
+                for plc in [&mut whole, &mut alone] {
+                    plc.hal.line(1).unwrap().feed(character);
+                }
+            }
+            for _ in 0..80 {
+                whole.advance_ports(now_us);
+                alone.advance_slave(now_us);
+                for plc in [&mut whole, &mut alone] {
+                    plc.sys.first_scan = false;
+                }
+                now_us += 4000;
+            }
+            prop_assert_eq!(sent(&mut whole, now_us), sent(&mut alone, now_us));
+            let formats = [&mut whole, &mut alone].map(|plc| plc.hal.line(1).unwrap().format());
+            if protocol == 2 {
+                prop_assert_eq!(formats[0], formats[1]);
+                prop_assert_eq!(whole.d(8063, 1), alone.d(8063, 1));
+            }
+        }
+        prop_assert_eq!(whole.d(0, 1300), alone.d(0, 1300));
+        for relay in 0..1300 {
+            prop_assert_eq!(whole.bit(Class::M, relay), alone.bit(Class::M, relay));
+        }
+    }
 }
 
 proptest! {
