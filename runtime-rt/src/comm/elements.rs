@@ -8,8 +8,8 @@ use crate::word::{pair, words};
 
 /// The places of a slave by Modbus.
 pub trait Places {
-    /// Reads the register or the coil at a place, after it has written `new` there, if that is given; `None` if there is
-    /// none.
+    /// Reads the register or the coil at a place, after it has written `new` there, if that is given; `None` if there
+    /// is none.
     fn exchange(&mut self, place: Place, new: Option<u16>) -> Option<u16>;
 }
 
@@ -76,7 +76,8 @@ pub enum Element<'a> {
 }
 
 impl Element<'_> {
-    /// Reads its state, for T and C the contact, after it has switched to `new`, if that is given; `None` if it has none.
+    /// Reads its state, for T and C the contact, after it has switched to `new`, if that is given; `None` if it has
+    /// none.
     fn exchange_bit(self, new: Option<bool>) -> Option<bool> {
         let place = match self {
             Element::Bit(bit) => bit,

@@ -117,7 +117,8 @@ pub enum Cut {
 }
 
 /// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1:
-/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port). The first ten are numbered as the codes of Modbus are.
+/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
+/// The first ten are numbered as the codes of Modbus are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineFault {
     /// The station number is out of range (63x0).

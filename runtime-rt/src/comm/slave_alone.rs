@@ -16,11 +16,27 @@ struct SlaveAlone<const FAMILY: u8, const NUMBER: u8>;
 
 impl<const FAMILY: u8, const NUMBER: u8> SlaveAlone<FAMILY, NUMBER> {
     /// The special devices of the port, alone: what is known of them is not read from memory.
-    const WIRING: &'static PortWiring = &Ports::wired(FAMILY, NUMBER);
+    const WIRING: &'static PortWiring = &wired(FAMILY, NUMBER);
 }
 
-/// Brings the only port of a program to `now_us`, as [`super::advance`] does, if a slave by Modbus RTU is all that it may
-/// be: port `NUMBER` of the family with the number `FAMILY`. Such a slave asks for neither RUN nor STOP.
+/// The special devices of a port, which is there, of the family with a number.
+const fn wired(family: u8, number: u8) -> PortWiring {
+    let mut families = Ports::families();
+    while let [first, rest @ ..] = families {
+        let mut ports = first.all();
+        while let [port, others @ ..] = ports {
+            if *first as u8 == family && port.number == number {
+                return *port;
+            }
+            ports = others;
+        }
+        families = rest;
+    }
+    panic!("the family has no such port")
+}
+
+/// Brings the only port of a program to `now_us`, as [`super::advance`] does, if a slave by Modbus RTU is all that it
+/// may be: port `NUMBER` of the family with the number `FAMILY`. Such a slave asks for neither RUN nor STOP.
 pub fn advance_slave<const FAMILY: u8, const NUMBER: u8>(
     plc: &mut (impl Plc + Elements),
     hal: &mut (impl Hal + ?Sized),

@@ -369,22 +369,6 @@ impl Ports {
         self.get(number).map(|port| port.number)
     }
 
-    /// The special devices of a port, which is there, of the family with a number.
-    pub(super) const fn wired(family: u8, number: u8) -> PortWiring {
-        let mut families = Ports::families();
-        while let [first, rest @ ..] = families {
-            let mut ports = first.all();
-            while let [port, others @ ..] = ports {
-                if *first as u8 == family && port.number == number {
-                    return *port;
-                }
-                ports = others;
-            }
-            families = rest;
-        }
-        panic!("the family has no such port")
-    }
-
     /// The port of a number.
     pub fn get(self, number: u8) -> Option<&'static PortWiring> {
         self.all().iter().find(|port| port.number == number)

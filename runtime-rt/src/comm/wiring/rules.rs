@@ -71,8 +71,8 @@ fn by_word(wiring: &PortWiring, plc: &(impl Plc + ?Sized), free: bool) -> LineFo
 }
 
 impl PortWiring {
-    /// Whether [`advance_slave`](crate::comm::advance_slave) knows the port: what chooses its protocol is all known when
-    /// a program is built.
+    /// Whether [`advance_slave`](crate::comm::advance_slave) knows the port: what chooses its protocol is all known
+    /// when a program is built.
     pub const fn may_be_slave_alone(&self) -> bool {
         matches!(
             self.choice,
