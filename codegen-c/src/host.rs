@@ -185,18 +185,11 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         lines: &["/dev/ttyUSB0", "pty"],
         servers,
     };
-    let (mut serve, mut connections) = (String::new(), String::new());
-    if servers {
-        serve.push_str("        poll_servers(plc);\n");
-        connections.push_str("    print_connections();\n");
-    }
-    let mut begin_clients = "";
-    if clients::are_there(module, servers) {
-        let [begin, poll, print] = clients::CALLS;
-        begin_clients = begin;
-        serve.push_str(poll);
-        connections.push_str(print);
-    }
+    let (serve, connections) = match servers {
+        true => ("        poll_servers(plc);\n", "    print_connections();\n"),
+        false => ("", ""),
+    };
+    let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
     let [include, retain, load, save, end] = if keeps { RETAINING } else { [""; 5] };
     MAIN_C
@@ -207,8 +200,8 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("        /* SAVE */\n", save)
         .replace("    /* END */\n", end)
         .replace("    /* ASK */\n", begin_clients)
-        .replace("        /* SERVE */\n", &serve)
-        .replace("    /* CONNECTIONS */\n", &connections)
+        .replace("        /* SERVE */\n", &[serve, ask].concat())
+        .replace("    /* CONNECTIONS */\n", &[connections, asked].concat())
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)

@@ -93,15 +93,12 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     let exchange = if module.has_ports() { EXCHANGE } else { "" };
     let keeps = cycle::keeps_any(module);
     let [save, end] = if keeps { SAVE } else { [""; 2] };
-    let clients = servers && !module.requests.is_empty();
-    let (mut poll, mut connections) = match servers {
-        true => (POLL.to_string(), CONNECTIONS.to_string()),
-        false => Default::default(),
+    let (poll, connections) = match servers {
+        true => (POLL, CONNECTIONS),
+        false => ("", ""),
     };
-    if clients {
-        poll.push_str(ASK);
-        connections.push_str(ASKED);
-    }
+    let asks = servers && !module.requests.is_empty();
+    let [ask, asked] = if asks { [ASK, ASKED] } else { [""; 2] };
     let host = Host {
         lines: &["/dev/ttyUSB0"],
         servers,
@@ -120,17 +117,14 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     // There is something to do at the end.
     let in_order = servers || keeps;
     let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
-    let ports = module.has_ports();
     let parts = [
-        (ports, LINES),
+        (module.has_ports(), LINES),
         (servers, SERVERS),
         (keeps, RETAIN),
         (in_order, SIGNALS),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
-    if clients {
-        code.push_str(&requests(module));
-    }
+    code.extend(asks.then(|| requests(module)));
     code.replace("        PERIOD;\n", period)
         .replace("    OVERRUN;\n", overrun)
         .replace("    CATCH;\n", catch)
@@ -138,8 +132,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("    CLOCK;\n", set)
         .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
-        .replace("        SERVE;\n", &format!("{poll}{exchange}"))
-        .replace("    CONNECTIONS;\n", &connections)
+        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}"))
+        .replace("    CONNECTIONS;\n", &[connections, asked].concat())
         .replace("        SAVE;\n", save)
         .replace("    END;\n", end)
         .replace("OPTION_NAMES", &names.join(", "))

@@ -11,7 +11,7 @@ use std::net::{IpAddr, SocketAddr};
 const CLIENTS: &str = include_str!("../../include/main_clients.c");
 
 /// What the main program does for them: before the first scan, before each, after the last one.
-pub const CALLS: [&str; 3] = [
+const CALLS: [&str; 3] = [
     "    begin_clients();\n",
     "        poll_clients(plc, (uint32_t)(begin - start));\n",
     "    print_clients();\n",
@@ -23,6 +23,14 @@ pub const HEADERS: [&str; 1] = ["poll"];
 /// Whether a host with servers asks others, too.
 pub fn are_there(module: &Module, servers: bool) -> bool {
     servers && !module.requests.is_empty()
+}
+
+/// What the main program does for them, if there are any: before the first scan, before each, after the last one.
+pub fn calls(module: &Module, servers: bool) -> [&'static str; 3] {
+    match are_there(module, servers) {
+        true => CALLS,
+        false => [""; 3],
+    }
 }
 
 /// The tables of what a host asks, and what asks it.

@@ -2,9 +2,9 @@
 //! §6.7.2). It knows no network: whoever has one asks [`Client::next`] what to do between two scans, and hands over the
 //! characters that come.
 //!
-//! Rows whose trigger is on take turns; each has one request in a round. What goes wrong is in D8063, with M8063: 81xx
-//! the function, 82xx the number or 83xx the address of registers is rejected, 84xx the server cannot be reached or does
-//! not answer; xx is the last part of its IP address.
+//! Rows whose trigger is on take turns; each has one request in a round. What goes wrong is in D8063, with M8063: the
+//! server rejects 81xx the function, 82xx the number or 83xx the address of registers; 84xx it cannot be reached or
+//! does not answer. xx is the last part of its IP address.
 
 use super::adu::Body;
 use super::master::{Buffer, Job, accept_body, request_body};
