@@ -9,6 +9,7 @@ use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
@@ -301,11 +302,8 @@ fn headers(module: &Module, servers: bool, retain: bool) -> String {
     let of_servers = SERVERS_HEADERS.iter().filter(|_| servers);
     let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
     let usual = HEADERS.iter().chain(of_lines);
-    let all: BTreeSet<_> = usual
-        .chain(of_servers)
-        .chain(of_clients)
-        .chain(of_retain)
-        .collect();
+    let all = usual.chain(of_servers).chain(of_clients).chain(of_retain);
+    let all = order::set(all);
     let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
     lines.collect()
 }

@@ -8,9 +8,9 @@ use rungc_ir::node::Origin;
 use rungc_models::plc_errors;
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
+use rungc_syntax::order;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, NetworkRequest};
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// The program around a PLC.
@@ -194,7 +194,7 @@ fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
         .chain(of_servers)
         .chain(of_clients)
         .chain(of_retain);
-    let mut all: BTreeSet<String> = all.map(|name| (*name).to_string()).collect();
+    let mut all = order::set(all.map(|name| (*name).to_string()));
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
         all.extend(ERROR_USES.map(String::from));

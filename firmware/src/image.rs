@@ -8,6 +8,7 @@ use crate::board::{Board, InputPin, Retain, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_rt::comm::Protocol;
+use rungc_syntax::order;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::fmt::Write;
@@ -52,7 +53,7 @@ impl Image<'_> {
             _ => None,
         });
         let mut watched: Vec<u32> = edges.collect();
-        watched.sort_unstable();
+        order::sort(&mut watched);
         watched.dedup();
         watched
     }

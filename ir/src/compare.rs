@@ -18,6 +18,7 @@ mod order;
 use crate::node::Module;
 use atoms::{Atom, Names, Sequence, Uses};
 use rungc_rt::special::D_FIRST_ERROR_STEP;
+use rungc_syntax::order as sorting;
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -189,7 +190,7 @@ impl Taint {
             found.extend(differ.map(|number| (area.class, number)));
         }
         found.retain(|(class, _)| *class != DeviceClass::X);
-        found.sort_unstable();
+        sorting::sort(&mut found);
         found.dedup();
         let mut runs: Vec<DeviceRun> = Vec::new();
         for (class, number) in found {

@@ -15,6 +15,7 @@ use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use typed_index_collections::TiSlice;
 
 /// Devices that an expression or a statement uses: one, or several in a row.
@@ -197,7 +198,7 @@ pub fn by_index(module: &Module, class: DeviceClass) -> Vec<(u32, u32)> {
             of_stmt(module.model, stmt, &mut note)
         });
     }
-    runs.sort_unstable();
+    order::sort(&mut runs);
     let mut joined: Vec<(u32, u32)> = Vec::new();
     for (first, last) in runs {
         match joined.last_mut() {

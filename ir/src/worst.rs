@@ -8,6 +8,7 @@ use crate::node::{
     Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
 };
 use crate::walk::{for_exprs, operands, statements};
+use rungc_syntax::order;
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
@@ -111,7 +112,7 @@ pub fn worst(module: &Module) -> Worst {
         .map(|(step, iteration)| OpenLoop { step, iteration })
         .collect();
     worst.jumps_back = finder.jumps_back;
-    worst.jumps_back.sort_unstable();
+    order::sort(&mut worst.jumps_back);
     worst.jumps_back.dedup();
     worst
 }
@@ -306,7 +307,7 @@ fn own(expr: &Expr) -> u64 {
 pub fn lengths(module: &Module) -> Vec<u64> {
     let mut begins: Vec<u32> = module.networks.iter().map(|network| network.step).collect();
     begins.push(module.steps);
-    begins.sort_unstable();
+    order::sort(&mut begins);
     begins.dedup();
     let next = |step: u32| {
         begins

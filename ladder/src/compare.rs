@@ -2,6 +2,7 @@
 
 use crate::network::{Ladder, Network};
 use rungc_analysis::resolve::Resolved;
+use rungc_syntax::order;
 use rungc_syntax::{Device, Parameters, Program, align};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -234,13 +235,12 @@ fn moved(
     }
     let rest = new.iter().enumerate();
     let rest = rest.filter(|(at, _)| !in_order.1.contains(at));
-    rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at)))
-        .collect()
+    order::set(rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at))))
 }
 
 /// Sorts changes as a reader of the new program meets them; what was removed comes after what was before it.
 fn in_order(changes: &mut [Change], same: &[(usize, usize)]) {
-    changes.sort_by_key(|change| match change.places() {
+    order::by_key(changes, |change| match change.places() {
         [_, Some(new)] => (new + 1, 1, 0),
         [Some(old), None] => {
             let before = same.partition_point(|pair| pair.0 < old);
@@ -333,8 +333,7 @@ fn comments(programs: [&Program; 2]) -> Vec<Differing<Device>> {
     let devices = programs
         .iter()
         .flat_map(|program| program.comments.keys().copied());
-    let devices: BTreeSet<Device> = devices.collect();
-    let differing = devices.into_iter().map(|key| {
+    let differing = order::set(devices).into_iter().map(|key| {
         let [old, new] = programs.map(|program| program.comments.get(&key).cloned());
         Differing { key, old, new }
     });

@@ -4,6 +4,7 @@
 //! What is wider than the page continues on the rows below.
 
 use crate::network::{Branch, Contact, InstrIndex, Item, Node, Output, Part};
+use rungc_syntax::order;
 
 /// How many columns the contents of cells take.
 pub trait Measure {
@@ -270,8 +271,7 @@ impl<M: Measure> Sheet<'_, M> {
             self.wires.push((row, from, columns - span));
             self.put(row, columns - span, span, Cell::Output(output));
         }
-        self.placed
-            .sort_unstable_by_key(|placed| (placed.row, placed.column));
+        order::by_key(&mut self.placed, |placed| (placed.row, placed.column));
         let mut grid = Grid {
             rows,
             columns,

@@ -1,14 +1,15 @@
 //! Aligning two sequences: what they have in common, in order.
 
+use crate::order;
 use similar::{Algorithm, capture_diff_slices};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Positions of elements that two sequences have in common, in order in both: as many as a good alignment finds.
 ///
 /// Elements that only one of them has are left out first, so that long sequences with little in common take no longer
 /// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
-    let in_old: BTreeSet<&T> = old.iter().collect();
+    let in_old = order::set(old);
     let mut numbers: BTreeMap<&T, usize> = BTreeMap::new();
     for (number, element) in new.iter().enumerate() {
         if in_old.contains(element) {

@@ -106,7 +106,7 @@ pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
     for (n, fix) in fixes.iter().enumerate() {
         order.extend(reach(fix).map(|span| (span, n)));
     }
-    order.sort_unstable();
+    order::sort(&mut order);
     let mut applied = vec![false; fixes.len()];
     let mut edits: Vec<&Edit> = Vec::new();
     // Up to where the text is taken; two insertions at one place would depend on their order.
@@ -260,11 +260,11 @@ impl Diagnostics {
     pub fn refine(&mut self, compiled: &Diagnostics) {
         let errors = || compiled.iter().filter(|d| d.severity == Severity::Error);
         let mut places: Vec<_> = errors().map(|d| (d.span.start, d.span.end)).collect();
-        places.sort_unstable();
+        order::sort(&mut places);
         let mut lines: Vec<_> = errors()
             .filter(|d| d.code == codes::ONE_PER_LINE.id)
             .collect();
-        lines.sort_unstable_by_key(|d| d.span);
+        order::by_key(&mut lines, |d| d.span);
         self.0.retain(|d| {
             let at = places.partition_point(|&(start, _)| start < d.span.start);
             let same = places[at..]

@@ -6,6 +6,11 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Sorts; elements that are equal keep their order.
+pub fn sort<T: Ord>(items: &mut [T]) {
+    by(items, T::cmp);
+}
+
 /// Sorts by a key; elements with equal keys keep their order.
 pub fn by_key<T, K: Ord>(items: &mut [T], mut key: impl FnMut(&T) -> K) {
     by(items, |a, b| key(a).cmp(&key(b)));
@@ -21,6 +26,9 @@ pub fn by<T>(items: &mut [T], mut compare: impl FnMut(&T, &T) -> Ordering) {
 
 /// The swaps, in order, that sort elements which `compare` compares by their places.
 fn swaps(len: usize, compare: &mut dyn FnMut(usize, usize) -> Ordering) -> Vec<(usize, usize)> {
+    if (1..len).all(|i| compare(i - 1, i).is_le()) {
+        return Vec::new();
+    }
     let mut sources: Vec<usize> = (0..len).collect();
     sources.sort_by(|&a, &b| compare(a, b));
     let mut swaps = Vec::new();
@@ -68,6 +76,10 @@ mod tests {
             let (mut sorted, mut expected) = (items.clone(), items.clone());
             by_key(&mut sorted, |item| item.0);
             expected.sort_by_key(|item| item.0);
+            prop_assert_eq!(sorted, expected);
+            let (mut sorted, mut expected) = (items.clone(), items.clone());
+            sort(&mut sorted);
+            expected.sort();
             prop_assert_eq!(sorted, expected);
             let (mut sorted, mut expected) = (items.clone(), items);
             by(&mut sorted, |a, b| b.cmp(a));

@@ -7,7 +7,7 @@ use crate::replay;
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
-use std::collections::BTreeSet;
+use rungc_syntax::order;
 use std::time::{Duration, Instant};
 
 /// How to decide.
@@ -94,18 +94,17 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     let deadline = Instant::now() + options.time;
     let (encoder, system) = system(module, property, options);
     let of_cone = |wanted: &dyn Fn(&Input) -> bool| system.inputs.iter().any(|(_, i)| wanted(i));
-    let gaps: BTreeSet<Gap> = encoder
+    let gaps = encoder
         .gaps
         .iter()
         .enumerate()
         .filter(|(n, _)| of_cone(&|input| *input == Input::Gap(*n)))
-        .map(|(_, gap)| gap.clone())
-        .collect();
+        .map(|(_, gap)| gap.clone());
     let unwritten = encoder.unwritten().into_iter();
     let unwritten = unwritten
         .filter(|key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key)));
     Decision {
-        gaps: gaps.into_iter().collect(),
+        gaps: order::set(gaps).into_iter().collect(),
         unwritten: unwritten.collect(),
         latches: system.latches.len(),
         verdict: search(module, property, options, &system, deadline),

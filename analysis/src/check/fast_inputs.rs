@@ -8,6 +8,7 @@ use rungc_models::Model;
 use rungc_models::high_speed::{self, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::Wiring;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
 /// Checks who uses the fast inputs.
@@ -62,7 +63,7 @@ fn interrupts(model: &Model, pointers: &Pointers) -> Vec<Interrupt> {
             })
         })
         .collect();
-    found.sort_unstable_by_key(|interrupt| interrupt.label);
+    order::by_key(&mut found, |interrupt| interrupt.label);
     found
 }
 

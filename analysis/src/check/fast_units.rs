@@ -21,7 +21,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         .chain(others)
         .chain(counters)
         .collect();
-    uses.sort_unstable();
+    order::sort(&mut uses);
     let asked: u32 = uses.iter().map(|&(_, units)| units).sum();
     let mut so_far = 0;
     let beyond = uses.iter().find(|&&(_, units)| {

@@ -3,6 +3,7 @@
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Nesting, Routine};
 use super::{Basic, Code};
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Fix, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -217,7 +218,7 @@ impl Calls {
             }
         }
         for made in calls.values_mut() {
-            made.sort_unstable();
+            order::sort(made);
         }
         let depths = FxHashMap::default();
         Calls { calls, depths }
@@ -225,7 +226,7 @@ impl Calls {
 
     fn check(mut self, code: &Code, out: &mut Diagnostics) {
         let mut roots: Vec<_> = self.calls.keys().copied().collect();
-        roots.sort_unstable();
+        order::sort(&mut roots);
         for root in roots {
             self.walk(code, root, out);
         }
@@ -236,7 +237,7 @@ impl Calls {
             .iter()
             .filter(|&(routine, &depth)| begins(routine) && depth > max)
             .collect();
-        deep.sort_unstable();
+        order::sort(&mut deep);
         for (&routine, &depth) in deep {
             let chain = self.deepest(routine);
             let (Some(&first), Some(&beyond)) = (chain.first(), chain.get(max as usize)) else {

@@ -115,7 +115,7 @@ fn in_vain(
         .other(code.span(out), "… is lost here");
     let rest = uses.set.iter().chain(&uses.rst).chain(&uses.out);
     let mut rest: Vec<_> = rest.filter(|&&i| i != set && i != out).collect();
-    rest.sort_unstable();
+    order::sort(&mut rest);
     for &i in rest {
         diagnostic = diagnostic.other(code.span(i), "written here too");
     }

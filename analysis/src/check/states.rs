@@ -78,7 +78,7 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     }
     for (from, to) in &leads {
         let mut transitions: Vec<_> = to.values().copied().collect();
-        transitions.sort_unstable();
+        order::sort(&mut transitions);
         if let (Some(&beyond), Some(&first)) = (transitions.get(MAX_BRANCH), transitions.first()) {
             let message = format!(
                 "`{from}` branches into {} states, the PLC follows {MAX_BRANCH}",

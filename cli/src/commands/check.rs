@@ -8,8 +8,8 @@ use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_lower::compile;
 use rungc_models::Model;
-use rungc_syntax::{DeviceClass, OperandKind, Parameters, Program};
-use std::collections::BTreeSet;
+use rungc_syntax::order;
+use rungc_syntax::{Device, DeviceClass, OperandKind, Parameters, Program};
 use std::time::Instant;
 
 /// Reports everything that is wrong with programs.
@@ -83,14 +83,13 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
 /// How many devices the program names; pointers and nesting levels are none.
 fn devices(program: &Program) -> usize {
     let operands = program.instrs.iter().flat_map(|instr| &instr.operands);
-    let named: BTreeSet<_> = operands
-        .filter_map(|operand| match operand.kind {
-            OperandKind::Device(device, _)
-            | OperandKind::WordBit(device, ..)
-            | OperandKind::Nibbles(_, device, _) => Some(device),
-            _ => None,
-        })
-        .filter(|d| !matches!(d.class, DeviceClass::P | DeviceClass::I | DeviceClass::N))
-        .collect();
-    named.len()
+    let named = operands.filter_map(|operand| match operand.kind {
+        OperandKind::Device(device, _)
+        | OperandKind::WordBit(device, ..)
+        | OperandKind::Nibbles(_, device, _) => Some(device),
+        _ => None,
+    });
+    let is_device =
+        |d: &Device| !matches!(d.class, DeviceClass::P | DeviceClass::I | DeviceClass::N);
+    order::set(named.filter(is_device)).len()
 }

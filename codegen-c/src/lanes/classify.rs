@@ -9,6 +9,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_ir::walk::{assigned, operands};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use std::collections::BTreeSet;
 
 /// What is known of a program's statements.
@@ -112,7 +113,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             });
             uses.push(found);
         }
-        let all: BTreeSet<TempId> = uses.iter().flatten().copied().collect();
+        let all = order::set(uses.iter().flatten().copied());
         for temp in all {
             let first = uses.iter().position(|uses| uses.contains(&temp));
             let last = uses.iter().rposition(|uses| uses.contains(&temp));

@@ -9,6 +9,7 @@ use crate::board::{OutputPin, Uart};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use std::fmt::Write;
 
 const MAIN: &str = include_str!("../../templates/main.rs");
@@ -96,7 +97,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
 
 fn lock_file(package: &str) -> String {
     let mut needs = [package, "rungc-rt"];
-    needs.sort_unstable();
+    order::sort(&mut needs);
     rungc_runtime_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
 }
 

@@ -1,5 +1,6 @@
 //! Which instructions have which words.
 
+use rungc_syntax::order;
 use std::sync::LazyLock;
 
 /// Applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse form, number of operands,
@@ -70,7 +71,7 @@ pub(super) fn named(mnemonic: &str) -> Option<&'static Applied> {
 /// The rows in all their forms, ordered by their words.
 static TABLE: LazyLock<Vec<Applied>> = LazyLock::new(|| {
     let mut table: Vec<_> = ROWS.lines().skip(1).filter_map(forms).flatten().collect();
-    table.sort_by_key(|row| row.word);
+    order::by_key(&mut table, |row| row.word);
     table
 });
 

@@ -3,6 +3,7 @@
 use super::grid::{Drawn, Kind, Symbol};
 use rungc_syntax::Span;
 use rungc_syntax::codes::{self, Code};
+use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A step on the way from a drawing to a list.
@@ -180,18 +181,10 @@ impl<'a> Circuit<'a> {
 
     /// Every wire comes from the left rail and leads somewhere.
     fn check_ends(&self) -> Result<(), Fault> {
-        let feeds: BTreeSet<usize> = self
-            .edges
-            .iter()
-            .map(|edge| edge.to)
-            .chain([self.drawn.rail])
-            .collect();
-        let takes: BTreeSet<usize> = self
-            .edges
-            .iter()
-            .map(|edge| edge.from)
-            .chain(self.outputs.keys().copied())
-            .collect();
+        let fed = self.edges.iter().map(|edge| edge.to);
+        let feeds = order::set(fed.chain([self.drawn.rail]));
+        let taken = self.edges.iter().map(|edge| edge.from);
+        let takes = order::set(taken.chain(self.outputs.keys().copied()));
         let wire = |span, why| Err((span, &codes::LADDER_WIRE, why));
         for edge in &self.edges {
             if !feeds.contains(&edge.from) {
@@ -259,7 +252,9 @@ impl<'a> Circuit<'a> {
                 }
             }
             // Contacts are joined before those that had to be joined in series first.
-            branches.sort_by_key(|branch| self.drawn.symbols[first(branch)].row);
+            order::by_key(&mut branches, |branch| {
+                self.drawn.symbols[first(branch)].row
+            });
             let first = first(&branches[0]);
             let series = vec![Part::Parallel(branches)];
             self.edges.push(Edge {
@@ -316,7 +311,9 @@ impl<'a> Circuit<'a> {
             .filter(|(_, edge)| edge.from == wire);
         let branches = edges.map(|(i, edge)| (edge.first, Child::Branch(i)));
         let mut children: Vec<(usize, Child)> = outputs.chain(branches).collect();
-        children.sort_by_key(|(at, _)| (self.symbol(*at).row, self.symbol(*at).column));
+        order::by_key(&mut children, |(at, _)| {
+            (self.symbol(*at).row, self.symbol(*at).column)
+        });
         children.into_iter().map(|(_, child)| child).collect()
     }
 

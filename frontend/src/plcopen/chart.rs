@@ -7,6 +7,7 @@ use super::drawing::Drawing;
 use super::logic::{Logic, Output, Part, Sense};
 use super::{FREE, Fault, Reader, called, children, expression, flag, list, text, variables};
 use roxmltree::Node;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::{BTreeMap, BTreeSet};
@@ -128,7 +129,7 @@ fn in_order<'a, 'i>(body: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
         let priority = node.attribute("priority")?.parse::<u64>().ok()?;
         (priority > 0).then_some(priority)
     };
-    transitions.sort_by(|a, b| {
+    order::by(&mut transitions, |a, b| {
         let by = |key| {
             let of = |node| number(node, key).unwrap_or(0.0);
             of(a).total_cmp(&of(b))

@@ -5,6 +5,7 @@ use super::variables::{Kind, constant};
 use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,9 +65,9 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
     let order = |node: &Node| node.attribute("executionOrderId")?.parse::<u64>().ok();
     let ordered = |node: &Node| order(node).is_some_and(|order| order > 0);
     if ends.iter().all(ordered) {
-        ends.sort_by_key(order);
+        order::by_key(&mut ends, order);
     } else {
-        ends.sort_by(|a, b| {
+        order::by(&mut ends, |a, b| {
             let (a, b) = (place(a), place(b));
             a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
         });

@@ -1,6 +1,7 @@
 //! Which atoms correspond to each other, and whose order matters.
 
 use super::atoms::{Atom, Run, Sequence, Uses};
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, align};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeSet, VecDeque};
@@ -33,7 +34,7 @@ fn of_function(sequences: &[Sequence; 2], ranges: [&Range<usize>; 2], pairs: &mu
     });
     let [first, other] = ranges.map(|range| range.start);
     let in_order = align::common(&texts[0], &texts[1]);
-    let mut left = [0, 1].map(|side| ranges[side].clone().collect::<BTreeSet<usize>>());
+    let mut left = [0, 1].map(|side| order::set(ranges[side].clone()));
     // Atoms across which nothing moves, of those that did not move themselves.
     let mut fixed: [Vec<usize>; 2] = Default::default();
     for (a, b) in in_order {
@@ -142,7 +143,7 @@ struct User {
 }
 
 fn in_disorder(users: &mut [User]) -> bool {
-    users.sort_unstable_by_key(|user| user.at);
+    order::by_key(users, |user| user.at);
     let writers = users.iter().filter(|user| user.writes);
     let writers: Vec<[usize; 2]> = writers.map(|user| user.at).collect();
     let sorted = writers.is_sorted_by_key(|at| at[1]);

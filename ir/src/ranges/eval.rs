@@ -5,6 +5,7 @@ use super::state::{Known, Mask, State, Words, join, temp_bit};
 use crate::node::{Access, AccessKind, BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{operands, statements};
 use rungc_rt::CmpOp;
+use rungc_syntax::order;
 
 /// Looks at the expressions of a module.
 pub(super) struct Eval<'m> {
@@ -298,7 +299,7 @@ impl Eval<'_> {
                 }
             }
         }
-        found.sort_unstable();
+        order::sort(&mut found);
         found.dedup();
         found
     }

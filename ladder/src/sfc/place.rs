@@ -6,7 +6,8 @@
 
 use super::Chart;
 use crate::face::fold;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use rungc_syntax::order;
+use std::collections::{BTreeMap, VecDeque};
 use unicode_width::UnicodeWidthStr;
 
 /// Columns of a state's box.
@@ -142,7 +143,9 @@ fn roots(chart: &Chart) -> Vec<usize> {
         transition.to.iter().for_each(|&to| led_to[to] = true);
     }
     let mut order: Vec<usize> = (0..chart.states.len()).collect();
-    order.sort_by_key(|&state| (!chart.states[state].is_initial(), led_to[state]));
+    order::by_key(&mut order, |&state| {
+        (!chart.states[state].is_initial(), led_to[state])
+    });
     order
 }
 
@@ -419,7 +422,7 @@ impl Placer<'_> {
     /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
     /// they are.
     fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
-        let stops: BTreeSet<Point> = self.stops.iter().copied().collect();
+        let stops = order::set(self.stops.iter().copied());
         let mut found = BTreeMap::new();
         let mut open = VecDeque::from([(start, 0)]);
         while let Some((point, distance)) = open.pop_front() {

@@ -9,6 +9,7 @@ use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use std::collections::BTreeSet;
 
 /// An operand that may reach more devices than this is not modelled.
@@ -106,11 +107,9 @@ impl Encoder<'_> {
         {
             statements(&function.body, &mut |stmt| of_stmt(model, stmt, &mut note));
         }
-        let devices: BTreeSet<_> = devices
-            .into_iter()
-            .map(|(class, number)| model.canonical(class, number))
-            .collect();
-        for (class, number) in devices {
+        let devices = devices.into_iter();
+        let devices = devices.map(|(class, number)| model.canonical(class, number));
+        for (class, number) in order::set(devices) {
             for key in self.keys(class, number) {
                 self.add_memory(key);
             }

@@ -245,8 +245,8 @@ impl Facts {
         let mut sys = Sys::power_on();
         sys.running = true;
         Memory {
-            words: words.map(|n| (n.number(), held(d(n)))).collect(),
-            relays: relays.map(Relay::number).collect(),
+            words: order::map(words.map(|n| (n.number(), held(d(n))))),
+            relays: order::set(relays.map(Relay::number)),
             sys,
             state: State::new(),
             ports: self.model.ports,

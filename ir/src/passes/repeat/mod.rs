@@ -13,6 +13,7 @@ use crate::node::{Body, Module, Repeat, Stmt, Ty};
 use maker::Maker;
 use pair::{Kind, Named};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use runs::{Networks, Runs};
 use shape::shape;
 
@@ -73,7 +74,7 @@ impl Group {
             .moving()
             .map(|(class, first, stride)| (class, first, first + reached * stride, stride))
             .collect();
-        devices.sort_unstable();
+        order::sort(&mut devices);
         // Per distance of what goes before in the same class: where that ends.
         let mut ends: Vec<(DeviceClass, u32, u32)> = Vec::new();
         devices.into_iter().all(|(class, first, last, stride)| {
