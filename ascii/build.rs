@@ -1,15 +1,12 @@
-//! Packs what characters of other scripts are in ASCII into one deflated text: a third of the size of the tables of
-//! `deunicode`, from which it is made.
+//! Packs what characters of other scripts are in ASCII: a third of the size of the tables of `deunicode`, from which it
+//! is made.
 //!
-//! From the character after ASCII on, the text has for each what it is, and a mark after that: U+0001 if it is
-//! known, NUL otherwise. Those that the text does not reach are not known.
+//! From the character after ASCII on, the text has for each what it is, and a mark after that: U+0001 if it is known,
+//! U+0002 otherwise. Those that the text does not reach are not known.
 
 use deunicode::deunicode_char;
 use std::path::PathBuf;
 use std::{env, fs, io};
-
-/// How hard to compress: the best ratio.
-const LEVEL: u8 = 9;
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
@@ -21,10 +18,10 @@ fn main() -> io::Result<()> {
                 text.push_str(ascii);
                 text.push('\u{1}');
             }
-            None => text.push('\0'),
+            None => text.push('\u{2}'),
         }
     }
-    let known = text.trim_end_matches('\0').as_bytes();
-    let packed = miniz_oxide::deflate::compress_to_vec(known, LEVEL);
+    let known = text.trim_end_matches('\u{2}');
+    let packed = rungc_packed::pack([("ascii".to_string(), known.to_string())])?;
     fs::write(PathBuf::from(out).join("ascii.bin"), packed)
 }

@@ -1,6 +1,6 @@
 //! Packs the sources of the runtime and of libm, without their tests, into one deflated text, which the library embeds.
 //!
-//! The packed text is a sequence of paths and contents, each ended by NUL. A published package has no neighbours to
+//! A published package has no neighbours to
 //! pack; it carries the packed text as `sources.bin`, which `cargo xtask package` makes.
 
 use std::path::{Path, PathBuf};
@@ -15,9 +15,6 @@ const LIBM: &str = "vendor/libm";
 /// The packed text of a published package.
 const PUBLISHED: &str = "sources.bin";
 
-/// How hard to compress: the best ratio, in about a second.
-const LEVEL: u8 = 9;
-
 fn main() -> io::Result<()> {
     let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let out = PathBuf::from(out).join(PUBLISHED);
@@ -28,37 +25,21 @@ fn main() -> io::Result<()> {
     }
     println!("cargo::rerun-if-changed={RUNTIME}");
     println!("cargo::rerun-if-changed={LIBM}");
-    let mut files = vec![("Cargo.toml".to_string(), runtime.join("Cargo.toml"))];
-    list(&runtime.join("src"), "src/", &mut files)?;
-    list(Path::new(LIBM), "libm/", &mut files)?;
-    files.sort();
-    let mut kept = Vec::new();
+    let manifest = fs::read_to_string(runtime.join("Cargo.toml"))?;
+    let mut files = vec![("Cargo.toml".to_string(), manifest)];
+    files.extend(rungc_packed::folder(Path::new(LIBM), "libm/")?);
+    files.extend(rungc_packed::folder(&runtime.join("src"), "src/")?);
     let mut tests = Vec::new();
-    for (name, path) in files {
-        // Anything but text in these folders is not part of a crate.
-        let Ok(content) = fs::read_to_string(&path) else {
-            continue;
-        };
-        if content.contains('\0') {
-            return Err(io::Error::other(format!("{} holds NUL", path.display())));
-        }
-        let content = without_tests(&content, &children(&name), &mut tests);
-        kept.push((name, content));
+    for (name, text) in &mut files {
+        *text = without_tests(text, &children(name), &mut tests);
     }
-    let is_test = |name: &str| {
+    files.retain(|(name, _)| {
         let mut rests = tests
             .iter()
             .filter_map(|module| name.strip_prefix(module.as_str()));
-        rests.any(|rest| rest == ".rs" || rest.starts_with('/'))
-    };
-    let mut text = Vec::new();
-    for (name, content) in kept.into_iter().filter(|(name, _)| !is_test(name)) {
-        for part in [name, content] {
-            text.extend_from_slice(part.as_bytes());
-            text.push(0);
-        }
-    }
-    fs::write(out, miniz_oxide::deflate::compress_to_vec(&text, LEVEL))
+        !rests.any(|rest| rest == ".rs" || rest.starts_with('/'))
+    });
+    fs::write(out, rungc_packed::pack(files)?)
 }
 
 /// Where the modules lie that a file declares.
@@ -92,18 +73,4 @@ fn without_tests(source: &str, children: &str, tests: &mut Vec<String>) -> Strin
     }
     while kept.pop_if(|line| line.is_empty()).is_some() {}
     kept.join("\n") + "\n"
-}
-
-/// The files of a folder and its folders, named by what follows `prefix`.
-fn list(folder: &Path, prefix: &str, files: &mut Vec<(String, PathBuf)>) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
-        if entry.file_type()?.is_dir() {
-            list(&entry.path(), &format!("{name}/"), files)?;
-        } else {
-            files.push((name, entry.path()));
-        }
-    }
-    Ok(())
 }

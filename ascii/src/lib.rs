@@ -2,10 +2,11 @@
 //!
 //! It must not know what the characters are part of. Start reading at [`of`].
 
+use rungc_packed::Packed;
 use std::sync::OnceLock;
 
 /// The table as the build script packs it.
-static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin"));
+static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin")));
 
 /// What a character after ASCII is in it, as `deunicode` has it: `e` for `é`, `Wang ` for `往`, nothing for a mark that has no
 /// width. Those that stand for a syllable or a word end with a space.
@@ -14,10 +15,8 @@ static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin"));
 pub fn of(character: char) -> Option<&'static str> {
     static ENTRIES: OnceLock<Vec<&'static str>> = OnceLock::new();
     let entries = ENTRIES.get_or_init(|| {
-        let text = miniz_oxide::inflate::decompress_to_vec(PACKED);
-        let text = text.expect("the build script deflated it");
-        let text = String::from_utf8(text).expect("the build script packs text");
-        text.leak().split_inclusive(['\u{1}', '\0']).collect()
+        let marks = ['\u{1}', '\u{2}'];
+        PACKED.text("ascii").split_inclusive(marks).collect()
     });
     let place = (character as usize).checked_sub(0x80)?;
     entries.get(place)?.strip_suffix('\u{1}')

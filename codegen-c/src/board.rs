@@ -2,16 +2,11 @@
 //! where it is asked for.
 
 use crate::host::terminals;
+use crate::include;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
-
-/// What surrounds the program's own.
-const BOARD_C: &str = include_str!("../include/board.c");
-
-/// What takes edges and counts.
-const EVENTS_C: &str = include_str!("../include/board_events.c");
 
 /// What a poll does with them.
 const TAKE_EVENTS: &str = "    const bool edges = take_edges(plc, board);
@@ -89,14 +84,18 @@ pub fn source(module: &Module, runtime: bool) -> String {
         false => String::new(),
     };
     let (events, take, changes) = match module.takes_events() {
-        true => (EVENTS_C, TAKE_EVENTS, "scans || edges || counts"),
+        true => (
+            include("board_events.c"),
+            TAKE_EVENTS,
+            "scans || edges || counts",
+        ),
         false => ("", "", "scans"),
     };
     let constant = match rungc_emit::cycle::constant_scan(module, &fields) {
         Some(_) => "    rungc_board_waits(board, PROGRAM_constant_scan_us(plc));\n",
         None => "",
     };
-    let mut text = BOARD_C
+    let mut text = include("board.c")
         .replace("/* CONSTANT */", constant)
         .replace("/* EVENTS */\n", events)
         .replace("/* TAKE */\n", take)

@@ -2,10 +2,7 @@
 
 use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
-use crate::{
-    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_LANES_H, RUNGC_RETAIN_H,
-    RUNGC_RT_H, access, board, cmake, header, lanes, retain, text,
-};
+use crate::{Options, OutFile, access, board, cmake, header, include, lanes, retain, text};
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
@@ -188,13 +185,13 @@ fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
 fn header_file(module: &Module, unit: &Unit, main: bool) -> String {
     let name = &module.name;
     let guard = format!("{}_H", name.to_ascii_uppercase());
-    let include = if unit.runtime {
+    let shared = if unit.runtime {
         "rungc_rt.h"
     } else {
         "rungc.h"
     };
     let own = format!("{name}.h");
-    let mut checks = same_version(&own, "rungc.h", "RUNGC_H", RUNGC_H);
+    let mut checks = same_version(&own, "rungc.h", "RUNGC_H", include("rungc.h"));
     if unit.runtime {
         checks += &same_version(&own, "rungc_rt.h", "RUNGC_RT_H", &runtime_header());
     }
@@ -208,7 +205,7 @@ fn header_file(module: &Module, unit: &Unit, main: bool) -> String {
         false => "",
     };
     format!(
-        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}{hook}#include \"{include}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}{hook}#include \"{shared}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         banner(module, &format!("{name}.h")),
         header::embedding(module, &Storage::new(module)),
@@ -273,12 +270,9 @@ impl Shared {
     fn files(self) -> Vec<OutFile> {
         let header = |path| {
             let text = match path {
-                "rungc.h" => stamped(RUNGC_H, "RUNGC_H"),
+                "rungc.h" => stamped(include(path), "RUNGC_H"),
                 "rungc_rt.h" => stamped(&runtime_header(), "RUNGC_RT_H"),
-                "rungc_board.h" => RUNGC_BOARD_H.to_string(),
-                "rungc_access.h" => RUNGC_ACCESS_H.to_string(),
-                "rungc_lanes.h" => RUNGC_LANES_H.to_string(),
-                _ => RUNGC_RETAIN_H.to_string(),
+                _ => include(path).to_string(),
             };
             OutFile::new(path, text)
         };
@@ -346,7 +340,7 @@ fn runtime_header() -> String {
         prototypes.push_str(");\n");
     }
     prototypes.push_str("\n#ifdef __cplusplus\n}\n#endif\n");
-    RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
+    include("rungc_rt.h").replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
 /// A source file of a batch and its header.
@@ -441,7 +435,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         .iter()
         .map(|header| format!("#include \"{header}\"\n"))
         .collect();
-    let main = include_str!("../include/batch.c")
+    let main = include("batch.c")
         .replace("/* HEADERS */\n", &includes)
         .replace("    /* MEMORY */\n", &memory)
         .replace("/* CASES */\n", &functions)

@@ -3,7 +3,7 @@
 mod clients;
 
 use crate::fields::PrintStorage;
-use crate::text;
+use crate::{include, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
@@ -12,9 +12,6 @@ use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-
-/// What surrounds the tables of terminals.
-const MAIN_C: &str = include_str!("../include/main.c");
 
 /// How a program waits for its next scan that follows the time.
 const WAIT_WITH_TIME: &str = "\
@@ -85,15 +82,6 @@ static bool set_clock(void *context, const rungc_clock *clock)
 }
 
 ";
-
-/// What drives serial ports.
-const LINES: &str = include_str!("../include/main_lines.c");
-
-/// The servers over TCP.
-const SERVERS: &str = include_str!("../include/main_servers.c");
-
-/// What keeps latched devices in a file.
-const RETAIN: &str = include_str!("../include/main_retain.c");
 
 /// Headers that every host needs, those with serial ports, and those with servers.
 const HEADERS: [&str; 7] = [
@@ -192,11 +180,12 @@ pub fn main_file(module: &Module, servers: bool) -> String {
     };
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
-    let [include, retain, load, save, end] = if keeps { RETAINING } else { [""; 5] };
-    MAIN_C
+    let [header, load, save, end] = if keeps { RETAINING } else { [""; 4] };
+    let retain = if keeps { include("main_retain.c") } else { "" };
+    include("main.c")
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
-        .replace("/* INCLUDE */\n", include)
+        .replace("/* INCLUDE */\n", header)
         .replace("    /* LOAD */\n", load)
         .replace("        /* SAVE */\n", save)
         .replace("    /* END */\n", end)
@@ -276,11 +265,10 @@ fn outputs(module: &Module, fields: &Storage) -> String {
     rows
 }
 
-/// What a host that keeps latched devices has: an include, functions, and what is done before, after each and after the
-/// last scan.
-const RETAINING: [&str; 5] = [
+/// What a host that keeps latched devices has beside its functions: a header, and what is done before, after each and
+/// after the last scan.
+const RETAINING: [&str; 4] = [
     "#include \"PROGRAM_retain.h\"\n",
-    RETAIN,
     "    if (!load_kept(plc)) {\n        return 2;\n    }\n",
     "        save_kept(plc, now_ms, false);\n",
     "    save_kept(plc, 0, true);\n",
@@ -361,7 +349,7 @@ fn server_code(module: &Module, servers: bool) -> String {
         return String::new();
     }
     let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
-    let mut code = String::from(SERVERS);
+    let mut code = include("main_servers.c").to_string();
     if clients::are_there(module, servers) {
         code.push_str(&clients::code(module));
     }
@@ -381,7 +369,7 @@ fn lines(module: &Module) -> String {
     }
     let ports = module.ports.iter();
     let rows = ports.map(|port| format!("    {{.port = {port}, .file = -1, .client_end = -1}},\n"));
-    LINES.replace("    /* LINES */\n", &rows.collect::<String>())
+    include("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>())
 }
 
 /// The hardware that the program asks, if it asks any.

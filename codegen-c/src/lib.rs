@@ -49,6 +49,7 @@ pub use retain::record_len;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;
+use rungc_packed::Packed;
 
 /// What to emit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,23 +71,14 @@ pub struct Options {
     pub lanes: bool,
 }
 
-/// The header that all programs share.
-const RUNGC_H: &str = include_str!("../include/rungc.h");
+/// The headers that programs share, and the templates: `include/`, packed by the build script. `rungc_rt.h`, the header
+/// of the runtime library, is made by `cargo xtask generate`.
+static INCLUDE: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/include.bin")));
 
-/// The header of the runtime library, made by cbindgen (see `tests/header.rs`).
-const RUNGC_RT_H: &str = include_str!("../include/rungc_rt.h");
-
-/// The header that describes a board.
-const RUNGC_BOARD_H: &str = include_str!("../include/rungc_board.h");
-
-/// The header of access to devices by number.
-const RUNGC_ACCESS_H: &str = include_str!("../include/rungc_access.h");
-
-/// The header of latched devices that survive power-off.
-const RUNGC_RETAIN_H: &str = include_str!("../include/rungc_retain.h");
-
-/// The header of programs in lanes.
-const RUNGC_LANES_H: &str = include_str!("../include/rungc_lanes.h");
+/// A file of `include/`.
+fn include(name: &str) -> &'static str {
+    INCLUDE.text(name)
+}
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make`
 /// builds it as `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

@@ -336,7 +336,7 @@ fn is_plain(c: char) -> bool {
 /// Reads a description whose sources are in `folder`.
 pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
     let reader = Reader { source };
-    let format: Format = toml::from_str(&source.text).map_err(|error| {
+    let format: Format = rungc_tables::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
         reader.wrong(at, error.message().to_string())
     })?;

@@ -9,14 +9,13 @@
 pub mod cache;
 pub mod library;
 
+use rungc_packed::Packed;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::sync::OnceLock;
 
-/// The sources as the build script packs them, without their tests: paths and contents in turn, each ended by NUL,
-/// deflated.
-/// `cargo xtask package` puts it into the published package.
-pub static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin"));
+/// The sources as the build script packs them, without their tests, by their paths. `cargo xtask package` puts them into
+/// the published package.
+pub static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
 
 /// How the manifest names the crate that the runtime depends on, and how it does where that lies beside the sources.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
@@ -24,28 +23,9 @@ const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
 /// `src/…`.
 pub fn files() -> Vec<(String, String)> {
-    let mut files = unpacked().to_vec();
+    let mut files = PACKED.texts().to_vec();
     files[0].1 = manifest();
     files
-}
-
-/// The packed files as they are in the repository, the runtime's `Cargo.toml` first.
-fn unpacked() -> &'static [(String, String)] {
-    static FILES: OnceLock<Vec<(String, String)>> = OnceLock::new();
-    FILES.get_or_init(|| {
-        let text = miniz_oxide::inflate::decompress_to_vec(PACKED);
-        let text = text.expect("the build script deflated it");
-        let text = String::from_utf8(text).expect("the build script packs text");
-        let parts: Vec<&str> = text.split_terminator('\0').collect();
-        let files = parts.chunks_exact(2);
-        files.map(|file| (file[0].into(), file[1].into())).collect()
-    })
-}
-
-/// The text of a packed file.
-fn text(path: &str) -> &'static str {
-    let file = unpacked().iter().find(|(packed, _)| packed == path);
-    file.map_or("", |(_, text)| text)
 }
 
 /// The manifest without what only tests need, which is inherited from a workspace that is not there, and with `libm`
@@ -53,7 +33,7 @@ fn text(path: &str) -> &'static str {
 fn manifest() -> String {
     let mut kept = String::new();
     let mut is_for_tests = false;
-    for line in text("Cargo.toml").lines() {
+    for line in PACKED.text("Cargo.toml").lines() {
         if line.starts_with('[') {
             is_for_tests = line.starts_with("[dev-dependencies");
         }
@@ -75,8 +55,8 @@ pub const EMITTED_VERSION: &str = "0.1.0";
 pub fn lock_file(emitted: &[(&str, &[&str])]) -> String {
     // Each by its name, with its version and what it needs.
     let mut packages: BTreeMap<&str, (&str, &[&str])> = BTreeMap::new();
-    packages.insert("libm", (version(text("libm/Cargo.toml")), &[]));
-    packages.insert("rungc-rt", (version(text("Cargo.toml")), &["libm"]));
+    packages.insert("libm", (version(PACKED.text("libm/Cargo.toml")), &[]));
+    packages.insert("rungc-rt", (version(PACKED.text("Cargo.toml")), &["libm"]));
     for &(name, needs) in emitted {
         packages.insert(name, (EMITTED_VERSION, needs));
     }

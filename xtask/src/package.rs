@@ -29,7 +29,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     }
     // The runtime's sources lie beside the crate that embeds them, and packages have no neighbours.
     let packed = root().join("runtime-sources/sources.bin");
-    fs::write(&packed, rungc_runtime_sources::PACKED)?;
+    fs::write(&packed, rungc_runtime_sources::PACKED.bytes())?;
     let mut cargo = tools::cargo(&["publish", "--workspace", "--locked", "--allow-dirty"]);
     if !args.publish {
         cargo.arg("--dry-run");

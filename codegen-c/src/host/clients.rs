@@ -8,8 +8,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::net::{IpAddr, SocketAddr};
 
-const CLIENTS: &str = include_str!("../../include/main_clients.c");
-
 /// What the main program does for them: before the first scan, before each, after the last one.
 const CALLS: [&str; 3] = [
     "    begin_clients();\n",
@@ -58,7 +56,7 @@ pub fn code(module: &Module) -> String {
             .into_iter()
             .for_each(|request| row(&mut rows, request));
     }
-    CLIENTS
+    crate::include("main_clients.c")
         .replace("    /* ROWS */\n", &rows)
         .replace("    /* SERVERS */\n", &servers)
         .replace("MODBUS_TCP", Speaks::ModbusTcp.name())

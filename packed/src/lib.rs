@@ -1,0 +1,116 @@
+//! Texts that an executable carries deflated: build scripts pack them, and [`Packed`] unpacks them when one is first
+//! asked for.
+//!
+//! The crate must not know what the texts are. Start reading at [`Packed`].
+
+use std::path::Path;
+use std::sync::OnceLock;
+use std::{fs, io};
+
+/// How hard to compress: the best ratio.
+const LEVEL: u8 = 9;
+
+/// Packed texts with their names.
+pub struct Packed {
+    bytes: &'static [u8],
+    texts: OnceLock<Vec<(String, String)>>,
+}
+
+impl Packed {
+    /// Texts that a build script packed with [`pack`].
+    pub const fn new(bytes: &'static [u8]) -> Self {
+        let texts = OnceLock::new();
+        Packed { bytes, texts }
+    }
+
+    /// As they are packed.
+    pub fn bytes(&self) -> &'static [u8] {
+        self.bytes
+    }
+
+    /// All texts with their names, in the order in which they were packed.
+    pub fn texts(&self) -> &[(String, String)] {
+        self.texts.get_or_init(|| {
+            let text = miniz_oxide::inflate::decompress_to_vec(self.bytes);
+            let text = text.expect("the build script deflated it");
+            let text = String::from_utf8(text).expect("the build script packs text");
+            let parts: Vec<&str> = text.split_terminator('\0').collect();
+            let texts = parts.chunks_exact(2);
+            texts.map(|text| (text[0].into(), text[1].into())).collect()
+        })
+    }
+
+    /// The text of this name.
+    ///
+    /// # Panics
+    ///
+    /// If there is none: names are written in the program, and each of its texts is used by a test.
+    pub fn text(&self, name: &str) -> &str {
+        let text = self.texts().iter().find(|(packed, _)| packed == name);
+        text.map(|(_, text)| text.as_str())
+            .unwrap_or_else(|| panic!("`{name}` is not packed"))
+    }
+}
+
+/// Packs texts with their names: a deflated sequence of names and texts, each ended by NUL. A text that holds NUL is an
+/// error.
+pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec<u8>> {
+    let mut sequence = String::new();
+    for (name, text) in texts {
+        if name.contains('\0') || text.contains('\0') {
+            return Err(io::Error::other(format!("`{name}` holds NUL")));
+        }
+        for part in [name, text] {
+            sequence += &part;
+            sequence.push('\0');
+        }
+    }
+    Ok(miniz_oxide::deflate::compress_to_vec(
+        sequence.as_bytes(),
+        LEVEL,
+    ))
+}
+
+/// The texts in a folder and its folders, named by `prefix` and their paths in it, in the order of their names. Files
+/// that are not text are left out.
+pub fn folder(folder: &Path, prefix: &str) -> io::Result<Vec<(String, String)>> {
+    let mut texts = Vec::new();
+    list(folder, prefix, &mut texts)?;
+    texts.sort();
+    Ok(texts)
+}
+
+fn list(folder: &Path, prefix: &str, texts: &mut Vec<(String, String)>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        if entry.file_type()?.is_dir() {
+            list(&entry.path(), &format!("{name}/"), texts)?;
+        } else if let Ok(text) = fs::read_to_string(entry.path()) {
+            texts.push((name, text));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_packed_with_their_names() {
+        let texts = [("a.c", "int a;\n"), ("b/b.h", ""), ("ü", "ö\r\n")];
+        let texts = texts.map(|(name, text)| (name.to_string(), text.to_string()));
+        let packed = Packed::new(pack(texts.clone()).unwrap().leak());
+        assert_eq!(packed.texts(), texts);
+        assert_eq!(packed.text("ü"), "ö\r\n");
+        assert!(pack([("a".to_string(), "\0".to_string())]).is_err());
+    }
+
+    #[test]
+    fn folders_are_listed_in_order() {
+        let texts = folder(Path::new(env!("CARGO_MANIFEST_DIR")), "own/").unwrap();
+        let names: Vec<&str> = texts.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["own/Cargo.toml", "own/src/lib.rs"]);
+    }
+}
