@@ -1,12 +1,13 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published. No crate may depend on this one. Start reading at `generate.rs`, the table
-//! of generated files.
+//! package` the packages that are published, `cargo xtask size` measures the executable. No crate may depend on this
+//! one. Start reading at `generate.rs`, the table of generated files.
 
 mod book;
 mod generate;
 mod header;
 mod package;
 mod rungc;
+mod size;
 mod tools;
 
 use clap::{Parser, Subcommand};
@@ -27,6 +28,8 @@ enum Chore {
     Generate(generate::Args),
     /// Check that every published crate builds from its package alone, or publish them.
     Package(package::Args),
+    /// Print how large an executable is, and what each crate takes of it.
+    Size(size::Args),
 }
 
 /// What stopped a chore, as a message.
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
     let done = match Args::parse().chore {
         Chore::Generate(args) => generate::run(&args),
         Chore::Package(args) => package::run(&args),
+        Chore::Size(args) => size::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
