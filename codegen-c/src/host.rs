@@ -180,8 +180,7 @@ pub fn main_file(module: &Module, servers: bool) -> String {
     };
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
-    let [header, load, save, end] = if keeps { RETAINING } else { [""; 4] };
-    let retain = if keeps { include("main_retain.c") } else { "" };
+    let [header, retain, load, save, end] = retaining(keeps);
     include("main.c")
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
@@ -265,14 +264,20 @@ fn outputs(module: &Module, fields: &Storage) -> String {
     rows
 }
 
-/// What a host that keeps latched devices has beside its functions: a header, and what is done before, after each and
-/// after the last scan.
-const RETAINING: [&str; 4] = [
-    "#include \"PROGRAM_retain.h\"\n",
-    "    if (!load_kept(plc)) {\n        return 2;\n    }\n",
-    "        save_kept(plc, now_ms, false);\n",
-    "    save_kept(plc, 0, true);\n",
-];
+/// What a host that keeps latched devices has: an include, functions, and what is done before, after each and after the
+/// last scan.
+fn retaining(keeps: bool) -> [&'static str; 5] {
+    if !keeps {
+        return [""; 5];
+    }
+    [
+        "#include \"PROGRAM_retain.h\"\n",
+        include("main_retain.c"),
+        "    if (!load_kept(plc)) {\n        return 2;\n    }\n",
+        "        save_kept(plc, now_ms, false);\n",
+        "    save_kept(plc, 0, true);\n",
+    ]
+}
 
 /// What the system's headers are to declare.
 fn features(ports: bool) -> &'static str {

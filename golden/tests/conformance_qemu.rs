@@ -58,8 +58,8 @@ impl Engine for Held<'_> {
     }
 }
 
-/// Cases whose programs an image has room for in Rust, which is not optimised: about 4 KB each of the 16 MB that a board
-/// has for code. In C all fit.
+/// Cases whose programs an image has room for in Rust, which is not optimised: about 4 KB each of the 16 MB that a
+/// board has for code. In C all fit.
 const IN_RUST: usize = 2_000;
 
 /// Runs all cases on a board, one image after another.

@@ -13,8 +13,8 @@ use rungc_packed::Packed;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The sources as the build script packs them, without their tests, by their paths. `cargo xtask package` puts them into
-/// the published package.
+/// The sources as the build script packs them, without their tests, by their paths. `cargo xtask package` puts them
+/// into the published package.
 pub static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
 
 /// How the manifest names the crate that the runtime depends on, and how it does where that lies beside the sources.

@@ -1,7 +1,7 @@
 //! Reads TOML into types that derive `Deserialize`, as `toml::from_str` does, with the same errors.
 //!
-//! The library's own deserializer takes a document apart by value, in 4 KB of machine code for each type. This one looks
-//! at the parsed document; enums have variants without values, and dates are not read.
+//! The library's own deserializer takes a document apart by value, in 4 KB of machine code for each type. This one
+//! looks at the parsed document. It reads enums whose variants have no values, and no dates.
 //!
 //! The crate must not know what the tables are about. Start reading at [`from_str`].
 
