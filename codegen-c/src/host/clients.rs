@@ -1,5 +1,6 @@
 //! What a host asks of servers over TCP.
 
+use crate::include;
 use rungc_ir::Module;
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
@@ -56,7 +57,7 @@ pub fn code(module: &Module) -> String {
             .into_iter()
             .for_each(|request| row(&mut rows, request));
     }
-    crate::include("main_clients.c")
+    include("main_clients.c")
         .replace("    /* ROWS */\n", &rows)
         .replace("    /* SERVERS */\n", &servers)
         .replace("MODBUS_TCP", Speaks::ModbusTcp.name())
