@@ -146,8 +146,8 @@ impl Nets {
                 self.used[start + placed.span] = true;
             }
         }
-        for row in 0..grid.rows {
-            if !folded[row] {
+        for (row, folded) in folded.iter().enumerate().take(grid.rows) {
+            if !folded {
                 self.join((0, 0), (row, 0));
             }
             for column in (0..grid.columns).filter(|&column| grid.wire(row, column)) {
