@@ -1,5 +1,6 @@
 //! Arguments of the command line.
 
+mod boards;
 mod diff;
 mod emit;
 mod flash;
@@ -8,6 +9,7 @@ mod serve;
 mod values;
 mod verify;
 
+pub use boards::BoardsArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use emit::{Backend, Emit};
 pub use flash::FlashArgs;
@@ -110,6 +112,8 @@ pub enum Command {
     ///
     /// The PLC keeps running, and nothing in it is changed. A PLC whose program is protected by a keyword is not read.
     Read(ReadArgs),
+    /// List the boards that rungc has descriptions of, or show the pins of one.
+    Boards(BoardsArgs),
     /// Write an image into a microcontroller, over the boot loader in its ROM (STM32, AN3155) or with probe-rs.
     ///
     /// Says what is erased, and asks. Exit codes: 0: the image is there, read back and compared; 1: the boot loader, the
@@ -268,8 +272,9 @@ pub struct Plan {
     /// Language used to build an image.
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub backend: Option<Backend>,
-    /// Description of the board for an image (docs/src/boards.md); with c or rust, writes the sources of the image.
-    #[arg(long, value_name = "FILE")]
+    /// Board for an image: a name that `rungc boards` lists, or a description (docs/src/boards.md); with c or rust,
+    /// writes the sources of the image.
+    #[arg(long, value_name = "BOARD")]
     pub board: Option<PathBuf>,
     /// Scripted inputs for simulator images: `X000=1@2s`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "INPUT=VALUE[@TIME]")]

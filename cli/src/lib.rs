@@ -47,6 +47,7 @@ pub fn main() -> ExitCode {
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Read(args) => commands::read::run(args, cx),
+        Command::Boards(args) => commands::boards::run(args, cx),
         Command::Flash(args) => commands::flash::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),

@@ -1,16 +1,22 @@
 //! The description of a board, in TOML: docs/src/boards.md.
 
 mod analog;
+mod control;
+mod pins;
 mod retain;
 mod serial;
 
 pub use analog::{Analog, AnalogPin};
+pub use control::Control;
+pub use pins::{Chip, NamedPin};
 pub use retain::{Retain, RetainMemory};
 pub use serial::{Serial, Uart};
 
 use crate::target::{self, Target};
+use pins::{InputFormat, Output, Wiring};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +25,10 @@ use std::path::{Path, PathBuf};
 pub struct Board {
     /// What it is called.
     pub name: String,
+    /// What is known of it: where its pins come from, what to be careful about.
+    pub notes: String,
+    /// The pins that the description names, by what they are wired to, in its order.
+    pub pins: Vec<NamedPin>,
     /// Its processor.
     pub target: &'static Target,
     /// Where programs and constants are.
@@ -41,6 +51,8 @@ pub struct Board {
     pub inputs: BTreeMap<u32, InputPin>,
     /// Pins of outputs Y.
     pub outputs: BTreeMap<u32, OutputPin>,
+    /// The switch, the lamps and the watchdog.
+    pub control: Control,
     /// Analog pins.
     pub analog: Analog,
     /// Serial ports of the PLC, and the UARTs that they are.
@@ -67,30 +79,65 @@ pub struct Region {
     pub length: u32,
 }
 
-/// A change of a register: what it holds, without the bits of `clear`, with those of `set`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+/// A step of what is done before anything else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setup {
+    /// A register keeps what it holds, without the bits of `clear`, with those of `set`.
+    Change {
+        /// Its address.
+        at: u32,
+        /// Bits that go off.
+        clear: u32,
+        /// Bits to set.
+        set: u32,
+    },
+    /// A word is written.
+    Write {
+        /// The register's address.
+        at: u32,
+        /// The word.
+        word: u32,
+    },
+    /// Waits until all of these bits are on, or all of them off.
+    Wait {
+        /// The register's address.
+        at: u32,
+        /// The bits.
+        bits: u32,
+        /// Whether they have to be on.
+        on: bool,
+    },
+}
+
+impl Setup {
+    const fn set(at: u32, set: u32) -> Self {
+        Setup::Change { at, clear: 0, set }
+    }
+
+    const fn clear(at: u32, clear: u32) -> Self {
+        Setup::Change { at, clear, set: 0 }
+    }
+}
+
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Setup {
-    /// Its address.
-    pub at: u32,
-    /// Bits that go off.
-    #[serde(default)]
-    pub clear: u32,
-    /// Bits to set.
-    #[serde(default)]
-    pub set: u32,
+struct SetupFormat {
+    at: toml::Spanned<u32>,
+    clear: Option<u32>,
+    set: Option<u32>,
+    write: Option<u32>,
+    wait: Option<u32>,
+    wait_off: Option<u32>,
 }
 
 /// A bit of a register that an input follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InputPin {
     /// The register's address.
     pub at: u32,
     /// The bit.
     pub bit: u32,
     /// The input is on while the bit is off.
-    #[serde(default)]
     pub inverted: bool,
 }
 
@@ -140,17 +187,24 @@ pub enum BoardError {
 #[serde(deny_unknown_fields)]
 struct Format {
     name: String,
+    #[serde(default)]
+    notes: String,
     target: toml::Spanned<String>,
+    chip: Option<Chip>,
+    uncertain: Option<String>,
     #[serde(default)]
     console: Option<Console>,
     memory: Memory,
     clock: Clock,
     #[serde(default)]
-    setup: Vec<Setup>,
+    setup: Vec<SetupFormat>,
     #[serde(default)]
-    inputs: BTreeMap<toml::Spanned<String>, InputPin>,
+    inputs: BTreeMap<toml::Spanned<String>, InputFormat>,
     #[serde(default)]
     outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
+    #[serde(default)]
+    run: control::Run,
+    watchdog: Option<control::Watchdog>,
     #[serde(default)]
     analog: analog::Format,
     #[serde(default)]
@@ -188,18 +242,6 @@ struct Clock {
     tick_us: u32,
     #[serde(default = "default_scan_us")]
     scan_us: u32,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Output {
-    at: u32,
-    off_at: Option<u32>,
-    bit: Option<u32>,
-    #[serde(default)]
-    inverted: bool,
-    on: Option<u32>,
-    off: Option<u32>,
 }
 
 fn default_stack() -> u32 {
@@ -335,7 +377,10 @@ fn is_plain(c: char) -> bool {
 
 /// Reads a description whose sources are in `folder`.
 pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
-    let reader = Reader { source };
+    let reader = Reader {
+        source,
+        wiring: RefCell::default(),
+    };
     let format: Format = rungc_tables::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
         reader.wrong(at, error.message().to_string())
@@ -345,6 +390,8 @@ pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
 
 struct Reader<'s> {
     source: &'s Source,
+    /// The pins that the description has named so far.
+    wiring: RefCell<Wiring>,
 }
 
 type Spanned = toml::Spanned<String>;
@@ -362,15 +409,26 @@ impl Reader<'_> {
         self.wrong(item.span().start, message)
     }
 
-    fn board(&self, format: Format, folder: &Path) -> Result<Board, BoardError> {
+    fn board(self, format: Format, folder: &Path) -> Result<Board, BoardError> {
         let target = self.target(&format.target)?;
         let (clock_hz, tick_us) = self.clock(&format.clock)?;
-        let inputs = self.terminals(format.inputs, DeviceClass::X, |name, pin| {
-            self.input(name, pin)
+        let wiring = Wiring {
+            chip: format.chip,
+            uncertain: format.uncertain,
+            ..Wiring::default()
+        };
+        self.wiring.replace(wiring);
+        let inputs = self.terminals(format.inputs, DeviceClass::X, |place, name, pin| {
+            self.input(place, name, pin)
         })?;
-        let outputs = self.terminals(format.outputs, DeviceClass::Y, |_, pin| self.output(&pin))?;
-        let board = Board {
+        let outputs = self.terminals(format.outputs, DeviceClass::Y, |_, name, pin| {
+            self.output(pin.span().start, name, pin.get_ref())
+        })?;
+        let retain = format.retain.map(|format| self.retain(format));
+        let mut board = Board {
             name: format.name,
+            notes: format.notes,
+            pins: Vec::new(),
             target,
             flash: format.memory.flash,
             ram: format.memory.ram,
@@ -379,21 +437,47 @@ impl Reader<'_> {
             tick_us,
             scan_us: format.clock.scan_us,
             console: matches!(format.console, Some(Console::Semihosting)),
-            setup: format.setup,
+            setup: self.setup(&format.setup)?,
             inputs,
             outputs,
+            control: self.control(format.run, format.watchdog)?,
             analog: self.analog(format.analog)?,
             serial: self.serial(format.serial, clock_hz)?,
-            retain: format
-                .retain
-                .map(|format| self.retain(format))
-                .transpose()?,
+            retain: retain.transpose()?,
             functions: self.functions(format.functions)?,
             sources: self.sources(&format.sources, folder)?,
             interrupts: self.interrupts(format.interrupts)?,
         };
         self.consistent(&board)?;
+        let wiring = self.wiring.into_inner();
+        board.setup.extend(wiring.setup());
+        board.pins = wiring.named;
         Ok(board)
+    }
+
+    fn setup(&self, steps: &[SetupFormat]) -> Result<Vec<Setup>, BoardError> {
+        let read = |step: &SetupFormat| {
+            let at = *step.at.get_ref();
+            let bits = step.wait.or(step.wait_off);
+            let on = step.wait.is_some();
+            match (step.clear, step.set, step.write, bits) {
+                (None, None, Some(word), None) => Ok(Setup::Write { at, word }),
+                (None, None, None, Some(bits)) if !(on && step.wait_off.is_some()) => {
+                    Ok(Setup::Wait { at, bits, on })
+                }
+                (clear, set, None, None) => Ok(Setup::Change {
+                    at,
+                    clear: clear.unwrap_or(0),
+                    set: set.unwrap_or(0),
+                }),
+                _ => Err(self.at(
+                    &step.at,
+                    "a step of `[[setup]]` has `clear` and `set`, or `write`, or `wait`, or `wait_off`"
+                        .to_string(),
+                )),
+            }
+        };
+        steps.iter().map(read).collect()
     }
 
     fn target(&self, name: &Spanned) -> Result<&'static Target, BoardError> {
@@ -432,12 +516,14 @@ impl Reader<'_> {
         &self,
         pins: BTreeMap<Spanned, T>,
         class: DeviceClass,
-        read: impl Fn(&Spanned, T) -> Result<P, BoardError>,
+        read: impl Fn(usize, &str, T) -> Result<P, BoardError>,
     ) -> Result<BTreeMap<u32, P>, BoardError> {
         let mut known = BTreeMap::new();
         for (name, pin) in pins {
             let number = self.terminal(&name, class)?;
-            if known.insert(number, read(&name, pin)?).is_some() {
+            let terminal = class.number(number).to_string();
+            let pin = read(name.span().start, &terminal, pin)?;
+            if known.insert(number, pin).is_some() {
                 let what = format!("{} is listed twice", class.number(number));
                 return Err(self.at(&name, what));
             }
@@ -458,38 +544,6 @@ impl Reader<'_> {
                 );
                 self.at(name, what)
             })
-    }
-
-    fn input(&self, name: &Spanned, pin: InputPin) -> Result<InputPin, BoardError> {
-        match pin.bit {
-            0..32 => Ok(pin),
-            _ => Err(self.at(name, "a register has the bits 0 to 31".to_string())),
-        }
-    }
-
-    fn output(&self, pin: &toml::Spanned<Output>) -> Result<OutputPin, BoardError> {
-        let Output {
-            at,
-            off_at,
-            bit,
-            inverted,
-            on,
-            off,
-        } = *pin.get_ref();
-        match (bit, on, off) {
-            (Some(bit @ 0..32), None, None) if off_at.is_none() => {
-                Ok(OutputPin::Bit { at, bit, inverted })
-            }
-            (None, Some(on), Some(off)) if !inverted => Ok(OutputPin::Words {
-                on: (at, on),
-                off: (off_at.unwrap_or(at), off),
-            }),
-            _ => Err(self.at(
-                pin,
-                "an output has either `at` and `bit` (0 to 31, optionally `inverted`), or `at`, `on` and `off` (optionally `off_at`)"
-                    .to_string(),
-            )),
-        }
     }
 
     fn functions(

@@ -13,7 +13,7 @@ use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::fmt::Write;
 
-pub use c::project as c_project;
+pub use c::{NoPins, pins_project, project as c_project};
 pub use rust::project as rust_project;
 
 /// What an image does by itself, for a simulator.
@@ -110,6 +110,19 @@ impl Image<'_> {
         numbers
             .map(|n| (n, DeviceClass::Y.number(n).to_string(), comment(n)))
             .collect()
+    }
+
+    /// Terminals of the program whose pins the description marks as uncertain, by their names.
+    pub fn uncertain(&self) -> Vec<String> {
+        let named = |class: DeviceClass| {
+            terminals(self.module, class).map(move |n| class.number(n).to_string())
+        };
+        let is_uncertain = |terminal: &String| {
+            let mut pins = self.board.pins.iter();
+            pins.any(|pin| pin.terminal == *terminal && pin.uncertain.is_some())
+        };
+        let all = named(DeviceClass::X).chain(named(DeviceClass::Y));
+        all.filter(is_uncertain).collect()
     }
 
     /// Terminals and serial ports of the program that the board has no pin or UART for and no function either, by their

@@ -23,7 +23,7 @@ static volatile uint32_t microseconds;
     microseconds += TICK_US;
 /* DUE */}
 
-/* PINS *//* MODULES *//* SERIAL *//* SETUP *//* CONSOLE *//* RETAIN */static rungc_board board = {
+/* PINS *//* MODULES *//* SERIAL *//* SETUP *//* CONSOLE *//* CONTROL *//* RETAIN */static rungc_board board = {
 /* HAL */    .period_us = SCAN_US,
 };
 

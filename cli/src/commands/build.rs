@@ -12,7 +12,8 @@ use crate::progress;
 use crate::report::Reporter;
 use rungc_codegen_c::lanes;
 use rungc_emit::OutFile;
-use rungc_firmware::board::{self, Board, Retain, RetainMemory};
+use rungc_firmware::board::{Board, Retain, RetainMemory};
+use rungc_firmware::boards;
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
 use rungc_firmware::package::Package;
@@ -22,6 +23,7 @@ use rungc_firmware::target::{self, Target};
 use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
+use rungc_syntax::codes;
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, FittedModule, Program, text};
 use std::fs;
@@ -257,7 +259,7 @@ struct ForImage {
 
 impl ForImage {
     fn new(args: &Plan, path: &Path) -> std::result::Result<Self, Failure> {
-        let board = board::load(path).map_err(because)?;
+        let board = boards::named_or_described(path).map_err(because)?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
                 "--target {}: {} is {}",
@@ -339,6 +341,14 @@ impl ForImage {
         if !unconnected.is_empty() {
             let (board, names) = (&self.board.name, unconnected.join(", "));
             tell(&format!("rungc: no pins on {board}: {names}"));
+        }
+        let uncertain = image.uncertain();
+        if !uncertain.is_empty() {
+            let (id, names) = (codes::UNCERTAIN_PIN.id, uncertain.join(", "));
+            tell(&format!(
+                "rungc: warning[{id}]: uncertain pins on {}: {names}\n       for more, run `rungc explain {id}`",
+                board.name
+            ));
         }
         self.check_slots(&image)?;
         match backend {

@@ -1,5 +1,6 @@
 //! The commands. Each returns whether all went well; what stops a command before it can answer is a [`Failure`].
 
+pub mod boards;
 pub mod build;
 pub mod check;
 pub mod convert;

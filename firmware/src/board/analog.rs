@@ -1,5 +1,6 @@
 //! Analog pins of a board: `[analog.inputs]` and `[analog.outputs]`.
 
+use super::pins::Mode;
 use super::{BoardError, Reader, Spanned};
 use rungc_rt::modules::Quantity;
 use serde::Deserialize;
@@ -55,6 +56,8 @@ pub(super) struct Format {
 #[serde(deny_unknown_fields)]
 struct Pin {
     at: u32,
+    pin: Option<String>,
+    uncertain: Option<String>,
     #[serde(default = "default_full")]
     full: u16,
     unit: Unit,
@@ -90,6 +93,11 @@ impl Reader<'_> {
     ) -> Result<BTreeMap<String, AnalogPin>, BoardError> {
         let read = |(name, pin): (Spanned, toml::Spanned<Pin>)| {
             let known = self.analog_pin(&pin)?;
+            let own = pin.get_ref();
+            if let Some(wired) = &own.pin {
+                let (place, uncertain) = (pin.span().start, own.uncertain.clone());
+                self.connect(place, name.get_ref(), wired, Mode::Analog, uncertain)?;
+            }
             Ok((name.into_inner(), known))
         };
         pins.into_iter().map(read).collect()

@@ -1,5 +1,6 @@
 //! Where a board keeps latched devices: `[retain]`.
 
+use super::pins::InputFormat;
 use super::{Board, BoardError, InputPin, Reader, Region};
 use rungc_rt::retain::f4_sectors;
 use serde::Deserialize;
@@ -40,7 +41,7 @@ pub(super) struct Format {
     page: u32,
     #[serde(default = "default_every_ms")]
     every_ms: u32,
-    power_fail: Option<InputPin>,
+    power_fail: Option<toml::Spanned<InputFormat>>,
 }
 
 fn default_page() -> u32 {
@@ -81,12 +82,16 @@ impl Reader<'_> {
                 "a slot of an STM32F4 consists of whole sectors: 16K each from 0x08000000 on, 64K at 0x08010000, 128K each from 0x08020000 on",
             );
         }
+        let power_fail = format.power_fail.map(|pin| {
+            let place = pin.span().start;
+            self.input(place, "supply", pin.into_inner())
+        });
         Ok(Retain {
             memory: format.memory,
             slots,
             page: format.page,
             every_ms: format.every_ms,
-            power_fail: format.power_fail,
+            power_fail: power_fail.transpose()?,
         })
     }
 

@@ -1,6 +1,7 @@
 //! The serial ports of a board: `[[serial]]`.
 
-use super::{BoardError, Output, OutputPin, Reader};
+use super::pins::{Mode, Output};
+use super::{BoardError, OutputPin, Reader};
 use serde::Deserialize;
 
 /// Characters that a queue holds by default.
@@ -58,6 +59,11 @@ pub(super) struct Format {
     interrupts: toml::Spanned<Vec<u32>>,
     hz: Option<u32>,
     de: Option<toml::Spanned<Output>>,
+    tx: Option<toml::Spanned<String>>,
+    rx: Option<toml::Spanned<String>>,
+    #[serde(default)]
+    function: u32,
+    uncertain: Option<String>,
     #[serde(default)]
     always: bool,
     #[serde(default)]
@@ -125,12 +131,31 @@ impl Reader<'_> {
             }
         }
         let uart = *format.uart.get_ref();
+        let pins = [
+            (&format.tx, "TX", Mode::Sends(format.function)),
+            (&format.rx, "RX", Mode::Receives(format.function)),
+        ];
+        for (pin, what, mode) in pins {
+            if let Some(pin) = pin {
+                let (place, uncertain) = (pin.span().start, format.uncertain.clone());
+                self.connect(
+                    place,
+                    &format!("{name} {what}"),
+                    pin.get_ref(),
+                    mode,
+                    uncertain,
+                )?;
+            }
+        }
         let driver = match format.de {
             Some(pin) if uart == Uart::Cmsdk => {
                 let what = "a CMSDK UART does not say when the last bit is out, so nothing can switch the driver off";
                 return Err(self.at(&pin, what.to_string()));
             }
-            Some(pin) => Some(self.output(&pin)?),
+            Some(pin) => {
+                let what = format!("{name} DE");
+                Some(self.output(pin.span().start, &what, pin.get_ref())?)
+            }
             None => None,
         };
         Ok(Serial {

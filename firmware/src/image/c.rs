@@ -1,14 +1,19 @@
 //! An image in C.
 
+mod control;
 mod modules;
+mod pins;
 mod retain;
 mod serial;
 
 use super::{Image, comment, linker_script, terminals};
-use crate::board::{FUNCTIONS, OutputPin};
+use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
 use rungc_emit::OutFile;
 use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use std::fmt::Write;
+
+pub use pins::{NoPins, project as pins_project};
 
 const MAIN: &str = include_str!("../../templates/main.c");
 const STARTUP: &str = include_str!("../../templates/startup.c");
@@ -83,6 +88,15 @@ fn banner(image: &Image, file: &str, what: &str) -> String {
 fn startup(image: &Image) -> String {
     let mut interrupts = image.board.interrupts.clone();
     interrupts.extend(serial::handlers(image));
+    banner(
+        image,
+        "startup.c",
+        "vectors and what happens between reset and main on",
+    ) + &startup_text(&interrupts)
+}
+
+/// Vectors, with the handlers of the device's interrupts, and what happens between reset and `main`.
+fn startup_text(interrupts: &BTreeMap<u32, String>) -> String {
     let mut prototypes = String::new();
     let mut vectors = String::new();
     let last = interrupts.keys().next_back().copied();
@@ -96,15 +110,10 @@ fn startup(image: &Image) -> String {
         let _ = writeln!(prototypes, "void {handler}(void);");
     }
     let count = 16 + last.map_or(0, |last| last + 1);
-    let text = STARTUP
+    STARTUP
         .replace("/* PROTOTYPES */\n", &format!("{prototypes}\n"))
         .replace("/* COUNT */", &count.to_string())
-        .replace("/* VECTORS */", &vectors);
-    banner(
-        image,
-        "startup.c",
-        "vectors and what happens between reset and main on",
-    ) + &text
+        .replace("/* VECTORS */", &vectors)
 }
 
 fn main(image: &Image) -> String {
@@ -137,7 +146,7 @@ fn main(image: &Image) -> String {
     if analog {
         begin.push_str("    fit_modules();\n");
     }
-    let mut show = retain::save(image);
+    let mut show = control::after_scan(image) + &retain::save(image);
     let include = match image.retain() {
         Some(_) => "#include \"PROGRAM_retain.h\"\n",
         None => "",
@@ -150,7 +159,10 @@ fn main(image: &Image) -> String {
     }
     let text = MAIN
         .replace("/* INCLUDE */", include)
-        .replace("/* LOAD */", retain::load(image))
+        .replace(
+            "/* LOAD */",
+            &[retain::load(image), control::begin(image)].concat(),
+        )
         .replace("/* RETAIN */", &retain::drivers(image))
         .replace("/* HZ */", &board.clock_hz.to_string())
         .replace("/* TICK */", &board.tick_us.to_string())
@@ -159,7 +171,7 @@ fn main(image: &Image) -> String {
         .replace("/* DUE */", &format!("{note}{due}"))
         .replace("/* NOW */", &format!("{declared}{now}{timers}"))
         .replace("/* PINS */", &pins(image))
-        .replace("/* SETUP */", &setup(image))
+        .replace("/* SETUP */", &setup(image.board))
         .replace("/* MODULES */", &modules::drivers(image))
         .replace(
             "/* EXCHANGE */",
@@ -171,6 +183,7 @@ fn main(image: &Image) -> String {
         )
         .replace("/* SERIAL */", &serial::drivers(image))
         .replace("/* CONSOLE */", &console(image))
+        .replace("/* CONTROL */", &control::functions(image))
         .replace("/* HAL */", &hal(image, timer))
         .replace("/* BEGIN */", &begin)
         .replace("/* SHOW */", &show)
@@ -203,11 +216,9 @@ fn pins(image: &Image) -> String {
         }
         text.push_str(&SCRIPT.replace("/* SCRIPT */", &lines));
     }
-    let bits = |pin: &OutputPin| matches!(pin, OutputPin::Bit { .. });
     let drivers = image.serial().into_iter();
     let mut drivers = drivers.filter_map(|serial| serial.driver.as_ref());
-    if !image.board.setup.is_empty() || image.board.outputs.values().any(bits) || drivers.any(bits)
-    {
+    if changes_bits(image.board) || drivers.any(is_bit) {
         text.push_str(BITS);
     }
     if let Some(function) = input_function(image) {
@@ -225,6 +236,17 @@ fn pins(image: &Image) -> String {
     }
     text.push_str(&outputs(image));
     text
+}
+
+/// Whether bits of a register change while the others are kept, as the setup, outputs and lamps of a board are written.
+fn changes_bits(board: &Board) -> bool {
+    let mut pins = board.outputs.values().chain(board.control.lamps());
+    let change = |step: &Setup| matches!(step, Setup::Change { .. });
+    board.setup.iter().any(change) || pins.any(is_bit)
+}
+
+fn is_bit(pin: &OutputPin) -> bool {
+    matches!(pin, OutputPin::Bit { .. })
 }
 
 /// Where edges of inputs are noted.
@@ -338,15 +360,30 @@ fn switch(pin: &OutputPin, indent: &str) -> String {
     }
 }
 
-fn setup(image: &Image) -> String {
-    if image.board.setup.is_empty() {
+fn setup(board: &Board) -> String {
+    if board.setup.is_empty() {
         return String::new();
     }
     let mut text = String::from("/* The board's registers. */\nstatic void set_up(void)\n{\n");
-    for step in &image.board.setup {
-        for (bits, on) in [(step.clear, false), (step.set, true)] {
-            if bits != 0 {
-                let _ = writeln!(text, "    set_bits(0x{:08X}u, 0x{bits:X}u, {on});", step.at);
+    // Writing to a String does not fail.
+    for step in &board.setup {
+        match *step {
+            Setup::Change { at, clear, set } => {
+                for (bits, on) in [(clear, false), (set, true)] {
+                    if bits != 0 {
+                        let _ = writeln!(text, "    set_bits(0x{at:08X}u, 0x{bits:X}u, {on});");
+                    }
+                }
+            }
+            Setup::Write { at, word } => {
+                let _ = writeln!(text, "    REGISTER(0x{at:08X}u) = 0x{word:X}u;");
+            }
+            Setup::Wait { at, bits, on } => {
+                let until = if on { bits } else { 0 };
+                let _ = writeln!(
+                    text,
+                    "    while ((REGISTER(0x{at:08X}u) & 0x{bits:X}u) != 0x{until:X}u) {{\n    }}"
+                );
             }
         }
     }

@@ -1,11 +1,12 @@
 //! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
 
+mod control;
 mod modules;
 mod retain;
 mod serial;
 
 use super::{Image, comment, linker_script, terminals};
-use crate::board::{OutputPin, Uart};
+use crate::board::{OutputPin, Setup, Uart};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
@@ -120,6 +121,7 @@ fn main(image: &Image) -> String {
     let (package, program) = rungc_codegen_rust::names(image.module);
     let watched = image.watched();
     let mut before = retain::load(image);
+    before.push_str(&control::before(image));
     if board.console {
         before.push_str("    let mut shown = [false; OUTPUTS.len()];\n");
     }
@@ -127,7 +129,13 @@ fn main(image: &Image) -> String {
     let ports = image.serial();
     let drivers = ports.iter().filter_map(|serial| serial.driver.as_ref());
     let by_bits = |pin: &OutputPin| matches!(pin, OutputPin::Bit { .. });
-    let bits = match board.outputs.values().chain(drivers).any(by_bits) || !setup.is_empty() {
+    let mut pins = board
+        .outputs
+        .values()
+        .chain(drivers)
+        .chain(board.control.lamps());
+    let change = |step: &Setup| matches!(step, Setup::Change { .. });
+    let bits = match pins.any(by_bits) || board.setup.iter().any(change) {
         true => BITS,
         false => "",
     };
@@ -149,7 +157,7 @@ fn main(image: &Image) -> String {
         )
         .replace(
             "/* USE PROGRAM */",
-            if board.console || image.supply().is_some() {
+            if board.console || board.control.is_there() || image.supply().is_some() {
                 "use rungc_rt::Program;\n"
             } else {
                 ""
@@ -214,7 +222,7 @@ fn before_scan(image: &Image) -> String {
 
 /// What the main loop does after a scan: saves latched devices, shows the outputs, and ends with the script.
 fn after_scan(image: &Image) -> String {
-    let mut text = retain::save(image);
+    let mut text = control::after_scan(image) + &retain::save(image);
     if image.board.console {
         text.push_str("        show_outputs(driver, &mut shown);\n");
     }
@@ -367,10 +375,25 @@ fn hal(image: &Image) -> String {
 
 fn setup(image: &Image) -> String {
     let mut text = String::new();
+    // Writing to a String does not fail.
     for step in &image.board.setup {
-        for (bits, on) in [(step.clear, false), (step.set, true)] {
-            if bits != 0 {
-                let _ = writeln!(text, "    set_bits(0x{:08X}, 0x{bits:X}, {on});", step.at);
+        match *step {
+            Setup::Change { at, clear, set } => {
+                for (bits, on) in [(clear, false), (set, true)] {
+                    if bits != 0 {
+                        let _ = writeln!(text, "    set_bits(0x{at:08X}, 0x{bits:X}, {on});");
+                    }
+                }
+            }
+            Setup::Write { at, word } => {
+                let _ = writeln!(text, "    write(0x{at:08X}, 0x{word:X});");
+            }
+            Setup::Wait { at, bits, on } => {
+                let until = if on { bits } else { 0 };
+                let _ = writeln!(
+                    text,
+                    "    while read(0x{at:08X}) & 0x{bits:X} != 0x{until:X} {{}}"
+                );
             }
         }
     }

@@ -30,4 +30,10 @@ super::codes! {
     "Writing was begun and did not end with flash that holds the image: the line or the supply was interrupted, the boot loader rejected a command several times, or what was read back differs. Run the same command again: it keeps what is already there and writes the rest. The first page is erased first and written last, so a part that was left in between has no program and does not switch outputs. If it fails at the same address each time, the flash is worn out or smaller than the part says; if at different ones, choose a lower `--baud` and a shorter cable.",
     wrong: "",
     right: "";
+
+    UNCERTAIN_PIN = "W0850" "uncertain-pin" Warning None,
+    "a terminal of the program is at a pin that is not certain",
+    "The description of the board marks this pin as uncertain: it comes from one published source, or its polarity or range is not published, and boards of the same name are sold with other pins. Write the pins-only image first (`rungc boards BOARD --pins-only`), which reads inputs and switches one output at a time, and compare the terminals. `rungc boards BOARD --toml` writes the description, in which you correct the pin or remove `uncertain`.",
+    wrong: "",
+    right: "";
 }

@@ -1,0 +1,25 @@
+//! Arguments of `boards`.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `boards`.
+#[derive(Args, Debug)]
+pub struct BoardsArgs {
+    /// Name of a board, or a description (docs/src/boards.md), whose pins are shown. Default: all boards are listed.
+    #[arg(value_name = "BOARD")]
+    pub board: Option<PathBuf>,
+    /// Print the description itself, to be changed.
+    #[arg(long, requires = "board", conflicts_with = "pins_only")]
+    pub toml: bool,
+    /// Build an image that only reports inputs over a serial port and switches one output at a time when a key is sent
+    /// to it: to find out whether the pins are right.
+    #[arg(long, requires = "board", requires = "output")]
+    pub pins_only: bool,
+    /// Image to write.
+    #[arg(short, long, value_name = "FILE", requires = "pins_only")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing image.
+    #[arg(long, requires = "output")]
+    pub force: bool,
+}

@@ -1,0 +1,61 @@
+//! Descriptions of boards that come with rungc.
+
+use crate::board::{self, Board, BoardError};
+use rungc_syntax::Source;
+use std::path::Path;
+
+/// The description of a board, by a name that stands for its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Known {
+    /// The name.
+    pub name: &'static str,
+    /// The description, in TOML.
+    pub text: &'static str,
+}
+
+/// All of them.
+pub static ALL: [Known; 4] = [
+    Known {
+        name: "fx3u-f103vc",
+        text: include_str!("../boards/fx3u-f103vc.toml"),
+    },
+    Known {
+        name: "fx1n-10mt-f103rc",
+        text: include_str!("../boards/fx1n-10mt-f103rc.toml"),
+    },
+    Known {
+        name: "fx1n-14-f103rb",
+        text: include_str!("../boards/fx1n-14-f103rb.toml"),
+    },
+    Known {
+        name: "fx2n-10mr-f030c8",
+        text: include_str!("../boards/fx2n-10mr-f030c8.toml"),
+    },
+];
+
+impl Known {
+    /// Reads the description.
+    ///
+    /// # Errors
+    /// None, as the tests of this crate show.
+    pub fn board(&self) -> Result<Board, BoardError> {
+        let source = Source::new(format!("{}.toml", self.name), self.text.to_string());
+        board::parse(&source, Path::new(""))
+    }
+}
+
+/// The board of this name.
+pub fn find(name: &str) -> Option<&'static Known> {
+    ALL.iter().find(|known| known.name == name)
+}
+
+/// The board of this name, or the one that a file describes.
+///
+/// # Errors
+/// The file cannot be read, or its description is wrong.
+pub fn named_or_described(name: &Path) -> Result<Board, BoardError> {
+    match name.to_str().and_then(find) {
+        Some(known) => known.board(),
+        None => board::load(name),
+    }
+}

@@ -1,0 +1,20 @@
+/* What converters hold. */
+static const struct {
+    const char *name;
+    uint32_t at;
+} analog[] = {
+/* ROWS */};
+
+static void report_analog(void)
+{
+    for (size_t i = 0; i < sizeof analog / sizeof analog[0]; i++) {
+        char text[] = " 00000";
+        uint32_t count = REGISTER(analog[i].at) & 0xFFFFu;
+        for (size_t digit = 5; digit > 0u; digit--) {
+            text[digit] = (char)('0' + count % 10u);
+            count /= 10u;
+        }
+        print_state(analog[i].name, text);
+    }
+}
+
