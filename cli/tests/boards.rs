@@ -249,7 +249,8 @@ fn pins_of_images_from_c_are_those_of_the_table() {
 
 #[test]
 fn pins_of_images_from_rust_are_those_of_the_table() {
-    for board in &PUBLISHED {
+    // One for each processor.
+    for board in [&PUBLISHED[0], &PUBLISHED[3]] {
         if board.check("rust").is_none() {
             return;
         }

@@ -113,10 +113,6 @@ impl Setup {
     const fn set(at: u32, set: u32) -> Self {
         Setup::Change { at, clear: 0, set }
     }
-
-    const fn clear(at: u32, clear: u32) -> Self {
-        Setup::Change { at, clear, set: 0 }
-    }
 }
 
 #[derive(Deserialize)]

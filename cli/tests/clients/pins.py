@@ -1,6 +1,6 @@
 """Executes the image of a board with unicorn and a model of registers, and reports what its pins do.
 
-Arguments: the ELF file, the chip (stm32f1, stm32f0, rp2040), and a JSON object of requests:
+Arguments: the ELF file, the chip (stm32f1, stm32f0), and a JSON object of requests:
   inputs   groups of pins that are low; all other inputs are high. For each group, what the output pins do.
   keys     characters that come in before each group, if the image is one that only tries pins; then "said" is what it
            has sent in each group

@@ -11,15 +11,13 @@ pub enum Chip {
     Stm32f1,
     /// STM32F0, and parts with the same registers (RM0360 §8).
     Stm32f0,
-    /// RP2040 (its data sheet, §2.3.1 and §2.19).
-    Rp2040,
 }
 
 /// A pin of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pin {
     chip: Chip,
-    /// A is 0; always 0 on RP2040.
+    /// A is 0.
     port: u32,
     bit: u32,
 }
@@ -98,20 +96,14 @@ pub(super) struct Output {
 
 impl Chip {
     fn pin(self, name: &str) -> Option<Pin> {
-        let (port, digits, bits) = match self {
-            Chip::Rp2040 => (0, name.strip_prefix("GP")?, 30),
-            Chip::Stm32f0 | Chip::Stm32f1 => {
-                let letter = name.strip_prefix('P')?.chars().next()?;
-                let ports = if self == Chip::Stm32f1 {
-                    'A'..='G'
-                } else {
-                    'A'..='F'
-                };
-                let port = ports.into_iter().position(|port| port == letter)?;
-                (port as u32, name.get(2..)?, 16)
-            }
+        let letter = name.strip_prefix('P')?.chars().next()?;
+        let mut ports = match self {
+            Chip::Stm32f1 => 'A'..='G',
+            Chip::Stm32f0 => 'A'..='F',
         };
-        let bit: u32 = digits.parse().ok().filter(|bit| *bit < bits)?;
+        let port = ports.position(|port| port == letter)? as u32;
+        let digits = name.get(2..)?;
+        let bit: u32 = digits.parse().ok().filter(|bit| *bit < 16)?;
         let canonical = bit.to_string() == digits;
         canonical.then_some(Pin {
             chip: self,
@@ -119,32 +111,6 @@ impl Chip {
             bit,
         })
     }
-
-    /// What an example of a pin's name is.
-    fn example(self) -> &'static str {
-        match self {
-            Chip::Stm32f0 | Chip::Stm32f1 => "PB13",
-            Chip::Rp2040 => "GP13",
-        }
-    }
-}
-
-/// Registers of RP2040.
-mod rp2040 {
-    pub const RESETS: u32 = 0x4000_C000;
-    pub const RESET_DONE: u32 = 0x4000_C008;
-    pub const IO_BANK0: u32 = 0x4001_4000;
-    pub const PADS_BANK0: u32 = 0x4001_C000;
-    pub const GPIO_IN: u32 = 0xD000_0004;
-    pub const GPIO_OUT_SET: u32 = 0xD000_0014;
-    pub const GPIO_OUT_CLR: u32 = 0xD000_0018;
-    pub const GPIO_OE_SET: u32 = 0xD000_0024;
-    /// IO_BANK0 and PADS_BANK0 among the resets.
-    pub const PINS: u32 = 1 << 5 | 1 << 8;
-    /// The function of a pin that SIO drives.
-    pub const SIO: u32 = 5;
-    /// The function of a pin that nothing drives.
-    pub const NONE: u32 = 31;
 }
 
 impl Pin {
@@ -153,7 +119,6 @@ impl Pin {
         match self.chip {
             Chip::Stm32f1 => 0x4001_0800 + 0x400 * self.port,
             Chip::Stm32f0 => 0x4800_0000 + 0x400 * self.port,
-            Chip::Rp2040 => 0,
         }
     }
 
@@ -161,7 +126,6 @@ impl Pin {
         let at = match self.chip {
             Chip::Stm32f1 => self.base() + 0x08,
             Chip::Stm32f0 => self.base() + 0x10,
-            Chip::Rp2040 => rp2040::GPIO_IN,
         };
         InputPin {
             at,
@@ -173,12 +137,11 @@ impl Pin {
     /// The words that drive it high and low.
     fn levels(self) -> [(u32, u32); 2] {
         let bit = 1 << self.bit;
-        let set_reset = |at| [(at, bit), (at, bit << 16)];
-        match self.chip {
-            Chip::Stm32f1 => set_reset(self.base() + 0x10),
-            Chip::Stm32f0 => set_reset(self.base() + 0x18),
-            Chip::Rp2040 => [(rp2040::GPIO_OUT_SET, bit), (rp2040::GPIO_OUT_CLR, bit)],
-        }
+        let at = match self.chip {
+            Chip::Stm32f1 => self.base() + 0x10,
+            Chip::Stm32f0 => self.base() + 0x18,
+        };
+        [(at, bit), (at, bit << 16)]
     }
 
     fn output(self, inverted: bool) -> OutputPin {
@@ -196,7 +159,6 @@ impl Pin {
             Chip::Stm32f1 => Setup::set(0x4002_1018, 1 << (2 + self.port)),
             // RCC_AHBENR: IOPAEN and following.
             Chip::Stm32f0 => Setup::set(0x4002_1014, 1 << (17 + self.port)),
-            Chip::Rp2040 => Setup::clear(rp2040::RESETS, rp2040::PINS),
         }
     }
 
@@ -210,7 +172,6 @@ impl Pin {
         match self.chip {
             Chip::Stm32f1 => self.set_up_f1(mode, &mut steps),
             Chip::Stm32f0 => self.set_up_f0(mode, &mut steps),
-            Chip::Rp2040 => self.set_up_rp2040(mode, &mut steps),
         }
         steps
     }
@@ -266,33 +227,6 @@ impl Pin {
         };
         steps.push(two(self.base(), kind));
     }
-
-    /// The pad (input enable, pulls), then who drives it.
-    fn set_up_rp2040(self, mode: Mode, steps: &mut Vec<Setup>) {
-        let pad = match mode {
-            Mode::Input(Some(Pull::Up)) => 1 << 6 | 1 << 3,
-            Mode::Input(Some(Pull::Down)) => 1 << 6 | 1 << 2,
-            Mode::Analog => 0,
-            _ => 1 << 6,
-        };
-        steps.push(Setup::Change {
-            at: rp2040::PADS_BANK0 + 4 + 4 * self.bit,
-            clear: 1 << 7 | 1 << 6 | 1 << 3 | 1 << 2,
-            set: pad,
-        });
-        if let Mode::Output(_) = mode {
-            let at = rp2040::GPIO_OE_SET;
-            let word = 1 << self.bit;
-            steps.push(Setup::Write { at, word });
-        }
-        let word = match mode {
-            Mode::Input(_) | Mode::Output(_) => rp2040::SIO,
-            Mode::Sends(function) | Mode::Receives(function) => function,
-            Mode::Analog => rp2040::NONE,
-        };
-        let at = rp2040::IO_BANK0 + 4 + 8 * self.bit;
-        steps.push(Setup::Write { at, word });
-    }
 }
 
 impl Wiring {
@@ -304,10 +238,6 @@ impl Wiring {
             if !steps.contains(&clock) {
                 steps.push(clock);
             }
-        }
-        if self.chip == Some(Chip::Rp2040) && !steps.is_empty() {
-            let (at, bits) = (rp2040::RESET_DONE, rp2040::PINS);
-            steps.push(Setup::Wait { at, bits, on: true });
         }
         steps.extend(self.uses.iter().flat_map(|(pin, mode)| pin.set_up(*mode)));
         steps
@@ -330,10 +260,7 @@ impl Reader<'_> {
             return Err(self.wrong(place, what.to_string()));
         };
         let Some(pin) = chip.pin(name) else {
-            let what = format!(
-                "`{name}` is not a pin: write for example {}",
-                chip.example()
-            );
+            let what = format!("`{name}` is not a pin: write for example PB13");
             return Err(self.wrong(place, what));
         };
         if wiring.uses.iter().any(|(other, _)| *other == pin) {

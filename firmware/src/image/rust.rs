@@ -155,14 +155,7 @@ fn main(image: &Image) -> String {
                 ", InputEdge"
             },
         )
-        .replace(
-            "/* USE PROGRAM */",
-            if board.console || board.control.is_there() || image.supply().is_some() {
-                "use rungc_rt::Program;\n"
-            } else {
-                ""
-            },
-        )
+        .replace("/* USE PROGRAM */", &traits(image))
         .replace("/* HZ */", &board.clock_hz.to_string())
         .replace("/* TICK */", &board.tick_us.to_string())
         .replace("/* SCAN */", &board.scan_us.to_string())
@@ -196,6 +189,20 @@ fn main(image: &Image) -> String {
         env!("CARGO_PKG_VERSION"),
         comment(&image.module.source_name),
     )
+}
+
+/// The traits of the program that the main loop needs.
+fn traits(image: &Image) -> String {
+    let board = image.board;
+    let mut text = String::new();
+    let supply = image.supply().is_some();
+    if board.control.run.is_some() || supply {
+        text.push_str("use rungc_rt::Plc;\n");
+    }
+    if board.console || board.control.is_there() || supply {
+        text.push_str("use rungc_rt::Program;\n");
+    }
+    text
 }
 
 /// What the image takes from the runtime for its serial ports.

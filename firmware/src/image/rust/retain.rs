@@ -36,14 +36,10 @@ fn name(memory: RetainMemory) -> &'static str {
 
 /// What the image uses for it.
 pub(super) fn uses(image: &Image) -> String {
-    let mut text = image.retain().map_or(String::new(), |retain| {
+    image.retain().map_or(String::new(), |retain| {
         let name = name(retain.memory);
         format!("use rungc_rt::retain::{{{name}, Registers, Slots}};\n")
-    });
-    if image.supply().is_some() {
-        text.push_str("use rungc_rt::Plc;\n");
-    }
-    text
+    })
 }
 
 /// What the image has of it, in front of `main`.
