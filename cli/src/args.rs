@@ -116,8 +116,8 @@ pub enum Command {
     Boards(BoardsArgs),
     /// Write an image into a microcontroller, over the boot loader in its ROM (STM32, AN3155) or with probe-rs.
     ///
-    /// Says what is erased, and asks. Exit codes: 0: the image is there, read back and compared; 1: the boot loader, the
-    /// part or the line does not allow it (E0850 and following); 2: incorrect usage or unreadable image; 130:
+    /// Says what is erased, and asks. Exit codes: 0: the image is there, read back and compared; 1: the boot loader,
+    /// the part or the line does not allow it (E0850 and following); 2: incorrect usage or unreadable image; 130:
     /// interrupted.
     Flash(FlashArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.

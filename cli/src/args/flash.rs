@@ -12,15 +12,15 @@ pub struct FlashArgs {
     /// Image to write: an ELF file of `rungc build --emit elf`, or bytes as they are in flash.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The serial port that the boot loader's UART is connected to (`/dev/ttyUSB0`, `COM3`), or a serial device server
-    /// (`tcp:HOST:PORT`). The line has 8 data bits and even parity.
+    /// The serial port that the boot loader's UART is connected to (`/dev/ttyUSB0`, `COM3`), or a serial device
+    /// server (`tcp:HOST:PORT`). The line has 8 data bits and even parity.
     #[arg(long, value_parser = serial_end, value_name = "PORT")]
     pub port: Option<LineEnd>,
     /// Use a debug probe through probe-rs, which must be installed, for this part: `STM32F103VC`.
     #[arg(long, value_name = "CHIP")]
     pub probe: Option<String>,
     /// Bit rate; the boot loader measures it.
-    #[arg(long, default_value_t = 115_200, value_parser = clap::value_parser!(u32).range(1200..=230_400), value_name = "BITS_PER_SECOND")]
+    #[arg(long, default_value_t = 115_200, value_parser = bit_rate, value_name = "BITS_PER_SECOND")]
     pub baud: u32,
     /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
@@ -43,6 +43,15 @@ pub struct FlashArgs {
     /// Start the program afterwards. Its outputs switch at once.
     #[arg(long)]
     pub start: bool,
+}
+
+/// A bit rate that boot loaders can measure.
+fn bit_rate(text: &str) -> Result<u32, String> {
+    let rate = text
+        .parse()
+        .ok()
+        .filter(|rate| (1200..=230_400).contains(rate));
+    rate.ok_or_else(|| "a bit rate is from 1200 to 230400".to_string())
 }
 
 /// A number as the maps of memory write it.

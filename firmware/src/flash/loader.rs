@@ -10,7 +10,7 @@ const NACK: u8 = 0x1F;
 /// What a boot loader measures the bit rate with.
 const SYNC: u8 = 0x7F;
 
-/// A byte that is no part of any valid command, address or list of pages, however often it is sent.
+/// A byte that is not part of any valid command, address or list of pages, however often it is sent.
 const FILLER: u8 = 0xFF;
 
 /// Bytes that one command reads or writes.

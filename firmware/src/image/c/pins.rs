@@ -12,7 +12,7 @@ const PINS: &str = include_str!("../../../templates/pins.c");
 const ANALOG: &str = include_str!("../../../templates/pins_analog.c");
 const MAKEFILE: &str = include_str!("../../../templates/pins.mk");
 
-/// What begins a line, sends and receives, by registers: where there is room while the bits of `ROOM` are `SPACE`, and a
+/// What begins a line, sends and receives, by registers: there is room while the bits of `ROOM` are `SPACE`, and a
 /// character while those of `COME` are `THERE`.
 const UART: &str = "static void begin(void)
 {
