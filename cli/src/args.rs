@@ -311,6 +311,9 @@ pub struct Plan {
     /// all of them in one word (docs/src/lanes.md).
     #[arg(long, value_name = "N", value_parser = ["64"])]
     pub lanes: Option<String>,
+    /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (docs/src/builds.md).
+    #[arg(long)]
+    pub misra: bool,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,

@@ -74,7 +74,7 @@ enum {
 /* Power on: in RUN, before the first scan. */
 static inline void plc_power_on(plc_sys *sys)
 {
-    memset(sys, 0, sizeof *sys);
+    (void)memset(sys, 0, sizeof *sys);
     sys->first_scan = true;
     sys->running = true;
     sys->scan = 1;
@@ -83,7 +83,7 @@ static inline void plc_power_on(plc_sys *sys)
 /* A scan begins, in RUN or in STOP. */
 static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_us)
 {
-    sys->dt_ms = sys->first_scan ? 0u : now_ms - sys->now_ms;
+    sys->dt_ms = sys->first_scan ? 0u : (now_ms - sys->now_ms);
     sys->now_ms = now_ms;
     sys->scan_us = scan_us;
     sys->scan = (uint16_t)(sys->scan + 2u);
@@ -92,7 +92,7 @@ static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_u
 /* Clears the bytes of a struct from offset `from` up to offset `to`. */
 static inline void plc_clear(void *plc, size_t from, size_t to)
 {
-    memset((unsigned char *)plc + from, 0, to - from);
+    (void)memset((unsigned char *)plc + from, 0, to - from);
 }
 
 /* ---- Runs of devices ------------------------------------------------------------------------------------------------ */
@@ -100,13 +100,13 @@ static inline void plc_clear(void *plc, size_t from, size_t to)
 /* Copies bits, as if all were read before one is written. */
 static inline void plc_copy_bits(bool *to, const bool *from, size_t count)
 {
-    memmove(to, from, count * sizeof *to);
+    (void)memmove(to, from, count * sizeof *to);
 }
 
 /* Copies words likewise. */
 static inline void plc_copy_words(int16_t *to, const int16_t *from, size_t count)
 {
-    memmove(to, from, count * sizeof *to);
+    (void)memmove(to, from, count * sizeof *to);
 }
 
 /* Switches bits on or off. */
@@ -155,13 +155,13 @@ static inline bool plc_take(bool *memory)
 static inline int16_t plc_int16(uint32_t bits)
 {
     const uint16_t low = (uint16_t)(bits & 0xFFFFu);
-    return (int16_t)((low <= INT16_MAX) ? (int32_t)low : (int32_t)low - INT32_C(0x10000));
+    return (int16_t)((low <= 0x7FFFu) ? (int32_t)low : ((int32_t)low - INT32_C(0x10000)));
 }
 
 /* The bits as a signed number. */
 static inline int32_t plc_int32(uint32_t bits)
 {
-    return (bits <= INT32_MAX) ? (int32_t)bits : (int32_t)(bits - UINT32_C(0x80000000)) + INT32_MIN;
+    return (bits <= 0x7FFFFFFFu) ? (int32_t)bits : ((int32_t)(bits - 0x80000000u) + INT32_MIN);
 }
 
 /* Low word of 32 bits. */
@@ -193,7 +193,7 @@ static inline void plc_split(int16_t *high, int16_t *low, int32_t value)
 static inline float plc_float(int32_t bits)
 {
     float value;
-    memcpy(&value, &bits, sizeof value);
+    (void)memcpy(&value, &bits, sizeof value);
     return value;
 }
 
@@ -201,7 +201,7 @@ static inline float plc_float(int32_t bits)
 static inline int32_t plc_float_bits(float value)
 {
     int32_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    (void)memcpy(&bits, &value, sizeof bits);
     return bits;
 }
 
@@ -300,19 +300,20 @@ static inline int32_t plc_mul32(int32_t a, int32_t b)
 /* High half of the 64-bit product. */
 static inline int32_t plc_mul_high32(int32_t a, int32_t b)
 {
-    return plc_int32((uint32_t)(((uint64_t)((int64_t)a * b)) >> 32));
+    const int64_t product = (int64_t)a * b;
+    return plc_int32((uint32_t)((uint64_t)product >> 32));
 }
 
 /* Truncates towards zero; b is not 0. */
 static inline int32_t plc_div32(int32_t a, int32_t b)
 {
-    return (b == -1) ? plc_sub32(0, a) : a / b;
+    return (b == -1) ? plc_sub32(0, a) : (a / b);
 }
 
 /* Has the sign of a; b is not 0. */
 static inline int32_t plc_rem32(int32_t a, int32_t b)
 {
-    return (b == -1) ? 0 : a % b;
+    return (b == -1) ? 0 : (a % b);
 }
 
 /* Sum and difference held at the ends of the range. */
@@ -331,24 +332,24 @@ static inline int16_t plc_sat_sub16(int16_t a, int16_t b)
 static inline int32_t plc_sat_add32(int32_t a, int32_t b)
 {
     if (b >= 0) {
-        return (a > INT32_MAX - b) ? INT32_MAX : a + b;
+        return (a > (INT32_MAX - b)) ? INT32_MAX : (a + b);
     }
-    return (a < INT32_MIN - b) ? INT32_MIN : a + b;
+    return (a < (INT32_MIN - b)) ? INT32_MIN : (a + b);
 }
 
 static inline int32_t plc_sat_sub32(int32_t a, int32_t b)
 {
     if (b >= 0) {
-        return (a < INT32_MIN + b) ? INT32_MIN : a - b;
+        return (a < (INT32_MIN + b)) ? INT32_MIN : (a - b);
     }
-    return (a > INT32_MAX + b) ? INT32_MAX : a - b;
+    return (a > (INT32_MAX + b)) ? INT32_MAX : (a - b);
 }
 
 /* The bits of a word or a pair, those that leave at the high end entering at the low end. */
 static inline int16_t plc_rotate16(int16_t value, int16_t places)
 {
     const uint32_t bits = (uint16_t)value;
-    const unsigned n = (uint16_t)places & 15u;
+    const unsigned n = (unsigned)places & 15u;
     return plc_int16((bits << n) | (bits >> (16u - n)));
 }
 
@@ -408,7 +409,7 @@ static inline int32_t plc_from_bcd32(int32_t digits)
 {
     uint32_t value = 0;
     for (unsigned shift = 32; shift > 0u; shift -= 4u) {
-        value = value * 10u + (((uint32_t)digits >> (shift - 4u)) & 15u);
+        value = (value * 10u) + (((uint32_t)digits >> (shift - 4u)) & 15u);
     }
     return plc_int32(value);
 }
@@ -436,7 +437,7 @@ static inline int32_t plc_root(int32_t value)
     uint32_t rest = (value > 0) ? (uint32_t)value : 0u;
     uint32_t root = 0;
     for (uint32_t bit = UINT32_C(1) << 30; bit != 0u; bit >>= 2) {
-        if (rest >= root + bit) {
+        if (rest >= (root + bit)) {
             rest -= root + bit;
             root = (root >> 1) + bit;
         } else {
@@ -491,10 +492,10 @@ static inline float plc_square_root(float value)
     }
     /* The value is mantissa * 2^(exponent - 150); made a square of 25 bits times an even power of 2. */
     const bool even = ((uint32_t)exponent & 1u) == 0u;
-    uint64_t rest = (uint64_t)mantissa << (even ? 26 : 25);
+    uint64_t rest = (uint64_t)mantissa << (even ? 26u : 25u);
     uint64_t root = 0;
     for (uint64_t bit = UINT64_C(1) << 48; bit != 0u; bit >>= 2) {
-        if (rest >= root + bit) {
+        if (rest >= (root + bit)) {
             rest -= root + bit;
             root = (root >> 1) + bit;
         } else {
@@ -503,7 +504,7 @@ static inline float plc_square_root(float value)
     }
     /* The lowest bit rounds. A root of 2^24 counts as the next power of 2. */
     const uint32_t rounded = (uint32_t)((root + 1u) >> 1);
-    const uint32_t power = (uint32_t)(exponent + (even ? 126 : 127)) / 2u;
+    const uint32_t power = ((uint32_t)exponent + (even ? 126u : 127u)) / 2u;
     return plc_float(plc_int32((power << 23) + (rounded - 0x00800000u)));
 }
 
@@ -517,17 +518,17 @@ static inline float plc_to_float(int32_t value)
    to 64 takes two kilobytes of flash on a microcontroller. */
 static inline int32_t plc_truncate(float value)
 {
-    if (value >= -2147483648.0f && value < 2147483648.0f) {
+    if ((value >= -2147483648.0f) && (value < 2147483648.0f)) {
         return (int32_t)value;
     }
     const uint32_t bits = (uint32_t)plc_float_bits(value);
-    const uint32_t exponent = bits >> 23 & 0xFFu;
+    const uint32_t exponent = (bits >> 23) & 0xFFu;
     const uint32_t digits = (bits & 0x7FFFFFu) | 0x800000u;
     if (exponent >= 190u) {
         return (value > 0.0f) ? -1 : 0;
     }
     const uint32_t low = (exponent < 182u) ? digits << (exponent - 150u) : 0u;
-    return plc_int32((value < 0.0f) ? 0u - low : low);
+    return plc_int32((value < 0.0f) ? (0u - low) : low);
 }
 
 /* A result as it is stored: the largest float of its sign where it is too large, the smallest normal one where it is too small but not
@@ -539,7 +540,7 @@ static inline float plc_stored(float rounded, bool is_zero)
     if (size >= 0x7F800000u) {
         return plc_float(plc_int32((bits & 0x80000000u) | 0x7F7FFFFFu));
     }
-    if (size < 0x00800000u && !is_zero) {
+    if ((size < 0x00800000u) && !is_zero) {
         return plc_float(plc_int32((bits & 0x80000000u) | 0x00800000u));
     }
     return rounded;
@@ -560,7 +561,7 @@ static inline float plc_float_sub(float a, float b)
 
 static inline float plc_float_mul(float a, float b)
 {
-    return plc_stored(a * b, a == 0.0f || b == 0.0f);
+    return plc_stored(a * b, (a == 0.0f) || (b == 0.0f));
 }
 
 /* b is not 0. */
@@ -605,7 +606,7 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
         if ((options & PLC_RETENTIVE) != 0u) {
             timer->coil = 0;
         } else {
-            memset(timer, 0, sizeof *timer);
+            (void)memset(timer, 0, sizeof *timer);
         }
         return;
     }
@@ -613,13 +614,13 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     const bool once_a_scan = (options & (PLC_FREE_RUNNING | PLC_SHARED)) != 0u;
     const bool was_on = timer->coil != 0u;
     uint32_t elapsed = 0;
-    if (was_on && !(once_a_scan && timer->coil == sys->scan)) {
+    if (was_on && !(once_a_scan && (timer->coil == sys->scan))) {
         elapsed = sys->dt_ms;
     }
-    if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
+    if (((options & PLC_STEPWISE) != 0u) && (elapsed > unit_ms)) {
         elapsed = unit_ms;
     }
-    if ((options & PLC_LATCHES_PRESET) != 0u && was_on) {
+    if (((options & PLC_LATCHES_PRESET) != 0u) && was_on) {
         preset = timer->preset;
     }
     if ((options & (PLC_LATCHES_PRESET | PLC_FREE_RUNNING)) != 0u) {
@@ -639,7 +640,7 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
             }
         }
         timer->part_ms = (uint8_t)part;
-        timer->done = timer->done || timer->value >= preset;
+        timer->done = timer->done || (timer->value >= preset);
     }
 }
 
@@ -709,10 +710,12 @@ static inline void plc_count32_once(plc_counter32 *counter, bool down, int32_t p
 {
     const int32_t before = counter->value;
     counter->value = plc_add32(before, down ? -1 : 1);
-    if (!down && counter->value == preset) {
+    if (!down && (counter->value == preset)) {
         counter->done = true;
-    } else if (down && before == preset) {
+    } else if (down && (before == preset)) {
         counter->done = false;
+    } else {
+        /* the contact stays as it is */
     }
 }
 

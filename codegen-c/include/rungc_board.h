@@ -38,7 +38,7 @@ static inline bool rungc_note_edge(rungc_edges *edges, uint16_t input, bool on)
         edges->lost = (uint16_t)(edges->lost + 1u);
         return false;
     }
-    edges->slots[end] = (uint16_t)((unsigned)input << 1 | (on ? 1u : 0u));
+    edges->slots[end] = (uint16_t)(((unsigned)input << 1) | (on ? 1u : 0u));
     edges->end = next;
     return true;
 }
@@ -82,11 +82,11 @@ static inline bool rungc_note_character(rungc_characters *characters, uint32_t n
         characters->lost = true;
         return false;
     }
-    if (characters->lost && fault == RUNGC_CHAR_FAULT_NONE) {
+    if (characters->lost && (fault == RUNGC_CHAR_FAULT_NONE)) {
         fault = RUNGC_CHAR_FAULT_OVERRUN;
     }
     characters->lost = false;
-    characters->slots[end] = now_us << 11 | (uint32_t)fault << 8 | byte;
+    characters->slots[end] = (now_us << 11) | ((uint32_t)fault << 8) | byte;
     characters->end = next;
     return true;
 }

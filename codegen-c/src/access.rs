@@ -40,7 +40,7 @@ bool NAME_write_named(NAME_plc *plc, const char *name, int32_t value);
 
 /// What follows the table in its source.
 const SOURCE: &str = "\
-#define AREAS (sizeof areas / sizeof areas[0])
+#define AREAS (sizeof(areas) / sizeof(areas[0]))
 
 bool NAME_read(const NAME_plc *plc, plc_class device, uint32_t number, int32_t *value)
 {

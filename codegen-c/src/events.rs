@@ -25,7 +25,7 @@ pub fn clear_cells(module: &Module) -> String {
     let cells = cells.map(|cell| format!("    plc->{} = 0;\n", cell.name));
     let tables = module.tables.iter().map(|table| {
         let name = &table.name;
-        format!("    memset(plc->{name}, 0, sizeof plc->{name});\n")
+        format!("    (void)memset(plc->{name}, 0, sizeof plc->{name});\n")
     });
     cells.chain(tables).collect()
 }

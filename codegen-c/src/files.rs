@@ -84,6 +84,9 @@ impl Part {
             files.push(OutFile::new("main.c", main));
             recipe.sources.push("main.c".to_string());
         }
+        if options.misra {
+            files.push(OutFile::new("misra.txt", include("misra.txt")));
+        }
         Part { files, recipe }
     }
 

@@ -299,6 +299,8 @@ fn prototypes(out: &mut String, name: &str) {
          bool {name}_output(const {name}_plc *plc, unsigned terminal);\n\n\
          /* The last operation error and what stopped the PLC, since RUN began. */\n\
          plc_error {name}_error(const {name}_plc *plc);\n\n\
+         /* Whether the PLC is in RUN; what else than the switch has put it in STOP is in `{name}_error`. */\n\
+         bool {name}_running(const {name}_plc *plc);\n\n\
          /* The RUN/STOP switch. STOP clears what is not latched. */\n\
          void {name}_set_running({name}_plc *plc, bool running);\n\n\
          /* Power off and on: only latched devices keep their values; then RUN. */\n\

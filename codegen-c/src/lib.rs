@@ -69,6 +69,8 @@ pub struct Options {
     /// Also `NAME_lanes.h` and its functions, which run [`lanes::LANES`] instances at once, of a program that
     /// [`lanes::refusal`] has nothing against.
     pub lanes: bool,
+    /// Also `misra.txt`, the deviations from MISRA C:2012 with their reasons, as suppressions for cppcheck.
+    pub misra: bool,
 }
 
 /// The headers that programs share, and the templates: `include/`, packed by the build script. `rungc_rt.h`, the header

@@ -315,7 +315,7 @@ impl Printer<'_> {
                             format!("        {array} = 0;\n")
                         }
                         Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
-                            format!("        memset(&{array}, 0, sizeof {array});\n")
+                            format!("        (void)memset(&{array}, 0, sizeof {array});\n")
                         }
                     };
                     if let Some(is_kept) = field.column_is_kept("n", "u") {
@@ -329,7 +329,7 @@ impl Printer<'_> {
                 }
                 let _ = writeln!(
                     out,
-                    "    memset(&{array}[{}], 0, {} * sizeof {array}[0]);",
+                    "    (void)memset(&{array}[{}], 0, {}u * sizeof {array}[0]);",
                     run.first - field.first,
                     run.count
                 );
@@ -365,15 +365,15 @@ impl Printer<'_> {
         }
         let mut states = String::new();
         if module.states > 0 {
-            states.push_str("    memset(plc->state, 0, sizeof plc->state);\n");
+            states.push_str("    (void)memset(plc->state, 0, sizeof plc->state);\n");
         }
         if module.sends_pulses() {
-            states.push_str("    memset(plc->axis, 0, sizeof plc->axis);\n");
+            states.push_str("    (void)memset(plc->axis, 0, sizeof plc->axis);\n");
         }
         for number in &module.ports {
             let _ = writeln!(
                 states,
-                "    memset(plc->com{number}, 0, sizeof plc->com{number});"
+                "    (void)memset(plc->com{number}, 0, sizeof plc->com{number});"
             );
         }
         let cells = events::clear_cells(module);
@@ -385,7 +385,7 @@ impl Printer<'_> {
         };
         let _ = write!(
             out,
-            "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n{first}    {name}_power_cycle(plc);\n}}\n\n\
+            "void {name}_init({name}_plc *plc)\n{{\n    (void)memset(plc, 0, sizeof *plc);\n{first}    {name}_power_cycle(plc);\n}}\n\n\
              void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}{steps}    \
              plc_power_on(&plc->sys);\n{forget}}}\n\n",
             self.lost_latches(),
@@ -476,7 +476,8 @@ impl Printer<'_> {
         };
         let _ = write!(
             out,
-            "plc_error {name}_error(const {name}_plc *plc)\n{{\n{body}}}\n\n"
+            "plc_error {name}_error(const {name}_plc *plc)\n{{\n{body}}}\n\n\
+             bool {name}_running(const {name}_plc *plc)\n{{\n    return plc->sys.running;\n}}\n\n"
         );
     }
 
@@ -486,18 +487,18 @@ impl Printer<'_> {
         let name = self.name();
         let mut body = String::new();
         if self.module.edges > 0 {
-            body.push_str("    memset(plc->edge, 0, sizeof plc->edge);\n");
+            body.push_str("    (void)memset(plc->edge, 0, sizeof plc->edge);\n");
         }
         body.push_str(&events::forget(self.module));
         if self.module.run_states > 0 {
             let _ = writeln!(
                 body,
-                "    memset(plc->state, 0, {} * sizeof plc->state[0]);",
+                "    (void)memset(plc->state, 0, {}u * sizeof plc->state[0]);",
                 self.module.run_states
             );
         }
         if self.module.may_fail() {
-            body.push_str("    memset(&plc->error, 0, sizeof plc->error);\n");
+            body.push_str("    (void)memset(&plc->error, 0, sizeof plc->error);\n");
         }
         self.each_timer_and_counter(&mut body, ["coil = 0", "coil = false"]);
         if !body.is_empty() {

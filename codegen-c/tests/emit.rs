@@ -75,6 +75,26 @@ fn motor_runs() {
 }
 
 #[test]
+fn instances_are_independent_and_show_whether_they_run() {
+    let main = r#"
+        static motor_plc plc[2];
+        for (int i = 0; i < 2; i++) {
+            motor_init(&plc[i]);
+        }
+        plc[0].X0 = true;
+        motor_set_running(&plc[1], false);
+        for (int i = 0; i < 2; i++) {
+            motor_scan(&plc[i], 0, 0);
+        }
+        for (int i = 0; i < 2; i++) {
+            const plc_error error = motor_error(&plc[i]);
+            printf("%d %d %d %d\n", motor_running(&plc[i]), plc[i].M0, error.code, error.stop);
+        }
+    "#;
+    assert_eq!(run_c(&motor(), main), "1 1 0 0\n0 0 0 0\n");
+}
+
+#[test]
 fn very_many_timer_coils_share_the_code_of_timers() {
     let mut b = Builder::new("many");
     for coil in 0..1001 {

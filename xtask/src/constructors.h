@@ -122,7 +122,7 @@ static inline rungc_operand rungc_ER(int32_t number)
 static inline rungc_site rungc_at(uint32_t step)
 {
     rungc_site site;
-    memset(&site, 0, sizeof site);
+    (void)memset(&site, 0, sizeof site);
     site.step = step;
     site.drive = true;
     return site;

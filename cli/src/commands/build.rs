@@ -229,6 +229,9 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
             "--lanes does not apply to the sources of an image; emit the program without --board",
         ),
+        _ if args.misra && (args.board.is_some() || !emit.has_headers() || emit == Emit::Lib) => {
+            wrong("--misra only applies to emitted C without --board (docs/src/builds.md)")
+        }
         _ if args.servers && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_SERVERS),
         Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
         Emit::Bin if target.is_bare() => {
@@ -425,6 +428,7 @@ impl Job<'_> {
             access: self.plan.device_access,
             retain: self.plan.retain,
             lanes: self.plan.lanes.is_some(),
+            misra: self.plan.misra,
             ..sources::Options::default()
         }
     }

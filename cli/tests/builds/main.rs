@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod misra;
 mod packages;
 #[path = "../tools/mod.rs"]
 mod tools;
