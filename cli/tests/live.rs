@@ -69,7 +69,7 @@ impl Page {
         Page {
             child,
             url,
-            errors: errors,
+            errors,
             _folder: folder,
         }
     }

@@ -146,8 +146,8 @@ impl Nets {
                 self.used[start + placed.span] = true;
             }
         }
-        for (row, folded) in folded.iter().enumerate().take(grid.rows) {
-            if !folded {
+        for (row, is_folded) in folded.into_iter().enumerate() {
+            if !is_folded {
                 self.join((0, 0), (row, 0));
             }
             for column in (0..grid.columns).filter(|&column| grid.wire(row, column)) {

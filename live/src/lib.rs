@@ -1,8 +1,8 @@
 //! A page that shows a program while it runs, and its controls.
 //!
-//! [`page`] makes the page of a program and its [`Scene`], which says where power flows in the ladder. [`Server`] serves
-//! the page to this machine alone, takes its [`Command`]s, and shows a [`Frame`] whenever the run has one. What a command
-//! does is a matter of the run (`rungc serve --page`). Start reading at [`Scene`].
+//! [`page`] makes the page of a program and its [`Scene`], which says where power flows in the ladder. [`Server`]
+//! serves the page to this machine alone, takes its [`Command`]s, and shows a [`Frame`] whenever the run has one. What
+//! a command does is a matter of the run (`rungc serve --page`). Start reading at [`Scene`].
 
 mod command;
 mod frame;

@@ -59,8 +59,8 @@ pub struct ServeArgs {
 /// The page of `run` and `serve`.
 #[derive(Args, Clone, Default, Debug)]
 pub struct PageArgs {
-    /// Serve a page that shows the ladder live and controls the run, at this port of this machine alone; default: a free
-    /// one. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
+    /// Serve a page that shows the ladder live and controls the run, at this port of this machine alone; default: a
+    /// free one. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
     #[arg(long, value_parser = address, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "0")]
     pub page: Option<SocketAddr>,
     /// The page shows the run, and takes no commands.

@@ -29,7 +29,7 @@ use crate::args::RunArgs;
 use crate::report::Reporter;
 use live::Live;
 use rungc_analysis::check::devices::{self, Holds, Use};
-use rungc_frontend::image;
+use rungc_frontend::{Read, image};
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
@@ -82,9 +82,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             "--scan: a scan takes at least 1 ms".to_string(),
         ));
     }
-    let settings = args.set.iter().map(|text| setting(text));
-    let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-    order::by_key(&mut settings, |s| s.at_ms);
+    let settings = settings(args)?;
     let watched = args.watch.iter().map(|name| target(name));
     let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
     let over = args.over.as_deref().map(target).transpose()?;
@@ -101,13 +99,9 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     };
     let used = settings.iter().map(|s| s.target);
     let used = used.chain(watched.clone()).chain(over);
-    let used = used.flat_map(observed);
-    let wired = described.iter().flat_map(Description::terminals);
-    let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
-    let sampled = registers.map(|register| (DeviceClass::D, register.number()));
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
-        observe: used.chain(wired).chain(sampled).collect(),
+        observe: kept(args, used, described.as_ref()),
         ..args.serve.opened(subject.options())
     };
     let compiled = compile(&read.program, &options);
@@ -122,10 +116,10 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     };
     reporter.add(&findings)?;
     reporter.finish()?;
-    let shown = if watched.is_empty() && table == Table::Usual {
-        default_watch(&read.program, &module, &settings, described.as_ref())
-    } else {
-        watched.clone()
+    let usual = || default_watch(&read.program, &module, &settings, described.as_ref());
+    let shown = match watched.is_empty() && table == Table::Usual {
+        true => usual(),
+        false => watched.clone(),
     };
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
@@ -135,23 +129,10 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
-    let live = match args.serve.page.page {
-        Some(address) => {
-            let watched = match watched.is_empty() {
-                true => default_watch(&read.program, &module, &settings, described.as_ref()),
-                false => watched.clone(),
-            };
-            let title = title(subject, &read);
-            let page = live::Page {
-                title: &title,
-                address,
-                read_only: args.serve.page.read_only,
-                watched,
-            };
-            Some(Live::open(page, &read.program, module.model)?)
-        }
-        None => None,
-    };
+    let live = match watched.is_empty() {
+        true => page(args, subject, &read, &module, usual),
+        false => page(args, subject, &read, &module, || watched.clone()),
+    }?;
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
@@ -168,6 +149,50 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         connections,
     };
     run.simulate(plant, live)
+}
+
+/// What is set, in the order of the times.
+fn settings(args: &RunArgs) -> std::result::Result<Vec<Setting>, Failure> {
+    let settings = args.set.iter().map(|text| setting(text));
+    let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
+    order::by_key(&mut settings, |s| s.at_ms);
+    Ok(settings)
+}
+
+/// The devices that are kept though the program may not use them: those that are set, watched or drawn, the terminals
+/// of the simulated machine, and what `--scope` samples.
+fn kept(
+    args: &RunArgs,
+    used: impl Iterator<Item = Target>,
+    described: Option<&Description>,
+) -> Vec<(DeviceClass, u32)> {
+    let wired = described.into_iter().flat_map(Description::terminals);
+    let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
+    let sampled = registers.map(|register| (DeviceClass::D, register.number()));
+    used.flat_map(observed)
+        .chain(wired)
+        .chain(sampled)
+        .collect()
+}
+
+/// The page that the arguments ask for, whose watch list holds these at first.
+fn page(
+    args: &RunArgs,
+    subject: &Subject,
+    read: &Read,
+    module: &Module,
+    watched: impl FnOnce() -> Vec<Target>,
+) -> std::result::Result<Option<Live>, Failure> {
+    let Some(address) = args.serve.page.page else {
+        return Ok(None);
+    };
+    let page = live::Page {
+        title: &title(subject, read),
+        address,
+        read_only: args.serve.page.read_only,
+        watched: watched(),
+    };
+    Live::open(page, &read.program, module.model).map(Some)
 }
 
 /// The simulated machine, which drives none of the inputs that are set.

@@ -1,5 +1,5 @@
-//! Pages in headless Chromium, driven by playwright and checked for accessibility by axe. `RUNGC_BROWSER` names a folder
-//! with playwright-core and axe-core; Chromium is Debian's. Without them the tests say so and do not run.
+//! Pages in headless Chromium, driven by playwright and checked for accessibility by axe. `RUNGC_BROWSER` names a
+//! folder with playwright-core and axe-core; Chromium is Debian's. Without them the tests say so and do not run.
 
 use super::text;
 use serde_json::Value;
@@ -7,8 +7,8 @@ use std::env;
 use std::path::Path;
 use std::process::Command;
 
-/// What a script of `clients` reports of a page; nothing without a browser. `RUNGC_PICTURES` names a folder for pictures
-/// of the page.
+/// What a script of `clients` reports of a page; nothing without a browser. `RUNGC_PICTURES` names a folder for
+/// pictures of the page.
 pub fn report(url: &str, script: &str) -> Option<Value> {
     let Some(modules) = env::var_os("RUNGC_BROWSER") else {
         eprintln!(

@@ -59,7 +59,7 @@ struct Simulation<'a> {
     history: History<'a>,
     /// Whether the run writes nothing that would go back with it.
     can_go_back: bool,
-    /// Whether anything may come from outside before each scan.
+    /// Whether anything but clients of servers may bring something from outside before each scan.
     comes_from_outside: bool,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
@@ -170,9 +170,7 @@ impl Run<'_> {
             live,
             history: History::default(),
             can_go_back: args.vcd.is_none() && args.plot.is_none() && args.scope.is_none(),
-            comes_from_outside: !self.connections.is_empty()
-                || !module.requests.is_empty()
-                || !args.serve.lines(module.model).is_empty(),
+            comes_from_outside: self.comes_from_outside(),
             now_ms: 0,
             overrun: false,
         };
@@ -195,6 +193,12 @@ impl Run<'_> {
         })?;
         let what = (self.watched, self.over);
         Plotting::begin(path, seen, what, duration).map(Some)
+    }
+
+    /// Whether anything but clients of servers may bring something from outside before each scan.
+    fn comes_from_outside(&self) -> bool {
+        let lines = self.args.serve.lines(self.module.model);
+        !(self.connections.is_empty() && self.module.requests.is_empty() && lines.is_empty())
     }
 }
 
