@@ -191,6 +191,37 @@ fn any_character() -> impl Strategy<Value = (u8, u8, u32)> {
     (any::<u8>(), 0..20u8, 0..40u32)
 }
 
+/// A partner that sends for ever, without a gap, holds a master up for no longer than the time-out and the longest
+/// frame.
+#[test]
+fn an_answer_that_never_ends_is_given_up() {
+    const TIME_OUT_US: u32 = 100_000;
+    const TIMED_OUT: i16 = 6345;
+    let mut plc = plc(0x20, 0x81);
+    let ops = [k(0x0103), k(0), k(1), reg(200)];
+    plc.call(RtFn::Modbus, &ops).unwrap();
+    let request_us = 8 * CHARACTER_US;
+    let [mut now_us, mut fed_us] = [0, request_us + 5000];
+    while plc.word(Class::D, 8063) != Some(TIMED_OUT) {
+        now_us += 1000;
+        while fed_us + CHARACTER_US <= now_us {
+            fed_us = feed(&mut plc, fed_us, &[0x55]);
+        }
+        plc.advance_ports(now_us);
+        assert!(now_us < 1_000_000, "it is still waiting");
+    }
+    let longest_us = TIME_OUT_US + 256 * CHARACTER_US;
+    let waited_us = now_us - request_us;
+    assert!(waited_us > TIME_OUT_US, "{waited_us}");
+    assert!(waited_us <= longest_us + 2000, "{waited_us}");
+    // The next request goes out as soon as the line is silent.
+    sent(&mut plc, now_us);
+    plc.call(RtFn::Modbus, &ops).unwrap();
+    plc.call(RtFn::Modbus, &ops).unwrap();
+    pass(&mut plc, now_us, now_us + 20_000);
+    assert_eq!(sent(&mut plc, now_us + 20_000)[..2], [1, 3]);
+}
+
 /// A request to station 0, 1 or 2, with or without a right sum.
 fn any_request() -> impl Strategy<Value = Vec<u8>> {
     let head = (0..3u8, 0..=17u8, 0..4u8, any::<u8>(), 0..2u8, 0..=130u8);
