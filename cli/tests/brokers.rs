@@ -151,10 +151,10 @@ fn file(folder: &Path, name: &str) -> String {
     text.trim().to_string()
 }
 
-/// The program goes on.
+/// The program continues.
 fn scans(folder: &Path) {
     let before = file(folder, "scans");
-    soon("scans go on", || file(folder, "scans") != before);
+    soon("scans continue", || file(folder, "scans") != before);
 }
 
 /// Values go both ways.
@@ -174,7 +174,7 @@ fn works(folder: &Path, port: u16, recipe: i16) {
         &format!("{{\"D20\":{recipe},\"D21\":0}}"),
     );
     shows(port, "plant/lamp/Y001", "0");
-    // What is no value changes nothing.
+    // What is not a value changes nothing.
     for wrong in ["", "2", "[", "{\"X000\": 0}", "999999999999999999999"] {
         publish(port, "plant/start", wrong);
     }

@@ -86,7 +86,7 @@ impl Serving {
             let text = fs::read_to_string(self.path().join("scans")).unwrap_or_default();
             match text.trim().parse() {
                 Ok(scans) => return scans,
-                Err(_) => assert!(Instant::now() < until, "scans go on"),
+                Err(_) => assert!(Instant::now() < until, "scans continue"),
             }
         }
     }
@@ -95,7 +95,7 @@ impl Serving {
         let before = self.scans();
         let until = Instant::now() + Duration::from_secs(30);
         while self.scans() == before {
-            assert!(Instant::now() < until, "scans go on");
+            assert!(Instant::now() < until, "scans continue");
         }
     }
 

@@ -64,7 +64,7 @@ fn a_machine_repeats_what_it_has_done_from_a_saved_state() {
                 scan(&mut machine, &mut hal, n);
             }
             let (saved, hardware) = (machine.save(), hal.clone());
-            let mut run = |machine: &mut Machine, hal: &mut VirtualHal| -> Vec<_> {
+            let run = |machine: &mut Machine, hal: &mut VirtualHal| -> Vec<_> {
                 let scans = SCANS..2 * SCANS;
                 scans.map(|n| scan(machine, hal, n)).collect()
             };

@@ -40,7 +40,7 @@ fn request(connection: &Connection, reads: bool) -> Result<Option<Request>, Stri
             true => builder.as_input(),
             false => builder.as_output(Value::Inactive),
         };
-        // Settings go on to the next line of a request unless they are set there.
+        // Settings also apply to the next line of a request unless they are set there.
         let has = |flag: &str| flags.iter().any(|other| other == flag);
         match has("active-low") {
             true => builder.as_active_low(),

@@ -103,7 +103,7 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         status,
         published: BTreeMap::new(),
     };
-    // The system may take longer to find out that nobody answers.
+    // The system may take longer to find out that no one answers.
     match broker
         .news
         .recv_timeout(timeout.max(Duration::from_secs(1)))

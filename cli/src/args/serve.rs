@@ -43,7 +43,7 @@ pub struct ServeArgs {
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
     /// Scan with this real-time priority (Linux: SCHED_FIFO, 1 to 99), with all memory locked. Where the system does
-    /// not allow it, this is reported and the run goes on without. At its end, it reports how late scans began.
+    /// not allow it, this is reported and the run continues without. At its end, it reports how late scans began.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=99), value_name = "N")]
     pub priority: Option<u8>,
     /// Connect them as the project's settings say.

@@ -4,6 +4,7 @@ mod capture;
 mod connecting;
 mod device;
 mod errors;
+mod hardware;
 mod history;
 pub mod lines;
 mod live;

@@ -2,9 +2,9 @@
 //! library (feature `std`).
 //!
 //! A [`Connection`] is what `[io.NAME]` of `rungc.toml` describes. Each has a thread, which exchanges values with the
-//! other end in cycles of its own; the scan takes and leaves values between two of its scans and never waits for a
-//! thread ([`Io`]). While an end cannot be reached, the scan goes on: a fault device is on, inputs have the values that
-//! the description chooses, and the thread tries again.
+//! other end in separate cycles; the scan takes and leaves values between two of its scans and never waits for a
+//! thread ([`Io`]). While an end cannot be reached, the scan continues: a fault device is on, inputs have the values
+//! that the description chooses, and the thread tries again.
 //!
 //! | file | what |
 //! |---|---|

@@ -6,7 +6,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// Reads the tables `[io.NAME]` of `rungc.toml`, each key and its value on a line of its own; other tables are skipped.
+/// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
 /// What `rungc` itself reads as TOML, such as inline tables, is rejected here.
 ///
 /// # Errors

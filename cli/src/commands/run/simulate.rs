@@ -15,15 +15,14 @@ use super::serving::{Asked, Servers};
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
 use super::wiring::Wiring;
-use super::{Setting, device};
+use super::{Setting, device, hardware};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::io::Connection;
-use rungc_rt::modules;
-use rungc_rt::{Class, Clock, Hal, Plc, Program, VirtualHal};
+use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
 use rungc_sim::record::{Reading, Seen};
@@ -102,12 +101,7 @@ impl Run<'_> {
     pub fn simulate(&self, plant: Option<Plant>, live: Option<Live>) -> Result {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
-        let mut hal = hardware(args.in_real_time());
-        for module in self.modules {
-            // The settings name each number once, kinds that are known, and no more modules than there is room for.
-            let _ = modules::Kind::find(module.kind).and_then(|kind| hal.fit(module.unit, kind));
-            let _ = hal.delay_module(module.unit, module.delay_ms);
-        }
+        let hal = hardware::of(args.in_real_time(), self.modules);
         machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.
         let set = self.settings.iter().map(|s| s.target);
@@ -630,35 +624,6 @@ impl<'a> Simulation<'a> {
             None => Ok(()),
         }
     }
-}
-
-/// Hardware whose real-time clock shows the local time in a run that keeps step with it.
-fn hardware(in_real_time: bool) -> VirtualHal {
-    let mut hal = VirtualHal::new();
-    if in_real_time {
-        // Without a time zone it keeps its own time.
-        let _ = local_time().and_then(|clock| hal.set_clock(clock));
-    }
-    hal
-}
-
-/// The local time: that of the zone which the system or `TZ` names.
-fn local_time() -> Option<Clock> {
-    let named = std::env::var("TZ").ok().filter(|name| !name.is_empty());
-    let zone = match named {
-        Some(name) => tz::TimeZone::from_posix_tz(&name),
-        None => tz::TimeZone::local(),
-    };
-    let zone = zone.ok()?;
-    let now = tz::DateTime::now(zone.as_ref()).ok()?;
-    Clock::new(
-        u16::try_from(now.year()).ok()?,
-        now.month(),
-        now.month_day(),
-        now.hour(),
-        now.minute(),
-        now.second(),
-    )
 }
 
 /// Standard output.
