@@ -17,19 +17,22 @@ fn ports(model: ModelId, text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// What warnings of this code say.
+fn messages(model: ModelId, text: &str, code: &str) -> String {
+    let program = read_text("program", text).program;
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    let diagnostics = check(&program, &options).diagnostics.sorted();
+    let own = diagnostics.into_iter().filter(|d| d.code == code);
+    own.map(|d| d.message).collect::<Vec<_>>().join("; ")
+}
+
 /// Two ways to choose a protocol, used at once.
 #[test]
 fn a_choice_that_another_overrides() {
-    let codes = |text: &str| {
-        let program = read_text("program", text).program;
-        let options = CompileOptions {
-            model: Some(ModelId::H2u),
-            ..CompileOptions::default()
-        };
-        let diagnostics = check(&program, &options).diagnostics.sorted();
-        let own = diagnostics.into_iter().filter(|d| d.code == "W0601");
-        own.map(|d| d.message).collect::<Vec<_>>().join("; ")
-    };
+    let codes = |text: &str| messages(ModelId::H2u, text, "W0601");
     let parallel = "LD M8000\nOUT M8070\nLD M8002\nMOV H2 D8126\nEND\n";
     let link = "LD M8002\nMOV H6086 D8260\nMOV H20 D8266\nEND\n";
     insta::assert_snapshot!([codes(parallel), codes(link)].join("\n"));
@@ -96,4 +99,27 @@ fn constants_say_what_a_port_will_be() {
         ]
         .join("\n")
     );
+}
+
+/// Requests of L01S need a port whose station is 255. RD3A and WR3A name the port in the register before their data
+/// (l01s-programming, RD3A, WR3A); ADPRW uses the one in D8397.
+#[test]
+fn requests_of_l01s_need_a_port_that_asks() {
+    let port = |station| {
+        let set_up =
+            "LD M8000\nOUT M8196\nOUT M8125\nLD M8002\nMOV HA1 D8120\nMOV K0 D8397\nMOV K0 D99\n";
+        format!("{set_up}MOV {station} D8121\nLD X0\n")
+    };
+    let requests = [
+        "RD3A H1 K0 D100",
+        "WR3A H1 K0 D100",
+        "ADPRW H1 H3 K0 K2 D100",
+    ];
+    let warned = requests.map(|request| {
+        let program = |station| format!("{}{request}\nEND\n", port(station));
+        let warnings = |station| messages(ModelId::L01s, &program(station), "W0602");
+        assert_eq!(warnings("K255"), "", "{request}");
+        warnings("K7")
+    });
+    insta::assert_snapshot!(warned.join("\n"));
 }
