@@ -59,7 +59,7 @@ pub struct ReadArgs {
 pub(super) fn serial_end(text: &str) -> Result<LineEnd, String> {
     match LineEnd::parse(text)? {
         end @ (LineEnd::Path(_) | LineEnd::Tcp(_)) => Ok(end),
-        _ => Err("what is asked is at a serial port or at `tcp:HOST:PORT`".to_string()),
+        _ => Err("the other end is at a serial port or at `tcp:HOST:PORT`".to_string()),
     }
 }
 
