@@ -4,9 +4,9 @@
 
 mod common;
 
-use common::{folder, text};
+use common::{folder, free_port, text};
 use std::fs;
-use std::net::{TcpListener, TcpStream};
+use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
@@ -192,11 +192,7 @@ fn a_broker_is_lost_and_comes_back() {
     if !is_there() {
         return;
     }
-    let port = TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port();
+    let port = free_port();
     let configuration = format!(
         "listener {port} 127.0.0.1\nallow_anonymous false\npassword_file users\nuser root\n"
     );
@@ -250,11 +246,7 @@ fn the_last_will_says_that_the_plc_is_gone() {
     if !is_there() {
         return;
     }
-    let port = TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port();
+    let port = free_port();
     let configuration = format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n");
     let settings = SETTINGS.replace("PORT", &port.to_string());
     let settings = settings.replace("user = 'plc'\npassword-file = 'password'\n", "");

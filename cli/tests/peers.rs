@@ -7,7 +7,7 @@
 mod common;
 
 use common::running::Run;
-use common::{folder, text};
+use common::{folder, free_port, text};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -328,12 +328,6 @@ const ROWS: [&str; 6] = [
     "write = 'coils'\naddress = 40\ncount = 10\nbuffer = 'D245'\ntrigger = 'M13'",
     "read = 'registers'\naddress = 2000\nbuffer = 'D250'\ntrigger = 'M14'",
 ];
-
-/// A port of this machine that is free, or was a moment ago.
-fn free_port() -> u16 {
-    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-    listener.local_addr().unwrap().port()
-}
 
 /// A program that asks a server at this port.
 fn that_asks(server: u16) -> TempDir {

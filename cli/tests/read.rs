@@ -275,7 +275,10 @@ fn what_is_asked_of_the_command_line_is_checked_first() {
             &["read", "--port", "/dev/no-such-port"],
             "cannot open /dev/no-such-port",
         ),
-        (&["read", "--port", "pty"], "the other end is at a serial port"),
+        (
+            &["read", "--port", "pty"],
+            "the other end is at a serial port",
+        ),
         (&["read"], "--port <PORT>"),
         (&["read", "--port", "x", "--baud", "1"], "--baud"),
     ] {
