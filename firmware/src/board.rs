@@ -169,6 +169,14 @@ pub enum BoardError {
         /// What the system says.
         error: std::io::Error,
     },
+    /// Neither a known board has this name nor a file.
+    #[error(
+        "`{name}` is not a board that rungc knows, and there is no such file: `rungc boards` lists those it knows"
+    )]
+    Unknown {
+        /// The name.
+        name: String,
+    },
     /// It is not as it should be.
     #[error("{place}: {message}")]
     Wrong {

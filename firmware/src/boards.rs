@@ -52,10 +52,13 @@ pub fn find(name: &str) -> Option<&'static Known> {
 /// The board of this name, or the one that a file describes.
 ///
 /// # Errors
-/// The file cannot be read, or its description is wrong.
+/// There is no such board or file, the file cannot be read, or its description is wrong.
 pub fn named_or_described(name: &Path) -> Result<Board, BoardError> {
     match name.to_str().and_then(find) {
         Some(known) => known.board(),
+        None if name.extension().is_none() && !name.exists() => Err(BoardError::Unknown {
+            name: name.display().to_string(),
+        }),
         None => board::load(name),
     }
 }
