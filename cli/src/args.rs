@@ -5,6 +5,7 @@ mod diff;
 mod emit;
 mod flash;
 mod forms;
+mod properties;
 mod serve;
 mod values;
 mod verify;
@@ -14,6 +15,7 @@ pub use diff::{DiffArgs, DiffFormat};
 pub use emit::{Backend, Emit};
 pub use flash::FlashArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
+pub use properties::Properties;
 pub use serve::ServeArgs;
 pub use verify::VerifyArgs;
 

@@ -15,6 +15,7 @@ pub mod init;
 pub mod interruption;
 pub mod learn;
 mod ports;
+mod properties;
 pub mod read;
 pub mod run;
 pub mod serve;

@@ -1,47 +1,47 @@
 //! `rungc verify`.
 
 mod report;
-mod settings;
 mod test_file;
 
 use super::check::draw;
+use super::properties::{Reader, module};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, findings, read, say, write_file};
+use super::{Context, Failure, Outcome, Result, read, say, write_file};
 use crate::args::VerifyArgs;
 use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::Read;
-use rungc_ir::Module;
-use rungc_ir::passes::simplify;
-use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::{Diagnostic, Diagnostics, OperandKind, Span, codes};
 use rungc_verify::aiger;
-use rungc_verify::property::{Condition, Property};
+use rungc_verify::model::World;
+use rungc_verify::property::Condition;
 use rungc_verify::prove::{Decision, Options, Verdict, decide, system};
 use std::time::{Duration, Instant};
 
-/// A property as it was asked for.
-struct Asked {
-    /// As it is written: `never Y000 & Y001`.
-    text: String,
-    property: Property,
-}
+/// How long a property is tried, in milliseconds.
+const TIMEOUT_MS: u64 = 60_000;
 
 /// Decides properties of a program.
 pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = read(&subject, &mut reporter)?;
-    let reader = settings::Reader {
-        args,
+    let reader = Reader {
+        args: &args.asked,
         subject: &subject,
         program: &read.program,
         cx,
     };
-    let (asked, options) = (reader.properties()?, reader.options()?);
-    let assumed = reader.assumed()?.into_iter().map(|(text, _)| text);
-    let assumed: Vec<String> = assumed.collect();
-    let Some(module) = module(&subject, &read, &asked, &options, &mut reporter)? else {
+    let (asked, assumed) = (reader.properties()?, reader.assumed()?);
+    if asked.is_empty() {
+        let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
+        return Err(Failure::Because(why.to_string()));
+    }
+    let options = options(args, &reader, &assumed)?;
+    let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
+    let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
+    let conditions = conditions.chain(&options.assumed);
+    let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
         reporter.finish()?;
         return Ok(Outcome::Unusable);
     };
@@ -90,34 +90,24 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     Ok(outcomes.max().unwrap_or(Outcome::Success))
 }
 
-/// Compiles the program with all devices that properties look at; reports why if that fails.
-fn module(
-    subject: &Subject,
-    read: &Read,
-    asked: &[Asked],
-    options: &Options,
-    reporter: &mut Reporter,
-) -> std::result::Result<Option<Module>, Failure> {
-    let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
-    let devices = conditions
-        .chain(&options.assumed)
-        .flat_map(Condition::devices);
-    let mut compiling = subject.options();
-    compiling.observe.extend(devices);
-    let compiled = compile(
-        &read.program,
-        &CompileOptions {
-            optimise: false,
-            ..compiling
+/// What is supposed of the world around the program, and how long to try.
+fn options(
+    args: &VerifyArgs,
+    reader: &Reader,
+    assumed: &[(String, Condition)],
+) -> std::result::Result<Options, Failure> {
+    let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
+    let timeout = reader.chosen(args.timeout, timeout, TIMEOUT_MS)?;
+    Ok(Options {
+        world: World {
+            scan_ms: reader.scan_ms()?,
+            fresh: args.cleared,
+            free: reader.free().into_iter().collect(),
+            ..World::default()
         },
-    );
-    let Some(mut module) = compiled.module else {
-        let compiled = compile(&read.program, &subject.options());
-        reporter.add(&findings(subject, read, &compiled))?;
-        return Ok(None);
-    };
-    simplify(&mut module);
-    Ok(Some(module))
+        assumed: assumed.iter().map(|(_, a)| a.clone()).collect(),
+        time: Duration::from_millis(timeout),
+    })
 }
 
 /// Reports violated and undecided properties as diagnostics.

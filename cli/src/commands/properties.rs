@@ -1,36 +1,43 @@
-//! What the command line and the settings of a project ask.
+//! What the command line and the settings of a project ask of a program: for all commands that look for runs.
 
-use super::Asked;
-use crate::args::VerifyArgs;
-use crate::commands::Context;
-use crate::commands::Failure;
-use crate::commands::subject::{self, Subject};
+use super::subject::{self, Subject};
+use super::{Context, Failure, findings};
+use crate::args::Properties;
+use crate::report::Reporter;
+use rungc_frontend::Read;
+use rungc_ir::Module;
+use rungc_ir::passes::simplify;
+use rungc_lower::compile::{CompileOptions, compile};
 use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
 use rungc_syntax::{DeviceClass, Program};
-use rungc_verify::model::World;
 use rungc_verify::property::{Condition, Mistake, Property, parse};
-use rungc_verify::prove::Options;
-use std::time::Duration;
 
 type Result<T> = std::result::Result<T, Failure>;
 
-/// How long a property is tried, in milliseconds.
-const TIMEOUT_MS: u64 = 60_000;
 /// The longest time from one scan to the next, in milliseconds: after that, the watchdog stops most models.
 const SCAN_MS: u64 = 200;
 
+/// A property as it was asked for.
+pub struct Asked {
+    /// As it is written: `never Y000 & Y001`.
+    pub text: String,
+    /// What it means.
+    pub property: Property,
+}
+
 /// Reads what is asked of a program.
 pub struct Reader<'a> {
-    pub args: &'a VerifyArgs,
+    pub args: &'a Properties,
     pub subject: &'a Subject,
     pub program: &'a Program,
     pub cx: Context,
 }
 
 impl Reader<'_> {
-    fn project(&self) -> Option<&Project> {
+    /// The settings of the program's project.
+    pub fn project(&self) -> Option<&Project> {
         self.subject.own_project()
     }
 
@@ -57,50 +64,42 @@ impl Reader<'_> {
                 .map(|row| self.row(project, row))
                 .collect::<Result<_>>()?;
         }
-        if asked.is_empty() {
-            let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
-            return Err(Failure::Because(why.to_string()));
-        }
         Ok(asked)
     }
 
-    /// What is supposed of the world around the program.
-    pub fn options(&self) -> Result<Options> {
-        let settings = self.project().map(|project| (project, &project.verify));
-        let time = |given: Option<u64>, named: Option<&Named>, usual: u64| match (given, named) {
+    /// The longest time from one scan to the next, in milliseconds.
+    pub fn scan_ms(&self) -> Result<u32> {
+        let named = self.project().and_then(|p| p.verify.scan.as_ref());
+        let scan = self.chosen(self.args.scan, named, SCAN_MS)?;
+        let scan_ms = u32::try_from(scan).ok();
+        scan_ms
+            .filter(|ms| (1..=32_767).contains(ms))
+            .ok_or_else(|| {
+                let why = "the longest time from one scan to the next is 1ms to 32767ms";
+                Failure::Because(why.to_string())
+            })
+    }
+
+    /// The devices that something other than the program may write.
+    pub fn free(&self) -> Vec<(DeviceClass, u32)> {
+        let named = self
+            .project()
+            .into_iter()
+            .flat_map(|project| &project.verify.free);
+        let named = named.map(|range| (range.class, range.first, range.last));
+        let ranges = named.chain(self.args.free.iter().copied());
+        ranges
+            .flat_map(|(class, first, last)| (first..=last).map(move |number| (class, number)))
+            .collect()
+    }
+
+    /// A time in milliseconds: that of the command line, else that of the settings, else the usual one.
+    pub fn chosen(&self, given: Option<u64>, named: Option<&Named>, usual: u64) -> Result<u64> {
+        match (given, named) {
             (Some(ms), _) => Ok(ms),
             (None, Some(named)) => self.time(named),
             (None, None) => Ok(usual),
-        };
-        let named = settings.map(|(_, verify)| verify);
-        let scan = time(self.args.scan, named.and_then(|v| v.scan.as_ref()), SCAN_MS)?;
-        let timeout = named.and_then(|v| v.timeout.as_ref());
-        let timeout = time(self.args.timeout, timeout, TIMEOUT_MS)?;
-        let scan_ms = u32::try_from(scan).ok();
-        let Some(scan_ms) = scan_ms.filter(|ms| (1..=32_767).contains(ms)) else {
-            let why = "the longest time from one scan to the next is 1ms to 32767ms";
-            return Err(Failure::Because(why.to_string()));
-        };
-        let free = settings.into_iter().flat_map(|(_, verify)| &verify.free);
-        let free = free.map(|range| (range.class, range.first, range.last));
-        let free = free.chain(self.args.free.iter().copied());
-        let each = |(class, first, last): (DeviceClass, u32, u32)| {
-            (first..=last).map(move |number| (class, number))
-        };
-        Ok(Options {
-            world: World {
-                scan_ms,
-                fresh: self.args.cleared,
-                free: free.flat_map(each).collect(),
-                ..World::default()
-            },
-            assumed: self
-                .assumed()?
-                .into_iter()
-                .map(|(_, condition)| condition)
-                .collect(),
-            time: Duration::from_millis(timeout),
-        })
+        }
     }
 
     /// The assumptions, as they are written and as they are read.
@@ -207,4 +206,30 @@ impl Reader<'_> {
         };
         Ok(Asked { text, property })
     }
+}
+
+/// Compiles the program with all devices that properties and assumptions look at; reports why if that fails.
+pub fn module<'a>(
+    subject: &Subject,
+    read: &Read,
+    conditions: impl IntoIterator<Item = &'a Condition>,
+    reporter: &mut Reporter,
+) -> Result<Option<Module>> {
+    let devices = conditions.into_iter().flat_map(Condition::devices);
+    let mut compiling = subject.options();
+    compiling.observe.extend(devices);
+    let compiled = compile(
+        &read.program,
+        &CompileOptions {
+            optimise: false,
+            ..compiling
+        },
+    );
+    let Some(mut module) = compiled.module else {
+        let compiled = compile(&read.program, &subject.options());
+        reporter.add(&findings(subject, read, &compiled))?;
+        return Ok(None);
+    };
+    simplify(&mut module);
+    Ok(Some(module))
 }
