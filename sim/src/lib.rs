@@ -15,8 +15,10 @@ mod problem;
 pub mod protocol;
 pub mod record;
 pub mod serve;
+mod setting;
 mod target;
 pub mod wire;
 
 pub use problem::{LoadError, Problem};
+pub use setting::set;
 pub use target::{Channel, Target};

@@ -2,7 +2,6 @@
 
 mod capture;
 mod connecting;
-mod device;
 mod errors;
 mod hardware;
 mod history;
@@ -18,7 +17,6 @@ mod serving;
 mod simulate;
 mod view;
 mod watch;
-mod wiring;
 
 use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};

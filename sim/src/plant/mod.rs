@@ -12,10 +12,12 @@ mod delay;
 mod format;
 mod marks;
 mod process;
+mod wired;
 
 pub use axis::{Axis, Collision};
 pub use format::{Description, load, parse};
 pub use process::Process;
+pub use wired::Wired;
 
 use crate::target::Channel;
 use crate::wire::Change;

@@ -1,6 +1,5 @@
 //! `rungc serve --page`: what the page shows of a run, and what it asks the run to do.
 
-use super::device;
 use crate::commands::setting::{fits, target};
 use crate::commands::{Failure, tell};
 use rungc_analysis::resolve::resolve;
@@ -94,7 +93,7 @@ impl Running<'_, '_> {
     fn set(&mut self, target: Target, value: f64) {
         let before = Reading::of(self.seen(), target);
         // It exists: that was looked at when it was named.
-        let _ = device::set(self.machine, self.hal, target, value);
+        let _ = rungc_sim::set(self.machine, self.hal, target, value);
         if let Target::Bit(DeviceClass::X, number) = target
             && before != Some(Reading::Bit(value != 0.0))
         {
@@ -189,7 +188,7 @@ impl Live {
     pub fn force(&self, machine: &mut Machine, hal: &mut VirtualHal) {
         for &(target, value) in &self.control.forced {
             // It exists: that was looked at when it was forced.
-            let _ = device::set(machine, hal, target, value);
+            let _ = rungc_sim::set(machine, hal, target, value);
         }
     }
 

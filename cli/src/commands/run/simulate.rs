@@ -14,17 +14,16 @@ use super::scope::Scope;
 use super::serving::{Asked, Servers};
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
-use super::wiring::Wiring;
-use super::{Setting, device, hardware};
+use super::{Setting, hardware};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::io::Connection;
-use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_rt::{Program, VirtualHal};
 use rungc_sim::Target;
-use rungc_sim::plant::Plant;
+use rungc_sim::plant::{Plant, Wired};
 use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::io::{self, Write};
@@ -242,17 +241,13 @@ impl<'a> Simulation<'a> {
         self.out.line(&self.view.heading())?;
         let mut begin = Instant::now();
         self.apply_settings()?;
-        let inputs = self.plant.as_ref().map_or(Vec::new(), Plant::inputs);
-        for (number, on) in inputs {
-            // The description was held to the model, so the input exists.
-            let _ = self.machine.set_bit(Class::X, number, on);
-        }
         if let Some(plant) = &mut self.plant {
-            plant.measure(&mut Wiring {
+            let mut wired = Wired {
                 machine: &mut self.machine,
                 hal: &mut self.hal,
-                recording: None,
-            })?;
+                changed: &mut |_| Ok::<_, Failure>(()),
+            };
+            wired.connect(plant)?;
         }
         let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
@@ -558,12 +553,16 @@ impl<'a> Simulation<'a> {
             return Ok(());
         };
         let before = plant.collision().cloned();
-        let mut wiring = Wiring {
+        let recording = &mut self.recording;
+        let mut wired = Wired {
             machine: &mut self.machine,
             hal: &mut self.hal,
-            recording: self.recording.as_mut(),
+            changed: &mut |change| match recording {
+                Some(recording) => recording.edge(change),
+                None => Ok(()),
+            },
         };
-        plant.step(self.now_ms, &[], &mut wiring)?;
+        plant.step(self.now_ms, &[], &mut wired)?;
         if let Some(collision) = plant.collision()
             && before.as_ref() != Some(collision)
         {
@@ -576,7 +575,7 @@ impl<'a> Simulation<'a> {
     fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
         while let Some(setting) = self.pending.next_if(|s| s.at_ms == self.now_ms) {
             self.hal.advance_to(self.now_ms as u32);
-            device::set(
+            rungc_sim::set(
                 &mut self.machine,
                 &mut self.hal,
                 setting.target,

@@ -1,10 +1,10 @@
-//! Setting devices of the machine by their names.
+//! Setting devices of the interpreter by their names.
 
+use crate::target::Target;
 use rungc_interp::{Machine, rt_class};
 use rungc_models::runs::is_counter32;
 use rungc_rt::modules::Signal;
 use rungc_rt::{Class, Plc, VirtualHal};
-use rungc_sim::Target;
 
 fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
     machine.set_word(class, number, value as i16)?;
