@@ -115,3 +115,164 @@ set = { D9999 = 1 }
     t.plctest.toml:37: no_such_device [interp]: step 1: `D9999` does not exist on the model
     ");
 }
+
+/// A lamp that goes off 500 ms after its switch, with cases about time.
+fn lamp(cases: &str) -> String {
+    format!(
+        "{HEAD}program = \"\"\"\nLD X000\nOR M0\nANI T0\nOUT M0\nLD M0\nANI X000\nOUT T0 K5\nLD M0\nOUT Y000\nMOV K1000 D0\nEND\n\"\"\"\n{cases}"
+    )
+}
+
+#[test]
+fn what_must_hold_over_time_is_told_when_it_does_not() {
+    let text = lamp(
+        r#"
+whenever = [{ when = { X000 = 1 }, then = { Y000 = 1 } }]
+[[scenario]]
+name = "press"
+[[scenario.step]]
+set = { X000 = 1 }
+[[scenario.step]]
+set = { X000 = 0 }
+[[case]]
+name = "waits"
+[[case.step]]
+do = "press"
+[[case.step]]
+until = { Y000 = 0, T0 = 0 }
+at_most_ms = 600
+within = [{ ms = 400, expect = { "T0.value" = { value = 2, tolerance = 1 } } }]
+expect = { Y000 = 0, D0 = { value = 1003, tolerance = 3 } }
+[[case]]
+name = "waits_too_short"
+[[case.step]]
+do = "press"
+[[case.step]]
+until = { Y000 = 0 }
+at_most_ms = 300
+[[case]]
+name = "never"
+never = [{ Y000 = 1, X000 = 0 }]
+[[case.step]]
+do = "press"
+expect = { Y000 = 1 }
+[[case]]
+name = "whenever_late"
+whenever = [{ when = { M0 = 1 }, then = { M0 = 0 }, within_ms = 200 }]
+[[case.step]]
+do = "press"
+run_ms = 1000
+[[case]]
+name = "whenever_at_once"
+whenever = [{ when = { X000 = 1 }, then = { Y001 = 1 } }]
+[[case.step]]
+do = "press"
+[[case]]
+name = "within"
+[[case.step]]
+set = { X000 = 1 }
+within = [{ ms = 50, expect = { T0 = 1, Y000 = 0 } }]
+run_ms = 100
+[[case]]
+name = "far_off"
+[[case.step]]
+set = { X000 = 1 }
+expect = { D0 = { value = 995, tolerance = 4.5 } }
+[[case]]
+name = "times"
+rows = [{ ms = 400, lamp = 1 }, { name = "late", ms = 700, lamp = 0 }, { ms = 300, lamp = 0 }]
+[[case.step]]
+do = "press"
+run_ms = "$ms"
+expect = { Y000 = "$lamp" }
+"#,
+    );
+    insta::assert_snapshot!(outcomes(&text), @r"
+    t.plctest.toml:25: waits [interp]: passed
+    t.plctest.toml:34: waits_too_short [interp]: step 4 (line 37): until: not Y000 = 0 after 300 ms: Y000 is 1
+    t.plctest.toml:41: never [interp]: step 2 (line 42): never: X000 = 0, Y000 = 1 at 20 ms
+    t.plctest.toml:47: whenever_late [interp]: step 3 (line 48): whenever: M0 = 1 at 10 ms, but not M0 = 0 within 200 ms: M0 is 1
+    t.plctest.toml:53: whenever_at_once [interp]: step 1 (line 54): whenever: X000 = 1 at 10 ms, but not Y001 = 1 after the same scan: Y001 is 0
+    t.plctest.toml:58: within [interp]: step 1 (line 61): within: not T0 = 1, Y000 = 0 within 50 ms: T0 is 0, Y000 is 1
+    t.plctest.toml:64: far_off [interp]: step 1 (line 65): D0 is 1000, expected 995
+    t.plctest.toml:69: times[1] [interp]: passed
+    t.plctest.toml:69: times[late] [interp]: passed
+    t.plctest.toml:69: times[3] [interp]: step 3 (line 71): Y000 is 1, expected 0
+    ");
+}
+
+#[test]
+fn a_trace_is_compared_with_the_accepted_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lamp.plctest.toml");
+    let text = lamp(
+        r#"
+[[case]]
+name = "goes off"
+trace = ["X000", "Y000", "T0.value"]
+[[case.step]]
+set = { X000 = 1 }
+scan_ms = 100
+[[case.step]]
+set = { X000 = 0 }
+scan_ms = 100
+run_ms = 700
+"#,
+    );
+    std::fs::write(&path, text).unwrap();
+    let failure = || {
+        let suite = Suite::compile(vec![plctest::load(&path).unwrap()], &[]);
+        let mut engine = Interpreter::new(suite.modules());
+        let report = plctest::run(&suite, &mut engine, &mut |_| ControlFlow::Continue(()));
+        let case = &suite.files()[0].cases[0];
+        let trace = case.trace.clone().unwrap();
+        (trace, report.outcomes[0].failure.clone())
+    };
+    let (trace, first) = failure();
+    assert!(trace.path.ends_with("traces/lamp.goes_off.trace"));
+    let Some(plctest::Failure::Trace { message, actual }) = first else {
+        panic!("there is no accepted trace");
+    };
+    insta::assert_snapshot!(message, @"this run has no accepted trace; review it with `rungc test --review`");
+    insta::assert_snapshot!(actual, @r"
+    step 1
+         100 ms  X000 1  Y000 1  T0.value 0
+    step 2
+         200 ms  X000 0
+         300 ms  T0.value 1
+         400 ms  T0.value 2
+         500 ms  T0.value 3
+         600 ms  T0.value 4
+         700 ms  T0.value 5
+         800 ms  Y000 0  T0.value 0
+    ");
+    std::fs::create_dir(trace.path.parent().unwrap()).unwrap();
+    std::fs::write(&trace.path, actual.replace('\n', "\r\n")).unwrap();
+    assert_eq!(failure().1, None);
+    std::fs::write(&trace.path, actual.replace("T0.value 3", "T0.value 4")).unwrap();
+    let Some(failure) = failure().1 else {
+        panic!("the trace differs");
+    };
+    insta::assert_snapshot!(failure, @r"
+    the trace differs from the accepted one
+               200 ms  X000 0
+               300 ms  T0.value 1
+               400 ms  T0.value 2
+        -      500 ms  T0.value 4
+        -      600 ms  T0.value 4
+        -      700 ms  T0.value 5
+        +      500 ms  T0.value 3
+        +      600 ms  T0.value 4
+        +      700 ms  T0.value 5
+    ");
+}
+
+#[test]
+fn cases_that_share_a_program_share_its_module() {
+    let text = lamp(
+        "\n[[case]]\nname = \"a\"\nrows = [{ d = 1 }, { d = 2 }, { d = 3 }]\n[[case.step]]\nset = { D9 = \"$d\" }\nexpect = { D9 = \"$d\", D0 = 1000 }\n",
+    );
+    let suite = Suite::compile(vec![plctest::parse("t.plctest.toml", &text).unwrap()], &[]);
+    assert_eq!((suite.len(), suite.modules().len()), (3, 1));
+    assert!(!outcomes(&text).contains("expected"), "{}", outcomes(&text));
+}

@@ -1,142 +1,36 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
-use super::modules;
 use super::program::{self, RawProgram, Tested};
-use super::serial::{self, Port, PortId, Protocol, RawMode, RawSent, Switch, Way};
-use super::{Basis, Case, Check, OtherPlc, Rejects, Run, Setting, Step, TestFile, Value};
+use super::raw::{Map, Near, RawCase, RawFile, RawPlc, RawRow, RawScenario, Scalar};
+use super::serial::{self, Port, PortId, Way};
+use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
 use crate::target::Target;
-use crate::wire::Signal;
 use rungc_models::{ModelId, Plc};
-use rungc_rt::{Clock, FIRST_COUNTER32};
+use rungc_project::Project;
+use rungc_syntax::Source;
 use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, Source};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
-type Map<T> = BTreeMap<Spanned<String>, T>;
+/// What names stand for in one of several cases.
+type Row = BTreeMap<String, Scalar>;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawFile {
-    model: Option<Spanned<String>>,
-    topic: String,
-    note: Option<String>,
-    program: Option<Spanned<RawProgram>>,
-    machine: Option<Spanned<String>>,
-    #[serde(default)]
-    modules: modules::Raw,
-    index: Option<Spanned<IgnoredAny>>,
-    case: Vec<Spanned<RawCase>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawCase {
-    name: Spanned<String>,
-    model: Option<Spanned<String>>,
-    #[serde(default)]
-    source: String,
-    basis: Option<Basis>,
-    #[serde(default)]
-    note: String,
-    program: Option<Spanned<RawProgram>>,
-    machine: Option<Spanned<String>>,
-    #[serde(default)]
-    modules: modules::Raw,
-    index: Option<Spanned<IgnoredAny>>,
-    #[serde(default)]
-    init: Map<Spanned<Scalar>>,
-    #[serde(default)]
-    step: Vec<Spanned<RawStep>>,
-    #[serde(default)]
-    plc: Vec<RawPlc>,
-    #[serde(default)]
-    wire: Vec<Vec<Spanned<String>>>,
-    #[serde(default)]
-    serve: Map<Protocol>,
-    rejects: Option<RawRejects>,
-}
-
-/// A PLC beside that of the case.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawPlc {
-    name: Spanned<String>,
-    model: Option<Spanned<String>>,
-    program: String,
-    #[serde(default)]
-    init: Map<Spanned<Scalar>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawRejects {
-    code: u16,
-    line: Option<u32>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawStep {
-    #[serde(default)]
-    set: Map<Spanned<Scalar>>,
-    scans: Option<u32>,
-    run_ms: Option<Spanned<u32>>,
-    scan_ms: Option<Spanned<u32>>,
-    #[serde(default)]
-    expect: Map<Spanned<Scalar>>,
-    pulses: Option<Map<RawPulses>>,
-    encoder: Option<RawEncoder>,
-    rx: Option<Map<String>>,
-    expect_tx: Option<Map<RawSent>>,
-    cut: Option<Vec<Spanned<String>>>,
-    clock: Option<Spanned<String>>,
-    mode: Option<Spanned<RawMode>>,
-    power_fails: Option<bool>,
-    #[serde(default)]
-    power_cycle: bool,
-    #[serde(default)]
-    bfm: Map<Spanned<Scalar>>,
-    #[serde(default)]
-    expect_bfm: Map<Spanned<Scalar>>,
-    #[serde(default)]
-    answers_after: modules::RawDelays,
-    #[serde(default)]
-    expect_position: BTreeMap<String, f64>,
-    #[serde(default)]
-    analog: Map<Spanned<Scalar>>,
-}
-
-/// Pulses at an input.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawPulses {
-    count: u32,
-    hz: f64,
-}
-
-/// An encoder's cycles.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawEncoder {
-    a: Spanned<String>,
-    b: Spanned<String>,
-    count: i32,
-    hz: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Scalar {
-    Integer(i64),
-    Float(f64),
-    Text(String),
+/// A row by its names, and what it calls itself.
+fn named(row: &RawRow) -> (Option<String>, Row) {
+    let values = row.get_ref().iter();
+    let values = values.map(|(name, value)| (name.get_ref().clone(), value.get_ref().clone()));
+    let mut row: Row = values.collect();
+    let own = match row.remove("name") {
+        Some(Scalar::Text(name)) => Some(name),
+        Some(Scalar::Integer(number)) => Some(number.to_string()),
+        Some(Scalar::Float(_) | Scalar::Near(_)) | None => None,
+    };
+    (own, row)
 }
 
 /// Collects the problems of one file.
@@ -146,7 +40,12 @@ pub(super) struct Reader<'t> {
     /// The programs in files that were read, by their paths.
     programs: BTreeMap<PathBuf, Tested>,
     /// Names of the other PLCs of the case being read.
-    others: Vec<String>,
+    pub(super) others: Vec<String>,
+    /// The scenarios of the file, and how many of them the step being read may name.
+    pub(super) scenarios: Vec<RawScenario>,
+    pub(super) scenarios_known: usize,
+    /// What names stand for in the case being read, if it is one of several.
+    row: Option<Row>,
 }
 
 /// Reads the text of a test file.
@@ -157,12 +56,20 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
         problems: Vec::new(),
         programs: BTreeMap::new(),
         others: Vec::new(),
+        scenarios: Vec::new(),
+        scenarios_known: 0,
+        row: None,
     };
     let file = reader.file(raw);
     if reader.problems.is_empty() {
         Ok(file)
     } else {
         order::by_key(&mut reader.problems, |p| (p.line, p.column));
+        // Rows and scenarios are read for each case.
+        let mut known = BTreeSet::new();
+        let mut all = std::mem::take(&mut reader.problems);
+        all.retain(|p| known.insert((p.line, p.column, p.message.clone())));
+        reader.problems = all;
         Err(reader.problems)
     }
 }
@@ -172,7 +79,12 @@ impl Reader<'_> {
         self.problems.push(Problem::at(self.source, at, message));
     }
 
-    fn line(&self, at: usize) -> u32 {
+    /// The test file's name.
+    pub(super) fn file_name(&self) -> &str {
+        &self.source.name
+    }
+
+    pub(super) fn line(&self, at: usize) -> u32 {
         self.source.line_col(at as u32).0
     }
 
@@ -190,24 +102,28 @@ impl Reader<'_> {
         let machine = self.machine(raw.machine.as_ref());
         let modules = self.modules(raw.modules);
         self.no_index(raw.index.as_ref());
+        self.take_scenarios(raw.scenario);
+        let rules = self.rules(raw.never, raw.whenever);
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
-            let name = case.get_ref().name.clone();
-            if cases.iter().any(|c| c.name == *name.get_ref()) {
-                let message = format!(
-                    "the case `{}` is defined twice in this file",
-                    name.get_ref()
-                );
-                self.report(name.span().start, message);
+            for (row, case) in self.rows(case) {
+                self.row = row;
+                let name = case.get_ref().name.clone();
+                let mut case = self.case(case, given, program.as_ref());
+                if cases.iter().any(|c| c.name == case.name) {
+                    let message = format!("the case `{}` is defined twice in this file", case.name);
+                    self.report(name.span().start, message);
+                }
+                if case.machine.is_none() {
+                    case.machine.clone_from(&machine);
+                }
+                if case.modules.is_empty() {
+                    case.modules.clone_from(&modules);
+                }
+                case.rules.extend(&rules);
+                cases.push(case);
             }
-            let mut case = self.case(case, given, program.as_ref());
-            if case.machine.is_none() {
-                case.machine.clone_from(&machine);
-            }
-            if case.modules.is_empty() {
-                case.modules.clone_from(&modules);
-            }
-            cases.push(case);
+            self.row = None;
         }
         TestFile {
             name: self.source.name.clone(),
@@ -215,6 +131,53 @@ impl Reader<'_> {
             note: raw.note.unwrap_or_default(),
             cases,
         }
+    }
+
+    /// Takes notice of the file's scenarios.
+    fn take_scenarios(&mut self, scenarios: Vec<RawScenario>) {
+        for scenario in scenarios {
+            let (at, name) = (scenario.name.span().start, scenario.name.get_ref());
+            if self.scenarios.iter().any(|s| s.name.get_ref() == name) {
+                let message = format!("the scenario `{name}` is defined twice in this file");
+                self.report(at, message);
+            }
+            if scenario.step.is_empty() {
+                self.report(at, format!("the scenario `{name}` has no steps"));
+            }
+            self.scenarios.push(scenario);
+        }
+        self.scenarios_known = self.scenarios.len();
+    }
+
+    /// The cases that one in the file stands for: one for each of its rows, else itself.
+    fn rows(&mut self, case: Spanned<RawCase>) -> Vec<(Option<Row>, Spanned<RawCase>)> {
+        if case.get_ref().rows.is_empty() {
+            return vec![(None, case)];
+        }
+        let (span, raw) = (case.span(), case.into_inner());
+        let mut cases = Vec::new();
+        for (number, row) in (1..).zip(&raw.rows) {
+            let (own, row) = named(row);
+            let (at, name) = (raw.name.span(), raw.name.get_ref());
+            let own = own.unwrap_or_else(|| number.to_string());
+            let mut case = raw.clone();
+            case.name = Spanned::new(at, format!("{name}[{own}]"));
+            cases.push((Some(row), Spanned::new(span.clone(), case)));
+        }
+        cases
+    }
+
+    /// The program of the project that the test file belongs to.
+    fn of_project(&mut self, at: usize) -> Option<Tested> {
+        let settings = Project::find(Path::new(&self.source.name))?;
+        let path = match Project::load(&settings) {
+            Ok(project) => project.program()?,
+            Err(error) => {
+                self.report(at, program::mistakes(&error));
+                return Some(Tested::unread());
+            }
+        };
+        Some(self.program_file(path, at))
     }
 
     /// The program of a case. A file is read once for all cases.
@@ -226,6 +189,10 @@ impl Reader<'_> {
         };
         let folder = Path::new(&self.source.name).parent();
         let path = folder.unwrap_or(Path::new("")).join(file);
+        self.program_file(path, at)
+    }
+
+    fn program_file(&mut self, path: PathBuf, at: usize) -> Tested {
         if let Some(read) = self.programs.get(&path) {
             return read.clone();
         }
@@ -266,11 +233,14 @@ impl Reader<'_> {
         let given = raw.model.as_ref().map(|name| self.plc(name)).or(given);
         let tested = match raw.program {
             Some(program) => self.program(program),
-            None => usual.cloned().unwrap_or_else(|| {
-                let message = "neither the case nor the file has a `program`";
-                self.report(at, message.to_string());
-                Tested::unread()
-            }),
+            None => match usual.cloned().or_else(|| self.of_project(at)) {
+                Some(usual) => usual,
+                None => {
+                    let message = "neither the case nor the file has a `program`, nor does a rungc.toml above it name one";
+                    self.report(at, message.to_string());
+                    Tested::unread()
+                }
+            },
         };
         let plc = given.or(tested.plc).unwrap_or_else(|| {
             let message = "`model` is missing, the PLC that the program is for".to_string();
@@ -294,7 +264,9 @@ impl Reader<'_> {
             }
         }
         let init = self.settings(raw.init);
-        let steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
+        let steps: Vec<Step> = self.steps(raw.step);
+        let rules = self.rules(raw.never, raw.whenever);
+        let trace = self.trace(raw.name.get_ref(), &raw.trace);
         let check = match raw.rejects {
             Some(rejects) => {
                 if !steps.is_empty() {
@@ -326,68 +298,9 @@ impl Reader<'_> {
             others,
             wires,
             serve,
+            rules,
+            trace,
             check,
-        }
-    }
-
-    fn step(&mut self, raw: Spanned<RawStep>) -> Step {
-        let at = raw.span().start;
-        let raw = raw.into_inner();
-        let run = match (raw.scans, raw.run_ms) {
-            (Some(_), Some(run_ms)) => {
-                let message = "use `scans` or `run_ms` in a step, not both".to_string();
-                self.report(run_ms.span().start, message);
-                Run::Scans(1)
-            }
-            (None, Some(ms)) => Run::Ms(ms.into_inner()),
-            (scans, None) => Run::Scans(scans.unwrap_or(1)),
-        };
-        let scan_ms = match raw.scan_ms {
-            Some(ms) if !(1..=32_767).contains(ms.get_ref()) => {
-                self.report(ms.span().start, "`scan_ms` is 1 to 32767".to_string());
-                10
-            }
-            ms => ms.map_or(10, Spanned::into_inner),
-        };
-        let mut rx = Vec::new();
-        for (port, text) in raw.rx.into_iter().flatten() {
-            let port = self.line_text(&port, Way::ToPlc, std::slice::from_ref(&text));
-            rx.extend(port.map(|port| {
-                let items = port.id.items(&text);
-                (port, items)
-            }));
-        }
-        let mut expect_tx = Vec::new();
-        for (port, sent) in raw.expect_tx.into_iter().flatten() {
-            let port = self.line_text(&port, Way::FromPlc, sent.texts());
-            let texts = sent.texts().iter();
-            expect_tx.extend(port.map(|port| {
-                let sent = texts.map(|text| port.id.sent(text)).collect();
-                (port, sent)
-            }));
-        }
-        let cut = raw
-            .cut
-            .map(|cut| cut.iter().filter_map(|port| self.port(port)).collect());
-        Step {
-            line: self.line(at),
-            power_cycle: raw.power_cycle,
-            running: raw.mode.map_or(Vec::new(), |mode| self.mode(&mode)),
-            rx,
-            expect_tx,
-            cut,
-            power_fails: raw.power_fails,
-            clock: raw.clock.and_then(|text| self.clock(&text)),
-            bfm: self.buffer(raw.bfm),
-            answers_after: self.delays(raw.answers_after),
-            analog: self.analog(raw.analog),
-            set: self.settings(raw.set),
-            signals: self.signals(raw.pulses.unwrap_or_default(), raw.encoder),
-            run,
-            scan_ms,
-            expect: self.settings(raw.expect),
-            expect_bfm: self.buffer(raw.expect_bfm),
-            expect_position: raw.expect_position.into_iter().collect(),
         }
     }
 
@@ -426,7 +339,7 @@ impl Reader<'_> {
     }
 
     /// A name without that of another PLC before it, and the number of its PLC.
-    fn own<'n>(&self, name: &'n str) -> (&'n str, usize) {
+    pub(super) fn own<'n>(&self, name: &'n str) -> (&'n str, usize) {
         let other = name.split_once(':').and_then(|(plc, own)| {
             let number = self.others.iter().position(|other| other == plc)?;
             Some((own, number + 1))
@@ -435,7 +348,7 @@ impl Reader<'_> {
     }
 
     /// The port of a name.
-    fn port(&mut self, port: &Spanned<String>) -> Option<Port> {
+    pub(super) fn port(&mut self, port: &Spanned<String>) -> Option<Port> {
         let (own, plc) = self.own(port.get_ref());
         match PortId::parse(own) {
             Ok(id) => Some(Port { plc, id }),
@@ -447,7 +360,12 @@ impl Reader<'_> {
     }
 
     /// Holds what goes over a port to the format; returns the port.
-    fn line_text(&mut self, port: &Spanned<String>, way: Way, texts: &[String]) -> Option<Port> {
+    pub(super) fn line_text(
+        &mut self,
+        port: &Spanned<String>,
+        way: Way,
+        texts: &[String],
+    ) -> Option<Port> {
         let (own, _) = self.own(port.get_ref());
         for text in texts {
             if let Err(message) = serial::check_text(own, way, text) {
@@ -457,203 +375,85 @@ impl Reader<'_> {
         self.port(port)
     }
 
-    /// Where the RUN/STOP switches of PLCs are put.
-    fn mode(&mut self, mode: &Spanned<RawMode>) -> Vec<(usize, bool)> {
-        match mode.get_ref() {
-            RawMode::All(switch) => {
-                let all = 0..=self.others.len();
-                all.map(|plc| (plc, *switch == Switch::Run)).collect()
-            }
-            RawMode::Of(switches) => {
-                let mut running = Vec::new();
-                for (name, switch) in switches {
-                    match self.others.iter().position(|other| other == name) {
-                        Some(i) => running.push((i + 1, *switch == Switch::Run)),
-                        None => {
-                            let message = format!("the case has no PLC `{name}`");
-                            self.report(mode.span().start, message);
-                        }
-                    }
-                }
-                running
+    /// Devices that are given these values.
+    pub(super) fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
+        let near = raw
+            .values()
+            .find(|value| matches!(value.get_ref(), Scalar::Near(_)));
+        if let Some(at) = near.map(|value| value.span().start) {
+            self.report(at, "`tolerance` belongs to an expected value".to_string());
+        }
+        self.expected(raw)
+    }
+
+    /// Devices of which these values are expected.
+    pub(super) fn expected(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
+        let settings = raw.into_iter();
+        settings
+            .filter_map(|(name, value)| self.setting(&name, &value))
+            .collect()
+    }
+
+    fn setting(&mut self, name: &Spanned<String>, value: &Spanned<Scalar>) -> Option<Setting> {
+        let (plc, target) = self.target(name)?;
+        let at = value.span().start;
+        let given = self.of_row(value.get_ref(), at);
+        let (value, tolerance) = match &given {
+            Scalar::Near(near) => (middle(target, *near), Some(near.tolerance.abs())),
+            other => (Value::of(target, other), None),
+        };
+        match value {
+            Ok(value) => Some(Setting {
+                plc,
+                target,
+                value,
+                tolerance,
+            }),
+            Err(expected) => {
+                let message = format!("the value of `{}` must be {expected}", name.get_ref());
+                self.report(at, message);
+                None
             }
         }
     }
 
-    /// What comes in at input terminals.
-    fn signals(&mut self, pulses: Map<RawPulses>, encoder: Option<RawEncoder>) -> Vec<Signal> {
-        let mut signals = Vec::new();
-        for (name, RawPulses { count, hz }) in pulses {
-            if let Some(input) = self.terminal(&name)
-                && self.frequency(&name, hz)
-            {
-                signals.push(Signal::Pulses { input, count, hz });
-            }
-        }
-        if let Some(RawEncoder { a, b, count, hz }) = encoder
-            && let (Some(first), Some(second)) = (self.terminal(&a), self.terminal(&b))
-            && self.frequency(&a, hz)
-        {
-            signals.push(Signal::Encoder {
-                a: first,
-                b: second,
-                count,
-                hz,
-            });
-        }
-        signals
-    }
-
-    fn terminal(&mut self, name: &Spanned<String>) -> Option<u32> {
-        match Target::parse(name.get_ref()) {
-            Ok(Target::Bit(DeviceClass::X, number)) => Some(number),
-            _ => {
-                let message = format!("`{}` is not an input terminal", name.get_ref());
+    /// The device of a name, and the number of its PLC.
+    pub(super) fn target(&mut self, name: &Spanned<String>) -> Option<(usize, Target)> {
+        let (own, plc) = self.own(name.get_ref());
+        match Target::parse(own) {
+            Ok(target) => Some((plc, target)),
+            Err(message) => {
                 self.report(name.span().start, message);
                 None
             }
         }
     }
 
-    fn frequency(&mut self, name: &Spanned<String>, hz: f64) -> bool {
-        let fits = (0.001..=1_000_000.0).contains(&hz);
-        if !fits {
-            let message = "`hz` is 0.001 to 1000000".to_string();
-            self.report(name.span().start, message);
+    /// A value, or what its name stands for in the row at hand.
+    pub(super) fn of_row(&mut self, value: &Scalar, at: usize) -> Scalar {
+        let Scalar::Text(text) = value else {
+            return value.clone();
+        };
+        let (Some(row), Some(name)) = (&self.row, text.strip_prefix('$')) else {
+            return value.clone();
+        };
+        if let Some(value) = row.get(name) {
+            return value.clone();
         }
-        fits
-    }
-
-    fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
-        raw.into_iter()
-            .filter_map(|(name, value)| {
-                let (own, plc) = self.own(name.get_ref());
-                let target = match Target::parse(own) {
-                    Ok(target) => target,
-                    Err(message) => {
-                        self.report(name.span().start, message);
-                        return None;
-                    }
-                };
-                match Value::of(target, value.get_ref()) {
-                    Ok(value) => Some(Setting { plc, target, value }),
-                    Err(expected) => {
-                        let message =
-                            format!("the value of `{}` must be {expected}", name.get_ref());
-                        self.report(value.span().start, message);
-                        None
-                    }
-                }
-            })
-            .collect()
-    }
-
-    /// A 16-bit value.
-    fn word(&mut self, value: &Spanned<Scalar>) -> Option<i16> {
-        let word = integer(value.get_ref(), 16).map(|v| v as i16);
-        if word.is_none() {
-            let message = "this value must be a 16-bit integer".to_string();
-            self.report(value.span().start, message);
-        }
-        word
-    }
-
-    fn buffer(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<(u16, u16, i16)> {
-        raw.into_iter()
-            .filter_map(|(name, value)| {
-                let place = name.get_ref().split_once(':');
-                let place = place.and_then(|(u, a)| Some((u.parse().ok()?, a.parse().ok()?)));
-                let Some((unit, address)) = place else {
-                    let message = "write a word of buffer memory as `MODULE:ADDRESS`".to_string();
-                    self.report(name.span().start, message);
-                    return None;
-                };
-                Some((unit, address, self.word(&value)?))
-            })
-            .collect()
-    }
-
-    fn analog(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<(u8, i16)> {
-        raw.into_iter()
-            .filter_map(|(name, value)| {
-                let channel = name.get_ref().strip_prefix("AD");
-                let Some(channel) = channel.and_then(|n| n.parse().ok()) else {
-                    let message = "write an analog input as `AD0`, `AD1`, …".to_string();
-                    self.report(name.span().start, message);
-                    return None;
-                };
-                Some((channel, self.word(&value)?))
-            })
-            .collect()
-    }
-
-    fn clock(&mut self, text: &Spanned<String>) -> Option<Clock> {
-        let clock = clock(text.get_ref());
-        if clock.is_none() {
-            let message = "write a time as `2026-01-02T03:04:05`".to_string();
-            self.report(text.span().start, message);
-        }
-        clock
+        self.report(at, format!("the row has no `{name}`"));
+        Scalar::Integer(0)
     }
 }
 
-/// Reads `2026-01-02T03:04:05`.
-fn clock(text: &str) -> Option<Clock> {
-    let (date, time) = text.split_once('T')?;
-    let mut date = date.splitn(3, '-');
-    let (year, month, day) = (date.next()?, date.next()?, date.next()?);
-    let mut time = time.splitn(3, ':');
-    let (hour, minute, second) = (time.next()?, time.next()?, time.next()?);
-    Clock::new(
-        year.parse().ok()?,
-        month.parse().ok()?,
-        day.parse().ok()?,
-        hour.parse().ok()?,
-        minute.parse().ok()?,
-        second.parse().ok()?,
-    )
-}
-
-/// An integer of this many bits, signed or unsigned; `"0xFFFF"` too.
-fn integer(value: &Scalar, bits: u32) -> Option<i64> {
-    let value = match value {
-        Scalar::Integer(value) => *value,
-        Scalar::Text(text) => i64::from_str_radix(text.strip_prefix("0x")?, 16).ok()?,
-        Scalar::Float(_) => return None,
-    };
-    (-1 << (bits - 1)..1 << bits)
-        .contains(&value)
-        .then_some(value)
-}
-
-impl Value {
-    /// The value that a target is given or compared with; the error says what is expected.
-    fn of(target: Target, value: &Scalar) -> Result<Value, &'static str> {
-        let word = || integer(value, 16).map(|v| Value::Int((v as i16).into()));
-        let double = || integer(value, 32).map(|v| Value::Int(v as i32));
-        match target {
-            Target::Bit(..) => match value {
-                Scalar::Integer(v @ 0..=1) => Ok(Value::Int(*v as i32)),
-                _ => Err("0 or 1"),
-            },
-            Target::Current(rungc_syntax::DeviceClass::C, FIRST_COUNTER32..) => {
-                double().ok_or("a 32-bit integer")
-            }
-            Target::Word(..) | Target::Current(..) | Target::Nibbles(1..=4, ..) => {
-                word().ok_or("a 16-bit integer, or hexadecimal in quotes: \"0xFFFF\"")
-            }
-            Target::Pair(..) | Target::Nibbles(..) | Target::Pulses(_) => {
-                double().ok_or("a 32-bit integer")
-            }
-            Target::Float(..) | Target::Frequency(_) | Target::Channel(_) => match value {
-                Scalar::Integer(v) => Ok(Value::Float(*v as f64)),
-                Scalar::Float(v) => Ok(Value::Float(*v)),
-                Scalar::Text(_) => Err("a number"),
-            },
-            Target::Text(..) => match value {
-                Scalar::Text(text) => Ok(Value::Text(text.clone())),
-                _ => Err("a text in quotes"),
-            },
+/// The number in the middle of those that are near enough.
+fn middle(target: Target, near: Near) -> Result<Value, &'static str> {
+    let whole = near.value as i64;
+    match target {
+        Target::Bit(..) | Target::Text(..) => Err("exact: `tolerance` is for numbers"),
+        Target::Float(..) | Target::Frequency(_) | Target::Channel(_) => {
+            Ok(Value::Float(near.value))
         }
+        _ if whole as f64 == near.value => Value::of(target, &Scalar::Integer(whole)),
+        _ => Value::of(target, &Scalar::Float(near.value)),
     }
 }

@@ -7,18 +7,25 @@ mod format;
 mod lines;
 mod modules;
 mod program;
+mod raw;
 mod report;
+mod rules;
 mod runner;
 mod serial;
 mod servers;
+mod step;
 mod suite;
+mod trace;
+mod values;
 mod wiring;
 
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
+pub use rules::{Never, RuleKind, Rules, Whenever, Within};
 pub use runner::run;
 pub use serial::{Item, Port, PortId, Protocol, Sent};
 pub use suite::{Id, Suite};
+pub use trace::Trace;
 
 use crate::plant::Description;
 use crate::problem::{self, LoadError};
@@ -75,6 +82,10 @@ pub struct Case {
     pub wires: Vec<Vec<Port>>,
     /// Servers over TCP: port number, and what they speak.
     pub serve: Vec<(u16, Protocol)>,
+    /// What must hold after each scan.
+    pub rules: Rules,
+    /// What is compared with a run that was accepted.
+    pub trace: Option<Trace>,
     /// What is checked.
     pub check: Check,
 }
@@ -160,10 +171,16 @@ pub struct Step {
     pub signals: Vec<Signal>,
     /// How many scans run.
     pub run: Run,
+    /// What the step waits for: it ends after the scan after which all of it holds, and fails if that does not come.
+    pub until: Vec<Setting>,
     /// Virtual milliseconds that a scan takes.
     pub scan_ms: u32,
     /// What devices must hold then.
     pub expect: Vec<Setting>,
+    /// What must come to hold while the step runs.
+    pub within: Vec<Within>,
+    /// What must hold after each scan of the step.
+    pub rules: Rules,
     /// What buffer memory must hold then.
     pub expect_bfm: Vec<(u16, u16, i16)>,
     /// Where axes of the machine must be then, in their units.
@@ -188,6 +205,8 @@ pub struct Setting {
     pub target: Target,
     /// Its value.
     pub value: Value,
+    /// How far from it is near enough, if the file says so.
+    pub tolerance: Option<f64>,
 }
 
 /// A value as [`Target`] asks for it.
@@ -358,7 +377,7 @@ program = { file = "nowhere/x.il" }
 rejects = { code = 0 }
 "#;
         insta::assert_snapshot!(problems_of(text), @r"
-        t.plctest.toml:2:1: neither the case nor the file has a `program`
+        t.plctest.toml:2:1: neither the case nor the file has a `program`, nor does a rungc.toml above it name one
         t.plctest.toml:5:1: `model` is missing, the PLC that the program is for
         t.plctest.toml:11:11: cannot read `nowhere/x.il`: No such file or directory (os error 2)
         ");
@@ -367,14 +386,69 @@ rejects = { code = 0 }
                 "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = {program}\n"
             ))
         };
-        insta::assert_snapshot!(of("3"), @r#"t.plctest.toml:5:11: invalid type: integer `3`, expected an instruction list, or `{ file = "machine.gxw" }`"#);
+        insta::assert_snapshot!(of("3"), @r#"t.plctest.toml:5:11: invalid type: integer `3`, expected an instruction list, or the path of a program: "machine.gxw""#);
         insta::assert_snapshot!(of("{ path = 'x.il' }"), @"t.plctest.toml:5:13: unknown field `path`, expected `file`");
         insta::assert_snapshot!(of("{}"), @"t.plctest.toml:5:11: missing field `file`");
     }
 
     #[test]
+    fn mistakes_about_time_rows_and_scenarios_are_told_with_their_place() {
+        let text = r#"model = "h2u"
+topic = "t"
+program = "END"
+never = [{}]
+[[scenario]]
+name = "start"
+step = [{ do = "stop" }]
+[[scenario]]
+name = "stop"
+step = []
+[[scenario]]
+name = "stop"
+step = [{ set = { X000 = 1 } }]
+[[case]]
+name = "a"
+rows = [{ x = 1 }, { x = 2, name = "b" }, { name = "b", x = "k" }]
+trace = ["D0.str", "Q1"]
+[[case.step]]
+do = "start"
+set = { D0 = "$y", D1 = { value = 5, tolerance = 1 } }
+expect = { M0 = { value = 1, tolerance = 1 }, D0 = { value = 1.5, tolerance = 1 } }
+run_ms = "$x"
+[[case.step]]
+do = "strat"
+until = { Y000 = 1 }
+[[case.step]]
+at_most_ms = 5
+scans = 2
+whenever = [{ when = { X000 = 1 }, then = {} }]
+within = [{ ms = 5, expect = {} }]
+"#;
+        insta::assert_snapshot!(problems_of(text), @r#"
+        t.plctest.toml:4:10: name at least one device here
+        t.plctest.toml:7:16: no scenario `stop` is defined before this
+        t.plctest.toml:9:8: the scenario `stop` has no steps
+        t.plctest.toml:12:8: the scenario `stop` is defined twice in this file
+        t.plctest.toml:15:8: the case `a[b]` is defined twice in this file
+        t.plctest.toml:17:10: a text cannot be traced; name its words
+        t.plctest.toml:17:20: `Q1` is not a device name; examples: `M0`, `X010`, `D0.i32`
+        t.plctest.toml:20:14: the row has no `y`
+        t.plctest.toml:20:25: `tolerance` belongs to an expected value
+        t.plctest.toml:21:17: the value of `M0` must be exact: `tolerance` is for numbers
+        t.plctest.toml:21:52: the value of `D0` must be a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
+        t.plctest.toml:22:10: this value must be a whole number
+        t.plctest.toml:24:6: no scenario `strat` is defined before this: did you mean `start`?
+        t.plctest.toml:25:11: `until` needs `at_most_ms`, the time after which the step fails
+        t.plctest.toml:27:14: use one of `scans`, `run_ms` and `at_most_ms` in a step
+        t.plctest.toml:27:14: `at_most_ms` needs `until`, what the step waits for
+        t.plctest.toml:29:13: name at least one device here
+        t.plctest.toml:30:11: name at least one device here
+        "#);
+    }
+
+    #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_fails`, `power_cycle`, `bfm`, `expect_bfm`, `answers_after`, `expect_position`, `analog`");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `do`, `scans`, `run_ms`, `until`, `at_most_ms`, `scan_ms`, `within`, `never`, `whenever`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_fails`, `power_cycle`, `bfm`, `expect_bfm`, `answers_after`, `expect_position`, `analog`");
     }
 }

@@ -7,7 +7,7 @@ use rungc_project::{Error, Project};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The program of a case.
@@ -28,6 +28,8 @@ pub struct ProgramFile {
     pub bounds: Vec<Bound>,
     /// Codes of errors that are warnings in it.
     pub warn: Vec<&'static str>,
+    /// The file.
+    pub path: PathBuf,
 }
 
 impl CaseProgram {
@@ -88,13 +90,14 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
         program: CaseProgram::File(Arc::new(ProgramFile {
             bounds: project.bounds(path),
             warn: project.check.warn,
+            path: path.to_path_buf(),
             read,
         })),
     })
 }
 
 /// What is wrong with settings, one mistake a line.
-fn mistakes(error: &Error) -> String {
+pub(super) fn mistakes(error: &Error) -> String {
     let Error::Mistakes {
         path,
         text,
@@ -111,6 +114,7 @@ fn mistakes(error: &Error) -> String {
 }
 
 /// A program as the test file names it.
+#[derive(Clone)]
 pub(super) enum RawProgram {
     List(String),
     /// By its path from the test file.
@@ -129,17 +133,30 @@ impl<'de> Deserialize<'de> for RawProgram {
     }
 }
 
+/// Whether a text is the path of a file rather than a list: one line that ends as names of files do.
+fn is_path(text: &str) -> bool {
+    let Some(ending) = Path::new(text).extension().and_then(|e| e.to_str()) else {
+        return false;
+    };
+    let letter = ending.starts_with(|c: char| c.is_ascii_alphabetic());
+    let name = ending.len() >= 2 && letter && ending.chars().all(|c| c.is_ascii_alphanumeric());
+    name && !text.contains('\n')
+}
+
 struct ProgramVisitor;
 
 impl<'de> Visitor<'de> for ProgramVisitor {
     type Value = RawProgram;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an instruction list, or `{ file = \"machine.gxw\" }`")
+        f.write_str("an instruction list, or the path of a program: \"machine.gxw\"")
     }
 
-    fn visit_str<E>(self, list: &str) -> Result<RawProgram, E> {
-        Ok(RawProgram::List(list.to_string()))
+    fn visit_str<E>(self, text: &str) -> Result<RawProgram, E> {
+        Ok(match is_path(text) {
+            true => RawProgram::File(text.to_string()),
+            false => RawProgram::List(text.to_string()),
+        })
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawProgram, A::Error> {

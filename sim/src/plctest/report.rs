@@ -1,6 +1,6 @@
 //! What became of the cases.
 
-use super::{Id, Suite, Value};
+use super::{Id, RuleKind, Suite, Value};
 use crate::target::Target;
 use std::fmt;
 use std::time::Duration;
@@ -27,6 +27,24 @@ pub enum Failure {
         line: u32,
         /// Name, expected and actual value of each.
         values: Vec<(String, Value, Value)>,
+    },
+    /// What must hold over time did not.
+    Rule {
+        /// Step of the case, from 1.
+        step: usize,
+        /// The rule's line in the file.
+        line: u32,
+        /// Which rule.
+        kind: RuleKind,
+        /// What happened.
+        message: String,
+    },
+    /// The run is not the one that was accepted.
+    Trace {
+        /// How it differs.
+        message: String,
+        /// The run.
+        actual: String,
     },
     /// The machine around the PLC was damaged, or the case does not fit it.
     Machine {
@@ -63,6 +81,13 @@ impl fmt::Display for Failure {
                     write!(f, " {name} is {actual}, expected {expected};")
                 })
             }
+            Failure::Rule {
+                step,
+                line,
+                kind,
+                message,
+            } => write!(f, "step {step} (line {line}): {}: {message}", kind.name()),
+            Failure::Trace { message, .. } => write!(f, "{message}"),
             Failure::Machine { step: 0, message } => write!(f, "{message}"),
             Failure::Machine { step, message } | Failure::Engine { step, message } => {
                 write!(f, "step {step}: {message}")

@@ -2,8 +2,10 @@
 
 use super::lines::Lines;
 use super::modules::{MILLION, millionths};
+use super::rules::Watch;
 use super::servers::Servers;
 use super::suite::Built;
+use super::trace::Tracer;
 use super::wiring;
 use super::{
     Case, Check, Failure, Outcome, Port, Rejects, Report, Run, Setting, Step, Suite, Value,
@@ -195,11 +197,15 @@ fn run_case(
     }
     running.select(0)?;
     running.wire_up()?;
+    let mut watch = Watch::new(&case.rules);
+    let mut tracer = case.trace.as_ref().map(Tracer::new);
     for (i, step) in steps.iter().enumerate() {
         running.step = i + 1;
-        running.run_step(step)?;
+        watch.begin(step);
+        tracer.iter_mut().for_each(|tracer| tracer.begin(i + 1));
+        running.run_step(step, &mut watch, tracer.as_mut())?;
     }
-    Ok(())
+    tracer.map_or(Ok(()), Tracer::end)
 }
 
 impl Running<'_> {
@@ -331,7 +337,12 @@ impl Running<'_> {
         self.begin_lines(step)
     }
 
-    fn run_step(&mut self, step: &Step) -> Result<(), Failure> {
+    fn run_step(
+        &mut self,
+        step: &Step,
+        watch: &mut Watch,
+        mut tracer: Option<&mut Tracer>,
+    ) -> Result<(), Failure> {
         self.begin_step(step)?;
         let scans = match step.run {
             Run::Scans(scans) => scans,
@@ -346,11 +357,13 @@ impl Running<'_> {
         let mut changes = changes.iter().peekable();
         let begin_ms = self.now_ms;
         let needed_ms = scans.saturating_mul(step.scan_ms);
-        let mut done = 0;
-        while match step.run {
-            Run::Scans(_) => done < scans,
-            Run::Ms(_) => self.now_ms.wrapping_sub(begin_ms) < needed_ms,
-        } {
+        let (mut done, mut ended) = (0, false);
+        while !ended
+            && match step.run {
+                Run::Scans(_) => done < scans,
+                Run::Ms(_) => self.now_ms.wrapping_sub(begin_ms) < needed_ms,
+            }
+        {
             let scan_ms = self.scan(step.scan_ms)?;
             done += 1;
             for _ in 0..scan_ms {
@@ -368,7 +381,14 @@ impl Running<'_> {
                 self.move_machine(self.now_ms, &others)?;
                 self.tick()?;
             }
+            self.watch(watch, begin_ms)?;
+            if let Some(tracer) = &mut tracer {
+                tracer.scanned(self)?;
+            }
+            ended = !step.until.is_empty() && self.holds(&step.until)?;
         }
+        self.end_watch(watch, step, ended)?;
+        self.select(0)?;
         self.check(step)
     }
 
@@ -411,11 +431,10 @@ impl Running<'_> {
     fn check(&mut self, step: &Step) -> Result<(), Failure> {
         let mut values = self.end_lines(step)?;
         values.extend(self.end_servers(step));
-        for Setting { plc, target, value } in &step.expect {
-            self.select(*plc)?;
-            let actual = self.get(*target, value)?;
-            if !agrees(*target, value, &actual) {
-                values.push((self.name_of(*plc, *target), value.clone(), actual));
+        for setting in &step.expect {
+            if let Some(actual) = self.differs(setting)? {
+                let name = self.name_of(setting.plc, setting.target);
+                values.push((name, setting.value.clone(), actual));
             }
         }
         self.select(0)?;
@@ -440,8 +459,20 @@ impl Running<'_> {
         })
     }
 
+    /// What a device holds, in the shape of the value expected of it.
+    pub(super) fn current(&mut self, setting: &Setting) -> Result<Value, Failure> {
+        self.select(setting.plc)?;
+        self.get(setting.target, &setting.value)
+    }
+
+    /// What a device holds, if that is not what is expected of it.
+    pub(super) fn differs(&mut self, setting: &Setting) -> Result<Option<Value>, Failure> {
+        let actual = self.current(setting)?;
+        Ok((!agrees(setting, &actual)).then_some(actual))
+    }
+
     /// The name of a device with that of its PLC.
-    fn name_of(&self, plc: usize, target: Target) -> String {
+    pub(super) fn name_of(&self, plc: usize, target: Target) -> String {
         match plc.checked_sub(1).and_then(|i| self.names.get(i)) {
             Some(name) => format!("{name}:{target}"),
             None => target.to_string(),
@@ -610,16 +641,20 @@ fn requests(setting: &Setting) -> Vec<Request> {
     }
 }
 
-fn agrees(target: Target, expected: &Value, actual: &Value) -> bool {
-    let tolerance = match target {
+fn agrees(setting: &Setting, actual: &Value) -> bool {
+    let relative = match setting.target {
         Target::Frequency(_) => FREQUENCY_TOLERANCE,
         Target::Channel(_) => CHANNEL_TOLERANCE,
         _ => FLOAT_TOLERANCE,
     };
-    match (expected, actual) {
-        (Value::Float(e), Value::Float(a)) => {
-            e == a || (e.is_nan() && a.is_nan()) || (a - e).abs() <= tolerance * e.abs()
+    match (&setting.value, actual, setting.tolerance) {
+        (Value::Float(e), Value::Float(a), tolerance) => {
+            let enough = tolerance.unwrap_or(relative * e.abs());
+            e == a || (e.is_nan() && a.is_nan()) || (a - e).abs() <= enough
         }
-        (expected, actual) => expected == actual,
+        (Value::Int(e), Value::Int(a), Some(tolerance)) => {
+            f64::from(*a) - f64::from(*e) <= tolerance && f64::from(*e) - f64::from(*a) <= tolerance
+        }
+        (expected, actual, _) => expected == actual,
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// What a port is expected to send: one text, or any of several.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(
     untagged,
     expecting = "expected a string, or a list of strings of which one must match"
@@ -27,7 +27,7 @@ impl RawSent {
 }
 
 /// The RUN/STOP switch of all PLCs, or of those that are named.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(
     untagged,
     expecting = "expected `run` or `stop`, or one of them for each named PLC"

@@ -4,9 +4,11 @@ use super::{Case, CaseProgram, Check, OtherPlc, TestFile};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
-use rungc_models::ModelId;
+use rungc_models::{Model, ModelId};
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Which case of which file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
@@ -29,6 +31,9 @@ pub(super) enum Built {
 /// The PLC's code, the line in the program, and the message of each error.
 type Errors = Vec<(Option<u16>, u32, String)>;
 
+/// Devices that a host looks at.
+type Devices = Vec<(DeviceClass, u32)>;
+
 /// Test files and their compiled programs.
 #[derive(Debug)]
 pub struct Suite {
@@ -42,23 +47,30 @@ impl Suite {
     /// `warn` that can be eased are none.
     pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let mut modules = Vec::new();
-        let mut build = |case: &Case| {
-            let others = (1..).zip(&case.others);
-            let others = others.map(|(plc, other)| compile_other(case, plc, other, warn));
-            let compiled = std::iter::once(compile_case(case, warn)).chain(others);
-            match compiled.collect::<Result<Vec<Module>, Errors>>() {
-                Ok(compiled) => {
-                    let first = modules.len();
-                    modules.extend(compiled);
-                    Built::Modules((first..modules.len()).collect())
-                }
-                Err(errors) => Built::Refused(errors),
+        let mut built = Vec::with_capacity(files.len());
+        for file in &files {
+            let shared = Shared::of(file);
+            // Where cases share a program, by the first of them.
+            let mut done: BTreeMap<usize, Result<usize, Errors>> = BTreeMap::new();
+            let mut of_file = Vec::with_capacity(file.cases.len());
+            for (i, case) in file.cases.iter().enumerate() {
+                let Some(first) = shared.first(i) else {
+                    of_file.push(build(case, warn, &mut modules));
+                    continue;
+                };
+                let compiled = done.entry(first).or_insert_with(|| {
+                    let observed = shared.observed(file, first);
+                    let compiled = compile_case(case, observed, warn)?;
+                    modules.push(compiled);
+                    Ok(modules.len() - 1)
+                });
+                of_file.push(match compiled {
+                    Ok(module) => Built::Modules(vec![*module]),
+                    Err(errors) => Built::Refused(errors.clone()),
+                });
             }
-        };
-        let built = files
-            .iter()
-            .map(|file| file.cases.iter().map(&mut build).collect())
-            .collect();
+            built.push(of_file);
+        }
         Suite {
             files,
             modules,
@@ -99,16 +111,86 @@ impl Suite {
     }
 }
 
+/// Compiles the programs of a case that shares none.
+fn build(case: &Case, warn: &[&'static str], modules: &mut Vec<Module>) -> Built {
+    let others = (1..).zip(&case.others);
+    let others = others.map(|(plc, other)| compile_other(case, plc, other, warn));
+    let own = compile_case(case, observed(case, 0), warn);
+    let compiled = std::iter::once(own).chain(others);
+    match compiled.collect::<Result<Vec<Module>, Errors>>() {
+        Ok(compiled) => {
+            let first = modules.len();
+            modules.extend(compiled);
+            Built::Modules((first..modules.len()).collect())
+        }
+        Err(errors) => Built::Refused(errors),
+    }
+}
+
+/// Which cases of a file run the same program on the same PLC, so that it is compiled once, with the devices that any
+/// of them looks at.
+struct Shared {
+    /// The first case with the same program, for each case that shares it.
+    firsts: Vec<Option<usize>>,
+}
+
+impl Shared {
+    fn of(file: &TestFile) -> Self {
+        let mut known: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        for (i, case) in file.cases.iter().enumerate() {
+            let alone =
+                !case.others.is_empty() || !case.serve.is_empty() || !opened(case, 0).is_empty();
+            if alone || matches!(case.check, Check::Rejects(_)) {
+                continue;
+            }
+            let program = match &case.program {
+                CaseProgram::List(list) => (list.as_str(), 0),
+                CaseProgram::File(file) => ("", Arc::as_ptr(file) as usize),
+            };
+            let modules: Vec<_> = case
+                .modules
+                .iter()
+                .map(|(unit, kind)| (unit, kind.name))
+                .collect();
+            let variant = case.variant.map(|variant| variant.name);
+            let key = (program, Model::get(case.model).name, variant, modules);
+            known.entry(key).or_default().push(i);
+        }
+        let mut firsts = vec![None; file.cases.len()];
+        for group in known.into_values().filter(|group| group.len() > 1) {
+            for &i in &group {
+                firsts[i] = Some(group[0]);
+            }
+        }
+        Shared { firsts }
+    }
+
+    /// The first case that has the program of this one, if others have it.
+    fn first(&self, case: usize) -> Option<usize> {
+        self.firsts[case]
+    }
+
+    /// The devices that the cases look at that share the program of this one.
+    fn observed(&self, file: &TestFile, first: usize) -> Devices {
+        let cases = file.cases.iter().zip(&self.firsts);
+        let cases = cases.filter(|(_, of)| **of == Some(first));
+        order::set(cases.flat_map(|(case, _)| observed(case, 0)))
+            .into_iter()
+            .collect()
+    }
+}
+
 /// Devices of a PLC that a case looks at and its program may not use.
-fn observed(case: &Case, plc: usize) -> Vec<(DeviceClass, u32)> {
+fn observed(case: &Case, plc: usize) -> Devices {
     let Check::Steps { init, steps } = &case.check else {
         return Vec::new();
     };
-    let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
+    let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(s.compared()));
+    let of_rules = case.rules.settings();
     let of_machine = case.machine.iter().filter(|_| plc == 0);
     let of_machine = of_machine.flat_map(|machine| machine.terminals());
     let of_others = case.others.iter().flat_map(|other| &other.init);
-    let settings = init.iter().chain(of_others).chain(of_steps);
+    let settings = init.iter().chain(of_others).chain(of_steps).chain(of_rules);
     let devices = settings
         .filter(|setting| setting.plc == plc)
         .flat_map(|setting| {
@@ -119,7 +201,14 @@ fn observed(case: &Case, plc: usize) -> Vec<(DeviceClass, u32)> {
             let (class, first, count) = setting.target.devices(text_len);
             (first..first.saturating_add(count)).map(move |n| (class, n))
         });
-    order::set(devices.chain(of_machine)).into_iter().collect()
+    let traced = case.trace.iter().flat_map(|trace| &trace.devices);
+    let traced = traced.filter(|(of, _)| *of == plc).flat_map(|(_, target)| {
+        let (class, first, count) = target.devices(0);
+        (first..first.saturating_add(count)).map(move |n| (class, n))
+    });
+    order::set(devices.chain(of_machine).chain(traced))
+        .into_iter()
+        .collect()
 }
 
 /// The serial ports of a PLC that a case uses.
@@ -136,7 +225,7 @@ fn opened(case: &Case, plc: usize) -> Vec<u8> {
     ports.into_iter().collect()
 }
 
-fn compile_case(case: &Case, warn: &[&'static str]) -> Result<Module, Errors> {
+fn compile_case(case: &Case, observe: Devices, warn: &[&'static str]) -> Result<Module, Errors> {
     let of_list;
     let read = match &case.program {
         CaseProgram::List(list) => {
@@ -146,8 +235,9 @@ fn compile_case(case: &Case, warn: &[&'static str]) -> Result<Module, Errors> {
         CaseProgram::File(file) => &file.read,
     };
     let program = &case.with_modules(&read.program);
-    let compiled = compile_on(case.model, case, program, warn);
-    let compiled = for_boards(case, program, &compiled, warn).unwrap_or(compiled);
+    let compiling = options(case, 0, observe);
+    let compiled = compile_on(case.model, case, program, (&compiling, warn));
+    let compiled = for_boards(case, program, &compiled, (&compiling, warn)).unwrap_or(compiled);
     finish(read, compiled)
 }
 
@@ -164,7 +254,7 @@ fn compile_other(
         model: Some(other.model),
         name: Some(name),
         warn: warn.to_vec(),
-        ..options(case, plc)
+        ..options(case, plc, observed(case, plc))
     };
     let compiled = compile(&read.program, &options);
     finish(&read, compiled)
@@ -186,7 +276,12 @@ fn finish(read: &Read, compiled: Compiled) -> Result<Module, Errors> {
     }
 }
 
-fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static str]) -> Compiled {
+fn compile_on(
+    model: ModelId,
+    case: &Case,
+    program: &Program,
+    (compiling, warn): (&CompileOptions, &[&'static str]),
+) -> Compiled {
     let (bounds, eased) = match &case.program {
         CaseProgram::List(_) => (Vec::new(), &[][..]),
         CaseProgram::File(file) => (file.bounds.clone(), &file.warn[..]),
@@ -196,18 +291,18 @@ fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static s
         name: Some(case.name.clone()),
         bounds,
         warn: warn.iter().chain(eased).copied().collect(),
-        ..options(case, 0)
+        ..compiling.clone()
     };
     compile(program, &options)
 }
 
 /// What a case asks of the program of a PLC. Partners on a line may ask for any device.
-fn options(case: &Case, plc: usize) -> CompileOptions {
+fn options(case: &Case, plc: usize, observe: Devices) -> CompileOptions {
     let ports = opened(case, plc);
     let other = plc.checked_sub(1).and_then(|i| case.others.get(i));
     CompileOptions {
         variant: other.map_or(case.variant, |other| other.variant),
-        observe: observed(case, plc),
+        observe,
         observe_all: !ports.is_empty() || !case.serve.is_empty(),
         ports,
         optimise: true,
@@ -220,7 +315,7 @@ fn for_boards(
     case: &Case,
     program: &Program,
     compiled: &Compiled,
-    warn: &[&'static str],
+    compiling: (&CompileOptions, &[&'static str]),
 ) -> Option<Compiled> {
     let refused = |compiled: &Compiled| {
         let mut errors = compiled.diagnostics.iter();
@@ -231,7 +326,7 @@ fn for_boards(
         .model
         .boards
         .filter(|_| runs && compiled.module.is_none())?;
-    let compiled = compile_on(boards, case, program, warn);
+    let compiled = compile_on(boards, case, program, compiling);
     (!refused(&compiled)).then_some(compiled)
 }
 

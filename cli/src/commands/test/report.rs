@@ -110,11 +110,13 @@ fn case<'a>(suite: &'a Suite, outcome: &'a Outcome) -> Case<'a> {
 
 fn why(failure: &Failure) -> Why<'_> {
     let (step, line) = match failure {
-        Failure::Differs { step, line, .. } => (Some(*step), Some(*line)),
+        Failure::Differs { step, line, .. } | Failure::Rule { step, line, .. } => {
+            (Some(*step), Some(*line))
+        }
         Failure::NoDevice { step, .. }
         | Failure::Machine { step, .. }
         | Failure::Engine { step, .. } => (Some(*step), None),
-        Failure::Refused(_) | Failure::Accepted(_) => (None, None),
+        Failure::Refused(_) | Failure::Accepted(_) | Failure::Trace { .. } => (None, None),
     };
     let values = match failure {
         Failure::Differs { values, .. } => &values[..],
@@ -143,6 +145,8 @@ pub(super) fn kind(failure: &Failure) -> &'static str {
         Failure::Accepted(_) => "not-rejected",
         Failure::NoDevice { .. } => "no-device",
         Failure::Differs { .. } => "differs",
+        Failure::Rule { kind, .. } => kind.name(),
+        Failure::Trace { .. } => "trace",
         Failure::Machine { .. } => "machine",
         Failure::Engine { .. } => "engine",
     }

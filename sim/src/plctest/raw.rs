@@ -1,0 +1,206 @@
+//! Test files as TOML has them.
+
+use super::Basis;
+use super::modules;
+use super::program::RawProgram;
+use super::serial::{Protocol, RawMode, RawSent};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+/// Values by names, each with its place.
+pub(super) type Map<T> = BTreeMap<Spanned<String>, T>;
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFile {
+    pub(super) model: Option<Spanned<String>>,
+    pub(super) topic: String,
+    pub(super) note: Option<String>,
+    pub(super) program: Option<Spanned<RawProgram>>,
+    pub(super) machine: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) modules: modules::Raw,
+    pub(super) index: Option<Spanned<IgnoredAny>>,
+    #[serde(default)]
+    pub(super) scenario: Vec<RawScenario>,
+    #[serde(default)]
+    pub(super) never: Vec<RawSettings>,
+    #[serde(default)]
+    pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    pub(super) case: Vec<Spanned<RawCase>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCase {
+    pub(super) name: Spanned<String>,
+    pub(super) model: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) source: String,
+    pub(super) basis: Option<Basis>,
+    #[serde(default)]
+    pub(super) note: String,
+    pub(super) program: Option<Spanned<RawProgram>>,
+    pub(super) machine: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) modules: modules::Raw,
+    pub(super) index: Option<Spanned<IgnoredAny>>,
+    #[serde(default)]
+    pub(super) init: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    pub(super) step: Vec<Spanned<RawStep>>,
+    #[serde(default)]
+    pub(super) plc: Vec<RawPlc>,
+    #[serde(default)]
+    pub(super) wire: Vec<Vec<Spanned<String>>>,
+    #[serde(default)]
+    pub(super) serve: Map<Protocol>,
+    #[serde(default)]
+    pub(super) rows: Vec<RawRow>,
+    #[serde(default)]
+    pub(super) never: Vec<RawSettings>,
+    #[serde(default)]
+    pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    #[serde(default)]
+    pub(super) trace: Vec<Spanned<String>>,
+    pub(super) rejects: Option<RawRejects>,
+}
+
+/// Devices and their values, with their place.
+pub(super) type RawSettings = Spanned<Map<Spanned<Scalar>>>;
+
+/// What the names with a `$` are in one of several cases.
+pub(super) type RawRow = Spanned<Map<Spanned<Scalar>>>;
+
+/// Steps that cases run by a name.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawScenario {
+    pub(super) name: Spanned<String>,
+    pub(super) step: Vec<Spanned<RawStep>>,
+}
+
+/// One thing follows another.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWhenever {
+    pub(super) when: Map<Spanned<Scalar>>,
+    pub(super) then: Map<Spanned<Scalar>>,
+    pub(super) within_ms: Option<Spanned<RawCount>>,
+}
+
+/// What holds early in a step.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWithin {
+    pub(super) ms: Spanned<RawCount>,
+    pub(super) expect: Map<Spanned<Scalar>>,
+}
+
+/// A whole number, or one of a row.
+#[derive(Clone, Deserialize)]
+#[serde(untagged, expecting = "expected a whole number")]
+pub(super) enum RawCount {
+    Number(u32),
+    Name(String),
+}
+
+/// A PLC beside that of the case.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPlc {
+    pub(super) name: Spanned<String>,
+    pub(super) model: Option<Spanned<String>>,
+    pub(super) program: String,
+    #[serde(default)]
+    pub(super) init: Map<Spanned<Scalar>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRejects {
+    pub(super) code: u16,
+    pub(super) line: Option<u32>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawStep {
+    #[serde(default)]
+    pub(super) set: Map<Spanned<Scalar>>,
+    #[serde(rename = "do")]
+    pub(super) scenario: Option<Spanned<String>>,
+    pub(super) scans: Option<Spanned<RawCount>>,
+    pub(super) run_ms: Option<Spanned<RawCount>>,
+    #[serde(default)]
+    pub(super) until: Map<Spanned<Scalar>>,
+    pub(super) at_most_ms: Option<Spanned<RawCount>>,
+    pub(super) scan_ms: Option<Spanned<RawCount>>,
+    #[serde(default)]
+    pub(super) within: Vec<Spanned<RawWithin>>,
+    #[serde(default)]
+    pub(super) never: Vec<RawSettings>,
+    #[serde(default)]
+    pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    #[serde(default)]
+    pub(super) expect: Map<Spanned<Scalar>>,
+    pub(super) pulses: Option<Map<RawPulses>>,
+    pub(super) encoder: Option<RawEncoder>,
+    pub(super) rx: Option<Map<String>>,
+    pub(super) expect_tx: Option<Map<RawSent>>,
+    pub(super) cut: Option<Vec<Spanned<String>>>,
+    pub(super) clock: Option<Spanned<String>>,
+    pub(super) mode: Option<Spanned<RawMode>>,
+    pub(super) power_fails: Option<bool>,
+    #[serde(default)]
+    pub(super) power_cycle: bool,
+    #[serde(default)]
+    pub(super) bfm: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    pub(super) expect_bfm: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    pub(super) answers_after: modules::RawDelays,
+    #[serde(default)]
+    pub(super) expect_position: BTreeMap<String, f64>,
+    #[serde(default)]
+    pub(super) analog: Map<Spanned<Scalar>>,
+}
+
+/// Pulses at an input.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPulses {
+    pub(super) count: u32,
+    pub(super) hz: f64,
+}
+
+/// An encoder's cycles.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawEncoder {
+    pub(super) a: Spanned<String>,
+    pub(super) b: Spanned<String>,
+    pub(super) count: i32,
+    pub(super) hz: f64,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Scalar {
+    Integer(i64),
+    Float(f64),
+    Text(String),
+    Near(Near),
+}
+
+/// A number that need not be exact.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Near {
+    /// The number in the middle.
+    pub(super) value: f64,
+    /// How far from it is near enough, in the same unit.
+    pub(super) tolerance: f64,
+}

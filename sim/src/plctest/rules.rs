@@ -1,0 +1,367 @@
+//! What must hold over time: `never`, `whenever`, `within` and `until`.
+
+use super::format::Reader;
+use super::raw::{RawSettings, RawWhenever, RawWithin};
+use super::runner::Running;
+use super::{Failure, Setting, Step};
+use std::fmt;
+use toml::Spanned;
+
+/// What must hold after each scan.
+#[derive(Clone, Debug, Default)]
+pub struct Rules {
+    /// What must never hold.
+    pub never: Vec<Never>,
+    /// What must follow what.
+    pub whenever: Vec<Whenever>,
+}
+
+/// After no scan, all of this holds at once.
+#[derive(Clone, Debug)]
+pub struct Never {
+    /// Its line in the file, from 1.
+    pub line: u32,
+    /// What must not hold.
+    pub all: Vec<Setting>,
+}
+
+/// When one thing begins to hold, another holds after the same scan, or after one at most this much later.
+#[derive(Clone, Debug)]
+pub struct Whenever {
+    /// Its line in the file, from 1.
+    pub line: u32,
+    /// What begins.
+    pub when: Vec<Setting>,
+    /// What must follow.
+    pub then: Vec<Setting>,
+    /// How soon, in milliseconds; 0 for the same scan.
+    pub within_ms: u32,
+}
+
+/// After a scan of the first milliseconds of a step, all of this holds.
+#[derive(Clone, Debug)]
+pub struct Within {
+    /// Its line in the file, from 1.
+    pub line: u32,
+    /// How many milliseconds.
+    pub ms: u32,
+    /// What must come to hold.
+    pub all: Vec<Setting>,
+}
+
+/// The rules there are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RuleKind {
+    /// [`Never`].
+    Never,
+    /// [`Whenever`].
+    Whenever,
+    /// [`Within`].
+    Within,
+    /// [`Step::until`].
+    Until,
+}
+
+impl RuleKind {
+    /// Its name in files and reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            RuleKind::Never => "never",
+            RuleKind::Whenever => "whenever",
+            RuleKind::Within => "within",
+            RuleKind::Until => "until",
+        }
+    }
+}
+
+impl Rules {
+    /// Adds others.
+    pub(super) fn extend(&mut self, others: &Rules) {
+        self.never.extend(others.never.iter().cloned());
+        self.whenever.extend(others.whenever.iter().cloned());
+    }
+
+    /// All that the rules look at.
+    pub fn settings(&self) -> impl Iterator<Item = &Setting> {
+        let never = self.never.iter().flat_map(|never| &never.all);
+        let whenever = self
+            .whenever
+            .iter()
+            .flat_map(|w| w.when.iter().chain(&w.then));
+        never.chain(whenever)
+    }
+}
+
+impl Step {
+    /// All that the step compares with what devices hold.
+    pub fn compared(&self) -> impl Iterator<Item = &Setting> {
+        let within = self.within.iter().flat_map(|within| &within.all);
+        let at_end = self.expect.iter().chain(&self.until);
+        at_end.chain(within).chain(self.rules.settings())
+    }
+
+    /// Whether anything is looked at after each scan.
+    fn watches(&self) -> bool {
+        !self.within.is_empty() || !self.rules.never.is_empty() || !self.rules.whenever.is_empty()
+    }
+}
+
+/// Reading.
+impl Reader<'_> {
+    /// What must hold after each scan.
+    pub(super) fn rules(
+        &mut self,
+        never: Vec<RawSettings>,
+        whenever: Vec<Spanned<RawWhenever>>,
+    ) -> Rules {
+        let never = never.into_iter().filter_map(|raw| {
+            let at = raw.span().start;
+            let all = self.expected(raw.into_inner());
+            let line = self.line(at);
+            self.some(at, all).map(|all| Never { line, all })
+        });
+        let never = never.collect();
+        let whenever = whenever.into_iter().filter_map(|raw| {
+            let at = raw.span().start;
+            let raw = raw.into_inner();
+            let within_ms = match raw.within_ms {
+                Some(ms) => self.count(&ms)?,
+                None => 0,
+            };
+            let (when, then) = (self.expected(raw.when), self.expected(raw.then));
+            Some(Whenever {
+                line: self.line(at),
+                when: self.some(at, when)?,
+                then: self.some(at, then)?,
+                within_ms,
+            })
+        });
+        let whenever = whenever.collect();
+        Rules { never, whenever }
+    }
+
+    /// What must come to hold while a step runs.
+    pub(super) fn within(&mut self, raw: Spanned<RawWithin>) -> Option<Within> {
+        let at = raw.span().start;
+        let raw = raw.into_inner();
+        let (ms, all) = (self.count(&raw.ms)?, self.expected(raw.expect));
+        Some(Within {
+            line: self.line(at),
+            ms,
+            all: self.some(at, all)?,
+        })
+    }
+
+    /// Reports that nothing is named.
+    fn some(&mut self, at: usize, all: Vec<Setting>) -> Option<Vec<Setting>> {
+        if all.is_empty() {
+            self.report(at, "name at least one device here".to_string());
+            return None;
+        }
+        Some(all)
+    }
+}
+
+/// What is known of the rules while a case runs.
+#[derive(Default)]
+pub(super) struct Watch<'c> {
+    /// The rules of the case and, at the end, those of the step.
+    never: Vec<&'c Never>,
+    whenever: Vec<(&'c Whenever, Followed)>,
+    /// How many of them are the case's.
+    of_case: (usize, usize),
+    /// What has not come to hold in the step that runs.
+    within: Vec<&'c Within>,
+}
+
+/// How far a [`Whenever`] is.
+#[derive(Clone, Copy, Default)]
+struct Followed {
+    /// Whether the first thing held after the last scan.
+    held: bool,
+    /// When it began, if the other has not followed.
+    since_ms: Option<u32>,
+}
+
+impl<'c> Watch<'c> {
+    /// For a case with these rules.
+    pub(super) fn new(rules: &'c Rules) -> Self {
+        let whenever = rules.whenever.iter();
+        Watch {
+            never: rules.never.iter().collect(),
+            whenever: whenever.map(|w| (w, Followed::default())).collect(),
+            of_case: (rules.never.len(), rules.whenever.len()),
+            within: Vec::new(),
+        }
+    }
+
+    /// A step begins.
+    pub(super) fn begin(&mut self, step: &'c Step) {
+        self.never.truncate(self.of_case.0);
+        self.whenever.truncate(self.of_case.1);
+        if step.power_cycle {
+            self.whenever
+                .iter_mut()
+                .for_each(|(_, followed)| *followed = Followed::default());
+        }
+        if step.watches() {
+            self.never.extend(&step.rules.never);
+            let whenever = step.rules.whenever.iter();
+            self.whenever
+                .extend(whenever.map(|w| (w, Followed::default())));
+        }
+        self.within = step.within.iter().collect();
+    }
+
+    fn is_idle(&self) -> bool {
+        self.never.is_empty() && self.whenever.is_empty() && self.within.is_empty()
+    }
+}
+
+/// Devices and values, for a message.
+struct All<'a, 'e>(&'a Running<'e>, &'a [Setting]);
+
+impl fmt::Display for All<'_, '_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, setting) in self.1.iter().enumerate() {
+            let comma = if i == 0 { "" } else { ", " };
+            let name = self.0.name_of(setting.plc, setting.target);
+            write!(f, "{comma}{name} = {}", setting.value)?;
+            if let Some(tolerance) = setting.tolerance {
+                write!(f, " ± {tolerance}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Running<'_> {
+    /// Whether all of it holds now.
+    pub(super) fn holds(&mut self, all: &[Setting]) -> Result<bool, Failure> {
+        for setting in all {
+            if self.differs(setting)?.is_some() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn broken(&self, kind: RuleKind, line: u32, message: String) -> Failure {
+        Failure::Rule {
+            step: self.step,
+            line,
+            kind,
+            message,
+        }
+    }
+
+    /// What differs from what is expected, as a sentence.
+    fn differences(&mut self, all: &[Setting]) -> Result<String, Failure> {
+        let mut texts = Vec::new();
+        for setting in all {
+            if let Some(actual) = self.differs(setting)? {
+                texts.push(format!(
+                    "{} is {actual}",
+                    self.name_of(setting.plc, setting.target)
+                ));
+            }
+        }
+        Ok(texts.join(", "))
+    }
+
+    /// A scan is over. The step began at `begin_ms`.
+    pub(super) fn watch(&mut self, watch: &mut Watch, begin_ms: u32) -> Result<(), Failure> {
+        if watch.is_idle() {
+            return Ok(());
+        }
+        let now_ms = self.now_ms();
+        for never in &watch.never {
+            if self.holds(&never.all)? {
+                let message = format!("{} at {now_ms} ms", All(self, &never.all));
+                return Err(self.broken(RuleKind::Never, never.line, message));
+            }
+        }
+        for (whenever, followed) in &mut watch.whenever {
+            self.follow(whenever, followed, now_ms)?;
+        }
+        let mut open = Vec::new();
+        for within in std::mem::take(&mut watch.within) {
+            if self.holds(&within.all)? {
+                continue;
+            }
+            if now_ms.wrapping_sub(begin_ms) >= within.ms {
+                return Err(self.late(within)?);
+            }
+            open.push(within);
+        }
+        watch.within = open;
+        Ok(())
+    }
+
+    fn late(&mut self, within: &Within) -> Result<Failure, Failure> {
+        let differences = self.differences(&within.all)?;
+        let message = format!(
+            "not {} within {} ms: {differences}",
+            All(self, &within.all),
+            within.ms
+        );
+        Ok(self.broken(RuleKind::Within, within.line, message))
+    }
+
+    fn follow(
+        &mut self,
+        rule: &Whenever,
+        followed: &mut Followed,
+        now_ms: u32,
+    ) -> Result<(), Failure> {
+        let holds = self.holds(&rule.when)?;
+        if holds && !followed.held && followed.since_ms.is_none() {
+            followed.since_ms = Some(now_ms);
+        }
+        followed.held = holds;
+        let Some(since_ms) = followed.since_ms else {
+            return Ok(());
+        };
+        if self.holds(&rule.then)? {
+            followed.since_ms = None;
+        } else if now_ms.wrapping_sub(since_ms) >= rule.within_ms {
+            let differences = self.differences(&rule.then)?;
+            let soon = match rule.within_ms {
+                0 => "after the same scan".to_string(),
+                ms => format!("within {ms} ms"),
+            };
+            let message = format!(
+                "{} at {since_ms} ms, but not {} {soon}: {differences}",
+                All(self, &rule.when),
+                All(self, &rule.then),
+            );
+            return Err(self.broken(RuleKind::Whenever, rule.line, message));
+        }
+        Ok(())
+    }
+
+    /// A step is over.
+    pub(super) fn end_watch(
+        &mut self,
+        watch: &Watch,
+        step: &Step,
+        ended: bool,
+    ) -> Result<(), Failure> {
+        if let Some(within) = watch.within.first() {
+            return Err(self.late(within)?);
+        }
+        if step.until.is_empty() || ended {
+            return Ok(());
+        }
+        let differences = self.differences(&step.until)?;
+        let ms = match step.run {
+            super::Run::Ms(ms) => ms,
+            super::Run::Scans(scans) => scans.saturating_mul(step.scan_ms),
+        };
+        let message = format!(
+            "not {} after {ms} ms: {differences}",
+            All(self, &step.until)
+        );
+        Err(self.broken(RuleKind::Until, step.line, message))
+    }
+}
