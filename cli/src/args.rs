@@ -7,6 +7,7 @@ mod flash;
 mod forms;
 mod properties;
 mod serve;
+mod test;
 mod values;
 mod verify;
 
@@ -17,6 +18,7 @@ pub use flash::FlashArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
 pub use properties::Properties;
 pub use serve::ServeArgs;
+pub use test::{TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -391,35 +393,6 @@ impl RunArgs {
     }
 }
 
-/// Arguments of `test`.
-#[derive(Args, Debug)]
-pub struct TestArgs {
-    /// Test files (`*.plctest.toml`), or folders of them. Default: those of rungc.toml.
-    #[arg(value_name = "FILE")]
-    pub files: Vec<PathBuf>,
-    /// Settings of the project (docs/src/project.md). Default: the rungc.toml in this folder or the nearest one above.
-    #[arg(long, value_name = "FILE")]
-    pub project: Option<PathBuf>,
-    /// Engine to run the cases on. Default: that of rungc.toml, else the interpreter.
-    #[arg(long, value_enum)]
-    pub engine: Option<EngineChoice>,
-    /// Simulated machine (docs/src/machines.md) for cases that do not specify one.
-    #[arg(long, value_name = "FILE")]
-    pub machine: Option<PathBuf>,
-    /// Run only cases whose `file::name` contains this.
-    #[arg(long, alias = "only", value_name = "TEXT")]
-    pub filter: Option<String>,
-    /// Run only one part of the cases, to share the work between machines: `1/4` is the first of four.
-    #[arg(long, value_name = "PART/PARTS")]
-    pub shard: Option<Shard>,
-    /// Format of the results.
-    #[arg(long, value_enum, default_value_t = TestFormat::Human)]
-    pub format: TestFormat,
-    /// File to write the results to, overwriting an existing one. Default: standard output.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-}
-
 /// Arguments of `view`.
 #[derive(Args, Debug)]
 pub struct ViewArgs {
@@ -602,17 +575,6 @@ impl FromStr for Shard {
             _ => Err("expected a part and the number of parts, from 1/4 to 4/4".to_string()),
         }
     }
-}
-
-/// Formats of test results.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum TestFormat {
-    /// Human-readable: failed cases and totals.
-    Human,
-    /// JUnit XML, for continuous integration.
-    Junit,
-    /// JSON: one object (docs/src/test-files.md).
-    Json,
 }
 
 /// Engines of `test`.

@@ -72,10 +72,15 @@ fn results_in_a_file() {
     let folder = suite();
     let path = folder.path();
     for format in ["json", "junit", "human"] {
-        let printed = rungc(path, &["test", "b.plctest.toml", "--format", format]).stdout;
+        let printed = rungc(
+            path,
+            &["test", "b.plctest.toml", "--no-cache", "--format", format],
+        )
+        .stdout;
         let args = [
             "test",
             "b.plctest.toml",
+            "--no-cache",
             "--format",
             format,
             "-o",
@@ -178,6 +183,50 @@ mod interrupted {
         child.wait_with_output().unwrap()
     }
 
+    /// Waits until what the command prints contains a text.
+    fn expect(out: &mut impl std::io::BufRead, text: &str) -> String {
+        let mut all = String::new();
+        while !all.contains(text) {
+            let length = out.read_line(&mut all).unwrap();
+            assert_ne!(length, 0, "no `{text}` in {all}");
+        }
+        all
+    }
+
+    #[test]
+    fn saved_files_are_tested_again() {
+        let test = "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"lamp.il\"\n[[case]]\nname = \"a\"\n[[case.step]]\nset = { X000 = 1 }\nexpect = { Y000 = 1 }\n";
+        let folder = folder(&[
+            ("lamp.il", b"LD X000\nOUT Y000\nEND\n"),
+            ("t.plctest.toml", test.as_bytes()),
+        ]);
+        let path = folder.path();
+        let mut child = begin(
+            Command::new(env!("CARGO_BIN_EXE_rungc"))
+                .args(["test", ".", "--watch"])
+                .env("RUNGC_CACHE_DIR", common::cache())
+                .current_dir(path),
+        );
+        let mut out = std::io::BufReader::new(child.stdout.take().unwrap());
+        expect(&mut out, "1 passed, 0 failed");
+        fs::write(path.join("lamp.il"), "LDI X000\nOUT Y000\nEND\n").unwrap();
+        expect(&mut out, "0 passed, 1 failed");
+        // A mistake does not end it, and what it was read from is still watched.
+        fs::write(path.join("t.plctest.toml"), test.replace("name", "nmae")).unwrap();
+        std::thread::sleep(Duration::from_millis(600));
+        fs::write(path.join("lamp.il"), "LD X000\nOUT Y000\nOUT Y001\nEND\n").unwrap();
+        fs::write(path.join("t.plctest.toml"), test).unwrap();
+        expect(&mut out, "1 passed, 0 failed");
+        fs::write(
+            path.join("new.plctest.toml"),
+            test.replace("\"a\"", "\"b\""),
+        )
+        .unwrap();
+        expect(&mut out, "2 passed, 0 failed");
+        let output = interrupt(child);
+        assert_eq!(output.status.code(), Some(130));
+    }
+
     #[test]
     fn tests_end_with_their_own_code() {
         let cases =
@@ -229,5 +278,134 @@ mod interrupted {
         let output = interrupt(child);
         assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
         assert!(!path.join("out").exists());
+    }
+}
+
+/// A file whose cases fail in ways that only runs have.
+const FAILING: &str = r#"model = "fx3u"
+topic = "time: 50 %, more"
+program = "LD X000\nOUT Y000\nEND\n"
+never = [{ Y000 = 1, X001 = 1 }]
+[[case]]
+name = "both: 100 %, at once"
+[[case.step]]
+set = { X000 = 1, X001 = 1 }
+[[case]]
+name = "waits"
+[[case.step]]
+until = { Y000 = 1 }
+at_most_ms = 50
+[[case]]
+name = "course"
+trace = ["Y000"]
+[[case.step]]
+set = { X000 = 1 }
+[[case]]
+name = "passes"
+[[case.step]]
+expect = { Y000 = 0 }
+"#;
+
+#[test]
+fn failures_are_marked_at_their_places() {
+    let folder = folder(&[("a b,c.plctest.toml", FAILING.as_bytes())]);
+    for format in ["sarif", "github", "junit"] {
+        let output = rungc(folder.path(), &["test", ".", "--format", format]);
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let printed = timeless(&text(&output.stdout));
+        let printed = printed.split(" failed (").next().unwrap();
+        insta::assert_snapshot!(format!("results_marked_{format}"), printed);
+    }
+}
+
+#[test]
+fn traces_are_reviewed() {
+    let folder = folder(&[("t.plctest.toml", FAILING.as_bytes())]);
+    let path = folder.path();
+    let only = |options: &[&str]| {
+        shown(
+            path,
+            &[&["test", ".", "--filter", "course"], options].concat(),
+        )
+    };
+    let mut story = vec![only(&[])];
+    let pending = path.join("traces/t.course.trace.new");
+    assert!(pending.is_file());
+    story.push(only(&["--reject"]));
+    assert!(!pending.exists());
+    story.push(only(&["--accept"]));
+    story.push(only(&[]));
+    let accepted = path.join("traces/t.course.trace");
+    let right = fs::read_to_string(&accepted).unwrap();
+    fs::write(&accepted, right.replace("Y000 1", "Y000 0")).unwrap();
+    story.push(only(&[]));
+    assert!(pending.is_file());
+    story.push(answered(path, "what\nl\n"));
+    story.push(answered(path, ""));
+    assert!(pending.is_file());
+    story.push(answered(path, "a\n"));
+    assert!(!pending.exists());
+    assert_eq!(fs::read_to_string(&accepted).unwrap(), right);
+    insta::assert_snapshot!("results_review", story.join("\n\n"));
+}
+
+/// What a review prints that is given these answers.
+fn answered(folder: &Path, answers: &str) -> String {
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["test", ".", "--filter", "course", "--review"])
+        .current_dir(folder)
+        .env("RUNGC_CACHE_DIR", common::cache())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(answers.as_bytes()).unwrap();
+    drop(input);
+    let output = child.wait_with_output().unwrap();
+    let printed = common::normal(&text(&output.stdout), folder);
+    format!("{printed}\n--- exit code {}", output.status.code().unwrap())
+}
+
+#[test]
+fn only_what_passed_with_the_same_files_is_known() {
+    let machine = "[[delay]]\noutput = \"Y001\"\ninput = \"X005\"\non_ms = 10\n";
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("m.toml", machine.as_bytes()),
+        (
+            "t.plctest.toml",
+            b"model = \"fx3u\"\ntopic = \"t\"\nprogram = \"motor.il\"\nmachine = \"m.toml\"\n\
+            [[case]]\nname = \"runs\"\n[[case.step]]\nset = { X000 = 1 }\nexpect = { M0 = 1 }\n\
+            [[case]]\nname = \"fails\"\n[[case.step]]\nexpect = { M0 = 1 }\n",
+        ),
+    ]);
+    let path = folder.path();
+    let known = |options: &[&str]| {
+        let output = rungc(
+            path,
+            &[&["test", ".", "--format", "json"], options].concat(),
+        );
+        let read: serde_json::Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
+        let cases = read["cases"].as_array().unwrap();
+        let known = cases.iter().map(|case| case["cached"] == true);
+        known.collect::<Vec<bool>>()
+    };
+    assert_eq!(known(&[]), [false, false]);
+    assert_eq!(known(&[]), [true, false], "what failed runs again");
+    assert_eq!(known(&["--no-cache"]), [false, false]);
+    for (file, change) in [
+        ("motor.il", "; more\n"),
+        ("m.toml", "# more\n"),
+        ("t.plctest.toml", "# more\n"),
+    ] {
+        let before = fs::read_to_string(path.join(file)).unwrap();
+        fs::write(path.join(file), format!("{before}{change}")).unwrap();
+        assert_eq!(known(&[]), [false, false], "{file} has changed");
+        assert_eq!(known(&[]), [true, false]);
     }
 }

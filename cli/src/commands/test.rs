@@ -1,64 +1,108 @@
 //! `rungc test`.
 
+mod files;
+mod github;
 mod junit;
 mod report;
+mod review;
+mod sarif;
+mod verdicts;
+mod watch;
 
 use super::{
     AtomicFile, Context, Failure, Outcome, Result, counted, defaults, interruption, say, subject,
 };
-use crate::args::{EngineChoice, Shard, TestArgs, TestFormat};
+use crate::args::{EngineChoice, TestArgs, TestFormat};
 use crate::progress;
 use crate::report::visible_json;
 use report::Results;
+use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
-use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
-use rungc_syntax::order;
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
-use walkdir::{DirEntry, WalkDir};
-
-/// Ending of the names of test files.
-const ENDING: &str = ".plctest.toml";
+use verdicts::Verdicts;
 
 /// Runs test files.
 pub fn run(args: &TestArgs, cx: Context) -> Result {
-    let start = Instant::now();
     interruption::note_for_a_while();
-    let project = subject::project(args.project.as_deref(), cx)?;
-    let settings = project.as_ref();
-    let mut paths = args.files.clone();
-    if let (true, Some(project)) = (paths.is_empty(), settings) {
-        let files = project.test.files.iter();
-        paths.extend(files.map(|file| subject::near(project.at(file))));
+    if args.watch {
+        return watch::run(args, cx);
     }
-    if paths.is_empty() {
-        let why = "no tests given: name a FILE, or set `files` in `[test]` of rungc.toml";
-        return Err(Failure::Because(why.to_string()));
+    let chosen = Chosen::of(args, cx)?;
+    let files = chosen.load(args)?;
+    run_files(args, &chosen, files, cx)
+}
+
+/// What the command line and the settings ask for.
+struct Chosen {
+    project: Option<Project>,
+    paths: Vec<PathBuf>,
+    engine: EngineChoice,
+}
+
+impl Chosen {
+    fn of(args: &TestArgs, cx: Context) -> std::result::Result<Self, Failure> {
+        let project = subject::project(args.project.as_deref(), cx)?;
+        let settings = project.as_ref();
+        let mut paths = args.files.clone();
+        if let (true, Some(project)) = (paths.is_empty(), settings) {
+            let files = project.test.files.iter();
+            paths.extend(files.map(|file| subject::near(project.at(file))));
+        }
+        if paths.is_empty() {
+            let why = "no tests given: name a FILE, or set `files` in `[test]` of rungc.toml";
+            return Err(Failure::Because(why.to_string()));
+        }
+        let usual = settings.map(defaults::engine).transpose();
+        let usual = usual.map_err(|error| Failure::Because(error.to_string()))?;
+        let engine = args.engine.or(usual.flatten());
+        Ok(Chosen {
+            engine: engine.unwrap_or(EngineChoice::Interp),
+            project,
+            paths,
+        })
     }
-    let usual = settings.map(defaults::engine).transpose();
-    let usual = usual.map_err(|error| Failure::Because(error.to_string()))?;
-    let engine = args.engine.or(usual.flatten());
-    let mut files = load(&paths, args.filter.as_deref())?;
-    if files.is_empty() {
-        return Err(Failure::Because("no cases to run".to_string()));
+
+    /// The cases that are to run.
+    fn load(&self, args: &TestArgs) -> std::result::Result<Vec<TestFile>, Failure> {
+        let mut files = files::load(&self.paths, args.filter.as_deref())?;
+        if files.is_empty() {
+            return Err(Failure::Because("no cases to run".to_string()));
+        }
+        if let Some(shard) = args.shard {
+            files::keep(&mut files, shard);
+        }
+        if let Some(path) = &args.machine {
+            files::wire(&mut files, path)?;
+        }
+        Ok(files)
     }
-    if let Some(shard) = args.shard {
-        keep(&mut files, shard);
+
+    /// Errors that are warnings.
+    fn warn(&self) -> &[&'static str] {
+        let settings = self.project.as_ref();
+        settings.map_or(&[][..], |project| &project.check.warn)
     }
-    if let Some(path) = &args.machine {
-        wire(&mut files, path)?;
-    }
-    let warn = settings.map_or(&[][..], |project| &project.check.warn);
-    let suite = progress::spin("compiling the cases", || Suite::compile(files, warn));
-    let kinds = engines(engine.unwrap_or(EngineChoice::Interp));
+}
+
+fn run_files(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) -> Result {
+    let start = Instant::now();
+    let kinds = engines(chosen.engine);
+    let verdicts = Verdicts::look(args, &files, &kinds, chosen.warn());
+    let known = &verdicts.known;
+    let suite = progress::spin("compiling the cases", || {
+        Suite::compile_but(files, chosen.warn(), known)
+    });
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
     let cases = counted(suite.len(), "case");
     cx.note(&format!("     Running {cases} on {}", names.join(", ")));
+    if !known.is_empty() {
+        cx.detail(|| format!("       Known {} to pass", counted(known.len(), "case")));
+    }
     let mut report = Report::default();
     if !suite.is_empty() {
         let folder = match kinds.iter().all(|kind| *kind == EngineKind::Interp) {
@@ -68,6 +112,11 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         for kind in kinds {
             report.extend(run_on(kind, &suite, folder.path())?);
         }
+    }
+    if !interruption::is_asked() {
+        // A verdict is about the files as they were when the cases ran.
+        verdicts.keep(&suite, &report);
+        review::traces(args, &suite, &mut report, cx)?;
     }
     let results = Results {
         suite: &suite,
@@ -108,6 +157,8 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
         TestFormat::Human => report::human(results),
         TestFormat::Junit => junit::junit(results)?,
         TestFormat::Json => visible_json(&report::json(results)?).into_owned(),
+        TestFormat::Sarif => visible_json(&sarif::sarif(results)?).into_owned(),
+        TestFormat::Github => github::github(results),
     };
     let Some(path) = &args.output else {
         return say(&text).map_err(Failure::from);
@@ -158,76 +209,4 @@ fn engines(choice: EngineChoice) -> Vec<EngineKind> {
         EngineChoice::Rust => vec![EngineKind::Rust],
         EngineChoice::All => EngineKind::ALL.to_vec(),
     }
-}
-
-/// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `filter`.
-fn load(paths: &[PathBuf], filter: Option<&str>) -> std::result::Result<Vec<TestFile>, Failure> {
-    let mut names = Vec::new();
-    for path in paths {
-        if path.is_dir() {
-            find(path, &mut names)?
-        } else {
-            names.push(path.clone())
-        }
-    }
-    order::by(&mut names, Ord::cmp);
-    names.dedup();
-    let mut problems = Vec::new();
-    let mut files = Vec::new();
-    for name in &names {
-        match plctest::load(name) {
-            Ok(file) => files.push(file),
-            Err(error) => problems.push(error.to_string()),
-        }
-    }
-    if !problems.is_empty() {
-        return Err(Failure::Because(problems.join("\n")));
-    }
-    if let Some(filter) = filter {
-        for file in &mut files {
-            let name = file.name.clone();
-            file.cases
-                .retain(|case| format!("{name}::{}", case.name).contains(filter));
-        }
-    }
-    files.retain(|file| !file.cases.is_empty());
-    Ok(files)
-}
-
-/// Keeps one part of the cases: dealt out in their order, so that the parts are equal and a slow file is shared.
-fn keep(files: &mut Vec<TestFile>, shard: Shard) {
-    let mut dealt = (0..shard.parts).cycle();
-    for file in &mut *files {
-        file.cases.retain(|_| dealt.next() == Some(shard.part - 1));
-    }
-    files.retain(|file| !file.cases.is_empty());
-}
-
-/// Gives the machine of a file to cases that name none.
-fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure> {
-    let described = plant::load(path).map_err(|error| Failure::Because(error.to_string()))?;
-    let described = Arc::new(described);
-    for case in files.iter_mut().flat_map(|file| &mut file.cases) {
-        case.machine.get_or_insert_with(|| Arc::clone(&described));
-    }
-    Ok(())
-}
-
-/// Adds the test files in a folder and below; hidden folders, folders called `target` and links to folders are left
-/// out.
-fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
-    let is_left_out = |entry: &DirEntry| {
-        let name = entry.file_name().to_string_lossy();
-        entry.depth() > 0
-            && entry.file_type().is_dir()
-            && (name.starts_with('.') || name == "target")
-    };
-    let entries = WalkDir::new(folder).into_iter();
-    for entry in entries.filter_entry(|entry| !is_left_out(entry)) {
-        let path = entry.map_err(io::Error::from)?.into_path();
-        if path.to_string_lossy().ends_with(ENDING) && !path.is_dir() {
-            names.push(path.strip_prefix(".").map_or(path.clone(), Path::to_owned));
-        }
-    }
-    Ok(())
 }

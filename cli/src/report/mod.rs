@@ -3,7 +3,7 @@
 mod human;
 mod json;
 mod location;
-mod sarif;
+pub mod sarif;
 mod visible;
 mod window;
 

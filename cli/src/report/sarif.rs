@@ -45,26 +45,31 @@ impl Log {
             .filter(|code| self.used.contains(code.id))
             .map(rule)
             .collect();
-        let driver = json!({
-            "name": "rungc",
-            "version": env!("CARGO_PKG_VERSION"),
-            "rules": rules,
-        });
-        let mut run = json!({
-            "tool": { "driver": driver },
-            "results": self.results,
-            "columnKind": "unicodeCodePoints",
-        });
-        if !self.artifacts.is_empty() {
-            run["artifacts"] = self.artifacts.into();
-        }
-        let log = json!({
-            "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-            "version": "2.1.0",
-            "runs": [run],
-        });
-        Ok(serde_json::to_string_pretty(&log)?)
+        log(rules, self.results, self.artifacts)
     }
+}
+
+/// A log of results as pretty-printed text.
+pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io::Result<String> {
+    let driver = json!({
+        "name": "rungc",
+        "version": env!("CARGO_PKG_VERSION"),
+        "rules": rules,
+    });
+    let mut run = json!({
+        "tool": { "driver": driver },
+        "results": results,
+        "columnKind": "unicodeCodePoints",
+    });
+    if !artifacts.is_empty() {
+        run["artifacts"] = artifacts.into();
+    }
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [run],
+    });
+    Ok(serde_json::to_string_pretty(&log)?)
 }
 
 /// What a code means, for those who see only the log.
@@ -191,7 +196,7 @@ fn logical(location: &Location) -> Option<Value> {
 
 /// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or
 /// none.
-fn uri(path: &Path) -> String {
+pub fn uri(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);
     path.bytes().fold(String::new(), |uri, byte| match byte {

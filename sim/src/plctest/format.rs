@@ -39,6 +39,8 @@ pub(super) struct Reader<'t> {
     problems: Vec<Problem>,
     /// The programs in files that were read, by their paths.
     programs: BTreeMap<PathBuf, Tested>,
+    /// The files that were read.
+    pub(super) inputs: BTreeSet<PathBuf>,
     /// Names of the other PLCs of the case being read.
     pub(super) others: Vec<String>,
     /// The scenarios of the file, and how many of them the step being read may name.
@@ -55,6 +57,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
         source,
         problems: Vec::new(),
         programs: BTreeMap::new(),
+        inputs: BTreeSet::from([PathBuf::from(&source.name)]),
         others: Vec::new(),
         scenarios: Vec::new(),
         scenarios_known: 0,
@@ -129,6 +132,7 @@ impl Reader<'_> {
             name: self.source.name.clone(),
             topic: raw.topic,
             note: raw.note.unwrap_or_default(),
+            inputs: std::mem::take(&mut self.inputs),
             cases,
         }
     }
@@ -196,6 +200,8 @@ impl Reader<'_> {
         if let Some(read) = self.programs.get(&path) {
             return read.clone();
         }
+        self.inputs.extend(Project::find(&path));
+        self.inputs.insert(path.clone());
         let read = program::read(&path).unwrap_or_else(|message| {
             self.report(at, message);
             Tested::unread()
@@ -217,6 +223,7 @@ impl Reader<'_> {
         let name = name?;
         let folder = Path::new(&self.source.name).parent();
         let path = folder.unwrap_or(Path::new("")).join(name.get_ref());
+        self.inputs.insert(path.clone());
         match plant::load(&path) {
             Ok(machine) => Some(Arc::new(machine)),
             Err(error) => {

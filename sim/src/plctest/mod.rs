@@ -36,8 +36,9 @@ use rungc_rt::Clock;
 use rungc_rt::modules::Kind;
 use rungc_syntax::Source;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A test file.
@@ -49,6 +50,8 @@ pub struct TestFile {
     pub topic: String,
     /// A remark on the whole file.
     pub note: String,
+    /// The files and folders that it was read from: itself, programs, machines, accepted traces, settings.
+    pub inputs: BTreeSet<PathBuf>,
     /// Its cases.
     pub cases: Vec<Case>,
 }

@@ -105,6 +105,8 @@ pub struct Outcome {
     pub engine: String,
     /// Why it failed, if it did.
     pub failure: Option<Failure>,
+    /// Whether it did not run, because it is known to pass.
+    pub cached: bool,
     /// How long it took.
     pub elapsed: Duration,
 }
@@ -139,6 +141,14 @@ impl Report {
 }
 
 impl Outcome {
+    /// The line of the test file that the result is about: of the step or rule that failed, else of the case.
+    pub fn line(&self, suite: &Suite) -> u32 {
+        match &self.failure {
+            Some(Failure::Differs { line, .. } | Failure::Rule { line, .. }) => *line,
+            _ => suite.files()[self.id.file].cases[self.id.case].line,
+        }
+    }
+
     /// The case's place, name and engine, why it failed, and what it is based on.
     pub fn describe(&self, suite: &Suite) -> String {
         let file = &suite.files()[self.id.file];

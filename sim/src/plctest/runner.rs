@@ -41,7 +41,9 @@ pub fn run(
     let mut report = Report::default();
     for (id, case) in suite.cases() {
         let begin = Instant::now();
-        let result = match (&case.check, suite.built(id)) {
+        let built = suite.built(id);
+        let result = match (&case.check, built) {
+            (_, Built::Known) => Ok(()),
             (Check::Rejects(rejects), built) => check_rejects(*rejects, built),
             (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
@@ -59,6 +61,7 @@ pub fn run(
             id,
             engine: engine.name().to_string(),
             failure: result.err(),
+            cached: matches!(built, Built::Known),
             elapsed: begin.elapsed(),
         };
         let wish = progress(&outcome);

@@ -61,6 +61,7 @@ impl Reader<'_> {
         let stem = stem.strip_suffix(".plctest.toml").unwrap_or(&stem);
         let name = format!("{}.{}.trace", file_name(stem), file_name(case));
         let path = file.with_file_name(FOLDER).join(name);
+        self.inputs.insert(path.clone());
         Some(Trace {
             devices,
             accepted: std::fs::read_to_string(&path).ok(),

@@ -45,6 +45,8 @@ struct Case<'a> {
     name: &'a str,
     engine: &'a str,
     passed: bool,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    cached: bool,
     seconds: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Why<'a>>,
@@ -101,6 +103,7 @@ fn case<'a>(suite: &'a Suite, outcome: &'a Outcome) -> Case<'a> {
         name: &case.name,
         engine: &outcome.engine,
         passed: outcome.failure.is_none(),
+        cached: outcome.cached,
         seconds: seconds(outcome.elapsed),
         failure: outcome.failure.as_ref().map(why),
         source: &case.source,

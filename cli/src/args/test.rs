@@ -1,0 +1,64 @@
+//! Arguments of `test`.
+
+use super::{EngineChoice, Shard};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Arguments of `test`.
+#[derive(Args, Debug)]
+pub struct TestArgs {
+    /// Test files (`*.plctest.toml`), or folders of them. Default: those of rungc.toml.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Settings of the project (docs/src/project.md). Default: the rungc.toml in this folder or the nearest one above.
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
+    /// Engine to run the cases on. Default: that of rungc.toml, else the interpreter.
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
+    /// Simulated machine (docs/src/machines.md) for cases that do not specify one.
+    #[arg(long, value_name = "FILE")]
+    pub machine: Option<PathBuf>,
+    /// Run only cases whose `file::name` contains this.
+    #[arg(long, alias = "only", value_name = "TEXT")]
+    pub filter: Option<String>,
+    /// Run only one part of the cases, to share the work between machines: `1/4` is the first of four.
+    #[arg(long, value_name = "PART/PARTS")]
+    pub shard: Option<Shard>,
+    /// Show each trace that differs from the accepted one, and ask whether to accept it.
+    #[arg(long, conflicts_with_all = ["accept", "reject", "watch", "shard"])]
+    pub review: bool,
+    /// Accept all traces as they are now.
+    #[arg(long, conflicts_with_all = ["reject", "watch"])]
+    pub accept: bool,
+    /// Delete runs that earlier tests left beside accepted traces.
+    #[arg(long, conflicts_with = "watch")]
+    pub reject: bool,
+    /// Run again each time that a test file, program, machine, trace or setting is saved, until Ctrl-C.
+    #[arg(long, conflicts_with = "output")]
+    pub watch: bool,
+    /// Run all cases, also those that passed before with the same files and compiler.
+    #[arg(long)]
+    pub no_cache: bool,
+    /// Format of the results.
+    #[arg(long, value_enum, default_value_t = TestFormat::Human)]
+    pub format: TestFormat,
+    /// File to write the results to, overwriting an existing one. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+/// How `test` reports results.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum TestFormat {
+    /// Human-readable: failed cases and totals.
+    Human,
+    /// JUnit XML, for continuous integration.
+    Junit,
+    /// JSON: one object (docs/src/test-files.md).
+    Json,
+    /// SARIF 2.1.0: failed cases with their places, for code scanning services.
+    Sarif,
+    /// Workflow commands of GitHub Actions, which mark the places of failed cases.
+    Github,
+}

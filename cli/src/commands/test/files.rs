@@ -1,0 +1,95 @@
+//! Which test files and cases run.
+
+use super::super::Failure;
+use crate::args::Shard;
+use rungc_sim::plant;
+use rungc_sim::plctest::{self, TestFile};
+use rungc_syntax::order;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use walkdir::{DirEntry, WalkDir};
+
+/// Ending of the names of test files.
+const ENDING: &str = ".plctest.toml";
+
+/// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `filter`.
+pub fn load(
+    paths: &[PathBuf],
+    filter: Option<&str>,
+) -> std::result::Result<Vec<TestFile>, Failure> {
+    let names = names(paths)?;
+    let mut problems = Vec::new();
+    let mut files = Vec::new();
+    for name in &names {
+        match plctest::load(name) {
+            Ok(file) => files.push(file),
+            Err(error) => problems.push(error.to_string()),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(Failure::Because(problems.join("\n")));
+    }
+    if let Some(filter) = filter {
+        for file in &mut files {
+            let name = file.name.clone();
+            file.cases
+                .retain(|case| format!("{name}::{}", case.name).contains(filter));
+        }
+    }
+    files.retain(|file| !file.cases.is_empty());
+    Ok(files)
+}
+
+/// Keeps one part of the cases: dealt out in their order, so that the parts are equal and a slow file is shared.
+pub fn keep(files: &mut Vec<TestFile>, shard: Shard) {
+    let mut dealt = (0..shard.parts).cycle();
+    for file in &mut *files {
+        file.cases.retain(|_| dealt.next() == Some(shard.part - 1));
+    }
+    files.retain(|file| !file.cases.is_empty());
+}
+
+/// Gives the machine of a file to cases that name none.
+pub fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure> {
+    let described = plant::load(path).map_err(|error| Failure::Because(error.to_string()))?;
+    let described = Arc::new(described);
+    for case in files.iter_mut().flat_map(|file| &mut file.cases) {
+        case.machine.get_or_insert_with(|| Arc::clone(&described));
+    }
+    Ok(())
+}
+
+/// Adds the test files in a folder and below; hidden folders, folders called `target` and links to folders are left
+/// out.
+fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
+    let is_left_out = |entry: &DirEntry| {
+        let name = entry.file_name().to_string_lossy();
+        entry.depth() > 0
+            && entry.file_type().is_dir()
+            && (name.starts_with('.') || name == "target")
+    };
+    let entries = WalkDir::new(folder).into_iter();
+    for entry in entries.filter_entry(|entry| !is_left_out(entry)) {
+        let path = entry.map_err(io::Error::from)?.into_path();
+        if path.to_string_lossy().ends_with(ENDING) && !path.is_dir() {
+            names.push(path.strip_prefix(".").map_or(path.clone(), Path::to_owned));
+        }
+    }
+    Ok(())
+}
+
+/// The test files that paths name, each once.
+pub fn names(paths: &[PathBuf]) -> std::result::Result<Vec<PathBuf>, Failure> {
+    let mut names = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            find(path, &mut names)?
+        } else {
+            names.push(path.clone())
+        }
+    }
+    order::by(&mut names, Ord::cmp);
+    names.dedup();
+    Ok(names)
+}

@@ -1,0 +1,97 @@
+//! Accepting and rejecting traces.
+
+use super::super::{Context, Failure, say, write_file};
+use crate::args::TestArgs;
+use rungc_sim::plctest::{self, Outcome, Report, Suite, Trace};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, BufRead};
+use std::path::PathBuf;
+
+/// What is to become of a trace that differs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wish {
+    Accept,
+    Reject,
+    Later,
+}
+
+/// Accepts or rejects traces that differ, as asked; else leaves them beside those that are accepted. A case whose trace
+/// is accepted passes.
+pub fn traces(
+    args: &TestArgs,
+    suite: &Suite,
+    report: &mut Report,
+    cx: Context,
+) -> Result<(), Failure> {
+    let mut decided: BTreeSet<PathBuf> = BTreeSet::new();
+    let mut end = false;
+    for outcome in &mut report.outcomes {
+        let case = &suite.files()[outcome.id.file].cases[outcome.id.case];
+        let Some(trace) = &case.trace else {
+            continue;
+        };
+        let Some(plctest::Failure::Trace { actual, .. }) = outcome.failure.clone() else {
+            forget(trace);
+            continue;
+        };
+        // Other engines have the same trace, or fail once the first one is accepted.
+        if !decided.insert(trace.path.clone()) {
+            let accepted = fs::read_to_string(&trace.path).ok();
+            if accepted.as_deref() == Some(&actual) {
+                outcome.failure = None;
+            }
+            continue;
+        }
+        let wish = match (args.accept, args.reject) {
+            (true, _) => Wish::Accept,
+            (_, true) => Wish::Reject,
+            _ if args.review && !end => ask(outcome, suite, &mut end)?,
+            _ => Wish::Later,
+        };
+        match wish {
+            Wish::Accept => {
+                write_file(&trace.path, actual.as_bytes(), true)?;
+                forget(trace);
+                cx.note(&format!("    Accepted {}", trace.path.display()));
+                outcome.failure = None;
+            }
+            Wish::Reject => {
+                forget(trace);
+                cx.note(&format!("    Rejected {}", trace.path.display()));
+            }
+            Wish::Later => write_file(&trace.pending(), actual.as_bytes(), true)?,
+        }
+    }
+    Ok(())
+}
+
+/// Deletes a run that was left beside the accepted one.
+fn forget(trace: &Trace) {
+    // Most often there is none.
+    let _ = fs::remove_file(trace.pending());
+}
+
+/// Shows how a trace differs and asks what to do. What is not understood is asked again; the end of the input leaves all
+/// that follows.
+fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Wish, Failure> {
+    say(&format!("{}\n", outcome.describe(suite)))?;
+    if let Some(plctest::Failure::Trace { actual, .. }) = &outcome.failure {
+        say(&format!("{actual}\n"))?;
+    }
+    loop {
+        say("accept (a), reject (r) or leave (l) this run? ")?;
+        let mut answer = String::new();
+        if io::stdin().lock().read_line(&mut answer)? == 0 {
+            *end = true;
+            say("\n")?;
+            return Ok(Wish::Later);
+        }
+        match answer.trim() {
+            "a" | "accept" => return Ok(Wish::Accept),
+            "r" | "reject" => return Ok(Wish::Reject),
+            "l" | "leave" => return Ok(Wish::Later),
+            _ => {}
+        }
+    }
+}
