@@ -9,8 +9,8 @@
 use crate::aig::Lit;
 use crate::sat::{Answer, Solver};
 use crate::system::System;
+use batsat::Lit as SatLit;
 use rustc_hash::FxHashMap;
-use rustsat::types::Lit as SatLit;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::time::Instant;

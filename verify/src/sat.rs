@@ -1,9 +1,7 @@
 //! Graphs as clauses for a SAT solver.
 
 use crate::aig::{Aig, Lit, Node};
-use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
-use rustsat::types::{Clause, Lit as SatLit, TernaryVal};
-use rustsat_batsat::BasicSolver;
+use batsat::{BasicSolver, Lit as SatLit, SolverInterface, Var, lbool};
 use std::time::Instant;
 
 /// The answer of a solver.
@@ -29,8 +27,7 @@ impl Solver {
     /// A solver that gives up at this time.
     pub fn new(deadline: Instant) -> Self {
         let mut solver = BasicSolver::default();
-        let callbacks = solver.batsat_mut().cb_mut();
-        callbacks.set_stop(move || Instant::now() > deadline);
+        solver.cb_mut().set_stop(move || Instant::now() > deadline);
         Solver {
             solver,
             variables: Vec::new(),
@@ -41,14 +38,22 @@ impl Solver {
     /// A new variable.
     pub fn variable(&mut self) -> SatLit {
         self.next += 1;
-        SatLit::positive(self.next - 1)
+        positive(self.next - 1)
     }
 
     /// Adds a clause.
     pub fn clause(&mut self, lits: &[SatLit]) {
-        let clause: Clause = lits.iter().copied().collect();
-        // BatSat takes every clause; running out of memory ends the process anyway.
-        let _ = self.solver.add_clause(clause);
+        let mut clause = self.known_to_solver(lits);
+        // Whether all can still hold is asked when it is solved.
+        self.solver.add_clause_reuse(&mut clause);
+    }
+
+    /// The same literals, whose variables the solver has from now on.
+    fn known_to_solver(&mut self, lits: &[SatLit]) -> Vec<SatLit> {
+        for lit in lits {
+            self.solver.var_of_int(lit.var().idx());
+        }
+        lits.to_vec()
     }
 
     /// The variable of a literal of the graph, with the clauses that define it.
@@ -82,7 +87,7 @@ impl Solver {
                 }
             }
         }
-        self.known(lit).unwrap_or_else(|| SatLit::positive(0))
+        self.known(lit).unwrap_or_else(|| positive(0))
     }
 
     fn known(&self, lit: Lit) -> Option<SatLit> {
@@ -96,16 +101,17 @@ impl Solver {
 
     /// Whether all that was added can hold together with these.
     pub fn solve(&mut self, assumed: &[SatLit]) -> Answer {
-        match self.solver.solve_assumps(assumed) {
-            Ok(SolverResult::Sat) => Answer::Sat,
-            Ok(SolverResult::Unsat) => Answer::Unsat,
-            Ok(SolverResult::Interrupted) | Err(_) => Answer::Unknown,
+        let assumed = self.known_to_solver(assumed);
+        match self.solver.solve_limited(&assumed) {
+            found if found == lbool::TRUE => Answer::Sat,
+            found if found == lbool::FALSE => Answer::Unsat,
+            _ => Answer::Unknown,
         }
     }
 
     /// After [`Answer::Sat`]: whether a variable is on; what does not matter is off.
     pub fn is_on(&self, lit: SatLit) -> bool {
-        matches!(self.solver.lit_val(lit), Ok(TernaryVal::True))
+        self.solver.value_lit(lit) == lbool::TRUE
     }
 
     /// After [`Answer::Sat`]: whether a literal of the graph is on; one that no clause names is off.
@@ -119,9 +125,13 @@ impl Solver {
     /// After [`Answer::Unsat`]: which of the assumptions cannot hold together.
     pub fn core(&mut self) -> Vec<SatLit> {
         // The library gives the clause that follows: the inversions of the assumptions.
-        let core = self.solver.core().unwrap_or_default();
-        core.into_iter().map(|lit| !lit).collect()
+        self.solver.unsat_core().iter().map(|&lit| !lit).collect()
     }
+}
+
+/// The literal that holds if a variable is on.
+fn positive(variable: u32) -> SatLit {
+    SatLit::new(Var::unsafe_from_idx(variable), true)
 }
 
 #[cfg(test)]

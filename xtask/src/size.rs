@@ -13,7 +13,7 @@ const LISTED: usize = 25;
 pub struct Args {
     /// The executable; without it `target/release/rungc`.
     executable: Option<PathBuf>,
-    /// Fail if it is larger than this many bytes.
+    /// Fail if it is larger than this many bytes or has symbols.
     #[arg(long, value_name = "BYTES")]
     most: Option<u64>,
 }
@@ -26,31 +26,40 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     let size = size.map_err(|error| format!("{}: {error}", executable.display()))?;
     let size = size.len();
     println!("{size} bytes: {}", executable.display());
-    let mut crates: Vec<(String, u64)> = code(&executable)?.into_iter().collect();
+    let symbols = symbols(&executable)?;
+    let mut crates: Vec<(String, u64)> = code(&symbols)?.into_iter().collect();
     crates.sort_by_key(|(_, bytes)| std::cmp::Reverse(*bytes));
-    if crates.is_empty() {
+    if symbols.is_empty() {
         println!("no symbols: build with CARGO_PROFILE_RELEASE_STRIP=false to see the crates");
     }
     for (name, bytes) in crates.iter().take(LISTED) {
         println!("{bytes:>9} {name}");
     }
     match args.most {
+        Some(_) if !symbols.is_empty() => Err("it has symbols: `strip` has no effect".into()),
         Some(most) if size > most => Err(format!("it is larger than {most} bytes").into()),
         _ => Ok(()),
     }
 }
 
-/// Bytes of code by the crate that a function's name begins with. What a generic function of a library takes counts
-/// for the library, whoever calls it.
-fn code(executable: &Path) -> Result<BTreeMap<String, u64>, Problem> {
-    let mut nm = Command::new("nm");
-    let output = nm
+/// All symbols of an executable, one a line; of a stripped one there are none.
+fn symbols(executable: &Path) -> Result<String, Problem> {
+    let output = Command::new("nm")
         .args(["--size-sort", "--print-size", "--demangle"])
         .arg(executable)
         .output()
         .map_err(|error| format!("nm: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("nm: {}", String::from_utf8_lossy(&output.stderr)).into());
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Bytes of code by the crate that a function's name begins with. What a generic function of a library takes counts
+/// for the library, whoever calls it.
+fn code(symbols: &str) -> Result<BTreeMap<String, u64>, Problem> {
     let mut crates = BTreeMap::new();
-    for line in String::from_utf8_lossy(&output.stdout).lines() {
+    for line in symbols.lines() {
         let mut words = line.splitn(4, ' ').skip(1);
         if let (Some(size), Some("t" | "T"), Some(name)) =
             (words.next(), words.next(), words.next())

@@ -1,4 +1,7 @@
 //! The grammar of one line. It reads half-width text; places are byte offsets within the line.
+//!
+//! Each rule is a function of its own (`custom`), which is compiled once. A rule that contained the combinators of all
+//! rules below it would be compiled anew at each place it is used from.
 
 use super::fault::{Fault, Faults, Kind, mistyped_digit};
 use chumsky::error::EmptyErr;
@@ -79,27 +82,35 @@ fn space<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
 
 /// Succeeds where a word may end, taking nothing.
 fn boundary<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
-    choice((
-        at(|next| next.is_none_or(|c| is_space(&c) || c == ';')),
-        just("//").ignored().rewind(),
-    ))
+    custom(|input| {
+        input.parse(choice((
+            at(|next| next.is_none_or(|c| is_space(&c) || c == ';')),
+            just("//").ignored().rewind(),
+        )))
+    })
 }
 
 fn digits<'s>() -> impl Parser<'s, &'s str, &'s str, Extra> + Copy {
-    any()
-        .filter(char::is_ascii_digit)
-        .then(skip(char::is_ascii_digit))
-        .to_slice()
+    custom(|input| {
+        input.parse(
+            any()
+                .filter(char::is_ascii_digit)
+                .then(skip(char::is_ascii_digit))
+                .to_slice(),
+        )
+    })
 }
 
 /// Anything up to the next boundary; a string is one word with all its spaces.
 fn word<'s>() -> impl Parser<'s, &'s str, &'s str, Extra> + Copy {
-    let quoted = just('"')
-        .then(any().filter(|c| *c != '"').repeated())
-        .ignored()
-        .then_ignore(just('"').or_not());
-    let plain = any().and_is(boundary().not()).ignored();
-    choice((quoted, plain)).repeated().at_least(1).to_slice()
+    custom(|input| {
+        let quoted = just('"')
+            .then(any().filter(|c| *c != '"').repeated())
+            .ignored()
+            .then_ignore(just('"').or_not());
+        let plain = any().and_is(boundary().not()).ignored();
+        input.parse(choice((quoted, plain)).repeated().at_least(1).to_slice())
+    })
 }
 
 fn letter<'s>(upper: char) -> impl Parser<'s, &'s str, char, Extra> + Copy {
@@ -107,22 +118,27 @@ fn letter<'s>(upper: char) -> impl Parser<'s, &'s str, char, Extra> + Copy {
 }
 
 fn class<'s>() -> impl Parser<'s, &'s str, DeviceClass, Extra> + Copy {
-    let single = select! {
-        'X' | 'x' => DeviceClass::X,
-        'M' | 'm' => DeviceClass::M,
-        'Y' | 'y' => DeviceClass::Y,
-        'S' | 's' => DeviceClass::S,
-        'T' | 't' => DeviceClass::T,
-        'C' | 'c' => DeviceClass::C,
-        'D' | 'd' => DeviceClass::D,
-        'R' | 'r' => DeviceClass::R,
-        'V' | 'v' => DeviceClass::V,
-        'Z' | 'z' => DeviceClass::Z,
-        'P' | 'p' => DeviceClass::P,
-        'I' | 'i' => DeviceClass::I,
-        'N' | 'n' => DeviceClass::N,
-    };
-    choice((single, letter('E').then(letter('R')).to(DeviceClass::ER)))
+    custom(|input| {
+        let single = select! {
+            'X' | 'x' => DeviceClass::X,
+            'M' | 'm' => DeviceClass::M,
+            'Y' | 'y' => DeviceClass::Y,
+            'S' | 's' => DeviceClass::S,
+            'T' | 't' => DeviceClass::T,
+            'C' | 'c' => DeviceClass::C,
+            'D' | 'd' => DeviceClass::D,
+            'R' | 'r' => DeviceClass::R,
+            'V' | 'v' => DeviceClass::V,
+            'Z' | 'z' => DeviceClass::Z,
+            'P' | 'p' => DeviceClass::P,
+            'I' | 'i' => DeviceClass::I,
+            'N' | 'n' => DeviceClass::N,
+        };
+        input.parse(choice((
+            single,
+            letter('E').then(letter('R')).to(DeviceClass::ER),
+        )))
+    })
 }
 
 /// The number of a device of this class, as far as its digits can be read.
@@ -138,20 +154,22 @@ fn number(class: DeviceClass, digits: &str) -> (u32, Option<Kind>) {
 }
 
 fn device<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
-    let bare = any()
-        .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
-        .then_ignore(boundary());
-    let numbered = class().then(digits()).map_with(|(class, digits), e| {
-        let (number, fault) = number(class, digits);
-        if let Some(kind) = fault {
-            report(e, kind);
-        }
-        Device { class, number }
-    });
-    numbered.or(bare.map(|c| Device {
-        class: index_class(c),
-        number: 0,
-    }))
+    custom(|input| {
+        let bare = any()
+            .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
+            .then_ignore(boundary());
+        let numbered = class().then(digits()).map_with(|(class, digits), e| {
+            let (number, fault) = number(class, digits);
+            if let Some(kind) = fault {
+                report(e, kind);
+            }
+            Device { class, number }
+        });
+        input.parse(numbered.or(bare.map(|c| Device {
+            class: index_class(c),
+            number: 0,
+        })))
+    })
 }
 
 fn index_class(c: char) -> DeviceClass {
@@ -163,191 +181,218 @@ fn index_class(c: char) -> DeviceClass {
 }
 
 fn index<'s>() -> impl Parser<'s, &'s str, Option<Index>, Extra> + Copy {
-    any()
-        .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
-        .then(digits().or_not())
-        .map_with(|(c, digits), e| {
-            let class = index_class(c);
-            let (number, fault) = digits.map_or((0, None), |digits| number(class, digits));
-            if let Some(kind) = fault {
-                report(e, kind);
-            }
-            Index { class, number }
-        })
-        .or_not()
+    custom(|input| {
+        input.parse(
+            any()
+                .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
+                .then(digits().or_not())
+                .map_with(|(c, digits), e| {
+                    let class = index_class(c);
+                    let (number, fault) = digits.map_or((0, None), |digits| number(class, digits));
+                    if let Some(kind) = fault {
+                        report(e, kind);
+                    }
+                    Index { class, number }
+                })
+                .or_not(),
+        )
+    })
 }
 
 /// `X000`, `D0Z1`, `D0.F`, `D0.FZ1`.
 fn device_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let bit = just('.').ignore_then(
-        any()
-            .filter(char::is_ascii_alphanumeric)
-            .then(digits().or_not())
-            .to_slice(),
-    );
-    device()
-        .then(bit.or_not())
-        .then(index())
-        .map_with(|((device, bit), index), e| {
-            let Some(bit) = bit else {
-                return OperandKind::Device(device, index);
-            };
-            let bit = match u8::from_str_radix(bit, 16) {
-                Ok(bit @ 0..=15) => bit,
-                _ => {
-                    report(e, Kind::BitNumber);
-                    0
-                }
-            };
-            OperandKind::WordBit(device, bit, index)
-        })
+    custom(|input| {
+        let bit = just('.').ignore_then(
+            any()
+                .filter(char::is_ascii_alphanumeric)
+                .then(digits().or_not())
+                .to_slice(),
+        );
+        input.parse(device().then(bit.or_not()).then(index()).map_with(
+            |((device, bit), index), e| {
+                let Some(bit) = bit else {
+                    return OperandKind::Device(device, index);
+                };
+                let bit = match u8::from_str_radix(bit, 16) {
+                    Ok(bit @ 0..=15) => bit,
+                    _ => {
+                        report(e, Kind::BitNumber);
+                        0
+                    }
+                };
+                OperandKind::WordBit(device, bit, index)
+            },
+        ))
+    })
 }
 
 /// `K10`, `K-5Z0`, `K4M0`, `K2X010Z1`.
 fn k_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let amount = one_of("+-").or_not().then(digits()).to_slice();
-    let group = device().and_is(index().then(boundary()).not());
-    letter('K')
-        .ignore_then(amount)
-        .then(group.or_not())
-        .then(index())
-        .map_with(|((amount, group), index), e| {
-            let mut fault = |kind| report(e, kind);
-            let Some(device) = group else {
-                let value = amount.parse::<i32>().unwrap_or_else(|_| {
-                    fault(Kind::Decimal);
-                    0
-                });
-                return OperandKind::Decimal(value.into(), index);
-            };
-            use DeviceClass::{M, S, X, Y};
-            if !matches!(device.class, X | Y | M | S) {
-                fault(Kind::DigitClass(device.class));
-            }
-            let digits = match amount.parse() {
-                Ok(digits @ 1..=8) => digits,
-                _ => {
-                    fault(Kind::DigitCount);
-                    4
-                }
-            };
-            OperandKind::Nibbles(digits, device, index)
-        })
+    custom(|input| {
+        let amount = one_of("+-").or_not().then(digits()).to_slice();
+        let group = device().and_is(index().then(boundary()).not());
+        input.parse(
+            letter('K')
+                .ignore_then(amount)
+                .then(group.or_not())
+                .then(index())
+                .map_with(|((amount, group), index), e| {
+                    let mut fault = |kind| report(e, kind);
+                    let Some(device) = group else {
+                        let value = amount.parse::<i32>().unwrap_or_else(|_| {
+                            fault(Kind::Decimal);
+                            0
+                        });
+                        return OperandKind::Decimal(value.into(), index);
+                    };
+                    use DeviceClass::{M, S, X, Y};
+                    if !matches!(device.class, X | Y | M | S) {
+                        fault(Kind::DigitClass(device.class));
+                    }
+                    let digits = match amount.parse() {
+                        Ok(digits @ 1..=8) => digits,
+                        _ => {
+                            fault(Kind::DigitCount);
+                            4
+                        }
+                    };
+                    OperandKind::Nibbles(digits, device, index)
+                }),
+        )
+    })
 }
 
 /// `H1F`, `H1FZ0`.
 fn h_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let hex = any()
-        .filter(char::is_ascii_hexdigit)
-        .repeated()
-        .at_least(1)
-        .to_slice();
-    letter('H')
-        .ignore_then(hex)
-        .then(index())
-        .map_with(|(hex, index), e| {
-            let value = u32::from_str_radix(hex, 16).unwrap_or_else(|_| {
-                report(e, Kind::Hex);
-                0
-            });
-            OperandKind::Hex(value.into(), index)
-        })
+    custom(|input| {
+        let hex = any()
+            .filter(char::is_ascii_hexdigit)
+            .repeated()
+            .at_least(1)
+            .to_slice();
+        input.parse(
+            letter('H')
+                .ignore_then(hex)
+                .then(index())
+                .map_with(|(hex, index), e| {
+                    let value = u32::from_str_radix(hex, 16).unwrap_or_else(|_| {
+                        report(e, Kind::Hex);
+                        0
+                    });
+                    OperandKind::Hex(value.into(), index)
+                }),
+        )
+    })
 }
 
 /// `E1.5`, `E-1.5E+3`, and `E1.5+3` as the manuals of FX print it.
 fn e_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let sign = one_of("+-");
-    let mantissa = sign.or_not().then(choice((
-        digits()
-            .then(just('.').then(digits().or_not()).or_not())
-            .ignored(),
-        just('.').then(digits()).ignored(),
-    )));
-    let exponent = choice((
-        letter('E').ignore_then(sign.or_not().then(digits()).to_slice()),
-        sign.then(digits()).to_slice(),
-    ));
-    letter('E')
-        .ignore_then(mantissa.to_slice())
-        .then(exponent.or_not())
-        .map_with(|(mantissa, exponent): (&str, Option<&str>), e| {
-            let value = match exponent {
-                None => mantissa.parse::<f32>(),
-                Some(exponent) => format!("{mantissa}e{exponent}").parse(),
-            };
-            OperandKind::Float(value.ok().filter(|v| v.is_finite()).unwrap_or_else(|| {
-                report(e, Kind::Float);
-                0.0
-            }))
-        })
+    custom(|input| {
+        let sign = one_of("+-");
+        let mantissa = sign.or_not().then(choice((
+            digits()
+                .then(just('.').then(digits().or_not()).or_not())
+                .ignored(),
+            just('.').then(digits()).ignored(),
+        )));
+        let exponent = choice((
+            letter('E').ignore_then(sign.or_not().then(digits()).to_slice()),
+            sign.then(digits()).to_slice(),
+        ));
+        input.parse(
+            letter('E')
+                .ignore_then(mantissa.to_slice())
+                .then(exponent.or_not())
+                .map_with(|(mantissa, exponent): (&str, Option<&str>), e| {
+                    let value = match exponent {
+                        None => mantissa.parse::<f32>(),
+                        Some(exponent) => format!("{mantissa}e{exponent}").parse(),
+                    };
+                    OperandKind::Float(value.ok().filter(|v| v.is_finite()).unwrap_or_else(|| {
+                        report(e, Kind::Float);
+                        0.0
+                    }))
+                }),
+        )
+    })
 }
 
 /// `"ABC"`; a quote inside is written twice.
 fn text_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let inside = choice((
-        just("\"\"").ignored(),
-        any().filter(|c| *c != '"').ignored(),
-    ));
-    let closed = inside
-        .repeated()
-        .to_slice()
-        .delimited_by(just('"'), just('"'));
-    closed.map(|text: &str| {
-        let text = if text.contains('"') {
-            text.replace("\"\"", "\"").into()
-        } else {
-            SmolStr::new(text)
-        };
-        OperandKind::Text(text)
+    custom(|input| {
+        let inside = choice((
+            just("\"\"").ignored(),
+            any().filter(|c| *c != '"').ignored(),
+        ));
+        let closed = inside
+            .repeated()
+            .to_slice()
+            .delimited_by(just('"'), just('"'));
+        input.parse(closed.map(|text: &str| {
+            let text = if text.contains('"') {
+                text.replace("\"\"", "\"").into()
+            } else {
+                SmolStr::new(text)
+            };
+            OperandKind::Text(text)
+        }))
     })
 }
 
 /// `U0\G5`.
 fn buffer_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let part = |c| letter(c).ignore_then(digits());
-    part('U')
-        .then_ignore(just('\\'))
-        .then(part('G'))
-        .then(index())
-        .map_with(|((module, address), index), e| {
-            let mut number = |digits: &str| {
-                digits.parse().unwrap_or_else(|_| {
-                    report(e, Kind::DeviceNumber);
-                    0
-                })
-            };
-            OperandKind::Buffer {
-                module: number(module),
-                address: number(address),
-                index,
-            }
-        })
+    custom(|input| {
+        let part = |c| letter(c).ignore_then(digits());
+        input.parse(
+            part('U')
+                .then_ignore(just('\\'))
+                .then(part('G'))
+                .then(index())
+                .map_with(|((module, address), index), e| {
+                    let mut number = |digits: &str| {
+                        digits.parse().unwrap_or_else(|_| {
+                            report(e, Kind::DeviceNumber);
+                            0
+                        })
+                    };
+                    OperandKind::Buffer {
+                        module: number(module),
+                        address: number(address),
+                        index,
+                    }
+                }),
+        )
+    })
 }
 
 /// `K 10`, `X 000`: a space before the number.
 fn spaced_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
-    let prefix = choice((
-        class().ignored(),
-        letter('K').ignored(),
-        letter('H').ignored(),
-    ));
-    let spaces = any()
-        .filter(|c: &char| c.is_whitespace())
-        .repeated()
-        .at_least(1);
-    prefix
-        .then_ignore(spaces)
-        .then_ignore(digits())
-        .then_ignore(boundary().rewind())
-        .to_slice()
-        .map_with(|text: &str, e| {
-            report(e, Kind::SpacedNumber);
-            let joined: String = text.split_whitespace().collect();
-            match parse(&device_field(), &joined, &mut Faults::default()) {
-                Some(device) => OperandKind::Device(device, None),
-                None => OperandKind::Unreadable(None),
-            }
-        })
+    custom(|input| {
+        let prefix = choice((
+            class().ignored(),
+            letter('K').ignored(),
+            letter('H').ignored(),
+        ));
+        let spaces = any()
+            .filter(|c: &char| c.is_whitespace())
+            .repeated()
+            .at_least(1);
+        input.parse(
+            prefix
+                .then_ignore(spaces)
+                .then_ignore(digits())
+                .then_ignore(boundary().rewind())
+                .to_slice()
+                .map_with(|text: &str, e| {
+                    report(e, Kind::SpacedNumber);
+                    let joined: String = text.split_whitespace().collect();
+                    match parse(&device_field(), &joined, &mut Faults::default()) {
+                        Some(device) => OperandKind::Device(device, None),
+                        None => OperandKind::Unreadable(None),
+                    }
+                }),
+        )
+    })
 }
 
 /// What begins a comment in other languages.
@@ -367,32 +412,36 @@ fn placed<'s>(
 
 /// One operand. What cannot be read is reported and stays as such, and the next operand is read.
 fn operand<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    let readable = choice((
-        device_operand(),
-        k_operand(),
-        h_operand(),
-        e_operand(),
-        text_operand(),
-        buffer_operand(),
-    ));
-    let unreadable = word().map_with(|word: &str, e| {
-        let open = word.starts_with('"') && word.matches('"').count() % 2 == 1;
-        let kind = if open { Kind::Unclosed } else { Kind::Operand };
-        report(e, kind);
-        OperandKind::Unreadable(meant_device(word))
-    });
-    // After the last operand no kind of operand is tried.
-    choice((boundary(), comment_sign()))
-        .not()
-        .ignore_then(choice((
-            placed(readable),
-            placed(spaced_operand()),
-            placed(unreadable),
-        )))
+    custom(|input| {
+        let readable = choice((
+            device_operand(),
+            k_operand(),
+            h_operand(),
+            e_operand(),
+            text_operand(),
+            buffer_operand(),
+        ));
+        let unreadable = word().map_with(|word: &str, e| {
+            let open = word.starts_with('"') && word.matches('"').count() % 2 == 1;
+            let kind = if open { Kind::Unclosed } else { Kind::Operand };
+            report(e, kind);
+            OperandKind::Unreadable(meant_device(word))
+        });
+        // After the last operand no kind of operand is tried.
+        input.parse(
+            choice((boundary(), comment_sign()))
+                .not()
+                .ignore_then(choice((
+                    placed(readable),
+                    placed(spaced_operand()),
+                    placed(unreadable),
+                ))),
+        )
+    })
 }
 
 fn operands<'s>() -> impl Parser<'s, &'s str, Operands, Extra> + Copy {
-    space().ignore_then(operand()).repeated().collect()
+    custom(|input| input.parse(space().ignore_then(operand()).repeated().collect()))
 }
 
 /// The mnemonic's spelling: upper case, without the space or the second `D` of `LD D>=`, operators in the usual order.
@@ -412,208 +461,240 @@ fn spelling<'s>(name: &'s str, wide: bool, operator: &str, pulse: &str) -> Cow<'
 }
 
 fn mnemonic<'s>() -> impl Parser<'s, &'s str, (Cow<'s, str>, Span), Extra> + Copy {
-    let head = any().filter(|c: &char| c.is_ascii_alphabetic() || matches!(c, '$' | '_'));
-    let rest = skip(|c| c.is_ascii_alphanumeric() || *c == '_');
-    let name = head.then(rest).to_slice();
-    let compare = any()
-        .filter(|c| matches!(c, '<' | '=' | '>'))
-        .repeated()
-        .at_least(1)
-        .at_most(2)
-        .to_slice();
-    let pulse = letter('P').then_ignore(boundary()).to_slice();
-    let compared = space()
-        .ignore_then(letter('D').or_not())
-        .then(compare)
-        .then(pulse.or_not())
-        .map(|((wide, operator), pulse)| (wide.is_some(), operator, pulse.unwrap_or("")));
-    let added = one_of("+-")
-        .to_slice()
-        .then(pulse.or_not())
-        .then_ignore(boundary())
-        .map(|(operator, pulse)| (false, operator, pulse.unwrap_or("")));
-    let plain = boundary().to((false, "", ""));
-    name.then(choice((added, compared, plain)))
-        .map_with(|(name, (wide, operator, pulse)), e| {
-            (spelling(name, wide, operator, pulse), span(e.span()))
-        })
+    custom(|input| {
+        let head = any().filter(|c: &char| c.is_ascii_alphabetic() || matches!(c, '$' | '_'));
+        let rest = skip(|c| c.is_ascii_alphanumeric() || *c == '_');
+        let name = head.then(rest).to_slice();
+        let compare = any()
+            .filter(|c| matches!(c, '<' | '=' | '>'))
+            .repeated()
+            .at_least(1)
+            .at_most(2)
+            .to_slice();
+        let pulse = letter('P').then_ignore(boundary()).to_slice();
+        let compared = space()
+            .ignore_then(letter('D').or_not())
+            .then(compare)
+            .then(pulse.or_not())
+            .map(|((wide, operator), pulse)| (wide.is_some(), operator, pulse.unwrap_or("")));
+        let added = one_of("+-")
+            .to_slice()
+            .then(pulse.or_not())
+            .then_ignore(boundary())
+            .map(|(operator, pulse)| (false, operator, pulse.unwrap_or("")));
+        let plain = boundary().to((false, "", ""));
+        input.parse(name.then(choice((added, compared, plain))).map_with(
+            |(name, (wide, operator, pulse)), e| {
+                (spelling(name, wide, operator, pulse), span(e.span()))
+            },
+        ))
+    })
 }
 
 /// `ASC ABCDEFGH D300`: the characters are bare, whatever they look like.
 fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
-    let name = letter('A')
-        .then(letter('S'))
-        .then(letter('C'))
-        .to_span()
-        .then_ignore(boundary());
-    let bare = any()
-        .and_is(boundary().not())
-        .filter(|c| *c != '"')
-        .repeated()
-        .at_least(1)
-        .to_slice();
-    let text = choice((
-        text_operand(),
-        bare.map(|text: &str| OperandKind::Text(text.into())),
-    ));
-    name.then_ignore(space())
-        .then(placed(text))
-        .then(operands())
-        .map(|((name, text), mut rest)| {
-            rest.insert(0, text);
-            Body {
-                mnemonic: Cow::Borrowed("ASC"),
-                mnemonic_span: span(name),
-                operands: rest,
-            }
-        })
+    custom(|input| {
+        let name = letter('A')
+            .then(letter('S'))
+            .then(letter('C'))
+            .to_span()
+            .then_ignore(boundary());
+        let bare = any()
+            .and_is(boundary().not())
+            .filter(|c| *c != '"')
+            .repeated()
+            .at_least(1)
+            .to_slice();
+        let text = choice((
+            text_operand(),
+            bare.map(|text: &str| OperandKind::Text(text.into())),
+        ));
+        input.parse(
+            name.then_ignore(space())
+                .then(placed(text))
+                .then(operands())
+                .map(|((name, text), mut rest)| {
+                    rest.insert(0, text);
+                    Body {
+                        mnemonic: Cow::Borrowed("ASC"),
+                        mnemonic_span: span(name),
+                        operands: rest,
+                    }
+                }),
+        )
+    })
 }
 
 fn body<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
-    let usual = mnemonic()
-        .then(operands())
-        .map(|((mnemonic, mnemonic_span), operands)| Body {
-            mnemonic,
-            mnemonic_span,
-            operands,
-        });
-    choice((asc(), usual))
+    custom(|input| {
+        let usual = mnemonic()
+            .then(operands())
+            .map(|((mnemonic, mnemonic_span), operands)| Body {
+                mnemonic,
+                mnemonic_span,
+                operands,
+            });
+        input.parse(choice((asc(), usual)))
+    })
 }
 
 fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
-    let after = choice((boundary(), one_of(":.)").ignored()));
-    let number = digits().map_with(|digits: &str, e| {
-        let step = digits.parse().unwrap_or_else(|_| {
-            report(e, Kind::Step);
-            0
+    custom(|input| {
+        let after = choice((boundary(), one_of(":.)").ignored()));
+        let number = digits().map_with(|digits: &str, e| {
+            let step = digits.parse().unwrap_or_else(|_| {
+                report(e, Kind::Step);
+                0
+            });
+            (Some(step), span(e.span()))
         });
-        (Some(step), span(e.span()))
-    });
-    number
-        .then_ignore(after)
-        .or_not()
-        .map(Option::unwrap_or_default)
+        input.parse(
+            number
+                .then_ignore(after)
+                .or_not()
+                .map(Option::unwrap_or_default),
+        )
+    })
 }
 
 /// `P0`, `P0:`, `I001`.
 fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
-    let pointer = any()
-        .filter(|c: &char| matches!(c, 'P' | 'p' | 'I' | 'i'))
-        .rewind()
-        .ignore_then(device());
-    let spaces = any()
-        .filter(|c: &char| c.is_whitespace())
-        .repeated()
-        .at_least(1);
-    let spaced = select! { 'P' | 'p' => DeviceClass::P, 'I' | 'i' => DeviceClass::I }
-        .then_ignore(spaces)
-        .then(digits())
-        .map_with(|(class, digits), e| {
-            report(e, Kind::SpacedLabel);
-            let number = number(class, digits).0;
-            Device { class, number }
-        });
-    choice((pointer, spaced))
-        .map_with(|device, e| (device, span(e.span())))
-        .then_ignore(choice((space().then(just(':')).ignored(), boundary())))
+    custom(|input| {
+        let pointer = any()
+            .filter(|c: &char| matches!(c, 'P' | 'p' | 'I' | 'i'))
+            .rewind()
+            .ignore_then(device());
+        let spaces = any()
+            .filter(|c: &char| c.is_whitespace())
+            .repeated()
+            .at_least(1);
+        let spaced = select! { 'P' | 'p' => DeviceClass::P, 'I' | 'i' => DeviceClass::I }
+            .then_ignore(spaces)
+            .then(digits())
+            .map_with(|(class, digits), e| {
+                report(e, Kind::SpacedLabel);
+                let number = number(class, digits).0;
+                Device { class, number }
+            });
+        input.parse(
+            choice((pointer, spaced))
+                .map_with(|device, e| (device, span(e.span())))
+                .then_ignore(choice((space().then(just(':')).ignored(), boundary()))),
+        )
+    })
 }
 
 /// A whole line. A line that is not an instruction is reported and skipped up to its comment.
 pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
-    let comment_start = choice((just(';').ignored(), just("//").ignored()));
-    let foreign_start = comment_sign().to_span().map_with(|s: SimpleSpan, e| {
-        report(e, Kind::CommentSign);
-        s
-    });
-    let comment = choice((comment_start.to_span(), foreign_start))
-        .then_ignore(any().repeated())
-        .map(|s: SimpleSpan| s.end as u32);
-    let nonsense = any()
-        .and_is(comment_start.not())
-        .repeated()
-        .at_least(1)
-        .to_slice()
-        .and_is(comment_sign().not())
-        .map_with(|text: &str, e: &mut MapExtra<'s, '_, &'s str, Extra>| {
-            let whole = e.span();
-            let end = whole.start + text.trim_end().len();
-            let fault = Fault::new((whole.start..end).into(), Kind::Line);
-            e.state().push(fault);
-            None
+    custom(|input| {
+        let comment_start = choice((just(';').ignored(), just("//").ignored()));
+        let foreign_start = comment_sign().to_span().map_with(|s: SimpleSpan, e| {
+            report(e, Kind::CommentSign);
+            s
         });
-    let content = choice((body().map(Some), nonsense)).or_not();
-    space()
-        .ignore_then(step())
-        .then_ignore(space())
-        .then(label().or_not())
-        .then_ignore(space())
-        .then(content)
-        .then_ignore(space())
-        .then(comment.or_not())
-        .map_with(|((((step, place), label), content), comment), e| {
-            if step.is_some() && label.is_none() && content.is_none() {
-                let place = place.start as usize..place.end as usize;
-                e.state().push(Fault::new(place.into(), Kind::Bare));
-            }
-            Line {
-                step,
-                label,
-                instr: content.flatten(),
-                comment,
-            }
-        })
+        let comment = choice((comment_start.to_span(), foreign_start))
+            .then_ignore(any().repeated())
+            .map(|s: SimpleSpan| s.end as u32);
+        let nonsense = any()
+            .and_is(comment_start.not())
+            .repeated()
+            .at_least(1)
+            .to_slice()
+            .and_is(comment_sign().not())
+            .map_with(|text: &str, e: &mut MapExtra<'s, '_, &'s str, Extra>| {
+                let whole = e.span();
+                let end = whole.start + text.trim_end().len();
+                let fault = Fault::new((whole.start..end).into(), Kind::Line);
+                e.state().push(fault);
+                None
+            });
+        let content = choice((body().map(Some), nonsense)).or_not();
+        input.parse(
+            space()
+                .ignore_then(step())
+                .then_ignore(space())
+                .then(label().or_not())
+                .then_ignore(space())
+                .then(content)
+                .then_ignore(space())
+                .then(comment.or_not())
+                .map_with(|((((step, place), label), content), comment), e| {
+                    if step.is_some() && label.is_none() && content.is_none() {
+                        let place = place.start as usize..place.end as usize;
+                        e.state().push(Fault::new(place.into(), Kind::Bare));
+                    }
+                    Line {
+                        step,
+                        label,
+                        instr: content.flatten(),
+                        comment,
+                    }
+                }),
+        )
+    })
 }
 
 /// An operand that fills a whole field of a table.
 pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    let stray = any()
-        .map_with(|_, e| {
-            report(e, Kind::Line);
-            span(e.span())
-        })
-        .then_ignore(any().repeated());
-    space()
-        .ignore_then(operand().or_not())
-        .then_ignore(space())
-        .then(stray.or_not())
-        .filter(|(operand, stray)| operand.is_some() || stray.is_some())
-        .map(|(operand, stray)| match (operand, stray) {
-            (Some(operand), None) => operand,
-            (_, stray) => Operand {
-                span: stray.unwrap_or_default(),
-                kind: OperandKind::Unreadable(None),
-            },
-        })
+    custom(|input| {
+        let stray = any()
+            .map_with(|_, e| {
+                report(e, Kind::Line);
+                span(e.span())
+            })
+            .then_ignore(any().repeated());
+        input.parse(
+            space()
+                .ignore_then(operand().or_not())
+                .then_ignore(space())
+                .then(stray.or_not())
+                .filter(|(operand, stray)| operand.is_some() || stray.is_some())
+                .map(|(operand, stray)| match (operand, stray) {
+                    (Some(operand), None) => operand,
+                    (_, stray) => Operand {
+                        span: stray.unwrap_or_default(),
+                        kind: OperandKind::Unreadable(None),
+                    },
+                }),
+        )
+    })
 }
 
 /// The characters that ASC takes, filling a whole field of a table.
 pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    let bare = any()
-        .repeated()
-        .to_slice()
-        .map(|text: &str| OperandKind::Text(text.trim().into()));
-    choice((
-        placed(text_operand()).then_ignore(end()),
-        bare.map_with(|kind, e| Operand {
-            span: span(e.span()),
-            kind,
-        }),
-    ))
+    custom(|input| {
+        let bare = any()
+            .repeated()
+            .to_slice()
+            .map(|text: &str| OperandKind::Text(text.trim().into()));
+        input.parse(choice((
+            placed(text_operand()).then_ignore(end()),
+            bare.map_with(|kind, e| Operand {
+                span: span(e.span()),
+                kind,
+            }),
+        )))
+    })
 }
 
 /// A mnemonic or label that fills a whole field of a table.
 pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy {
-    let pointer = label().map(|(device, _)| device.to_smolstr());
-    let readable = choice((
-        pointer,
-        mnemonic().map(|(mnemonic, _)| SmolStr::from(mnemonic)),
-    ))
-    .map(Some);
-    let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
-        report(e, Kind::Line);
-        None
-    });
-    choice((readable.then_ignore(space()).then_ignore(end()), unreadable))
+    custom(|input| {
+        let pointer = label().map(|(device, _)| device.to_smolstr());
+        let readable = choice((
+            pointer,
+            mnemonic().map(|(mnemonic, _)| SmolStr::from(mnemonic)),
+        ))
+        .map(Some);
+        let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
+            report(e, Kind::Line);
+            None
+        });
+        input.parse(choice((
+            readable.then_ignore(space()).then_ignore(end()),
+            unreadable,
+        )))
+    })
 }
 
 /// What a parser makes of a text; its faults come after `faults`. A text that lacks something gives nothing.
@@ -638,5 +719,5 @@ fn meant_device(word: &str) -> Option<Device> {
 
 /// A device by itself.
 pub(super) fn device_field<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
-    device().padded().then_ignore(end())
+    custom(|input| input.parse(device().padded().then_ignore(end())))
 }
