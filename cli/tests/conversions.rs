@@ -18,13 +18,14 @@ const INPUTS: [(&str, &str); 7] = [
     ("program memory", "memory.bin"),
 ];
 /// What is written, and how the name of such a file ends.
-const OUTPUTS: [(&str, &str); 6] = [
+const OUTPUTS: [(&str, &str); 7] = [
     ("il", "il"),
     ("ladder", "txt"),
     ("csv", "csv"),
     ("comments", "csv"),
     ("plcopen", "xml"),
     ("image", "bin"),
+    ("autoshop", "txt"),
 ];
 
 fn convert(folder: &Path, from: &str, to: &str, path: &str) {

@@ -2,9 +2,13 @@
 //! same program, save for the source text and places.
 
 use crate::csv::{ExportHead, HEADERS, encode};
-use crate::il::is_label;
-use rungc_syntax::{Instr, Operand, OperandKind, Program};
+use crate::il::{device, is_label, windows::is_heading};
+use rungc_syntax::{Device, Instr, Operand, OperandKind, Program, Source};
 use std::fmt::Write as _;
+use unicode_width::UnicodeWidthStr as _;
+
+mod autoshop;
+pub use autoshop::to_autoshop;
 
 /// Characters that an instruction takes before the comment beside it.
 const COMMENT_COLUMN: usize = 24;
@@ -22,6 +26,14 @@ pub fn to_il(program: &Program) -> String {
 
 /// Title, CPU type and device comments of a program as `;!` lines.
 pub fn properties(program: &Program) -> String {
+    properties_without(program, |_| None)
+}
+
+/// As [`properties`], without the comments that are names of devices.
+fn properties_without<'n>(
+    program: &Program,
+    name: impl Fn(&Device) -> Option<&'n String>,
+) -> String {
     let mut out = String::new();
     let mut property = |key: &dyn std::fmt::Display, value: &str| {
         let _ = writeln!(out, ";! {key} = {value}");
@@ -33,19 +45,26 @@ pub fn properties(program: &Program) -> String {
         property(&"cpu", cpu);
     }
     for (device, comment) in &program.comments {
-        property(device, comment);
+        if name(device) != Some(comment) {
+            property(device, comment);
+        }
     }
     out
 }
 
 fn il_line(out: &mut String, instr: &Instr, width: usize) {
-    for line in instr.statement().into_iter().flat_map(str::lines) {
-        let _ = writeln!(out, "; {line}");
-    }
+    statements(out, instr);
     il_step(out, instr, width);
     let comment = instr.note().map(|note| format!("; {note}"));
     il_words(out, instr, comment.as_deref());
     out.push('\n');
+}
+
+/// The statements above an instruction.
+fn statements(out: &mut String, instr: &Instr) {
+    for line in instr.statement().into_iter().flat_map(str::lines) {
+        let _ = writeln!(out, "; {line}");
+    }
 }
 
 /// The step number before an instruction, in a list that numbers steps.
@@ -59,13 +78,50 @@ fn il_step(out: &mut String, instr: &Instr, width: usize) {
 
 /// An instruction, and the comment beside it in its column.
 fn il_words(out: &mut String, instr: &Instr, comment: Option<&str>) {
+    let operands = instr.operands.iter().map(|operand| spelled(&operand.kind));
+    let operands: Vec<_> = operands.collect();
+    let mut words = vec![instr.mnemonic.as_str()];
+    words.extend(operands.iter().map(String::as_str));
+    il_written(out, &words, comment);
+}
+
+/// What the source has in place of a pointer, as AutoShop writes it: a label `L1`, a jump to it, a call by name.
+fn autoshop_words(instr: &Instr, source: &Source) -> Option<String> {
+    let other = |span, pointer: Device| {
+        let written = source.slice(span);
+        (device(written) != Some(pointer)).then_some(written)
+    };
+    if is_label(&instr.mnemonic) {
+        return other(instr.span, device(&instr.mnemonic)?).map(str::to_uppercase);
+    }
+    let [operand] = instr.operands.as_slice() else {
+        return None;
+    };
+    let pointer = operand.kind.device()?;
+    match instr.mnemonic.as_str() {
+        "CJ" | "CJP" => Some(format!(
+            "{} {}",
+            instr.mnemonic,
+            other(operand.span, pointer)?.to_uppercase()
+        )),
+        "CALL" | "CALLP" => Some(format!(
+            "{} {}",
+            instr.mnemonic,
+            other(operand.span, pointer)?
+        )),
+        _ => None,
+    }
+}
+
+/// These words, and the comment beside them in its column.
+fn il_written(out: &mut String, words: &[&str], comment: Option<&str>) {
     let start = out.len();
-    out.push_str(&instr.mnemonic);
-    for operand in &instr.operands {
-        let _ = write!(out, " {}", spelled(&operand.kind));
+    for (i, word) in words.iter().enumerate() {
+        out.push_str(if i > 0 { " " } else { "" });
+        out.push_str(word);
     }
     if let Some(comment) = comment {
-        let pad = COMMENT_COLUMN.saturating_sub(out.len() - start);
+        let pad = COMMENT_COLUMN.saturating_sub(out[start..].width());
         let _ = write!(out, "{:pad$} {comment}", "");
     }
 }
@@ -114,7 +170,9 @@ pub fn lay_out(program: &Program) -> LaidOut {
         let here = instrs.partition_point(|instr| instr.span.start < start + whole.len() as u32);
         let (of_line, others) = instrs.split_at(here);
         instrs = others;
-        let after = line(of_line, start, before, width);
+        // What AutoShop leaves out between windows is not in the text.
+        let implied = of_line.partition_point(|instr| instr.span.range().is_empty());
+        let after = line(&of_line[implied..], start, before, width, source);
         if after.is_empty() {
             empty.push((number, before));
             continue;
@@ -150,10 +208,13 @@ impl LaidOut {
 }
 
 /// One line of the source, which begins at `start` and holds these instructions.
-fn line(instrs: &[Instr], start: u32, whole: &str, width: usize) -> String {
+fn line(instrs: &[Instr], start: u32, whole: &str, width: usize, source: &Source) -> String {
     let Some((last, labels)) = instrs.split_last() else {
         return whole.trim().to_owned();
     };
+    if is_heading(whole) {
+        return whole.trim().to_owned();
+    }
     let rest = &whole[(last.span.end - start) as usize..];
     // A colon may follow a label.
     let separates = |c: char| c.is_whitespace() || matches!(c, ',' | '，' | ':' | '：' | '\0');
@@ -161,15 +222,18 @@ fn line(instrs: &[Instr], start: u32, whole: &str, width: usize) -> String {
     let mut out = String::new();
     for label in labels {
         il_step(&mut out, label, width);
-        il_words(&mut out, label, None);
+        match autoshop_words(label, source) {
+            Some(words) => il_written(&mut out, &[&words], None),
+            None => il_words(&mut out, label, None),
+        }
         out.push('\n');
     }
     il_step(&mut out, last, width);
-    il_words(
-        &mut out,
-        last,
-        Some(comment).filter(|comment| !comment.is_empty()),
-    );
+    let comment = Some(comment).filter(|comment| !comment.is_empty());
+    match autoshop_words(last, source) {
+        Some(words) => il_written(&mut out, &[&words], comment),
+        None => il_words(&mut out, last, comment),
+    }
     out
 }
 

@@ -40,6 +40,20 @@ fn lines_that_are_no_instructions() {
     insta::assert_snapshot!(findings(&read_text("a.il", text)));
 }
 
+/// Windows of AutoShop: names that are missing, headings that name nothing. A pointer is none, whatever follows it.
+#[test]
+fn windows_without_their_names() {
+    let text = "LD X0\nCALL 加科\nCALL 泵\nCALL PO\nCALL P0Z0\nCALL P9 P8\nCALL \u{420}1\nCALL motor\nSBR 加料\nSBR\nSBR 加料\nSBR two words\nINT 急停\nINT D0\nINT_02\nMAIN\nLD X1\nEND\n";
+    insta::assert_snapshot!(findings(&read_text("a.txt", text)));
+}
+
+/// Without any window, only what can be nothing else is the name of one.
+#[test]
+fn calls_of_names_without_windows() {
+    let text = "LD X0\nCALL 加料\nCALL SBR_001\nCALL P0Z0\nCALL bSpeed\nCALL\nEND\n";
+    insta::assert_snapshot!(findings(&read_text("a.il", text)));
+}
+
 #[test]
 fn operands_that_are_none() {
     let text = "MOV 10 D0\nMOV Q5 D0\nMOV KX D0\nMOV H-5 D0\nMOV EX D0\nMOV U0G5 D0\nLD MO\nLD Xl\nLD X\nMOV K D0\nMOV D0Q D1\nMOV RE5 D0\nMOV ％ D0\n";

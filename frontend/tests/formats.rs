@@ -420,6 +420,87 @@ fn jumps_of_autoshop_are_read() {
     assert_eq!(&list[end.span.range()], "END");
 }
 
+const WINDOWS: &str = "\
+; Filling\n\
+MAIN\n\
+LD X0\n\
+CALL 加料 ; twice\n\
+CALLP SBR_05\n\
+CALL Rinse\n\
+CJ L0\n\
+LDI X1\n\
+OUT Y0\n\
+L0\n\
+EI\n\
+END\n\
+\n\
+; from the silo\n\
+ＳＢＲ　加料：  // slow\n\
+LD X1\n\
+OUT Y1\n\
+SBR_05\n\
+LD X2\n\
+CALL P3\n\
+SRET\n\
+sbr Rinse P3\n\
+LD X3\n\
+INT D0 D10\n\
+INT 急停 I001\n\
+LD M8000\n\
+RST Y1\n";
+
+#[test]
+fn windows_of_autoshop_are_read() {
+    let read = rungc_frontend::read_text("plc.txt", WINDOWS);
+    assert_eq!(read.diagnostics.iter().count(), 0);
+    insta::assert_snapshot!(print::to_il(&read.program));
+    // Only the names are new; the rest is laid out as it stands.
+    let laid_out = print::lay_out(&read.program);
+    insta::assert_snapshot!(laid_out.text);
+    let again = rungc_frontend::read_text("plc.txt", &laid_out.text).program;
+    assert_eq!(texts(&again), texts(&read.program));
+    assert_eq!(print::lay_out(&again).changes, []);
+}
+
+#[test]
+fn windows_of_autoshop_are_written() {
+    let program = rungc_frontend::read_text("plc.txt", WINDOWS).program;
+    let written = print::to_autoshop(&program).unwrap();
+    insta::assert_snapshot!(written);
+    let again = rungc_frontend::read_text("plc.txt", &written).program;
+    assert_eq!(print::to_il(&again), print::to_il(&program));
+    // Without routines there is one window.
+    let list = rungc_frontend::read_text("a.il", "LD X0\nOUT Y0\nEND\n").program;
+    assert_eq!(
+        print::to_autoshop(&list).unwrap(),
+        "MAIN\nLD X000\nOUT Y000\n"
+    );
+}
+
+/// What names cannot express is refused, where it is.
+#[test]
+fn programs_that_windows_cannot_hold() {
+    let why = |list: &str| {
+        let program = rungc_frontend::read_text("a.il", list).program;
+        let refused = print::to_autoshop(&program).unwrap_err();
+        let place = program.source.line_col(refused.span.start);
+        format!(
+            "{}:{} {} / {}",
+            place.0, place.1, refused.message, refused.label
+        )
+    };
+    let lists = [
+        "LD X0\nCALL P0Z0\nFEND\nP0\nSRET\nEND\n",
+        "LD X0\nCALL P1\nFEND\nP0\nSRET\nEND\n",
+        "LD X0\nCJ P0\nFEND\nP0\nSRET\nEND\n",
+        "LD X0\nFEND\nOUT Y0\nFEND\nP0\nSRET\nEND\n",
+        "LD X0\nFEND\nP0\nP1\nSRET\nEND\n",
+        "LD X0\nFEND\nP0\nOUT Y0\nI001\nIRET\nEND\n",
+        "LD X0\nOUT Y0\nEND\nLD X1\n",
+    ];
+    insta::assert_snapshot!(lists.map(why).join("\n"));
+}
+
 #[test]
 fn files_without_a_known_format_say_what_they_are() {
     let why = |name: &str, bytes: &[u8]| {

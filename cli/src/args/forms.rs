@@ -85,6 +85,8 @@ pub enum ConvertTo {
     Image,
     /// A project of PLCopen XML (TC6 2.01).
     Plcopen,
+    /// The lists of AutoShop's windows, each after its heading (`MAIN`, `SBR name`, `INT name I001`).
+    Autoshop,
 }
 
 /// Languages of a program in PLCopen XML.
@@ -103,7 +105,7 @@ impl ConvertTo {
     /// Whether it is a text that a terminal can show.
     pub const fn is_text(self) -> bool {
         match self {
-            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Plcopen => true,
+            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Plcopen | ConvertTo::Autoshop => true,
             ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => false,
         }
     }
@@ -112,7 +114,7 @@ impl ConvertTo {
     pub const fn ending(self) -> &'static str {
         match self {
             ConvertTo::Il => "il",
-            ConvertTo::Ladder => "txt",
+            ConvertTo::Ladder | ConvertTo::Autoshop => "txt",
             ConvertTo::Csv | ConvertTo::Comments => "csv",
             ConvertTo::Image => "bin",
             ConvertTo::Plcopen => "xml",
@@ -122,7 +124,11 @@ impl ConvertTo {
     /// What this form is called, if it cannot store comments on devices.
     pub const fn without_comments(self) -> Option<&'static str> {
         match self {
-            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Comments | ConvertTo::Plcopen => None,
+            ConvertTo::Il
+            | ConvertTo::Ladder
+            | ConvertTo::Comments
+            | ConvertTo::Plcopen
+            | ConvertTo::Autoshop => None,
             ConvertTo::Csv => Some("a list export"),
             ConvertTo::Image => Some("an image"),
         }

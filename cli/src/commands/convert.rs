@@ -76,7 +76,7 @@ pub fn written(
 ) -> Vec<u8> {
     let program = &read.program;
     let text = match to {
-        ConvertTo::Il | ConvertTo::Ladder => print::broken_text(program),
+        ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Autoshop => print::broken_text(program),
         ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image | ConvertTo::Plcopen => None,
     };
     if let Some(text) = text {
@@ -101,10 +101,14 @@ pub fn written(
                 image::write(program).map_err(|unknown| diagnostics.extend(unknown.sorted()));
             image.unwrap_or_default()
         }
+        ConvertTo::Autoshop if program.is_complete() => print::to_autoshop(program)
+            .map_err(|refused| diagnostics.push(refused))
+            .unwrap_or_default()
+            .into_bytes(),
         ConvertTo::Plcopen if program.is_complete() => {
             plcopen::to_plcopen(program, body, options, diagnostics).into_bytes()
         }
         // What could not be read has been reported.
-        ConvertTo::Image | ConvertTo::Plcopen => Vec::new(),
+        ConvertTo::Image | ConvertTo::Plcopen | ConvertTo::Autoshop => Vec::new(),
     }
 }

@@ -84,6 +84,11 @@ impl Faults {
         self.0.iter()
     }
 
+    /// Whether all of them are of this kind.
+    pub fn are_all(&self, kind: Kind) -> bool {
+        self.0.iter().all(|fault| fault.kind == kind)
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// A line that has such a jump or label, as other lists write it.
 pub(super) fn fold(line: &str) -> Option<Folded> {
-    let code = line.split(';').next()?.split("//").next()?;
+    let code = instruction(line);
     let mut words = words(code).peekable();
     // A step number.
     words.next_if(|word| code[word.clone()].bytes().all(|b| b.is_ascii_digit()));
@@ -35,10 +35,16 @@ fn label(word: &str) -> bool {
     digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse::<u32>().is_ok_and(|n| n != 63)
 }
 
+/// A line up to its comment.
+pub(super) fn instruction(line: &str) -> &str {
+    let code = line.find([';', '；']).map_or(line, |at| &line[..at]);
+    code.find("//").map_or(code, |at| &code[..at])
+}
+
 /// The places of words.
-fn words(code: &str) -> impl Iterator<Item = Range<usize>> {
+pub(super) fn words(code: &str) -> impl Iterator<Item = Range<usize>> {
     let start = code.as_ptr() as usize;
-    code.split_ascii_whitespace().map(move |word| {
+    code.split_whitespace().map(move |word| {
         let at = word.as_ptr() as usize - start;
         at..at + word.len()
     })

@@ -16,6 +16,7 @@ pub(crate) mod field;
 mod fold;
 mod grammar;
 mod jumps;
+pub(crate) mod windows;
 
 use crate::Read;
 use crate::text::{append, clean};
@@ -25,6 +26,7 @@ use rungc_syntax::{
     Device, Diagnostics, Instr, Operands, Program, Remarks, Source, SourceKind, Span,
 };
 use smol_str::{SmolStr, ToSmolStr};
+use windows::Windows;
 
 /// Reads an instruction list. `name` is the file's name for diagnostics.
 pub fn read_text(name: &str, text: &str) -> Read {
@@ -41,8 +43,12 @@ pub fn read_text(name: &str, text: &str) -> Read {
     let source = Source::new(name, text);
     reader.program.instrs.reserve(source.line_count() as usize);
     let grammar = grammar::line();
+    let mut windows = Windows::of(&source);
     for (start, whole) in source.lines() {
         let line = whole.trim_end_matches(['\r', '\n']);
+        if reader.window_line(&mut windows, line, start) {
+            continue;
+        }
         if let Some(folded) = jumps::fold(line) {
             reader.folded_line(line, &folded, start);
         } else if line.is_ascii() {
@@ -54,6 +60,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
             reader.wide_line(line, start);
         }
     }
+    reader.end_windows(&windows, text.len() as u32);
     reader.program.source = source;
     reader.program.kind = SourceKind::Il;
     Read {

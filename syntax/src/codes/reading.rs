@@ -200,6 +200,24 @@ super::codes! {
     wrong: "",
     right: "";
 
+    UNKNOWN_WINDOW = "E0066" "unknown-window" Error None,
+    "call of a subroutine that no window is called",
+    "In a list of AutoShop, `CALL` names a subroutine, whose list follows the heading `SBR` with the same name. Without the heading, nothing says where the subroutine is.",
+    wrong: "MAIN\nLD X0\nCALL 加料\nSBR 卸料\nLD X1\nOUT Y0\n",
+    right: "MAIN\nLD X0\nCALL 加料\nSBR 加料\nLD X1\nOUT Y0\n";
+
+    WINDOW_HEADING = "E0067" "window-heading" Error None,
+    "heading of a window that names none",
+    "A list of AutoShop consists of windows: the main program after the heading `MAIN`, which may be left out, then each subroutine after `SBR` and its name, and each interrupt routine after `INT`, its name and its interrupt pointer. Names are single words, and no two windows have the same one. A subroutine's heading may state its pointer: `SBR 加料 P1`.",
+    wrong: "LD X0\nOUT Y0\nINT 急停\nRST Y0\n",
+    right: "LD X0\nOUT Y0\nINT 急停 I001\nLD M8000\nRST Y0\n";
+
+    NO_WINDOWS = "E0068" "no-windows" Error None,
+    "program that AutoShop's windows cannot hold",
+    "`rungc convert --to autoshop` divides a program into the windows of AutoShop: the main program up to FEND, subroutines from their label to SRET, interrupt routines from their pointer to IRET. A second FEND, labels between routines, a subroutine with several labels and calls of `P0Z0`, whose target the program computes, do not fit: names take the place of pointers there.",
+    wrong: "",
+    right: "";
+
     PLCOPEN_UNDRAWN = "E0740" "plcopen-undrawn" Error None,
     "network that cannot be drawn as PLCopen XML",
     "`rungc convert --to plcopen` writes a program as its networks of contacts and outputs. This network is a list without such a structure, for example because a block is joined that was never started, so nothing is written. `--to il` and `--to csv` write such programs.",
