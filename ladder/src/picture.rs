@@ -351,8 +351,14 @@ impl<'a> Draft<'a> {
                 let sign = self.face.symbol(placed.cell);
                 marks.push(text("name middle", (middle, y - 12.0), &sign));
             }
-            Cell::FoldOut(_) | Cell::FoldIn(_) => {
-                marks.push(fed(nets[0], line("wire", (left, y), (right, y))));
+            // The wire of a row that continues below touches no rail.
+            Cell::FoldOut(_) => {
+                marks.push(fed(nets[0], line("wire", (left, y), (middle, y))));
+                let sign = self.face.symbol(placed.cell);
+                marks.push(text("name middle", (middle, y - 6.0), &sign));
+            }
+            Cell::FoldIn(_) => {
+                marks.push(fed(nets[0], line("wire", (middle, y), (right, y))));
                 let sign = self.face.symbol(placed.cell);
                 marks.push(text("name middle", (middle, y - 6.0), &sign));
             }

@@ -321,9 +321,18 @@ impl Page<'_> {
             let within = placed
                 .iter()
                 .any(|placed| placed.column < boundary && boundary < placed.column + placed.span);
+            // A row that continues below ends at its mark, and begins at the other one: neither is at a rail.
+            let ends = placed.iter().any(|placed| match placed.cell {
+                Cell::FoldOut(_) => placed.column + placed.span == boundary,
+                _ => false,
+            });
+            let begins = placed.iter().any(|placed| match placed.cell {
+                Cell::FoldIn(_) => placed.column == boundary,
+                _ => false,
+            });
             let arms = Arms {
-                left: boundary > 0 && full[boundary - 1],
-                right: boundary < grid.columns && full[boundary],
+                left: boundary > 0 && full[boundary - 1] && !ends,
+                right: boundary < grid.columns && full[boundary] && !begins,
                 up: rail || row > 0 && grid.down(row - 1, boundary),
                 down: rail || row + 1 < grid.rows && grid.down(row, boundary),
             };

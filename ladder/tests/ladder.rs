@@ -285,7 +285,7 @@ proptest! {
             let states = program.instrs.iter().any(|instr| instr.mnemonic == "STL");
             let chart = Chart::of(resolved, ladder);
             prop_assert_eq!(chart.is_some(), states);
-            chart.map(|chart| (chart.text(), chart.sheet().to_string()));
+            chart.map(|chart| (chart.text(80), chart.sheet().to_string()));
             prop_assert!(pdf::document("random", resolved, ladder).starts_with(b"%PDF"));
             Ok(())
         })?;

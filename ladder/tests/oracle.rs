@@ -14,8 +14,8 @@ use std::path::Path;
 /// How many random assignments each network is tried with.
 const TRIALS: u64 = 24;
 
-/// So wide that networks are not continued below.
-const WIDTH: usize = 500;
+/// How wide networks are drawn: so wide that few are continued below, and so narrow that most are.
+const WIDTHS: [usize; 2] = [500, 60];
 
 /// A random bit for what a contact is called, always the same within a trial.
 fn chance(trial: u64, name: &str) -> bool {
@@ -183,17 +183,37 @@ impl Picture {
                     (Some('['), _) if wired => self.close(row, column, ']'),
                     (Some('('), _) if wired => self.close(row, column, ')'),
                     (Some('/' | '↑' | '↓'), _) if wired => column,
+                    (Some('→'), _) if wired => self.digits(row, column + 1),
+                    (Some(digit), _) if digit.is_ascii_digit() && column == self.left + 1 => {
+                        self.digits(row, column) + 1
+                    }
                     _ => {
                         column += 1;
                         continue;
                     }
                 };
                 let from = (row, column - 1);
-                if end + 1 == self.right && column != end {
+                if matches!(line[column], '→') {
+                    let after = self.at((row, end + 1));
+                    assert!(
+                        matches!(after, ' ' | '│'),
+                        "row {row} goes on after its mark: {after}"
+                    );
+                } else if line[column].is_ascii_digit() {
+                    assert_eq!(
+                        (self.at((row, end)), self.at(from)),
+                        ('→', '│'),
+                        "row {row}"
+                    );
+                }
+                if end + 1 == self.right && column != end && line[column] != '→' {
                     outputs.push(from);
                 } else {
                     let first = self.at((row, column));
+                    let fold = |from, to| self.rows[row][from..=to].iter().collect::<String>();
                     let (name, symbol) = match first {
+                        '→' => (fold(column + 1, end), '→'),
+                        digit if digit.is_ascii_digit() => (fold(column, end - 1), '←'),
                         '┤' => (self.above(row, column + 1), self.at((row, column + 1))),
                         '[' => (line[column..=end].iter().collect(), ' '),
                         symbol => (String::new(), symbol),
@@ -210,6 +230,12 @@ impl Picture {
             }
         }
         (elements, outputs)
+    }
+
+    /// The last of the digits that begin at a place.
+    fn digits(&self, row: usize, column: usize) -> usize {
+        let digits = (column..).take_while(|column| self.at((row, *column)).is_ascii_digit());
+        digits.last().expect("the number of a continuation")
     }
 
     fn close(&self, row: usize, column: usize, with: char) -> usize {
@@ -278,10 +304,41 @@ impl Picture {
 }
 
 impl Circuit {
+    /// The wire between a mark at the end of a row and where the row continues.
+    fn continued(&self, out: &Element) -> Element {
+        let with = |symbol| {
+            let same = move |of: &&Element| of.symbol == symbol && of.name == out.name;
+            self.elements.iter().filter(same)
+        };
+        assert_eq!(with('→').count(), 1, "{} continues twice", out.name);
+        assert_eq!(with('←').count(), 1, "{} continues in one place", out.name);
+        let back = with('←').next().expect("one");
+        assert_ne!(self.nets[&back.to], 0, "{} continues at the rail", out.name);
+        Element {
+            name: String::new(),
+            symbol: '→',
+            from: out.from,
+            to: back.to,
+        }
+    }
+
     /// What the drawing drives, from the top down.
     fn drives(&self, trial: u64) -> Vec<bool> {
         let mut fed: BTreeMap<usize, Vec<&Element>> = BTreeMap::new();
-        for element in &self.elements {
+        // A row that ends with a mark continues where the mark appears again, once.
+        let left = |at: &&Element| at.symbol == '→';
+        let joined: Vec<Element> = self
+            .elements
+            .iter()
+            .filter(left)
+            .map(|out| self.continued(out))
+            .collect();
+        for element in self
+            .elements
+            .iter()
+            .filter(|of| !matches!(of.symbol, '→' | '←'))
+            .chain(&joined)
+        {
             fed.entry(self.nets[&element.to]).or_default().push(element);
         }
         let mut known = BTreeMap::from([(0, true)]);
@@ -306,6 +363,7 @@ fn power(
     for element in fed.get(&net).into_iter().flatten() {
         let before = power(nets[&element.from], nets, fed, known, trial);
         on |= match (element.name.as_str(), element.symbol) {
+            ("", '→') => before,
             ("", symbol) => changed(symbol, before, trial),
             (name, '/') => before && !chance(trial, name),
             (name, ' ') => before && chance(trial, name),
@@ -334,37 +392,84 @@ fn wires(c: char) -> &'static str {
     }
 }
 
-/// Compares all networks of a program that have a drawing; how many those are.
-fn compare(program: &Program, name: &str) -> usize {
+/// What was compared.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
+struct Drawn {
+    networks: usize,
+    /// Drawings with rows that continue below.
+    folded: usize,
+    /// Contacts in the left rail.
+    bars: usize,
+    /// The most characters of a line.
+    widest: usize,
+}
+
+/// Compares all networks of a program that have a drawing, at all widths.
+fn compare(program: &Program, name: &str) -> Drawn {
     let (resolved, _) = resolve(program, Model::get(ModelId::Fx3u));
     let ladder = build::ladder(&resolved);
-    let style = Style {
-        width: WIDTH,
-        comments: false,
-    };
-    let mut drawn = 0;
+    let mut drawn = Drawn::default();
     for network in &ladder.networks {
         let NetworkBody::Rung(node) = &network.body else {
             continue;
         };
-        let text = draw_alike(&[(&resolved, network)], style).concat();
-        if node.items.is_empty() || text.contains(['╪', '→']) {
+        if node.items.is_empty() {
             continue;
         }
-        // Statements stand above the rails.
-        let rows = text.lines().filter(|line| line.contains(['│', '├']));
-        let circuit = Picture::of(&rows.collect::<Vec<_>>().join("\n")).circuit();
-        for trial in 0..TRIALS {
-            let expected = by_list(&resolved, network, trial);
-            assert_eq!(
-                circuit.drives(trial),
-                expected,
-                "{name}, trial {trial}:\n{text}"
-            );
+        for width in WIDTHS {
+            compare_network(&resolved, network, width, name, &mut drawn);
         }
-        drawn += 1;
+        drawn.networks += 1;
     }
     drawn
+}
+
+fn compare_network(
+    resolved: &Resolved,
+    network: &Network,
+    width: usize,
+    name: &str,
+    drawn: &mut Drawn,
+) {
+    let style = Style {
+        width,
+        comments: false,
+    };
+    let text = draw_alike(&[(resolved, network)], style).concat();
+    // Statements stand above the rails.
+    let rows = text.lines().filter(|line| line.contains(['│', '├', '╪']));
+    let (bars, rows): (Vec<_>, Vec<_>) = rows.partition(|line| line.contains('╪'));
+    let instrs = network
+        .instrs
+        .clone()
+        .filter(|at| matches!(resolved.instrs[*at].lower, Some(Lower::Basic(Basic::Mc))));
+    let masters = instrs.map(|at| {
+        let operands = resolved.program.instrs[at].operands.iter();
+        operands
+            .map(|operand| operand.kind.to_string())
+            .collect::<Vec<_>>()
+    });
+    let words = |line: &&str| {
+        let words = line
+            .split(['═', '╪', '│', ' '])
+            .filter(|word| !word.is_empty());
+        words.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let said: Vec<_> = bars.iter().map(words).collect();
+    assert_eq!(said, masters.collect::<Vec<_>>(), "{name}:\n{text}");
+    let circuit = Picture::of(&rows.join("\n")).circuit();
+    for trial in 0..TRIALS {
+        let expected = by_list(resolved, network, trial);
+        assert_eq!(
+            circuit.drives(trial),
+            expected,
+            "{name}, trial {trial}:\n{text}"
+        );
+    }
+    drawn.folded += usize::from(text.contains('→'));
+    drawn.bars += bars.len();
+    let widths = rows.iter().map(|row| row.chars().count());
+    drawn.widest = widths.fold(drawn.widest, usize::max);
 }
 
 fn program(list: &str) -> Program {
@@ -393,7 +498,7 @@ fn the_oracle_sees_what_is_drawn_wrong() {
 #[test]
 fn drawings_of_real_programs_say_what_their_lists_say() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let mut drawn = 0;
+    let (mut drawn, mut folded, mut bars) = (0, 0, 0);
     for folder in ["examples", "../shared/corpus", "../shared/projects"] {
         let folder = root.join(folder);
         if !folder.exists() {
@@ -406,12 +511,52 @@ fn drawings_of_real_programs_say_what_their_lists_say() {
                 let entries = std::fs::read_dir(&path).unwrap();
                 open.extend(entries.map(|entry| entry.unwrap().path()));
             } else if let Ok(read) = rungc_frontend::read(&path) {
-                drawn += compare(&read.program, &path.display().to_string());
+                let all = compare(&read.program, &path.display().to_string());
+                (drawn, folded, bars) =
+                    (drawn + all.networks, folded + all.folded, bars + all.bars);
             }
         }
     }
     assert!(drawn > 100, "{drawn}");
-    eprintln!("{drawn} networks");
+    eprintln!("{drawn} networks, {folded} drawings with continued rows, {bars} contacts in rails");
+}
+
+#[test]
+fn bars_continued_rows_and_very_wide_networks_say_what_their_lists_say() {
+    let mc = "LD X0\nAND X1\nMC N0 M50\nLD X2\nOR X3\nOUT Y0\nLD X4\nMC N1 M51\nLD M5\nOUT Y1\nMCR N0\nEND\n";
+    let seen = compare(&program(mc), "master control");
+    assert_eq!(
+        (seen.networks, seen.bars),
+        (6, 2 * WIDTHS.len()),
+        "{seen:?}"
+    );
+    // Contacts in series are continued below, also where a branch is open.
+    let series = |count: usize| -> String { (0..count).map(|n| format!("AND M{n}\n")).collect() };
+    let long = format!(
+        "LD X0\nOR X1\n{}LD X2\nOR X3\nANB\nOUT Y0\nMPS\nAND X5\nOUT Y1\nMPP\nINV\nOUT Y2\nEND\n",
+        series(120)
+    );
+    let seen = compare(&program(&long), "a long row");
+    assert_eq!(seen.folded, WIDTHS.len(), "{seen:?}");
+    // A branch cannot be continued: its network is as wide as it needs.
+    let wide = format!(
+        "LD X0\n{}LD X1\n{}OUT Y0\nEND\n",
+        series(90),
+        series(70) + "ORB\n"
+    );
+    let seen = compare(&program(&wide), "a wide branch");
+    assert!(seen.widest > WIDTHS[0], "{seen:?}");
+    // Branches below each other, each with its own outputs.
+    let mut high = "LD X0\n".to_owned();
+    for n in 0..100 {
+        high += ["MPS\n", "MRD\n"][usize::from(n > 0)];
+        high += &format!("AND M{n}\nOUT Y{:o}\n", n % 64);
+    }
+    let seen = compare(
+        &program(&(high + "MPP\nANI X7\nOUT M200\nEND\n")),
+        "many branches",
+    );
+    assert_eq!(seen.networks, 2);
 }
 
 /// A random block of contacts.
@@ -497,7 +642,7 @@ proptest! {
         lines.push("END");
         // What inverts a block is a list; END is drawn in any case.
         let lists = lines.iter().any(|line| ["INV", "MEP", "MEF"].contains(line));
-        let drawn = compare(&program(&lines.join("\n")), "random");
+        let drawn = compare(&program(&lines.join("\n")), "random").networks;
         prop_assert!(drawn == 2 || lists && drawn == 1);
     }
 }

@@ -14,7 +14,7 @@ fn chart(list: &str) -> Option<Chart> {
 }
 
 fn drawn(list: &str) -> String {
-    chart(list).expect("it has states").text()
+    chart(list).expect("it has states").text(usize::MAX)
 }
 
 /// Balls sorted by size: a branch that is selected (h1u-h2u-programming §4.2.3).
@@ -44,6 +44,57 @@ fn selected_branches_meet_at_a_state() {
 #[test]
 fn parallel_branches_meet_at_a_transition() {
     insta::assert_snapshot!(drawn(CROSSING));
+}
+
+/// A narrow page takes shorter lines first, then branches continue below.
+#[test]
+fn a_chart_folds_to_the_width_of_its_page() {
+    let chart = chart(BALLS).expect("it has states");
+    let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
+    assert!(widest(&chart.text(usize::MAX)) > 40);
+    for width in [40, 34, 30] {
+        let text = chart.text(width);
+        assert!(widest(&text) <= width, "{width}:\n{text}");
+        for state in &chart.states {
+            let name = state.device.to_string();
+            let boxed = text
+                .split(['│', '║', '\n'])
+                .filter(|part| part.trim() == name);
+            assert_eq!(boxed.count(), 1, "{name}:\n{text}");
+        }
+    }
+    insta::assert_snapshot!(chart.text(30));
+    let parallel = crate::chart(CROSSING).expect("it has states");
+    insta::assert_snapshot!(parallel.text(40));
+}
+
+/// However many branches a state has, none is lost and no line is wider than the page.
+#[test]
+fn many_branches_continue_below() {
+    let mut list = String::from("LD M8002\nSET S0\nSTL S0\n");
+    for branch in 1..40 {
+        list += &format!("LD X{branch:o}\nAND M{branch}\nSET S{branch}\n");
+    }
+    for branch in 1..40 {
+        list += &format!(
+            "STL S{branch}\nOUT Y{branch:o}\nLD X0\nOUT S{}\n",
+            [0, 40][branch % 2]
+        );
+    }
+    let text = chart(&(list + "STL S40\nLD X1\nOUT S0\nRET\nEND\n"))
+        .expect("it has states")
+        .text(80);
+    for branch in 1..40 {
+        assert_eq!(
+            text.matches(&format!(" X{branch:03o} · M{branch}\n").trim_end())
+                .count()
+                .min(1),
+            1,
+            "{branch}:\n{text}"
+        );
+    }
+    let widest = text.lines().map(|line| line.chars().count()).max();
+    assert!(widest <= Some(80), "{text}");
 }
 
 #[test]

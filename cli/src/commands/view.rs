@@ -87,7 +87,7 @@ fn view(
                 _ = writeln!(page, "; {}", findings.name(true));
             }
             page.push_str(&match &chart {
-                Some(chart) => chart.text(),
+                Some(chart) => chart.text(style.width),
                 None => draw(&resolved, &networks, style),
             });
             say(&page)?;

@@ -14,8 +14,10 @@ use unicode_width::UnicodeWidthStr;
 pub(super) const BOX: usize = 9;
 /// From the left edge of a branch to its line.
 const SPINE: usize = 4;
-/// Columns of a line of text before it is folded.
+/// Columns of a line of text before it is folded, on a page that is wide enough.
 const ROOM: usize = 40;
+/// Columns of a line of text on narrower pages, one after another.
+const NARROW: [usize; 3] = [28, 20, 14];
 /// How many divergences may lie in each other; beyond, arrows lead on to flows further below.
 const DEEPEST: usize = 100;
 
@@ -88,6 +90,19 @@ struct Fork {
 
 /// Places a chart.
 pub(super) fn place(chart: &Chart) -> Sheet {
+    place_in(chart, ROOM, usize::MAX)
+}
+
+/// Places a chart on a page of some columns: lines of text become shorter, and where that is not enough, branches that
+/// have no room beside the others continue below.
+pub(super) fn place_within(chart: &Chart, columns: usize) -> Sheet {
+    let rooms = [ROOM].into_iter().chain(NARROW);
+    let mut sheets = rooms.map(|room| place_in(chart, room, usize::MAX));
+    let fits = sheets.find(|sheet| sheet.width <= columns);
+    fits.unwrap_or_else(|| place_in(chart, NARROW[1], columns))
+}
+
+fn place_in(chart: &Chart, room: usize, columns: usize) -> Sheet {
     let mut leaving = vec![Vec::new(); chart.states.len()];
     for (t, transition) in chart.transitions.iter().enumerate() {
         transition
@@ -103,6 +118,9 @@ pub(super) fn place(chart: &Chart) -> Sheet {
         drawn: vec![false; chart.transitions.len()],
         stops: Vec::new(),
         depth: 0,
+        room,
+        columns,
+        below: VecDeque::new(),
     };
     let mut width = 0;
     let mut y = 0;
@@ -113,13 +131,18 @@ pub(super) fn place(chart: &Chart) -> Sheet {
         let run = placer.flow(root, y);
         width = width.max(run.width);
         y = run.bottom + 1;
+        while let Some((above, branches)) = placer.below.pop_front() {
+            let run = placer.continued(&above, &branches, y);
+            width = width.max(run.width);
+            y = run.bottom + 1;
+        }
     }
     let remarks = placer.remarks();
     if remarks.is_empty() {
         y -= 1;
     }
     for remark in remarks {
-        for line in fold(&remark, 2 * ROOM, usize::MAX) {
+        for line in fold(&remark, (2 * ROOM).min(columns), usize::MAX) {
             width = width.max(line.width());
             placer.text(0, y, Words::Plain(line));
             y += 1;
@@ -160,6 +183,12 @@ struct Placer<'a> {
     stops: Vec<Point>,
     /// How many divergences are around it.
     depth: usize,
+    /// Columns of a line of text.
+    room: usize,
+    /// Columns of the page.
+    columns: usize,
+    /// Branches that continue below, and the states that their heading names.
+    below: VecDeque<(Vec<usize>, Vec<Point>)>,
 }
 
 impl Placer<'_> {
@@ -180,6 +209,35 @@ impl Placer<'_> {
             width: width.max(run.width),
             ..run
         }
+    }
+
+    /// Branches that had no room beside others, below the names of the states that they follow or, of parallel ones,
+    /// of the first state that is active at the same time.
+    fn continued(&mut self, above: &[usize], branches: &[Point], y: usize) -> Run {
+        let heading = match branches[0] {
+            Point::State(_) => format!("beside {} …", self.chart.names(above)),
+            Point::Transition(_) => format!("{} …", self.chart.names(above)),
+        };
+        // No line shows through it.
+        let heading = format!("{heading:<BOX$}");
+        let width = heading.width();
+        self.text(0, y, Words::Plain(heading));
+        let mut run = match *branches {
+            [only] => self.chain(only, (0, y + 1), above, true),
+            _ => {
+                let fork = self.fork(branches, (0, y + 1), above);
+                match fork.meets.filter(|_| fork.run.open) {
+                    None => fork.run,
+                    Some(meets) => {
+                        let mut run = self.chain(meets, (0, fork.run.bottom), &fork.run.last, true);
+                        run.width = run.width.max(fork.run.width);
+                        run
+                    }
+                }
+            }
+        };
+        run.width = run.width.max(width);
+        run
     }
 
     fn text(&mut self, x: usize, y: usize, text: Words) {
@@ -268,12 +326,12 @@ impl Placer<'_> {
         for line in about
             .name
             .iter()
-            .flat_map(|name| fold(name, ROOM, usize::MAX))
+            .flat_map(|name| fold(name, self.room, usize::MAX))
         {
             lines.push((line.width(), Words::Name(line)));
         }
         for (i, action) in about.actions.iter().enumerate() {
-            for line in fold(&action.text, ROOM, usize::MAX) {
+            for line in fold(&action.text, self.room, usize::MAX) {
                 lines.push((line.width(), Words::Action(line, state, i)));
             }
         }
@@ -318,7 +376,7 @@ impl Placer<'_> {
             self.connect(x, y);
         }
         self.pieces.push(Piece::Bar { x: x + SPINE, y });
-        let lines = fold(condition, ROOM, usize::MAX);
+        let lines = fold(condition, self.room, usize::MAX);
         let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
         let bottom = y + lines.len().max(1);
         for (i, line) in lines.into_iter().enumerate() {
@@ -353,9 +411,18 @@ impl Placer<'_> {
         let mut open = Vec::new();
         let mut bottom = y + 1;
         let mut joined = Vec::new();
-        for &branch in branches {
-            last = x + width;
-            let run = self.chain(branch, (last, y + 1), above, true);
+        for (nth, &branch) in branches.iter().enumerate() {
+            let at = x + width;
+            let Some(run) = self.branch(branch, (at, y + 1), above, nth == 0) else {
+                let after = match branches[0] {
+                    Point::State(first) => vec![first],
+                    Point::Transition(_) => above.to_vec(),
+                };
+                self.below.push_back((after, branches[nth..].to_vec()));
+                self.text(last + SPINE + 3, y, Words::Plain("…".to_string()));
+                break;
+            };
+            last = at;
             if run.open {
                 open.push((last, run.bottom));
                 joined.extend(run.last);
@@ -382,6 +449,29 @@ impl Placer<'_> {
             last: joined,
         };
         Fork { run, meets }
+    }
+
+    /// A branch beside others, unless the page has no room for it; for the first one there is always.
+    fn branch(
+        &mut self,
+        branch: Point,
+        place: (usize, usize),
+        above: &[usize],
+        first: bool,
+    ) -> Option<Run> {
+        if first || self.columns == usize::MAX {
+            return Some(self.chain(branch, place, above, true));
+        }
+        let before = (self.pieces.len(), self.below.len());
+        let (placed, drawn) = (self.placed.clone(), self.drawn.clone());
+        let run = self.chain(branch, place, above, true);
+        if place.0 + run.width <= self.columns {
+            return Some(run);
+        }
+        self.pieces.truncate(before.0);
+        self.below.truncate(before.1);
+        (self.placed, self.drawn) = (placed, drawn);
+        None
     }
 
     fn across(&mut self, y: usize, first: usize, last: usize, double: bool) {

@@ -1,7 +1,7 @@
 //! Drawing a chart in characters.
 
 use super::Chart;
-use super::place::{BOX, Piece, Sheet, Words, place};
+use super::place::{BOX, Piece, Sheet, Words, place_within};
 use unicode_width::UnicodeWidthChar;
 
 /// Which neighbours the lines of a cell reach.
@@ -14,9 +14,9 @@ const DOUBLE_ACROSS: u8 = 16;
 const DOUBLE_DOWN: u8 = 32;
 
 impl Chart {
-    /// The chart in characters.
-    pub fn text(&self) -> String {
-        let sheet = place(self);
+    /// The chart in characters, on lines of at most `width` columns where a single branch is not wider.
+    pub fn text(&self, width: usize) -> String {
+        let sheet = place_within(self, width);
         let mut canvas = Canvas::new(&sheet);
         for piece in &sheet.pieces {
             match piece {

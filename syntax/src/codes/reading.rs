@@ -232,7 +232,7 @@ super::codes! {
 
     PLCOPEN_FORM = "N0741" "plcopen-form" Note None,
     "PLCopen project that reads back as another list",
-    "Several lists have the same drawing: contacts may be joined by ANB without need, and a stack may hold what no branch needs. From this network on, the project that `rungc convert --to plcopen` writes reads back as another list that does the same.",
+    "Several lists have the same drawing: contacts may be joined by ANB without need, a stack may hold what no branch needs, and INV after a single contact makes it the opposite one (`LD X0`, `INV` is `LDI X0`). The project that `rungc convert --to plcopen` writes reads back as another list that does the same; the message says what becomes of the instructions here.",
     wrong: "",
     right: "";
 

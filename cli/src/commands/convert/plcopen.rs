@@ -11,6 +11,7 @@ mod sheet;
 mod words;
 mod xml;
 
+use super::super::counted;
 use crate::args::PlcopenBody;
 use lines::Lines;
 use rungc_analysis::resolve::resolve;
@@ -18,7 +19,7 @@ use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
 use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_lower::compile::{CompileOptions, model};
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
 use sheet::Sheet;
 use std::collections::BTreeMap;
 use words::Words;
@@ -73,21 +74,60 @@ pub fn to_plcopen(
     text
 }
 
-/// Says where a project reads back as another list.
+/// How many places that read back otherwise are shown one by one.
+const SHOWN: usize = 5;
+
+/// Says where a project reads back as another list, and as which.
 fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
-    let back = read_bytes("plcopen", text.as_bytes());
-    let back = back.map(|read| read.program.instrs).unwrap_or_default();
-    let same = |(a, b): &(&Instr, &Instr)| {
-        a.mnemonic == b.mnemonic
-            && a.operands
-                .iter()
-                .map(|operand| &operand.kind)
-                .eq(b.operands.iter().map(|o| &o.kind))
+    let Ok(back) = read_bytes("plcopen", text.as_bytes()) else {
+        return;
     };
-    let alike = program.instrs.iter().zip(&back).take_while(same).count();
-    if let Some(instr) = program.instrs.get(alike) {
-        let what = "what is written means the same, but reads back as another list from here on";
-        diagnostics.push(codes::PLCOPEN_FORM.at(instr.span, what));
+    let texts = |instrs: &[Instr]| instrs.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let (old, new) = (texts(&program.instrs), texts(&back.program.instrs));
+    let quoted = |texts: &[String]| {
+        let texts: Vec<_> = texts.iter().map(|text| format!("`{text}`")).collect();
+        texts.join(" ")
+    };
+    let mut places = Vec::new();
+    let (mut from, mut to) = (0, 0);
+    for (old_at, new_at) in align::common(&old, &new)
+        .into_iter()
+        .chain([(old.len(), new.len())])
+    {
+        if from < old_at || to < new_at {
+            let what = match (&old[from..old_at], &new[to..new_at]) {
+                (gone, []) => format!(
+                    "{} is not needed in what is written, and does not come back",
+                    quoted(gone)
+                ),
+                ([], more) => format!("{} is added here when this is read back", quoted(more)),
+                (gone, more) => format!(
+                    "{} reads back as {}, which means the same",
+                    quoted(gone),
+                    quoted(more)
+                ),
+            };
+            let at = from.min(old.len().saturating_sub(1));
+            places.push((at, what));
+        }
+        (from, to) = (old_at + 1, new_at + 1);
+    }
+    let span = |at: usize| {
+        program
+            .instrs
+            .get(at)
+            .map_or_else(Span::default, |instr| instr.span)
+    };
+    let more = places.len().saturating_sub(SHOWN);
+    for (nth, (at, what)) in places.into_iter().take(SHOWN).enumerate() {
+        let mut note = codes::PLCOPEN_FORM.at(span(at), what);
+        if nth + 1 == SHOWN && more > 0 {
+            note = note.help(format!(
+                "{} read back otherwise",
+                counted(more, "more place")
+            ));
+        }
+        diagnostics.push(note);
     }
 }
 
