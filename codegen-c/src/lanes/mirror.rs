@@ -78,9 +78,16 @@ impl Meeting<'_, '_> {
 
     fn stmt(&mut self, stmt: &Stmt) {
         let module = self.module;
+        // What a coil and RST do to a timer or counter is known where its own coil is printed.
         let coil = matches!(
             stmt,
-            Stmt::Reset(_) | Stmt::TimerAt(_) | Stmt::Counter16At(_)
+            Stmt::Timer(_)
+                | Stmt::TimerAt(_)
+                | Stmt::TimerGoesOn { .. }
+                | Stmt::Counter16(_)
+                | Stmt::Counter32(_)
+                | Stmt::Counter16At(_)
+                | Stmt::Reset(_)
         );
         let mut found = Vec::new();
         of_stmt(module.model, stmt, &mut |used| found.push(used));
