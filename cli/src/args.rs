@@ -4,6 +4,7 @@ mod boards;
 mod diff;
 mod emit;
 mod flash;
+mod fleet;
 mod forms;
 mod properties;
 mod serve;
@@ -15,6 +16,7 @@ pub use boards::BoardsArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use emit::{Backend, Emit};
 pub use flash::FlashArgs;
+pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
 pub use properties::Properties;
 pub use serve::ServeArgs;
@@ -93,6 +95,11 @@ pub enum Command {
     /// Options add servers to those of rungc.toml; what they say of a protocol or of a serial port takes precedence. At
     /// the end, a table shows the connections: frames, errors, and the devices that were written.
     Serve(RunArgs),
+    /// Run many PLCs in lock step, each with its ports or its topics of a broker, until Ctrl-C.
+    ///
+    /// At the end, it says how many scans there were and how many were missed, how late they began, and what a PLC takes
+    /// in memory.
+    Fleet(FleetArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
     /// Prove that a program has a property, or show how it violates it.

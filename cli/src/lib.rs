@@ -26,6 +26,7 @@ pub fn main() -> ExitCode {
             Command::Read(args) => args.output.is_none(),
             Command::Run(_)
             | Command::Serve(_)
+            | Command::Fleet(_)
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Verify(_) => true,
@@ -44,6 +45,7 @@ pub fn main() -> ExitCode {
         Command::Build(args) => commands::build::run(args, cx),
         Command::Run(args) => commands::run::run(args, cx),
         Command::Serve(args) => commands::serve::run(args, cx),
+        Command::Fleet(args) => commands::fleet::run(args, cx),
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Read(args) => commands::read::run(args, cx),

@@ -15,7 +15,8 @@ const PORT: u16 = 1883;
 /// The shortest time without a word after which the broker and this end look for each other.
 const KEEP_ALIVE: Duration = Duration::from_secs(5);
 
-/// Requests that wait for the broker; what does not fit is published later, with the value of then.
+/// Requests that wait for the broker, beside a subscription for each topic; what does not fit is published later, with
+/// the value of then.
 const WAITING: usize = 256;
 
 /// Stands for the name of the device in the topic of a row.
@@ -72,7 +73,11 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         };
         options.set_credentials(user, password.trim_end_matches(['\r', '\n']));
     }
-    let (client, mut events) = Client::new(options, WAITING);
+    let subscribed = connection
+        .directed(true)
+        .flat_map(topics)
+        .collect::<Vec<_>>();
+    let (client, mut events) = Client::new(options, WAITING + subscribed.len());
     let timeout = Duration::from_millis(connection.timeout_ms);
     events
         .eventloop
@@ -112,11 +117,9 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         Ok(News::Lost(why)) => return Err(why),
         _ => return Err("no answer in time".to_string()),
     }
-    for row in connection.directed(true) {
-        for (topic, _) in topics(row) {
-            let subscribed = broker.client.try_subscribe(topic, QoS::AtLeastOnce);
-            subscribed.map_err(|error| error.to_string())?;
-        }
+    for (topic, _) in subscribed {
+        let subscribed = broker.client.try_subscribe(topic, QoS::AtLeastOnce);
+        subscribed.map_err(|error| error.to_string())?;
     }
     if let Some(topic) = broker.status.clone() {
         broker.publish(topic, ONLINE.to_string());

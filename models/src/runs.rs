@@ -50,6 +50,23 @@ pub fn rt_class(class: DeviceClass) -> Option<Class> {
     })
 }
 
+/// The class as programs name it.
+pub fn name_class(class: Class) -> DeviceClass {
+    match class {
+        Class::X => DeviceClass::X,
+        Class::Y => DeviceClass::Y,
+        Class::M => DeviceClass::M,
+        Class::S => DeviceClass::S,
+        Class::T => DeviceClass::T,
+        Class::C => DeviceClass::C,
+        Class::D => DeviceClass::D,
+        Class::R => DeviceClass::R,
+        Class::ER => DeviceClass::ER,
+        Class::V => DeviceClass::V,
+        Class::Z => DeviceClass::Z,
+    }
+}
+
 /// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit
 /// counters are separate from the devices before them.
 pub fn is_border(class: DeviceClass, number: u32) -> bool {

@@ -2,8 +2,9 @@
 
 use crate::{Error, Project};
 use rungc_models::Model;
+use rungc_models::runs::name_class;
 use rungc_rt::io::{Connection, Kind};
-use rungc_syntax::{DeviceClass, Span, codes};
+use rungc_syntax::{Span, codes};
 use std::path::Path;
 
 /// A connection, with the places of what it says.
@@ -17,20 +18,6 @@ pub struct Connected {
     pub rows: Vec<Span>,
     /// Where its fault device is.
     pub fault: Span,
-}
-
-/// The class of a device that a connection names.
-fn class(class: rungc_rt::Class) -> DeviceClass {
-    use rungc_rt::Class;
-    match class {
-        Class::X => DeviceClass::X,
-        Class::Y => DeviceClass::Y,
-        Class::M => DeviceClass::M,
-        Class::S => DeviceClass::S,
-        Class::R => DeviceClass::R,
-        // No row has devices of other classes.
-        _ => DeviceClass::D,
-    }
 }
 
 impl Project {
@@ -67,7 +54,7 @@ impl Project {
             let faults = connection.fault.iter();
             let faults = faults.map(|&(class, number)| (class, number, 1, fault));
             for (of, first, count, &span) in ranges.chain(faults) {
-                let of = class(of);
+                let of = name_class(of);
                 let mut numbers = first..first + count;
                 if let Some(missing) = numbers.find(|&number| !model.has(of, number)) {
                     let device = of.number(missing);

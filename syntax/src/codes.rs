@@ -13,6 +13,7 @@
 //! | E080x, W080x | properties that are verified |
 //! | E082x | connections of a running program |
 //! | E085x, W085x | boards, and writing images into them |
+//! | E087x | fleets of PLCs |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.
@@ -22,6 +23,7 @@ use crate::diag::{Diagnostic, Severity};
 use crate::order;
 
 mod boards;
+mod fleets;
 mod labels;
 mod logic;
 mod modules;
@@ -35,6 +37,7 @@ mod structure;
 mod vendor;
 
 pub use boards::*;
+pub use fleets::*;
 pub use labels::*;
 pub use logic::*;
 pub use modules::*;
@@ -149,6 +152,7 @@ pub fn all() -> Vec<&'static Code> {
         vendor::TABLE,
         properties::TABLE,
         boards::TABLE,
+        fleets::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
     order::by_key(&mut all, |code| code.id);

@@ -9,6 +9,7 @@ pub mod diff;
 pub mod explain;
 mod fix;
 pub mod flash;
+pub mod fleet;
 pub mod fmt;
 mod in_place;
 pub mod init;

@@ -3,12 +3,12 @@
 mod capture;
 mod connecting;
 mod errors;
-mod hardware;
+pub mod hardware;
 mod history;
 pub mod lines;
 mod live;
 mod mode;
-mod pace;
+pub mod pace;
 mod plotting;
 mod recording;
 mod retaining;

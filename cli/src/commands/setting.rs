@@ -40,22 +40,26 @@ fn upper(name: &str) -> String {
     })
 }
 
-/// Reads `X000=1@200ms`.
+/// Reads `X000=1@200ms` after `--set`.
 pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
-    let wrong = |why: String| Failure::Because(format!("--set {text}: {why}"));
+    parse(text).map_err(|why| Failure::Because(format!("--set {text}: {why}")))
+}
+
+/// Reads `X000=1@200ms`; the error says what is wrong with it.
+pub fn parse(text: &str) -> std::result::Result<Setting, String> {
     let (name, rest) = text
         .split_once('=')
-        .ok_or_else(|| wrong("write DEVICE=VALUE, for example X000=1@200ms".to_string()))?;
+        .ok_or("write DEVICE=VALUE, for example X000=1@200ms")?;
     let (value, at) = rest
         .split_once('@')
         .map_or((rest, None), |(value, at)| (value, Some(at)));
-    let at_ms = at.map_or(Ok(0), crate::time::parse).map_err(wrong)?;
-    let target = target(name).map_err(|error| wrong(error.to_string()))?;
+    let at_ms = at.map_or(Ok(0), crate::time::parse)?;
+    let target = target(name).map_err(|error| error.to_string())?;
     let value: f64 = value
         .trim()
         .parse()
-        .map_err(|_| wrong(format!("`{value}` is not a number")))?;
-    fits(target, value).map_err(wrong)?;
+        .map_err(|_| format!("`{value}` is not a number"))?;
+    fits(target, value)?;
     Ok(Setting {
         at_ms,
         target,

@@ -1,6 +1,6 @@
 //! Threads that exchange values with the other ends, and what they share with the scan.
 
-use super::settings::{Connection, Kind, Loss};
+use super::settings::{Connection, Kind, Loss, Row};
 use crate::hal::Hal;
 use crate::plc::Class;
 use crate::program::Program;
@@ -156,14 +156,47 @@ impl Io {
     /// Returns what there is to report.
     pub fn take(&mut self, plc: &mut impl Program, hal: &mut dyn Hal) -> Vec<String> {
         for running in &mut self.running {
-            if let Some(mut state) = running.shared.try_lock() {
-                running.inputs.copy_from_slice(&state.inputs);
-                running.is_up = state.is_up;
-                self.said.append(&mut state.said);
-            }
+            running.refresh(&mut self.said);
             running.apply(plc, hal);
         }
         std::mem::take(&mut self.said)
+    }
+
+    /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its connection
+    /// and of the row in it, and the values of its devices; `None` of one that stays as it is.
+    pub fn take_rows(
+        &mut self,
+        set: &mut dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>),
+    ) -> Vec<String> {
+        for (n, running) in self.running.iter_mut().enumerate() {
+            running.refresh(&mut self.said);
+            let rows = running.connection.rows.iter().enumerate();
+            for (place, row) in rows.filter(|(_, row)| row.reads) {
+                set(n, place, row, &mut running.values(row));
+            }
+        }
+        std::mem::take(&mut self.said)
+    }
+
+    /// The rows that are written, with the places of their connection and of the row in it.
+    pub fn written(&self) -> impl Iterator<Item = (usize, usize, &Row)> {
+        self.running.iter().enumerate().flat_map(|(n, running)| {
+            let rows = running.connection.rows.iter().enumerate();
+            let rows = rows.filter(|(_, row)| !row.reads);
+            rows.map(move |(place, row)| (n, place, row))
+        })
+    }
+
+    /// As [`Io::give`], for a host of several PLCs: calls `get` with each row that is written, as [`Io::take_rows`] does;
+    /// it fills in the values.
+    pub fn give_rows(&mut self, get: &mut dyn FnMut(usize, usize, &Row, &mut [i16])) {
+        for (n, running) in self.running.iter_mut().enumerate() {
+            let rows = running.connection.rows.iter().enumerate();
+            for (place, row) in rows.filter(|(_, row)| !row.reads) {
+                get(n, place, row, &mut running.outputs[row.place.clone()]);
+            }
+            running.publish();
+        }
     }
 
     /// After a scan: the other ends are given what the devices are.
@@ -181,9 +214,7 @@ impl Io {
                     };
                 }
             }
-            if let Some(mut state) = running.shared.try_lock() {
-                state.outputs.copy_from_slice(&running.outputs);
-            }
+            running.publish();
         }
     }
 
@@ -226,16 +257,39 @@ impl Io {
 }
 
 impl Running {
+    /// Takes what the thread has left.
+    fn refresh(&mut self, said: &mut Vec<String>) {
+        if let Some(mut state) = self.shared.try_lock() {
+            self.inputs.copy_from_slice(&state.inputs);
+            self.is_up = state.is_up;
+            said.append(&mut state.said);
+        }
+    }
+
+    /// Leaves the outputs to the thread.
+    fn publish(&self) {
+        if let Some(mut state) = self.shared.try_lock() {
+            state.outputs.copy_from_slice(&self.outputs);
+        }
+    }
+
+    /// What the devices of a row are to be; `None` of one that stays as it is.
+    fn values(&self, row: &Row) -> impl Iterator<Item = Option<i16>> {
+        let way = (self.is_up, row.loss, self.connection.loss);
+        let values = self.inputs[row.place.clone()].iter();
+        values.map(move |&value| match way {
+            (true, ..) => Some(value),
+            (false, Some(value), _) => Some(value),
+            (false, None, Loss::Zero) => Some(0),
+            (false, None, Loss::Hold) => None,
+        })
+    }
+
     fn apply(&self, plc: &mut (impl Program + ?Sized), hal: &mut dyn Hal) {
-        let Connection { loss, fault, .. } = *self.connection;
+        let fault = self.connection.fault;
         for row in self.connection.directed(true) {
-            for (&value, number) in self.inputs[row.place.clone()].iter().zip(row.first..) {
-                let value = match (self.is_up, row.loss, loss) {
-                    (true, ..) => value,
-                    (false, Some(value), _) => value,
-                    (false, None, Loss::Zero) => 0,
-                    (false, None, Loss::Hold) => continue,
-                };
+            for (value, number) in self.values(row).zip(row.first..) {
+                let Some(value) = value else { continue };
                 if !row.is_bits() {
                     let _ = plc.set_word(row.class, number, value);
                     continue;

@@ -60,6 +60,11 @@ impl Server {
         self.listener.local_addr()
     }
 
+    /// Whether a client is connected.
+    pub fn is_connected(&self) -> bool {
+        !self.connections.is_empty()
+    }
+
     /// What it speaks.
     pub fn service(&self) -> Service {
         self.service

@@ -3,7 +3,7 @@
 use super::adu::{Body, fits};
 use super::slave::{refuse, serve_or_refuse};
 use super::{Exception, Profile};
-use crate::comm::{Cut, Frame, LineFault, Places};
+use crate::comm::{Cut, Frame, LineFault, Map};
 
 /// Where the length of a frame is.
 const LENGTH: usize = 4;
@@ -12,9 +12,6 @@ const HEADER: usize = 6;
 
 /// The longest frame.
 pub const LONGEST: usize = 260;
-
-/// The units that mean the PLC itself rather than a device connected to it.
-const UNITS: [u8; 3] = [0, 1, 255];
 
 /// Whether the characters so far are a frame. After [`Cut::Drop`] the connection is of no use: nothing says where a
 /// frame begins.
@@ -34,7 +31,7 @@ pub fn cut(received: &[u8]) -> Cut {
 }
 
 /// Answers a frame that [`cut`] has found whole.
-pub fn answer<M: Places + ?Sized>(
+pub fn answer<M: Map + ?Sized>(
     profile: &Profile,
     request: &[u8],
     map: &mut M,
@@ -48,7 +45,7 @@ pub fn answer<M: Places + ?Sized>(
     };
     begin(transaction, reply);
     let unit = body.byte(0).unwrap_or(0);
-    let done = if UNITS.contains(&unit) {
+    let done = if map.takes_unit(unit) {
         serve_or_refuse(profile, body, map, reply)
     } else {
         refuse(body, Exception::NO_PATH, reply);

@@ -1,0 +1,25 @@
+//! Arguments of `fleet`.
+
+use super::Reading;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `fleet`.
+#[derive(Args, Debug)]
+pub struct FleetArgs {
+    /// Which programs run how often, and what their PLCs are connected to (docs/src/fleet.md).
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub reading: Reading,
+    /// How long to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: until Ctrl-C.
+    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
+    pub duration: Option<u64>,
+    /// Run in virtual time, as fast as the machine can.
+    #[arg(long = "virtual", requires = "duration")]
+    pub in_virtual_time: bool,
+    /// Scan with this real-time priority (Linux: SCHED_FIFO, 1 to 99), with all memory locked. Where the system does
+    /// not allow it, this is reported and the fleet runs without.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=99), value_name = "N")]
+    pub priority: Option<u8>,
+}

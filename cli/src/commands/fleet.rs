@@ -1,0 +1,228 @@
+//! `rungc fleet`: many PLCs in lock step.
+
+mod memory;
+mod running;
+
+use super::run::hardware;
+use super::setting;
+use super::subject::{self, Subject};
+use super::{Context, Failure, Result, conclude, findings, read, stem, tell};
+use crate::args::{FleetArgs, Input};
+use crate::report::Reporter;
+use rungc_codegen_c::lanes;
+use rungc_fleet::{
+    At, Choice, Engine, Fleet, Group, Lanes, Machines, Plcs, Schedule, Setting, Trouble, Written,
+};
+use rungc_ir::Module;
+use rungc_lower::compile::{self, CompileOptions};
+use rungc_rt::comm::service::{Service, Speaks};
+use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
+use rungc_syntax::{DeviceClass, Diagnostic, FittedModule};
+use running::Fleets;
+use std::path::Path;
+
+/// From how many PLCs on a program is worth the C compiler.
+const WORTH_COMPILING: u32 = 8;
+
+/// A program of the fleet, compiled.
+struct Compiled {
+    module: Module,
+    settings: Vec<Setting>,
+    fitted: Vec<FittedModule>,
+}
+
+/// Runs a fleet.
+pub fn run(args: &FleetArgs, cx: Context) -> Result {
+    let reporting = &args.reading.reporting;
+    let fleet = Fleet::load(&args.file).map_err(|error| subject::refuse(error, reporting, cx))?;
+    let mut compiled = Vec::new();
+    for plcs in &fleet.plcs {
+        match compile(args, &fleet, plcs, cx)? {
+            Ok(program) => compiled.push(program),
+            Err(outcome) => return Ok(outcome),
+        }
+    }
+    let refuse = |why| subject::refuse(fleet.mistake(why), reporting, cx);
+    memory::allow_files(&fleet);
+    let folder = tempfile::tempdir()?;
+    let mut groups = Vec::new();
+    for (plcs, compiled) in fleet.plcs.iter().zip(&compiled) {
+        let folder = folder.path().join(groups.len().to_string());
+        let hal = hardware::of(!args.in_virtual_time, &compiled.fitted);
+        let (engine, why) = match engine(plcs, &compiled.module, &folder)? {
+            Ok(lanes) => (lanes, None),
+            Err(why) if plcs.engine == Choice::Lanes => {
+                return Err(refuse(FLEET_ENGINE.at(plcs.engine_span, why)));
+            }
+            Err(why) => {
+                let machines = Machines::new(&compiled.module, plcs.count, &hal);
+                let engine: Box<dyn Engine> = Box::new(machines);
+                (engine, Some(why))
+            }
+        };
+        let schedule = Schedule {
+            settings: compiled.settings.clone(),
+            spread_ms: plcs.spread_ms,
+            repeat_ms: plcs.repeat_ms,
+        };
+        let mut group = Group::new(&plcs.name.text, plcs.count, engine, schedule);
+        check_settings(&mut group, plcs, compiled).map_err(refuse)?;
+        if let Some(first) = plcs.modbus_tcp {
+            let model = compiled.module.model;
+            let service = Service::new(Speaks::ModbusTcp, model.ports, model.type_code());
+            let opened = group.serve(first, plcs.units, service);
+            opened.map_err(|(address, error)| {
+                let why = format!("cannot serve Modbus TCP at {address}: {error}");
+                refuse(FLEET_PORT.at(plcs.modbus_span, why))
+            })?;
+            tell_ports(&group, plcs, cx);
+        }
+        groups.push((group, why.filter(|why| !why.is_empty())));
+    }
+    let broker = fleet.connect().map_err(Failure::Because)?;
+    Fleets::new(groups, broker, fleet.cycle_ms).run(args)
+}
+
+/// Compiles the program of a group; the outcome if it has errors.
+fn compile(
+    args: &FleetArgs,
+    fleet: &Fleet,
+    plcs: &Plcs,
+    cx: Context,
+) -> std::result::Result<std::result::Result<Compiled, super::Outcome>, Failure> {
+    let reporting = &args.reading.reporting;
+    let refuse = |why| subject::refuse(fleet.mistake(why), reporting, cx);
+    let input = Input {
+        file: Some(subject::near(fleet.program(plcs))),
+        reading: args.reading.clone(),
+    };
+    let mut subject: Subject = subject::one(&input, cx)?;
+    if plcs.modbus_tcp.is_some() {
+        let rules = &mut subject.reporting.rules;
+        rules.allow.push(codes::ETHERNET_CARD.id);
+    }
+    let mut reporter = Reporter::new(&subject.reporting, cx, true);
+    let read = match read(&subject, &mut reporter) {
+        Ok(read) => read,
+        Err(failure) => {
+            reporter.finish()?;
+            return Err(failure);
+        }
+    };
+    let mut options = subject.options();
+    let model = compile::model(&read.program, &options);
+    let (settings, set) = settings(plcs).map_err(refuse)?;
+    options
+        .observe
+        .extend(plcs.observed(model).map_err(refuse)?);
+    options.observe.extend(set);
+    let options = CompileOptions {
+        name: Some(stem(&subject, &read)),
+        ..options
+    };
+    let compiled = compile::compile(&read.program, &options);
+    let findings = findings(&subject, &read, &compiled);
+    match compiled.module {
+        Some(module) if !findings.failed() => {
+            reporter.add(&findings)?;
+            reporter.finish()?;
+            let parameters = read.program.parameters.as_ref();
+            Ok(Ok(Compiled {
+                module,
+                settings,
+                fitted: parameters.map_or_else(Vec::new, |of| of.modules.clone()),
+            }))
+        }
+        _ => {
+            let outcome = conclude(&findings, &mut reporter, cx, String::new)?;
+            reporter.finish()?;
+            Ok(Err(outcome))
+        }
+    }
+}
+
+/// What the file sets, and the devices of that.
+type Settings = (Vec<Setting>, Vec<(DeviceClass, u32)>);
+
+fn settings(plcs: &Plcs) -> std::result::Result<Settings, Diagnostic> {
+    let (mut settings, mut devices) = (Vec::new(), Vec::new());
+    for Written { text, span } in &plcs.set {
+        let read = setting::parse(text).map_err(|why| FLEET_DEVICE.at(*span, why))?;
+        let parts = At::parts(read.target, read.value).ok_or_else(|| {
+            let why = format!("`{}` cannot be set in a fleet", read.target);
+            FLEET_DEVICE.at(*span, why)
+        })?;
+        let (class, first, count) = read.target.devices(0);
+        devices.extend((first..first + count).map(|number| (class, number)));
+        settings.push(Setting {
+            at_ms: read.at_ms,
+            parts,
+        });
+    }
+    Ok((settings, devices))
+}
+
+/// Whether the program has all devices that are set.
+fn check_settings(
+    group: &mut Group<'_>,
+    plcs: &Plcs,
+    compiled: &Compiled,
+) -> std::result::Result<(), Diagnostic> {
+    for (written, setting) in plcs.set.iter().zip(&compiled.settings) {
+        if setting.parts.iter().any(|&(at, _)| !group.has(at)) {
+            let title = compiled.module.model.title;
+            let why = format!(
+                "`{}` sets a device that {title} does not have",
+                written.text
+            );
+            return Err(FLEET_DEVICE.at(written.span, why));
+        }
+    }
+    Ok(())
+}
+
+/// The engine of a group in lanes, or why it cannot run there; an empty text if it was not asked to.
+fn engine<'m>(
+    plcs: &Plcs,
+    module: &'m Module,
+    folder: &Path,
+) -> std::result::Result<std::result::Result<Box<dyn Engine + 'm>, String>, Failure> {
+    let is_worth = plcs.count >= WORTH_COMPILING || plcs.engine == Choice::Lanes;
+    if plcs.engine == Choice::Interp || !is_worth {
+        return Ok(Err(String::new()));
+    }
+    if let Some(reason) = lanes::refusal(module) {
+        return Ok(Err(format!("the program {reason}")));
+    }
+    match Lanes::start(module, plcs.count, folder) {
+        Ok(lanes) => Ok(Ok(Box::new(lanes))),
+        Err(Trouble::Io { what, error }) if what == "cc" => {
+            Ok(Err(format!("the C compiler `cc` does not start: {error}")))
+        }
+        Err(error) => Err(Failure::Because(error.to_string())),
+    }
+}
+
+/// Says where clients reach the PLCs of a group.
+fn tell_ports(group: &Group<'_>, plcs: &Plcs, cx: Context) {
+    let Some((first, last, ports)) = group.ports() else {
+        return;
+    };
+    let name = &group.name;
+    let units = match plcs.units {
+        Some(_) => ", each PLC by its unit number",
+        None => "",
+    };
+    tell(&match ports {
+        1 => format!("rungc: {name}: Modbus TCP at {first}{units}"),
+        _ => format!("rungc: {name}: Modbus TCP at {first} to {last}{units}"),
+    });
+    for address in group.addresses() {
+        cx.detail(|| format!("    {name} at {address}"));
+    }
+    if !first.ip().is_loopback() {
+        tell(
+            "rungc: whoever reaches these addresses reads and writes every device: there is no password",
+        );
+    }
+}

@@ -1,0 +1,225 @@
+//! The cycle of a fleet, and what is said of it at the end.
+
+use super::memory;
+use crate::args::FleetArgs;
+use crate::commands::run::pace::{self, Pace};
+use crate::commands::{Failure, Outcome, Result, counted, grouped, interruption, say, tell};
+use rungc_fleet::{Broker, Group};
+use std::time::{Duration, Instant};
+
+/// Scan times that are kept apart, in microseconds: those of a thousandth of the longest are one.
+const STEP_US: u64 = 10;
+
+/// How many such steps there are; what takes longer counts as the last.
+const STEPS: usize = 100_000;
+
+/// A fleet at work.
+pub struct Fleets<'m> {
+    groups: Vec<Group<'m>>,
+    /// Why the PLCs of each group run on the interpreter, where they could not be run otherwise.
+    reasons: Vec<Option<String>>,
+    broker: Option<Broker>,
+    cycle_ms: u64,
+    now_ms: u64,
+    times: Times,
+}
+
+/// How long the scans of all PLCs took.
+struct Times {
+    /// By steps.
+    counts: Vec<u32>,
+    scans: u64,
+    sum_us: u64,
+    longest_us: u64,
+    /// Scans that had not ended when the next one was due.
+    missed: u64,
+}
+
+impl<'m> Fleets<'m> {
+    /// PLCs that have just been switched on, each group with the reason why it runs on the interpreter.
+    pub fn new(
+        groups: Vec<(Group<'m>, Option<String>)>,
+        broker: Option<Broker>,
+        cycle_ms: u64,
+    ) -> Self {
+        let (groups, reasons) = groups.into_iter().unzip();
+        Fleets {
+            groups,
+            reasons,
+            broker,
+            cycle_ms,
+            now_ms: 0,
+            times: Times {
+                counts: vec![0; STEPS],
+                scans: 0,
+                sum_us: 0,
+                longest_us: 0,
+                missed: 0,
+            },
+        }
+    }
+
+    /// Runs it to the end, and says how it was.
+    pub fn run(mut self, args: &FleetArgs) -> Result {
+        interruption::note();
+        if let Some(priority) = args.priority {
+            pace::raise(priority);
+        }
+        let plcs: u64 = self.groups.iter().map(|group| u64::from(group.count)).sum();
+        let plcs = counted(plcs as usize, "PLC");
+        tell(&format!(
+            "rungc: {plcs}, a scan of all every {} ms",
+            self.cycle_ms
+        ));
+        let mut pace = Pace::new();
+        let cycled = self.cycle(args, &mut pace);
+        if let Some(broker) = self.broker.take() {
+            broker.end().iter().for_each(report);
+        }
+        let outcome = cycled?;
+        self.summary(args, &pace)?;
+        Ok(outcome)
+    }
+
+    fn cycle(&mut self, args: &FleetArgs, pace: &mut Pace) -> Result {
+        let cycle = Duration::from_millis(self.cycle_ms);
+        let end_ms = args.duration.unwrap_or(u64::MAX);
+        let mut begin = Instant::now();
+        loop {
+            let started = Instant::now();
+            self.scan()?;
+            self.times.add(started.elapsed());
+            if interruption::is_asked() {
+                tell(&format!("rungc: interrupted at {} ms", self.now_ms));
+                return Ok(Outcome::Interrupted);
+            }
+            let next_ms = self.now_ms + self.cycle_ms;
+            if next_ms > end_ms {
+                return Ok(Outcome::Success);
+            }
+            if !args.in_virtual_time {
+                let due = Duration::from_millis(next_ms);
+                self.times.missed += u64::from(begin.elapsed() > due);
+                begin = self.rest(begin, due, cycle, pace);
+            }
+            self.now_ms = next_ms;
+        }
+    }
+
+    /// Waits for the next scan. Returns when the run began.
+    fn rest(&self, begin: Instant, due: Duration, cycle: Duration, pace: &mut Pace) -> Instant {
+        /// How long an interruption waits to be noticed.
+        const NOTICED: Duration = Duration::from_millis(100);
+        if cycle > NOTICED {
+            while !interruption::is_asked() && begin.elapsed() + NOTICED < due {
+                std::thread::sleep(NOTICED);
+            }
+            if interruption::is_asked() {
+                return begin;
+            }
+        }
+        pace.wait(begin, due)
+    }
+
+    /// A scan of all PLCs, with what happens before and after it.
+    fn scan(&mut self) -> std::result::Result<(), Failure> {
+        if let Some(broker) = &mut self.broker {
+            broker.take(&mut self.groups).iter().for_each(report);
+        }
+        let scan_us = u32::try_from(1000 * self.cycle_ms).unwrap_or(u32::MAX);
+        for group in &mut self.groups {
+            let said = group.begin_scan(self.now_ms, scan_us);
+            said.iter().for_each(report);
+        }
+        for group in &mut self.groups {
+            let ended = group.end_scan();
+            ended.map_err(|error| Failure::Because(error.to_string()))?;
+        }
+        if let Some(broker) = &mut self.broker {
+            broker.give(&mut self.groups, self.now_ms);
+        }
+        Ok(())
+    }
+
+    fn summary(&self, args: &FleetArgs, pace: &Pace) -> std::result::Result<(), Failure> {
+        let Times {
+            scans,
+            sum_us,
+            longest_us,
+            missed,
+            ..
+        } = self.times;
+        let mean_us = sum_us.checked_div(scans).unwrap_or(0);
+        let usual_us = self.times.usual_us();
+        let mut text = format!(
+            "{} of all PLCs, {} missed\n\
+             a scan of all took {} ms on average, 99.9 % of them at most {} ms, the longest {} ms\n",
+            counted(scans as usize, "scan"),
+            grouped(missed as usize),
+            milliseconds(mean_us),
+            milliseconds(usual_us),
+            milliseconds(longest_us),
+        );
+        if let (Some(late), false) = (pace.summary(), args.in_virtual_time) {
+            text.push_str(&format!("{late}\n"));
+        }
+        let mut plcs = 0;
+        for (group, reason) in self.groups.iter().zip(&self.reasons) {
+            let (name, what) = (&group.name, group.what());
+            let count = counted(group.count as usize, "PLC");
+            let reason = reason.iter().map(|why| format!(": {why}"));
+            let reason: String = reason.collect();
+            let requests = group.requests().map(|[requests, rejected]| {
+                let requests = counted(requests as usize, "request");
+                format!("; {requests}, {rejected} rejected")
+            });
+            let requests = requests.unwrap_or_default();
+            text.push_str(&format!("{name}: {count}, {what}{reason}{requests}\n"));
+            let stopped = group.stopped();
+            if stopped > 0 {
+                let stopped = counted(stopped as usize, "PLC");
+                text.push_str(&format!("{name}: {stopped} in STOP at the end\n"));
+            }
+            plcs += u64::from(group.count);
+        }
+        let children: Vec<u32> = self.groups.iter().flat_map(Group::children).collect();
+        if let Some(peak) = memory::peak(&children) {
+            let all = peak as f64 / 1e6;
+            let each = peak.checked_div(plcs).unwrap_or(0) as f64 / 1e3;
+            text.push_str(&format!(
+                "memory: {all:.1} MB of all processes, {each:.1} KB a PLC\n"
+            ));
+        }
+        Ok(say(&text)?)
+    }
+}
+
+impl Times {
+    fn add(&mut self, took: Duration) {
+        let us = took.as_micros() as u64;
+        let step = (us / STEP_US).min(STEPS as u64 - 1);
+        self.counts[step as usize] += 1;
+        self.scans += 1;
+        self.sum_us += us;
+        self.longest_us = self.longest_us.max(us);
+    }
+
+    /// What 99.9 % of the scans took at most.
+    fn usual_us(&self) -> u64 {
+        let mut within = 0;
+        let step = self.counts.iter().position(|&count| {
+            within += u64::from(count);
+            within * 1000 >= self.scans * 999
+        });
+        let step = step.map_or(0, |step| step as u64 + 1);
+        (step * STEP_US).min(self.longest_us)
+    }
+}
+
+fn milliseconds(us: u64) -> String {
+    format!("{:.2}", us as f64 / 1e3)
+}
+
+fn report(line: &String) {
+    tell(&format!("rungc: {line}"));
+}

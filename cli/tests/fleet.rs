@@ -1,0 +1,321 @@
+//! `rungc fleet`: mistakes in its file, and many PLCs that pymodbus polls and mosquitto connects. `.ci/run` installs
+//! these; where they are not, the tests say so, unless `RUNGC_PYTHON` or `RUNGC_REQUIRE_PEERS` is set.
+#![cfg(unix)]
+
+mod common;
+
+use common::{folder, free_port, shown, text};
+use std::env;
+use std::io::{BufRead, BufReader, Read};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+const ADDS: &str = "LD M8000\nADD D0 K1 D1\nLD M0\nOUT M1\nEND\n";
+
+/// Calls the runtime library, which does not run in lanes.
+const CALLS: &str = "LD M8000\nADD D0 K1 D1\nBIN D2 D3\nSQR D4 D5\nLD M0\nOUT M1\nEND\n";
+
+const PRESS: &str = include_str!("../../examples/fleet/press.il");
+
+/// A fleet, or a broker, that ends with the test.
+struct Ends(Child);
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A fleet at work, and what it reports.
+fn start(folder: &Path, file: &str) -> (Ends, BufReader<ChildStderr>) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["fleet", "--verbose", file])
+        .current_dir(folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let errors = BufReader::new(child.stderr.take().unwrap());
+    (Ends(child), errors)
+}
+
+/// Interrupts a fleet; what it prints at its end.
+fn interrupt(fleet: &mut Ends) -> String {
+    let pid = fleet.0.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut summary = String::new();
+    let mut out = fleet.0.stdout.take().unwrap();
+    out.read_to_string(&mut summary).unwrap();
+    assert_eq!(fleet.0.wait().unwrap().code(), Some(130));
+    summary
+}
+
+/// Waits until something is so.
+fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
+    let until = Instant::now() + Duration::from_secs(60);
+    while !is_so() {
+        assert!(Instant::now() < until, "{what}");
+        thread::sleep(Duration::from_millis(50));
+    }
+}
+
+/// What `rungc fleet` says of a file.
+fn said(fleet: &str) -> String {
+    let folder = folder(&[
+        ("p.il", ADDS.as_bytes()),
+        ("calls.il", CALLS.as_bytes()),
+        ("wrong.il", b"LD Q0\nEND\n"),
+        ("fleet.toml", fleet.as_bytes()),
+    ]);
+    shown(
+        folder.path(),
+        &["fleet", "fleet.toml", "--virtual", "--for", "100ms"],
+    )
+}
+
+#[test]
+fn mistakes_have_their_place() {
+    let cases = [
+        "",
+        "[plc.a\n",
+        "[fleets]\n[plc.a]\nprogram = 'p.il'\ncuont = 2\n",
+        "[fleet]\ncycle = 10\n[plc.a]\nprogram = 'p.il'\ncount = 0\nengine = 'fast'\nset = ['X000=2', 'X009=1']\n",
+        "[plc.a]\nprogram = 'p.il'\nset = ['X000=2']\n",
+        "[plc.a]\nprogram = 'p.il'\nset = ['0:CH1.V=2']\n",
+        "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = 'here'\nstore = ['D0..D9']\nspread = 'soon'\n",
+        "[plc.a]\nprogram = 'p.il'\nunits = 9\n",
+        "[plc.a]\ncount = 2\n[plc.a.topics]\nY000 = 'write hall/{}'\n",
+        "[broker]\nport = '1883'\n[plc.a]\nprogram = 'p.il'\ncount = 2\n[plc.a.topics]\nY000 = 'write hall/{}'\nx = 'read a'\n",
+        "[broker]\nmqtt = 'localhost'\nX000 = 'read a'\n[plc.a]\nprogram = 'p.il'\n[plc.a.topics]\nY000 = 'read hall/{}'\n",
+        "[plc.a]\nprogram = 'p.il'\n[plc.a.topics]\nX000 = 'read hall/{}'\n",
+        "[plc.a]\nprogram = 'p.il'\nstore = ['D9000']\n",
+        "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = '127.0.0.1:65535'\ncount = 2\nengine = 'interp'\n",
+        "[plc.a]\nprogram = 'calls.il'\nengine = 'lanes'\n",
+        "[plc.a]\nprogram = 'wrong.il'\n",
+        "[plc.a]\nprogram = 'none.il'\n",
+    ];
+    let shown = cases.map(|case| format!("{case}-----\n{}", said(case)));
+    insta::assert_snapshot!(shown.join("\n=====\n"));
+}
+
+#[test]
+fn settings_come_to_each_plc_in_its_time() {
+    // D0 counts the scans in which X000 is on: 5 of 10, later in each PLC; D1 has its number.
+    let program = "LD X000\nINC D0\nLD M8000\nMOV D10 D11\nEND\n";
+    let fleet = "\
+[plc.lanes]
+program = 'p.il'
+count = 100
+set = ['X000=1@20ms', 'X000=0@70ms', 'D10=7']
+spread = '3ms'
+engine = 'ENGINE'
+";
+    for engine in ["lanes", "interp"] {
+        let folder = folder(&[
+            ("p.il", program.as_bytes()),
+            ("fleet.toml", fleet.replace("ENGINE", engine).as_bytes()),
+        ]);
+        let args = ["fleet", "fleet.toml", "--virtual", "--for", "1s"];
+        let out = common::rungc(folder.path(), &args);
+        let (out, err) = (text(&out.stdout), text(&out.stderr));
+        assert!(
+            out.starts_with("101 scans of all PLCs, 0 missed\n"),
+            "{out}{err}"
+        );
+        let what = match engine {
+            "lanes" => "lanes: 100 PLCs, 64 at once in ",
+            _ => "lanes: 100 PLCs, on the interpreter\n",
+        };
+        assert!(out.contains(what), "{out}{err}");
+    }
+}
+
+#[test]
+fn pymodbus_polls_many_ports_and_units() {
+    let python = env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
+    let mut look = Command::new(&python);
+    look.args(["-c", "import pymodbus"]).stderr(Stdio::null());
+    if !look.status().is_ok_and(|status| status.success()) {
+        assert!(
+            env::var_os("RUNGC_PYTHON").is_none(),
+            "RUNGC_PYTHON is set, but there is no pymodbus"
+        );
+        eprintln!("skipped: there is no pymodbus (see .ci/run)");
+        return;
+    }
+    let fleet = "\
+[plc.ports]
+program = 'p.il'
+count = 200
+modbus-tcp = '0'
+
+[plc.units]
+program = 'p.il'
+count = 100
+modbus-tcp = '0'
+units = 100
+
+[plc.calls]
+program = 'calls.il'
+count = 20
+modbus-tcp = '0'
+";
+    let folder = folder(&[
+        ("p.il", ADDS.as_bytes()),
+        ("calls.il", CALLS.as_bytes()),
+        ("fleet.toml", fleet.as_bytes()),
+    ]);
+    let (mut fleet, errors) = start(folder.path(), "fleet.toml");
+    let (mut ports, mut units) = (Vec::new(), String::new());
+    for line in errors.lines().map_while(Result::ok) {
+        let address = line.rsplit_once(" at 127.0.0.1:").map(|(_, port)| port);
+        match address {
+            Some(port) if line.starts_with("    units ") => units = port.to_string(),
+            Some(port) if line.starts_with("    ") => ports.push(port.to_string()),
+            _ if line.contains("a scan of all every") => break,
+            _ => {}
+        }
+    }
+    assert_eq!(ports.len(), 220);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients/fleet_tcp.py");
+    let polled = Command::new(&python)
+        .arg(script)
+        .args([&ports.join(","), &units, "100"])
+        .output()
+        .unwrap();
+    assert_eq!(
+        text(&polled.stdout),
+        "320 PLCs\n",
+        "{}",
+        text(&polled.stderr)
+    );
+    let summary = interrupt(&mut fleet);
+    for line in [
+        "ports: 200 PLCs, 64 at once in ",
+        "units: 100 PLCs, 64 at once in ",
+        "calls: 20 PLCs, on the interpreter: the program calls the runtime library; ",
+    ] {
+        assert!(summary.contains(line), "{summary}");
+    }
+}
+
+#[cfg(feature = "mqtt")]
+mod brokers {
+    use super::*;
+
+    fn broker(folder: &Path, port: u16) -> Ends {
+        let mut command = Command::new("mosquitto");
+        command.args(["-c", "mosquitto.conf"]).current_dir(folder);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        let broker = Ends(command.spawn().unwrap());
+        soon("the broker listens", || {
+            TcpStream::connect(("127.0.0.1", port)).is_ok()
+        });
+        broker
+    }
+
+    fn client(name: &str, port: u16) -> Command {
+        let mut command = Command::new(name);
+        command.args(["-p", &port.to_string()]);
+        command
+    }
+
+    /// How many of the presses show a value of a topic.
+    fn count(port: u16, topic: &str, payload: &str) -> usize {
+        let mut command = client("mosquitto_sub", port);
+        command.args(["-W", "1", "-t", &format!("hall/press/+/{topic}")]);
+        let shown = text(&command.output().unwrap().stdout);
+        shown.lines().filter(|line| *line == payload).count()
+    }
+
+    fn publish(port: u16, press: u32, topic: &str, payload: &str) {
+        let mut command = client("mosquitto_pub", port);
+        command.args([
+            "-r",
+            "-t",
+            &format!("hall/press/{press}/{topic}"),
+            "-m",
+            payload,
+        ]);
+        assert!(command.status().unwrap().success());
+    }
+
+    /// Presses of both processes are started and stopped.
+    fn works(port: u16) {
+        soon("all presses are there", || count(port, "Y001", "0") == 200);
+        for press in [1, 64, 100, 101, 200] {
+            publish(port, press, "X000", "1");
+        }
+        soon("five run", || count(port, "Y001", "1") == 5);
+        for press in [1, 64, 100, 101, 200] {
+            publish(port, press, "X000", "0");
+            publish(port, press, "X001", "1");
+        }
+        soon("none runs", || count(port, "Y001", "0") == 200);
+    }
+
+    #[test]
+    fn two_processes_share_a_broker_that_is_killed() {
+        if Command::new("mosquitto").arg("-h").output().is_err() {
+            assert!(
+                env::var_os("RUNGC_REQUIRE_PEERS").is_none(),
+                "there is no mosquitto"
+            );
+            eprintln!("skipped: there is no mosquitto (see .ci/run)");
+            return;
+        }
+        let port = free_port();
+        let configuration = format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n");
+        let halls = [
+            include_str!("../../examples/fleet/hall-1.toml"),
+            include_str!("../../examples/fleet/hall-2.toml"),
+        ];
+        // A tenth of the example's cycles, and a fifth of its presses, for a machine that does other things, too.
+        let halls = halls.map(|hall| {
+            hall.replace("count = 500", "count = 100")
+                .replace("first = 501", "first = 101")
+                .replace("\"10ms\"", "\"100ms\"")
+                .replace("1883", &port.to_string())
+        });
+        let folder = folder(&[
+            ("press.il", PRESS.as_bytes()),
+            ("hall-1.toml", halls[0].as_bytes()),
+            ("hall-2.toml", halls[1].as_bytes()),
+            ("mosquitto.conf", configuration.as_bytes()),
+        ]);
+        let folder = folder.path();
+        let first = broker(folder, port);
+        let mut fleets = ["hall-1.toml", "hall-2.toml"].map(|file| {
+            let (fleet, errors) = start(folder, file);
+            thread::spawn(move || errors.lines().map_while(Result::ok).count());
+            fleet
+        });
+        works(port);
+        drop(first);
+        thread::sleep(Duration::from_millis(500));
+        let _second = broker(folder, port);
+        works(port);
+        for fleet in &mut fleets {
+            let summary = interrupt(fleet);
+            assert!(
+                summary.contains("press: 100 PLCs, 64 at once in "),
+                "{summary}"
+            );
+        }
+        soon("both say that they are gone", || {
+            let mut command = client("mosquitto_sub", port);
+            command.args(["-W", "1", "-t", "hall/process-1", "-t", "hall/process-2"]);
+            text(&command.output().unwrap().stdout) == "offline\noffline\n"
+        });
+    }
+}

@@ -1,0 +1,330 @@
+//! Emitted C that runs 64 PLCs at once, in child processes.
+
+use crate::engine::{At, Engine, Trouble};
+use rungc_codegen_c::lanes::LANES;
+use rungc_codegen_c::{Members, Options, emit};
+use rungc_ir::Module;
+use rungc_models::runs::name_class;
+use rungc_rt::Class;
+use rustc_hash::FxHashMap;
+use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::thread;
+
+/// What runs them: `main`, with the name of the program as `NAME`.
+const MAIN: &str = include_str!("lanes.c");
+
+/// How many devices are read together.
+const CHUNK: u32 = 64;
+
+/// How many readings are on their way at most. Their answers have to fit into a pipe, since this end writes while the
+/// child waits for it to read: 32 · 64 · 8 bytes.
+const ON_THEIR_WAY: usize = 32;
+
+/// Lines of the compiler's output that an error quotes.
+const QUOTED_LINES: usize = 20;
+
+/// What is asked, and the devices of a reading: PLC, class as in C, number of the first.
+type Chunk = (u32, u8, u32);
+
+/// PLCs in children.
+pub struct Lanes<'m> {
+    members: Members<'m>,
+    children: Vec<Running>,
+    /// How many PLCs each child has but the last, which may have fewer.
+    each: u32,
+    /// What was read since the last scan.
+    known: FxHashMap<Chunk, Vec<Option<i32>>>,
+    /// Bytes that a PLC takes.
+    size: u64,
+    /// What has gone wrong.
+    failed: Option<Trouble>,
+}
+
+struct Running {
+    child: Child,
+    name: String,
+    requests: BufWriter<ChildStdin>,
+    answers: BufReader<ChildStdout>,
+}
+
+/// Builds the executable of a program in a folder.
+///
+/// # Errors
+/// A file that cannot be written, a C compiler (`cc`) that is not there or rejects what was emitted.
+pub fn build(module: &Module, folder: &Path) -> Result<PathBuf, Trouble> {
+    let at = |what: &Path| {
+        let what = what.display().to_string();
+        move |error| Trouble::Io { what, error }
+    };
+    std::fs::create_dir_all(folder).map_err(at(folder))?;
+    let options = Options {
+        access: true,
+        lanes: true,
+        ..Options::default()
+    };
+    let main = MAIN.replace("NAME", &module.name);
+    let mut command = Command::new("cc");
+    command.args(["-std=c99", "-O2", "-o", "plcs", "plcs.c"]);
+    let written = folder.join("plcs.c");
+    std::fs::write(&written, main).map_err(at(&written))?;
+    for file in emit(module, &options) {
+        let path = folder.join(&file.path);
+        std::fs::write(&path, &file.contents).map_err(at(&path))?;
+        if file.path.ends_with(".c") {
+            command.arg(&file.path);
+        }
+    }
+    let output = command
+        .current_dir(folder)
+        .output()
+        .map_err(at(Path::new("cc")))?;
+    if output.status.success() {
+        return Ok(folder.join("plcs"));
+    }
+    let text = String::from_utf8_lossy(&output.stderr);
+    let quoted: Vec<&str> = text.lines().take(QUOTED_LINES).collect();
+    Err(Trouble::Compiler {
+        command: format!("cc in {}", folder.display()),
+        output: quoted.join("\n"),
+    })
+}
+
+impl<'m> Lanes<'m> {
+    /// Builds and starts `count` PLCs, in at most as many processes as this machine runs at once.
+    ///
+    /// # Errors
+    /// As [`build`], or a process that cannot be started.
+    pub fn start(module: &'m Module, count: u32, folder: &Path) -> Result<Self, Trouble> {
+        let executable = build(module, folder)?;
+        let blocks = count.div_ceil(LANES).max(1);
+        let jobs = thread::available_parallelism().map_or(1, |jobs| jobs.get() as u32);
+        let each = blocks.div_ceil(jobs.min(blocks)) * LANES;
+        let mut children = Vec::new();
+        for first in (0..count.max(1)).step_by(each as usize) {
+            let part = each.min(count.max(1) - first);
+            children.push(Running::start(&executable, &module.name, part)?);
+        }
+        let mut lanes = Lanes {
+            members: Members::new(module),
+            children,
+            each,
+            known: FxHashMap::default(),
+            size: 0,
+            failed: None,
+        };
+        let mut size = [0; 8];
+        let first = &mut lanes.children[0];
+        let asked = first
+            .ask(b'M', (0, 0, 0), 0, 0)
+            .and_then(|()| first.requests.flush())
+            .and_then(|()| first.answers.read_exact(&mut size));
+        match asked {
+            Ok(()) => lanes.size = u64::from_ne_bytes(size),
+            Err(error) => return Err(first.ended(&error)),
+        }
+        Ok(lanes)
+    }
+
+    /// The child that has a PLC, and its number there.
+    fn place(&self, plc: u32) -> (usize, u32) {
+        ((plc / self.each) as usize, plc % self.each)
+    }
+
+    /// Does something with a child; what goes wrong is known from then on.
+    fn with<T>(
+        &mut self,
+        child: usize,
+        act: impl FnOnce(&mut Running) -> io::Result<T>,
+    ) -> Option<T> {
+        if self.failed.is_some() {
+            return None;
+        }
+        let running = self.children.get_mut(child)?;
+        match act(running) {
+            Ok(done) => Some(done),
+            Err(error) => {
+                self.failed = Some(running.ended(&error));
+                None
+            }
+        }
+    }
+
+    /// Reads chunks, some of each child at a time.
+    fn load(&mut self, chunks: &[Chunk]) {
+        for some in chunks.chunks(ON_THEIR_WAY) {
+            for &(plc, device, first) in some {
+                let (child, plc) = self.place(plc);
+                self.with(child, |child| {
+                    child.ask(b'R', (plc, device, first), CHUNK as u16, 0)
+                });
+            }
+            for child in 0..self.children.len() {
+                if some.iter().any(|chunk| self.place(chunk.0).0 == child) {
+                    self.with(child, |child| {
+                        child.ask(b'F', (0, 0, 0), 0, 0)?;
+                        child.requests.flush()
+                    });
+                }
+            }
+            for &chunk in some {
+                let (child, _) = self.place(chunk.0);
+                let values = self.with(child, Running::values);
+                self.known.insert(chunk, values.unwrap_or_default());
+            }
+        }
+    }
+}
+
+impl Running {
+    fn start(executable: &Path, name: &str, count: u32) -> Result<Self, Trouble> {
+        let failed = |error| Trouble::Io {
+            what: executable.display().to_string(),
+            error,
+        };
+        let mut command = Command::new(executable);
+        command
+            .arg(count.to_string())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped());
+        // An interruption from the keyboard is this process's to act on.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn().map_err(failed)?;
+        let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(failed(io::Error::other("no pipes")));
+        };
+        Ok(Running {
+            child,
+            name: name.to_string(),
+            requests: BufWriter::new(stdin),
+            answers: BufReader::new(stdout),
+        })
+    }
+
+    fn ask(
+        &mut self,
+        asks: u8,
+        (plc, device, number): Chunk,
+        count: u16,
+        value: i32,
+    ) -> io::Result<()> {
+        let mut request = [0; 16];
+        request[0] = asks;
+        request[1] = device;
+        request[2..4].copy_from_slice(&count.to_ne_bytes());
+        request[4..8].copy_from_slice(&plc.to_ne_bytes());
+        request[8..12].copy_from_slice(&number.to_ne_bytes());
+        request[12..].copy_from_slice(&value.to_ne_bytes());
+        self.requests.write_all(&request)
+    }
+
+    /// The answer to a reading.
+    fn values(&mut self) -> io::Result<Vec<Option<i32>>> {
+        let mut bytes = [0; 8 * CHUNK as usize];
+        self.answers.read_exact(&mut bytes)?;
+        let (pairs, _) = bytes.as_chunks::<4>();
+        let pairs = pairs.iter().map(|&number| i32::from_ne_bytes(number));
+        let pairs: Vec<i32> = pairs.collect();
+        let value = |pair: &[i32]| (pair[0] != 0).then_some(pair[1]);
+        Ok(pairs.chunks(2).map(value).collect())
+    }
+
+    /// That it has ended.
+    fn ended(&mut self, error: &io::Error) -> Trouble {
+        // It has, or it does not answer as it should.
+        let _ = self.child.kill();
+        let how = match self.child.wait() {
+            Ok(status) => format!("{status} ({error})"),
+            Err(error) => error.to_string(),
+        };
+        Trouble::Ended(self.name.clone(), how)
+    }
+}
+
+/// A device's class as emitted C numbers it.
+fn device(at: At) -> u8 {
+    match (at.class, at.contact) {
+        (Class::T, true) => Class::ER as u8 + 1,
+        (Class::C, true) => Class::ER as u8 + 2,
+        (class, _) => class as u8,
+    }
+}
+
+fn chunk(plc: u32, at: At) -> Chunk {
+    (plc, device(at), at.number / CHUNK * CHUNK)
+}
+
+impl Engine for Lanes<'_> {
+    fn begin_scan(&mut self, now_ms: u32, scan_us: u32) {
+        self.known.clear();
+        for child in 0..self.children.len() {
+            self.with(child, |child| {
+                child.ask(b'S', (0, 0, now_ms), 0, scan_us as i32)?;
+                child.requests.flush()
+            });
+        }
+    }
+
+    fn end_scan(&mut self) -> Result<(), Trouble> {
+        for child in 0..self.children.len() {
+            self.with(child, |child| child.answers.read_exact(&mut [0]));
+        }
+        self.failed.take().map_or(Ok(()), Err)
+    }
+
+    fn fetch(&mut self, wanted: &mut dyn Iterator<Item = (u32, At)>) {
+        let mut chunks: Vec<Chunk> = wanted.map(|(plc, at)| chunk(plc, at)).collect();
+        chunks.retain(|chunk| !self.known.contains_key(chunk));
+        chunks.dedup();
+        self.load(&chunks);
+    }
+
+    fn read(&mut self, plc: u32, at: At) -> Option<i32> {
+        let chunk = chunk(plc, at);
+        if !self.known.contains_key(&chunk) {
+            self.load(&[chunk]);
+        }
+        let values = self.known.get(&chunk)?;
+        *values.get((at.number - chunk.2) as usize)?
+    }
+
+    fn write(&mut self, plc: u32, at: At, value: i32) -> Option<()> {
+        self.members.of(name_class(at.class), at.number)?;
+        self.known.remove(&chunk(plc, at));
+        let (child, plc) = self.place(plc);
+        self.with(child, |child| {
+            child.ask(b'W', (plc, device(at), at.number), 0, value)
+        })
+    }
+
+    fn is_running(&self, _: u32) -> bool {
+        true
+    }
+
+    fn set_running(&mut self, _: u32, running: bool) -> bool {
+        running
+    }
+
+    fn what(&self) -> String {
+        let processes = match self.children.len() {
+            1 => "a process".to_string(),
+            count => format!("{count} processes"),
+        };
+        let size = self.size;
+        format!("{LANES} at once in {processes}, {size} bytes each")
+    }
+
+    fn children(&self) -> Vec<u32> {
+        self.children.iter().map(|child| child.child.id()).collect()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // The end of its input ends it; one that has failed is gone already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

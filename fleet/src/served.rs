@@ -1,0 +1,200 @@
+//! Modbus TCP: a port for each PLC of a group, or units of a port.
+
+use crate::engine::{At, Engine};
+use rungc_rt::comm::Map;
+use rungc_rt::comm::service::Service;
+use rungc_rt::servers::Server;
+use rungc_rt::{Class, FIRST_COUNTER32};
+use std::cell::{Cell, RefCell};
+use std::io;
+use std::net::SocketAddr;
+use std::ops::Range;
+
+/// How many ports without a connection are asked for new ones before each scan. With more, they take turns.
+const ASKED_AT_ONCE: usize = 128;
+
+/// The servers of a group.
+pub struct Served {
+    doors: Vec<Door>,
+    /// Which of them is asked next.
+    next: usize,
+    type_code: u16,
+    /// How many requests there were, and how many of them were rejected.
+    pub requests: [u64; 2],
+}
+
+/// A port, and the PLCs behind it.
+struct Door {
+    server: Server,
+    plcs: Range<u32>,
+}
+
+/// The devices of the PLC that a frame is for.
+struct Reached<'a> {
+    engine: RefCell<&'a mut dyn Engine>,
+    plc: Cell<u32>,
+    /// Those behind the port.
+    plcs: Range<u32>,
+    type_code: u16,
+    /// RUN or STOP was asked for: of which PLC.
+    request: Option<(u32, bool)>,
+}
+
+impl Served {
+    /// Opens the ports of `count` PLCs from an address on: a port for each, or for each `units` of them; the first PLC
+    /// behind a port is unit 1. Port 0 stands for free ports.
+    ///
+    /// # Errors
+    /// The address that is not to be had, and what the system says.
+    pub fn open(
+        count: u32,
+        first: SocketAddr,
+        units: Option<u32>,
+        service: Service,
+    ) -> Result<Self, (SocketAddr, io::Error)> {
+        let behind = units.unwrap_or(1).max(1);
+        let mut doors = Vec::new();
+        for (n, plc) in (0..count).step_by(behind as usize).enumerate() {
+            let mut address = first;
+            if first.port() != 0 {
+                let port = usize::from(first.port()) + n;
+                let port = u16::try_from(port).map_err(|_| {
+                    let error = io::Error::other("there is no port above 65535");
+                    (first, error)
+                })?;
+                address.set_port(port);
+            }
+            let server = Server::bind(address, service).map_err(|error| (address, error))?;
+            doors.push(Door {
+                server,
+                plcs: plc..count.min(plc + behind),
+            });
+        }
+        Ok(Served {
+            doors,
+            next: 0,
+            type_code: service.type_code,
+            requests: [0; 2],
+        })
+    }
+
+    /// Where the ports are, with how many PLCs are behind each.
+    pub fn addresses(&self) -> impl Iterator<Item = io::Result<SocketAddr>> {
+        self.doors.iter().map(|door| door.server.address())
+    }
+
+    /// Carries out and answers what has been asked since the last scan. Calls `switch` for PLCs that are asked to change
+    /// between RUN and STOP.
+    pub fn poll(&mut self, engine: &mut dyn Engine, switch: &mut dyn FnMut(u32, bool)) {
+        let (count, next) = (self.doors.len(), self.next);
+        let turn = |n: usize| (n + count - next) % count < ASKED_AT_ONCE;
+        self.next = (next + ASKED_AT_ONCE) % count.max(1);
+        for (n, door) in self.doors.iter_mut().enumerate() {
+            if !turn(n) && !door.server.is_connected() {
+                continue;
+            }
+            let mut map = Reached {
+                engine: RefCell::new(engine),
+                plc: Cell::new(door.plcs.start),
+                plcs: door.plcs.clone(),
+                type_code: self.type_code,
+                request: None,
+            };
+            for (_, exchange) in door.server.poll(&mut map) {
+                self.requests[0] += 1;
+                self.requests[1] += u64::from(exchange.rejected);
+            }
+            if let Some((plc, running)) = map.request {
+                switch(plc, running);
+            }
+        }
+    }
+}
+
+impl Reached<'_> {
+    fn read(&self, at: At) -> Option<i32> {
+        self.engine.borrow_mut().read(self.plc.get(), at)
+    }
+
+    fn write(&mut self, at: At, value: i32) -> Option<()> {
+        // What the program does not store is rejected as a whole.
+        self.read(at)?;
+        self.engine.get_mut().write(self.plc.get(), at, value)
+    }
+
+    fn is_counter32(class: Class, number: u32) -> bool {
+        class == Class::C && number >= FIRST_COUNTER32
+    }
+}
+
+impl Map for Reached<'_> {
+    fn takes_unit(&mut self, unit: u8) -> bool {
+        let plc = match self.plcs.len() {
+            // A port of one PLC is the PLC itself, whichever unit that is called.
+            1 if matches!(unit, 0 | 1 | 255) => Some(self.plcs.start),
+            1 => None,
+            _ => u32::from(unit)
+                .checked_sub(1)
+                .map(|n| self.plcs.start + n)
+                .filter(|plc| self.plcs.contains(plc)),
+        };
+        plc.map(|plc| self.plc.set(plc)).is_some()
+    }
+
+    fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        match class {
+            Class::X | Class::Y | Class::M | Class::S | Class::T | Class::C => {
+                self.read(At::bit(class, number)).map(|bit| bit != 0)
+            }
+            _ => None,
+        }
+    }
+
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        self.bit(class, number)?;
+        self.write(At::bit(class, number), value.into())
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        if matches!(class, Class::X | Class::Y | Class::M | Class::S)
+            || Self::is_counter32(class, number)
+        {
+            return None;
+        }
+        self.read(At::word(class, number)).map(|word| word as i16)
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        self.word(class, number)?;
+        self.write(At::word(class, number), value.into())
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        let known = Self::is_counter32(Class::C, number);
+        known
+            .then(|| self.read(At::word(Class::C, number)))
+            .flatten()
+    }
+
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
+        self.counter32(number)?;
+        self.write(At::word(Class::C, number), value)
+    }
+
+    fn reset(&mut self, class: Class, number: u32) -> Option<()> {
+        self.write(At::word(class, number), 0)?;
+        self.write(At::bit(class, number), 0)
+    }
+
+    fn running(&self) -> bool {
+        self.engine.borrow().is_running(self.plc.get())
+    }
+
+    fn request_running(&mut self, running: bool) {
+        self.request = Some((self.plc.get(), running));
+    }
+
+    fn type_code(&self) -> u16 {
+        self.type_code
+    }
+}
