@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 const ADDS: &str = "LD M8000\nADD D0 K1 D1\nLD M0\nOUT M1\nEND\n";
 
 /// Calls the runtime library, which does not run in lanes.
-const CALLS: &str = "LD M8000\nADD D0 K1 D1\nBIN D2 D3\nSQR D4 D5\nLD M0\nOUT M1\nEND\n";
+const CALLS: &str = "LD M8000\nADD D0 K1 D1\nDSIN D10 D20\nLD M0\nOUT M1\nEND\n";
 
 const PRESS: &str = include_str!("../../examples/fleet/press.il");
 
@@ -74,7 +74,7 @@ fn said(fleet: &str) -> String {
     let folder = folder(&[
         ("p.il", ADDS.as_bytes()),
         ("calls.il", CALLS.as_bytes()),
-        ("wrong.il", b"LD Q0\nEND\n"),
+        ("wrong.il", b"LD Q0\nOUT M0\nEND\n"),
         ("fleet.toml", fleet.as_bytes()),
     ]);
     shown(
@@ -254,6 +254,7 @@ mod brokers {
     fn works(port: u16) {
         soon("all presses are there", || count(port, "Y001", "0") == 200);
         for press in [1, 64, 100, 101, 200] {
+            publish(port, press, "X001", "0");
             publish(port, press, "X000", "1");
         }
         soon("five run", || count(port, "Y001", "1") == 5);

@@ -53,7 +53,14 @@ impl Page {
     }
 
     fn of(program: &str, args: &[&str]) -> Page {
-        let folder = folder(&[("motor.il", program.as_bytes())]);
+        Page::with(program, &[], args)
+    }
+
+    /// A page of a program with more files.
+    fn with(program: &str, files: &[(&str, &[u8])], args: &[&str]) -> Page {
+        let program = ("motor.il", program.as_bytes());
+        let files: Vec<_> = files.iter().copied().chain([program]).collect();
+        let folder = folder(&files);
         let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
             .args(["serve", "motor.il", "--page"])
             .args(args)
@@ -202,6 +209,39 @@ fn a_live_page_works_in_a_browser() {
         "errors": [],
     });
     assert_eq!(report, expected);
+}
+
+/// The slide of the book, which drills three holes, in front of a page.
+fn slide() -> Page {
+    let machine = include_bytes!("../../examples/programs/drill.machine.toml");
+    let program = include_str!("../../examples/programs/drill.il");
+    let args = ["--machine", "drill.machine.toml"];
+    Page::with(program, &[("drill.machine.toml", machine)], &args)
+}
+
+#[test]
+fn the_axes_of_a_machine_move_on_a_page() {
+    let page = slide();
+    let Some(mut report) = chromium::report(&page.url, "axes.js") else {
+        return;
+    };
+    for measured in ["loaded_ms", "requests"] {
+        report[measured].take();
+    }
+    insta::assert_snapshot!(serde_json::to_string_pretty(&report).unwrap());
+}
+
+#[test]
+fn a_live_page_works_in_firefox() {
+    if std::env::var_os("RUNGC_FIREFOX").is_none() {
+        eprintln!("skipped: RUNGC_FIREFOX names no Firefox (see .ci/run)");
+        return;
+    }
+    let page = slide();
+    let Some(report) = chromium::report(&page.url, "firefox.js") else {
+        return;
+    };
+    insta::assert_snapshot!(serde_json::to_string_pretty(&report).unwrap());
 }
 
 /// Counts, times, remembers edges, and shifts what an input gives.
@@ -370,7 +410,9 @@ fn only_the_page_itself_may_ask() {
         page.command("{\"do\":\"set\",\"device\":\"X9\",\"value\":1}", JSON),
         422
     );
-    let wrong = format!("/{}0/", &path[1..path.len() - 2]);
+    // The token with another last character.
+    let (rest, last) = path.trim_end_matches('/').split_at(path.len() - 2);
+    let wrong = format!("{rest}{}/", if last == "0" { "1" } else { "0" });
     for path in ["/", "//", "/live.js", &wrong, "/../..", "*"] {
         let request = format!("GET {path} HTTP/1.1\r\n{named}\r\n");
         assert_eq!(page.ask(request.as_bytes()).0, 403, "{path}");

@@ -21,6 +21,8 @@ const WIDTH: usize = 104;
 /// The ladder of a running program.
 pub struct Scene {
     networks: Vec<Shown>,
+    /// The networks with edges, whose links are looked at after each scan.
+    edged: Vec<usize>,
     /// Memory of the power of each net and of what each link does.
     power: Power,
 }
@@ -65,8 +67,14 @@ impl Scene {
             networks.push(Shown::new(resolved, circuit, gates.targets()));
             gates.pass(resolved, network);
         }
-        let power = Power::default();
-        (Scene { networks, power }, pictures)
+        let with_edges = networks.iter().enumerate();
+        let with_edges = with_edges.filter(|(_, shown)| shown.links.iter().any(Link::is_edge));
+        let scene = Scene {
+            edged: with_edges.map(|(n, _)| n).collect(),
+            networks,
+            power: Power::default(),
+        };
+        (scene, pictures)
     }
 
     /// How many networks there are.
@@ -76,8 +84,8 @@ impl Scene {
 
     /// Takes notice of how edges are after a scan.
     pub fn scanned(&mut self, seen: Seen) {
-        for shown in &mut self.networks {
-            shown.note_edges(seen, &mut self.power);
+        for &network in &self.edged {
+            self.networks[network].note_edges(seen, &mut self.power);
         }
     }
 

@@ -115,11 +115,11 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     };
     reporter.add(&findings)?;
     reporter.finish()?;
-    let usual = || default_watch(&read.program, &module, &settings, described.as_ref());
-    let shown = match watched.is_empty() && table == Table::Usual {
-        true => usual(),
+    let listed = match watched.is_empty() {
+        true => default_watch(&read.program, &module, &settings, described.as_ref()),
         false => watched.clone(),
     };
+    let has_table = table == Table::Usual || !watched.is_empty();
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
@@ -128,10 +128,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
-    let live = match watched.is_empty() {
-        true => page(args, subject, &read, &module, usual),
-        false => page(args, subject, &read, &module, || watched.clone()),
-    }?;
+    let live = page(args, subject, &read, &module, &listed)?;
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
@@ -139,10 +136,10 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
-        shown: &shown,
+        shown: if has_table { &listed } else { &[] },
         watched: &watched,
         over,
-        table: table == Table::Usual || !watched.is_empty(),
+        table: has_table,
         modules: parameters.map_or(&[], |parameters| &parameters.modules),
         program_memory: program_memory.as_deref(),
         connections,
@@ -180,7 +177,7 @@ fn page(
     subject: &Subject,
     read: &Read,
     module: &Module,
-    watched: impl FnOnce() -> Vec<Target>,
+    watched: &[Target],
 ) -> std::result::Result<Option<Live>, Failure> {
     let Some(address) = args.serve.page.page else {
         return Ok(None);
@@ -189,7 +186,7 @@ fn page(
         title: &title(subject, read),
         address,
         read_only: args.serve.page.read_only,
-        watched: watched(),
+        watched: watched.to_vec(),
     };
     Live::open(page, &read.program, module.model).map(Some)
 }

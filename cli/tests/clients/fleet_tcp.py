@@ -45,7 +45,7 @@ reply = gateway.read_holding_registers(0, count=1, device_id=units + 1)
 assert reply.isError() and reply.exception_code == 10, reply
 reply = ports[0].read_holding_registers(0, count=1, device_id=9)
 assert reply.isError() and reply.exception_code == 10, reply
-# What the program does not store is rejected.
-reply = ports[0].read_holding_registers(700, count=1)
+# What emitted C does not store is rejected.
+reply = ports[-1].read_holding_registers(700, count=1)
 assert reply.isError() and reply.exception_code == 2, reply
 print(f"{len(plcs)} PLCs")
