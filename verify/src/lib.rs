@@ -14,6 +14,7 @@ pub mod pdr;
 pub mod property;
 pub mod prove;
 pub mod replay;
+pub mod same;
 pub mod sat;
 pub mod search;
 pub mod system;

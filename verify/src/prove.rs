@@ -89,6 +89,41 @@ pub fn system<'m>(
     (encoder, system)
 }
 
+/// A question about runs: whether one can do something.
+pub trait Question {
+    /// What the answer depends on.
+    fn system(&self, world: &World) -> System;
+
+    /// Runs a trace on the interpreter; after how many of its scans what is searched for has happened.
+    fn happens(&self, trace: &Trace) -> Option<usize>;
+
+    /// Whether timers may be taken to expire at any time.
+    fn may_be_vague(&self) -> bool {
+        true
+    }
+}
+
+/// Whether a program has a property.
+struct OfProperty<'a> {
+    module: &'a Module,
+    property: &'a Property,
+    options: &'a Options,
+}
+
+impl Question for OfProperty<'_> {
+    fn system(&self, world: &World) -> System {
+        let options = Options {
+            world: world.clone(),
+            ..self.options.clone()
+        };
+        self::system(self.module, self.property, &options).1
+    }
+
+    fn happens(&self, trace: &Trace) -> Option<usize> {
+        replay::replay(self.module, self.property, &self.options.assumed, trace)
+    }
+}
+
 /// Decides whether a program has a property.
 pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
     let deadline = Instant::now() + options.time;
@@ -103,11 +138,16 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     let unwritten = encoder.unwritten().into_iter();
     let unwritten = unwritten
         .filter(|key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key)));
+    let question = OfProperty {
+        module,
+        property,
+        options,
+    };
     Decision {
         gaps: order::set(gaps).into_iter().collect(),
         unwritten: unwritten.collect(),
         latches: system.latches.len(),
-        verdict: search(module, property, options, &system, deadline),
+        verdict: search(&question, &options.world, &system, deadline),
     }
 }
 
@@ -115,21 +155,15 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 const FOREVER_MS: u32 = 4_000_000;
 
 /// Bounded search and induction side by side; then a search, and one for an invariant, where a scan may come any time
-/// after the one before, so that a few scans show what takes many; then bounded search alone.
-fn search(
-    module: &Module,
-    property: &Property,
-    options: &Options,
+/// after the one before, so that a few scans show what takes many; then bounded search alone. `system` is that of the
+/// question in this world.
+pub fn search(
+    question: &dyn Question,
+    world: &World,
     system: &System,
     deadline: Instant,
 ) -> Verdict {
-    let mut hunt = Hunt {
-        module,
-        property,
-        options,
-        bounded: Bounded::new(system, true, deadline),
-        spurious: None,
-    };
+    let mut hunt = Hunt::new(question, world, system, deadline);
     // A proof must hold for what a replay cannot show, too.
     let mut complete = Bounded::new(system, false, deadline);
     let mut induction = Induction::new(system, deadline);
@@ -147,10 +181,10 @@ fn search(
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    if proved_vaguely(module, property, options, deadline) {
+    if question.may_be_vague() && proved_vaguely(question, world, deadline) {
         return Verdict::Proved;
     }
-    if let Some(verdict) = patiently(module, property, options, deadline) {
+    if let Some(verdict) = patiently(question, world, deadline) {
         return verdict;
     }
     while Instant::now() < deadline && hunt.spurious.is_none() {
@@ -162,15 +196,11 @@ fn search(
 }
 
 /// Whether a property is proved where timers may expire at any time.
-fn proved_vaguely(
-    module: &Module,
-    property: &Property,
-    options: &Options,
-    deadline: Instant,
-) -> bool {
-    let mut vague = options.clone();
-    vague.world.any_preset = true;
-    let (_, system) = self::system(module, property, &vague);
+fn proved_vaguely(question: &dyn Question, world: &World, deadline: Instant) -> bool {
+    let system = question.system(&World {
+        any_preset: true,
+        ..world.clone()
+    });
     let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) / 4;
     invariant(&system, until, deadline)
 }
@@ -185,24 +215,14 @@ fn invariant(system: &System, until: Instant, deadline: Instant) -> bool {
 
 /// Where a scan may come any time after the one before: what is proved there holds for shorter times, too, and a run is
 /// replayed with scans in between.
-fn patiently(
-    module: &Module,
-    property: &Property,
-    options: &Options,
-    deadline: Instant,
-) -> Option<Verdict> {
-    let mut patient = options.clone();
-    patient.world.scan_ms = FOREVER_MS;
-    let (_, system) = self::system(module, property, &patient);
+fn patiently(question: &dyn Question, world: &World, deadline: Instant) -> Option<Verdict> {
+    let system = question.system(&World {
+        scan_ms: FOREVER_MS,
+        ..world.clone()
+    });
     let now = Instant::now();
     let left = deadline.saturating_duration_since(now);
-    let mut hunt = Hunt {
-        module,
-        property,
-        options,
-        bounded: Bounded::new(&system, true, now + left / 4),
-        spurious: None,
-    };
+    let mut hunt = Hunt::new(question, world, &system, now + left / 4);
     for _ in 0..2 * INDUCTION {
         if hunt.spurious.is_some() {
             break;
@@ -218,15 +238,29 @@ fn patiently(
 
 /// A search for a run that the interpreter confirms.
 struct Hunt<'a> {
-    module: &'a Module,
-    property: &'a Property,
-    options: &'a Options,
+    question: &'a dyn Question,
+    /// The most milliseconds from one scan of the program to the next.
+    scan_ms: u32,
     bounded: Bounded<'a>,
     /// How long the first run was that the interpreter did not confirm.
     spurious: Option<usize>,
 }
 
-impl Hunt<'_> {
+impl<'a> Hunt<'a> {
+    fn new(
+        question: &'a dyn Question,
+        world: &World,
+        system: &'a System,
+        deadline: Instant,
+    ) -> Self {
+        Hunt {
+            question,
+            scan_ms: world.scan_ms,
+            bounded: Bounded::new(system, true, deadline),
+            spurious: None,
+        }
+    }
+
     /// Searches one scan further, unless nothing can be confirmed any more.
     fn step(&mut self) -> Option<Verdict> {
         if self.spurious.is_some() {
@@ -235,14 +269,13 @@ impl Hunt<'_> {
         let Step::Violated(trace) = self.bounded.step() else {
             return None;
         };
-        let assumed = &self.options.assumed;
-        let trace = replay::stretched(&trace, self.options.world.scan_ms);
-        if replay::replay(self.module, self.property, assumed, &trace).is_none() {
+        let happens = |trace: &Trace| self.question.happens(trace);
+        let trace = replay::stretched(&trace, self.scan_ms);
+        if happens(&trace).is_none() {
             self.spurious = Some(self.bounded.scans());
             return None;
         }
-        let plain = replay::plain(self.module, self.property, assumed, trace);
-        Some(Verdict::Found(plain))
+        Some(Verdict::Found(replay::plain(&happens, trace)))
     }
 
     fn undecided(&self) -> Verdict {

@@ -33,6 +33,44 @@ fn set(machine: &mut Machine, key: Key, value: i64) -> bool {
     done.is_some()
 }
 
+/// A program that is given a trace.
+pub struct Run<'m> {
+    /// The program.
+    pub machine: Machine<'m>,
+    hal: VirtualHal,
+    now_ms: u32,
+    first: bool,
+}
+
+impl<'m> Run<'m> {
+    /// Before the first scan of a trace.
+    pub fn new(module: &'m Module, trace: &Trace) -> Self {
+        let mut machine = Machine::new(module);
+        for (&key, &value) in &trace.start {
+            set(&mut machine, key, value);
+        }
+        Run {
+            machine,
+            hal: VirtualHal::new(),
+            now_ms: 0,
+            first: true,
+        }
+    }
+
+    /// Executes a scan; the milliseconds since the one before, unless the program stops.
+    pub fn scan(&mut self, scan: &Scan) -> Option<u32> {
+        for (&key, &value) in &scan.set {
+            set(&mut self.machine, key, value);
+        }
+        self.now_ms = self.now_ms.wrapping_add(scan.ms);
+        self.machine
+            .scan(&mut self.hal, self.now_ms, scan.scan_time * 100);
+        let first = std::mem::take(&mut self.first);
+        let stops = self.machine.last_error().stop != Stop::No;
+        (!stops).then_some(if first { 0 } else { scan.ms })
+    }
+}
+
 /// Runs a trace; after how many of its scans what is searched for has happened, with all assumptions kept until then.
 pub fn replay(
     module: &Module,
@@ -40,32 +78,14 @@ pub fn replay(
     assumed: &[Condition],
     trace: &Trace,
 ) -> Option<usize> {
-    let mut machine = Machine::new(module);
-    let mut hal = VirtualHal::new();
-    for (&key, &value) in &trace.start {
-        set(&mut machine, key, value);
-    }
+    let mut run = Run::new(module, trace);
     let mut watcher = Watcher::new(property);
-    let mut now_ms = 0u32;
-    for (
-        n,
-        Scan {
-            ms,
-            scan_time,
-            set: devices,
-        },
-    ) in trace.scans.iter().enumerate()
-    {
-        for (&key, &value) in devices {
-            set(&mut machine, key, value);
-        }
-        now_ms = now_ms.wrapping_add(*ms);
-        machine.scan(&mut hal, now_ms, scan_time * 100);
-        let elapsed = if n == 0 { 0 } else { *ms };
-        if machine.last_error().stop != Stop::No || !assumed.iter().all(|a| a.holds(&machine)) {
+    for (n, scan) in trace.scans.iter().enumerate() {
+        let elapsed = run.scan(scan)?;
+        if !assumed.iter().all(|a| a.holds(&run.machine)) {
             return None;
         }
-        if watcher.happened(&machine, elapsed) {
+        if watcher.happened(&run.machine, elapsed) {
             return Some(n + 1);
         }
     }
@@ -100,14 +120,8 @@ pub fn stretched(trace: &Trace, most_ms: u32) -> Trace {
 const SIMPLIFIED: usize = 150;
 
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
-/// ordinary.
-pub fn plain(
-    module: &Module,
-    property: &Property,
-    assumed: &[Condition],
-    mut trace: Trace,
-) -> Trace {
-    let happens = |trace: &Trace| replay(module, property, assumed, trace);
+/// ordinary. `happens` runs one, and says after how many scans it does what it is about.
+pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace) -> Trace {
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
     }

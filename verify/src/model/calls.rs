@@ -1,5 +1,6 @@
 //! What is not modelled: calls of the runtime, which may write what they are handed and special devices.
 
+use super::shared::{Seen, Signature};
 use super::{Encoder, Key};
 use crate::aig::Lit;
 use rungc_ir::node::{Call, Fetch, Stmt};
@@ -73,27 +74,57 @@ impl Encoder<'_> {
             Some(origin) => origin.text.clone(),
             None => call.function.name().to_uppercase(),
         };
-        self.free(&keys, guard, &name);
+        let anywhere = call.function.needs().anywhere;
+        let seen = self.seen(stmt, anywhere, call.step);
+        self.apply(&keys, guard, &name, &seen);
+        self.leave_tokens(Some(call), &seen, guard);
+    }
+
+    /// What a statement looks at, if programs are compared.
+    fn seen(&mut self, stmt: &Stmt, anywhere: bool, step: u32) -> Seen {
+        match self.is_compared() {
+            true => self.looks(stmt, anywhere, step),
+            false => Seen::default(),
+        }
+    }
+
+    /// Makes pieces of memory what something that is not modelled makes of what it looks at.
+    fn apply(&mut self, keys: &[Key], guard: Lit, what: &str, seen: &Seen) {
+        for &key in keys {
+            if let Some(bits) = self.state.get(&key) {
+                let value = self.applied(bits.len(), what, seen.of(key), &seen.bits);
+                self.store(key, &value, guard);
+            }
+        }
     }
 
     pub(super) fn fetch(&mut self, fetch: &Fetch, guard: Lit) {
-        let keys = self.specials();
-        self.free(&keys, guard, BUFFER);
-        let value = self.fresh(32, BUFFER);
-        self.store(Key::Cell(fetch.value.0), &value, guard);
-        let there = self.fresh(1, BUFFER);
+        let seen = self.seen(&Stmt::Fetch(*fetch), false, fetch.step);
+        let mut keys = self.specials();
+        keys.push(Key::Cell(fetch.value.0));
+        self.apply(&keys, guard, BUFFER, &seen);
+        let there = self.applied(1, BUFFER, Signature::Answer(seen.text.clone()), &seen.bits);
         self.assign(fetch.there, there, guard);
+        self.leave_tokens(None, &seen, guard);
     }
 
-    pub(super) fn send(&mut self, stmt: &Stmt, guard: Lit) {
+    pub(super) fn send(&mut self, stmt: &Stmt, step: u32, guard: Lit) {
         let mut keys = self.of_operands(stmt);
         keys.extend(self.specials());
-        self.free(&keys, guard, BUFFER);
+        let seen = self.seen(stmt, false, step);
+        self.apply(&keys, guard, BUFFER, &seen);
+        self.leave_tokens(None, &seen, guard);
     }
 
     /// An operation error found inline.
-    pub(super) fn fault(&mut self, guard: Lit) {
+    pub(super) fn fault(&mut self, stmt: &Stmt, step: u32, guard: Lit) {
         let keys = self.named_in(&ERRORS);
-        self.free(&keys, guard, "relays and registers of operation errors");
+        let seen = self.seen(stmt, false, step);
+        self.apply(
+            &keys,
+            guard,
+            "relays and registers of operation errors",
+            &seen,
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! Expressions as logic.
 
+use super::shared::Signature;
 use super::{CounterPart, Encoder, Input, Key, TimerPart};
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, complement, constant, known, signed, unsigned};
@@ -108,10 +109,7 @@ impl Encoder<'_> {
             SysValue::Scan100us => {
                 if self.scan_time.is_none() {
                     // No PLC allows scans of more than three seconds.
-                    let bits = self.aig.inputs_of(15);
-                    let named = bits.iter().enumerate();
-                    self.inputs
-                        .extend(named.map(|(i, &bit)| (bit, Input::ScanTime(i))));
+                    let bits = self.inputs_named(15, Input::ScanTime);
                     self.scan_time = Some(unsigned(&bits, 32));
                 }
                 self.scan_time.clone().unwrap_or_default()
@@ -139,7 +137,15 @@ impl Encoder<'_> {
         }
         match (float(&a), float(&b)) {
             (Some(a), Some(b)) => op.holds(a, b).into(),
-            _ => self.fresh(1, "comparisons of floats")[0],
+            _ => {
+                let signature = Signature::Float(format!("{op:?}"));
+                self.applied(
+                    1,
+                    "comparisons of floats",
+                    signature,
+                    &[&a[..], &b[..]].concat(),
+                )[0]
+            }
         }
     }
 
@@ -217,7 +223,10 @@ impl Encoder<'_> {
             UnOp::Root | UnOp::ToFloat | UnOp::Truncate | UnOp::SquareRoot => {
                 match known(a).map(|a| a as i32) {
                     Some(a) => folded(op, a),
-                    None => self.fresh(width, "square roots and floats"),
+                    None => {
+                        let signature = Signature::Float(format!("{op:?}"));
+                        self.applied(width, "square roots and floats", signature, a)
+                    }
                 }
             }
         }
@@ -246,7 +255,8 @@ impl Encoder<'_> {
     fn float(&mut self, op: FloatOp, a: ExprId, b: ExprId) -> Bits {
         let (a, b) = (self.eval(a), self.eval(b));
         let (Some(a), Some(b)) = (float(&a), float(&b)) else {
-            return self.fresh(32, "arithmetic of floats");
+            let signature = Signature::Float(format!("{op:?}"));
+            return self.applied(32, "arithmetic of floats", signature, &[a, b].concat());
         };
         float_bits(match op {
             FloatOp::Add => word::float_add(a, b),

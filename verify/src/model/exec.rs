@@ -123,8 +123,8 @@ impl Encoder<'_> {
             | Stmt::Watch { .. } => return self.flow(stmt, guard),
             Stmt::Call(call) => self.call(stmt, call, guard),
             Stmt::Fetch(fetch) => self.fetch(fetch, guard),
-            Stmt::Send(_) => self.send(stmt, guard),
-            Stmt::Fault { .. } => self.fault(guard),
+            Stmt::Send(send) => self.send(stmt, send.step, guard),
+            &Stmt::Fault { step, .. } => self.fault(stmt, step, guard),
             Stmt::Stop => self.stop(guard),
             &Stmt::Clear { latched } => self.clear(latched, guard),
         }

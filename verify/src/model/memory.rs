@@ -1,5 +1,6 @@
 //! The memory of a program: which there is, how it begins, and how it is read and written.
 
+use super::shared::Signature;
 use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
@@ -35,6 +36,8 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
         Key::Timer(number, _) => Some((DeviceClass::T, number)),
         Key::Counter(number, _) => Some((DeviceClass::C, number)),
         Key::Edge(_)
+        | Key::Slot(_)
+        | Key::Outer
         | Key::Flag(_)
         | Key::Cell(_)
         | Key::Entry(..)
@@ -49,6 +52,7 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
 fn width(key: Key, unit_ms: u16) -> usize {
     match key {
         Key::Bit(..) | Key::Edge(_) | Key::Flag(_) | Key::First | Key::Running => 1,
+        Key::Slot(_) | Key::Outer => 1,
         Key::Word(..) | Key::Timer(_, TimerPart::Value | TimerPart::Preset) => 16,
         Key::Timer(_, TimerPart::Part) => match unit_ms {
             ..=1 => 0,
@@ -120,9 +124,11 @@ impl Encoder<'_> {
         let private = (0..module.edges).map(Key::Edge);
         let private = private.chain((0..module.flags.len() as u32).map(Key::Flag));
         let private = private.chain((0..module.cells.len() as u32).map(Key::Cell));
-        for key in private
-            .chain(entries)
-            .chain([Key::First, Key::Running, Key::Now])
+        for key in
+            private
+                .chain(entries)
+                .chain(self.tokens())
+                .chain([Key::First, Key::Running, Key::Now])
         {
             self.add_memory(key);
         }
@@ -137,7 +143,11 @@ impl Encoder<'_> {
                 .map_or(1, |kind| kind.unit_ms),
             _ => 1,
         };
-        let bits = self.aig.inputs_of(width(key, unit_ms));
+        let shared = self
+            .beside
+            .as_ref()
+            .and_then(|beside| beside.begins_as(key));
+        let bits = shared.unwrap_or_else(|| self.aig.inputs_of(width(key, unit_ms)));
         if let Key::Timer(_, TimerPart::Part) = key
             && unit_ms > 1
         {
@@ -156,7 +166,7 @@ impl Encoder<'_> {
     }
 
     /// What a piece of memory holds before the first scan; `None`: anything.
-    pub(super) fn initial(&self, key: Key) -> Option<i64> {
+    pub fn initial(&self, key: Key) -> Option<i64> {
         let model = self.module.model;
         let latched = |class, number| self.module.is_latched(class, number) && !self.world.fresh;
         match key {
@@ -193,6 +203,8 @@ impl Encoder<'_> {
             | Key::Timer(..)
             | Key::Counter(..)
             | Key::Edge(_)
+            | Key::Slot(_)
+            | Key::Outer
             | Key::Flag(_)
             | Key::Cell(_)
             | Key::Entry(..)
@@ -205,7 +217,7 @@ impl Encoder<'_> {
         if let Key::Flag(flag) = key
             && self.events.contains(&flag)
         {
-            return self.fresh(1, "events between two scans");
+            return self.applied(1, "events between two scans", Signature::Event(key), &[]);
         }
         match self.state.get(&key) {
             Some(bits) => bits.clone(),
@@ -361,13 +373,8 @@ impl Encoder<'_> {
     pub(super) fn begin_time(&mut self) {
         let most = self.world.scan_ms.max(1);
         let width_of = |most: u32| (u32::BITS - most.leading_zeros()).max(1) as usize;
-        let mut digit = |digit: Digit, most: u32| {
-            let bits = self.aig.inputs_of(width_of(most));
-            let named = bits.iter().enumerate();
-            self.inputs
-                .extend(named.map(|(i, &bit)| (bit, Input::Time(digit, i))));
-            bits
-        };
+        let mut digit =
+            |digit: Digit, most: u32| self.inputs_named(width_of(most), |i| Input::Time(digit, i));
         let hundreds = digit(Digit::Hundreds, most / 100);
         let tens = digit(Digit::Tens, 9);
         let ones = digit(Digit::Ones, 9);

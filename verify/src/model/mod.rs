@@ -9,9 +9,11 @@ mod calls;
 mod eval;
 mod exec;
 mod memory;
+mod shared;
 mod timing;
 
 pub use memory::device_of;
+pub use shared::{Beside, Names};
 
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
@@ -65,6 +67,10 @@ pub enum Key {
     Counter(u32, CounterPart),
     /// An edge memory.
     Edge(u32),
+    /// What a call of the runtime remembers, by number: one bit that stands for all of it, in programs that are compared.
+    Slot(u16),
+    /// The same of everything around the PLC that calls of the runtime ask and change.
+    Outer,
     /// A private bit.
     Flag(u32),
     /// A private number.
@@ -82,7 +88,7 @@ pub enum Key {
 }
 
 /// What a free bit of a scan is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Input {
     /// A bit of a device that something other than the program sets before the scan.
     Device(Key, usize),
@@ -95,7 +101,7 @@ pub enum Input {
 }
 
 /// A part of a time in milliseconds.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Digit {
     /// Whole hundreds.
     Hundreds,
@@ -146,6 +152,7 @@ impl Default for World {
 const STATEMENTS: u32 = 400_000;
 
 /// The time of a scan, as logic.
+#[derive(Clone)]
 struct Time {
     /// Milliseconds since the scan before, 0 in the first: whole hundreds, tens, and the whole.
     hundreds: Bits,
@@ -157,6 +164,7 @@ struct Time {
 }
 
 /// Makes logic of a module.
+#[derive(Clone)]
 pub struct Encoder<'m> {
     module: &'m Module,
     world: World,
@@ -196,20 +204,37 @@ pub struct Encoder<'m> {
     watch_limit: u64,
     monitors: u32,
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
+    /// What is shared with another program.
+    beside: Option<Beside>,
 }
 
 impl<'m> Encoder<'m> {
     /// Executes a scan of a module.
     pub fn scan(module: &'m Module, world: World) -> Self {
+        Self::executed(module, world, None)
+    }
+
+    /// Executes a scan of a module at the same time as another is executed.
+    pub fn scan_beside(module: &'m Module, world: World, beside: Beside) -> Self {
+        Self::executed(module, world, Some(beside))
+    }
+
+    fn executed(module: &'m Module, world: World, mut beside: Option<Beside>) -> Self {
+        let aig = beside
+            .as_mut()
+            .map(|beside| std::mem::take(&mut beside.aig));
+        let gaps = beside
+            .as_ref()
+            .map_or_else(Vec::new, |beside| beside.gaps.clone());
         let mut encoder = Encoder {
             module,
-            aig: Aig::default(),
+            aig: aig.unwrap_or_default(),
             inputs: Vec::new(),
             constraints: Vec::new(),
             wishes: Vec::new(),
             first_wishes: Vec::new(),
-            gaps: Vec::new(),
-            gap_numbers: FxHashMap::default(),
+            gap_numbers: gaps.iter().cloned().zip(0..).collect(),
+            gaps,
             before: BTreeMap::new(),
             state: BTreeMap::new(),
             written: BTreeSet::new(),
@@ -230,6 +255,7 @@ impl<'m> Encoder<'m> {
             monitors: 0,
             extra_latches: Vec::new(),
             world,
+            beside,
         };
         encoder.find_memory();
         encoder.find_outside();
@@ -336,14 +362,16 @@ impl<'m> Encoder<'m> {
             .map_or_else(Bits::new, |time| time.all.clone())
     }
 
-    /// Whether the program could read a device but nothing in it writes it.
+    /// Whether the program could read a device but nothing in it writes it: a panel or another PLC may.
     fn is_unwritten(&self, key: Key) -> bool {
-        let class = match key {
-            Key::Bit(class, _) | Key::Word(class, _) => class,
-            _ => return false,
+        use DeviceClass::{D, ER, M, R, S};
+        let settable = match key {
+            Key::Bit(class, _) | Key::Word(class, _) => matches!(class, M | S | D | R | ER),
+            Key::Timer(_, TimerPart::Value | TimerPart::Done) => true,
+            Key::Counter(_, CounterPart::Value | CounterPart::Done) => true,
+            _ => false,
         };
-        use DeviceClass::{D, ER, M, R};
-        matches!(class, M | D | R | ER) && !self.written.contains(&key)
+        settable && !self.written.contains(&key)
     }
 
     /// Whether something other than the program sets a device before each scan.
@@ -360,30 +388,72 @@ impl<'m> Encoder<'m> {
         keys.filter(|&key| self.is_unwritten(key)).collect()
     }
 
-    /// The system with the question whether this can happen.
-    pub fn system(&self, bad: Lit) -> System {
-        let mut inputs = self.inputs.clone();
-        let mut latches = Vec::new();
-        for (&key, before) in &self.before {
-            let free = self.is_free(key);
+    /// All memory: what it is, its bits before the scan, and those after it.
+    pub fn memory(&self) -> impl Iterator<Item = (Key, &Bits, &Bits)> {
+        let before = self.before.iter();
+        before.map(|(&key, before)| (key, before, &self.state[&key]))
+    }
+
+    /// The bits of a piece of memory before the scan.
+    pub fn before(&self, key: Key) -> Option<&Bits> {
+        self.before.get(&key)
+    }
+
+    /// The bits of a piece of memory after the scan.
+    pub fn after(&self, key: Key) -> Option<&Bits> {
+        self.state.get(&key)
+    }
+
+    /// What holds in every scan.
+    pub fn constraints(&self) -> &[Lit] {
+        &self.constraints
+    }
+
+    /// What the system of several programs takes from this one: its memory, except what these give way to, and its
+    /// inputs. What one of them counts as an input is one for all.
+    pub fn add_to(
+        &self,
+        system: &mut System,
+        wanted: &dyn Fn(Key) -> bool,
+        free: &dyn Fn(Key) -> bool,
+    ) {
+        for (key, before, after) in self.memory().filter(|(key, ..)| wanted(*key)) {
             let init = self.initial(key);
-            for (bit, &now) in before.iter().enumerate() {
-                if free {
-                    inputs.push((now, Input::Device(key, bit)));
+            for (bit, (&now, &next)) in before.iter().zip(after).enumerate() {
+                if free(key) {
+                    system.inputs.push((now, Input::Device(key, bit)));
                     continue;
                 }
-                latches.push(Latch {
+                system.latches.push(Latch {
                     now,
-                    next: self.state[&key][bit],
+                    next,
                     init: init.map(|init| init >> bit & 1 == 1),
                     key,
                     bit,
                 });
             }
         }
+        system.inputs.extend(&self.inputs);
+        system.constraints.extend(&self.constraints);
+        system.wishes.extend(&self.wishes);
+        system.first_wishes.extend(&self.first_wishes);
+    }
+
+    /// The system with the question whether this can happen.
+    pub fn system(&self, bad: Lit) -> System {
+        let mut system = System {
+            aig: self.aig.clone(),
+            latches: Vec::new(),
+            inputs: Vec::new(),
+            constraints: Vec::new(),
+            wishes: Vec::new(),
+            first_wishes: Vec::new(),
+            bad,
+        };
+        self.add_to(&mut system, &|_| true, &|key| self.is_free(key));
         for (key, now, next, init) in &self.extra_latches {
             for (bit, (&now, &next)) in now.iter().zip(next).enumerate() {
-                latches.push(Latch {
+                system.latches.push(Latch {
                     now,
                     next,
                     init: init.map(|init| init >> bit & 1 == 1),
@@ -392,15 +462,7 @@ impl<'m> Encoder<'m> {
                 });
             }
         }
-        System {
-            aig: self.aig.clone(),
-            latches,
-            inputs,
-            constraints: self.constraints.clone(),
-            wishes: self.wishes.clone(),
-            first_wishes: self.first_wishes.clone(),
-            bad,
-        }
+        system
     }
 }
 

@@ -1,0 +1,141 @@
+//! Whether two programs do the same: their outputs, in every run with the same inputs.
+//!
+//! Both become one system ([`product`]). What is equal in it by construction, or by an induction over all memory that
+//! both have, needs no further proof; of each other output it is asked whether it can differ, and a run in which it
+//! does is replayed on both programs.
+
+mod matching;
+mod product;
+
+use crate::model::{Gap, Input, Key, Names, World};
+use crate::prove::{Options, Question, Verdict, search};
+use crate::replay::Run;
+use crate::search::Trace;
+use crate::system::System;
+use product::Product;
+use rungc_ir::Module;
+use rungc_rt::{Class, Plc};
+use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
+use std::time::{Duration, Instant};
+
+/// What was found of an output of two programs.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Output {
+    /// Its number, Y.
+    pub number: u32,
+    /// Whether it can differ: [`Verdict::Proved`] if it cannot.
+    pub verdict: Verdict,
+    /// What the answer depends on and is not modelled.
+    pub gaps: Vec<Gap>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// What was found of two programs.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Compared {
+    /// All outputs that one of them has.
+    pub outputs: Vec<Output>,
+    /// Whether modules, serial ports and pulse outputs are proved to be used in the same way.
+    pub same_outside: bool,
+    /// What is not modelled in either, taken to be the same function in both.
+    pub functions: Vec<Gap>,
+}
+
+/// Compares the outputs of an old and a new program for the same model. [`Options::time`] is the time for what both
+/// have in common, and that for each output that needs a proof of its own.
+pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
+    let modules = [old, new];
+    let deadline = Instant::now() + options.time;
+    let names = matching::names(old, new);
+    let product = Product::new(modules, &names, &options.world, &options.assumed, deadline);
+    let runs_alike = product.is_equal(Key::Running);
+    let outputs = product.outputs().into_iter().map(|number| {
+        let begin = Instant::now();
+        let key = Key::Bit(DeviceClass::Y, number);
+        if runs_alike && product.is_equal(key) {
+            return Output {
+                number,
+                verdict: Verdict::Proved,
+                gaps: Vec::new(),
+                time: begin.elapsed(),
+            };
+        }
+        let question = Differs {
+            modules,
+            number,
+            names: &names,
+            options,
+        };
+        let system = product.system(key, &names);
+        let gaps = product.encoder().gaps.iter().enumerate();
+        let gaps = gaps.filter(|(n, _)| {
+            system
+                .inputs
+                .iter()
+                .any(|(_, input)| *input == Input::Gap(*n))
+        });
+        Output {
+            number,
+            gaps: order::set(gaps.map(|(_, gap)| gap.clone()))
+                .into_iter()
+                .collect(),
+            verdict: search(&question, &options.world, &system, begin + options.time),
+            time: begin.elapsed(),
+        }
+    });
+    Compared {
+        outputs: outputs.collect(),
+        same_outside: product.same_outside(),
+        functions: order::set(product.encoder().gaps.iter().cloned())
+            .into_iter()
+            .collect(),
+    }
+}
+
+/// Whether an output of two programs can differ.
+struct Differs<'a> {
+    modules: [&'a Module; 2],
+    number: u32,
+    names: &'a Names,
+    options: &'a Options,
+}
+
+impl Question for Differs<'_> {
+    fn system(&self, world: &World) -> System {
+        let deadline = Instant::now() + self.options.time;
+        let product = Product::new(
+            self.modules,
+            self.names,
+            world,
+            &self.options.assumed,
+            deadline,
+        );
+        product.system(Key::Bit(DeviceClass::Y, self.number), self.names)
+    }
+
+    fn happens(&self, trace: &Trace) -> Option<usize> {
+        let mut runs = self.modules.map(|module| Run::new(module, trace));
+        for (n, scan) in trace.scans.iter().enumerate() {
+            let [old, new] = &mut runs;
+            if old.scan(scan).is_some() != new.scan(scan).is_some() {
+                return Some(n + 1);
+            }
+            let kept = |run: &Run| self.options.assumed.iter().all(|a| a.holds(&run.machine));
+            if !kept(old) || !kept(new) {
+                return None;
+            }
+            let output = |run: &Run| run.machine.bit(Class::Y, self.number).unwrap_or(false);
+            if output(old) != output(new) {
+                return Some(n + 1);
+            }
+        }
+        None
+    }
+
+    /// When a timer expires must be the same in both.
+    fn may_be_vague(&self) -> bool {
+        false
+    }
+}

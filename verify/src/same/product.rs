@@ -1,0 +1,223 @@
+//! Two programs as one system.
+
+use crate::aig::Lit;
+use crate::bits::Bits;
+use crate::model::{Beside, Encoder, Key, Names, World, device_of};
+use crate::property::Condition;
+use crate::sat::{Answer, Solver};
+use crate::system::System;
+use rungc_ir::Module;
+use rungc_models::runs::is_special;
+use rungc_syntax::DeviceClass;
+use rustc_hash::FxHashSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Instant;
+
+/// Two programs that are executed at the same time with the same inputs.
+///
+/// Memory that is not [`apart`](Self::apart) has the same value in both before every scan: it had it at first, and from
+/// equal memory a scan makes equal memory, which was shown of all of it together.
+pub(super) struct Product<'m> {
+    old: Encoder<'m>,
+    new: Encoder<'m>,
+    /// Memory of the old program that may differ.
+    apart: BTreeSet<Key>,
+    /// What something else than the programs sets, by the old program's names.
+    free: BTreeSet<Key>,
+}
+
+impl<'m> Product<'m> {
+    /// Executes both, and finds out what stays equal.
+    pub fn new(
+        modules: [&'m Module; 2],
+        names: &Names,
+        world: &World,
+        assumed: &[Condition],
+        deadline: Instant,
+    ) -> Self {
+        let [old_module, new_module] = modules;
+        let (world, named) = common_world(modules, world);
+        let mut old = Encoder::scan_beside(old_module, world.clone(), Beside::default());
+        suppose(&mut old, assumed);
+        let mut apart = BTreeSet::new();
+        loop {
+            let beside = old.share(|key| !apart.contains(&key), names);
+            let mut new = Encoder::scan_beside(new_module, world.clone(), beside);
+            suppose(&mut new, assumed);
+            let mut free: BTreeSet<Key> = named[0]
+                .iter()
+                .copied()
+                .filter(|&key| old.is_free(key))
+                .collect();
+            let of_new = named[1].iter().copied().filter(|&key| new.is_free(key));
+            free.extend(of_new.map(|key| names.name(key)));
+            let product = Product {
+                old: old.clone(),
+                new,
+                apart: apart.clone(),
+                free,
+            };
+            let differing = product.differing(names, deadline);
+            if differing.is_empty() {
+                return product;
+            }
+            apart.extend(differing);
+        }
+    }
+
+    /// Memory that begins a scan equal and may not end it so.
+    fn differing(&self, names: &Names, deadline: Instant) -> Vec<Key> {
+        let old: BTreeMap<Key, &Bits> = self
+            .old
+            .memory()
+            .map(|(key, _, after)| (key, after))
+            .collect();
+        let mut solver = None;
+        let mut differing = Vec::new();
+        let mut aig = self.new.aig.clone();
+        for (key, _, after) in self.new.memory() {
+            let name = names.name(key);
+            let Some(&other) = old.get(&name).filter(|_| self.is_shared(name)) else {
+                continue;
+            };
+            if other == after {
+                continue;
+            }
+            let same =
+                other.len() == after.len() && self.old.initial(name) == self.new.initial(key);
+            let same = same && {
+                let equal = aig.equal(other, after);
+                let solver = solver.get_or_insert_with(|| {
+                    let mut solver = Solver::new(deadline);
+                    for &holds in self.old.constraints().iter().chain(self.new.constraints()) {
+                        let holds = solver.lit(&aig, holds);
+                        solver.clause(&[holds]);
+                    }
+                    solver
+                });
+                let differs = solver.lit(&aig, !equal);
+                solver.solve(&[differs]) == Answer::Unsat
+            };
+            if !same {
+                differing.push(name);
+            }
+        }
+        // Equal logic may begin differently.
+        let shared = self.new.memory().map(|(key, ..)| (key, names.name(key)));
+        let begins = shared.filter(|(key, name)| {
+            old.contains_key(name)
+                && self.is_shared(*name)
+                && self.old.initial(*name) != self.new.initial(*key)
+        });
+        differing.extend(begins.map(|(_, name)| name));
+        differing
+    }
+
+    /// Whether a memory, by its name in the old program, is checked to be equal.
+    fn is_shared(&self, name: Key) -> bool {
+        !self.apart.contains(&name) && !self.free.contains(&name)
+    }
+
+    /// Whether a memory of both, by its name in the old program, is proved to be equal after every scan.
+    pub fn is_equal(&self, name: Key) -> bool {
+        let after = |encoder: &Encoder| encoder.after(name).cloned();
+        self.is_shared(name) && after(&self.old).is_some() && after(&self.new).is_some()
+    }
+
+    /// The programs' outputs.
+    pub fn outputs(&self) -> Vec<u32> {
+        let keys = self.old.memory().map(|(key, ..)| key);
+        keys.filter_map(|key| match key {
+            Key::Bit(DeviceClass::Y, number) => Some(number),
+            _ => None,
+        })
+        .collect()
+    }
+
+    /// Whether both ask and change the world around them in the same way: modules, ports, pulse outputs.
+    pub fn same_outside(&self) -> bool {
+        self.is_equal(Key::Outer)
+    }
+
+    /// The newer of the encoders, which knows the gaps of both.
+    pub fn encoder(&self) -> &Encoder<'m> {
+        &self.new
+    }
+
+    /// The system with the question whether a memory of both can differ while both are in RUN, or one of them stop.
+    pub fn system(&self, key: Key, names: &Names) -> System {
+        let mut aig = self.new.aig.clone();
+        let [old, new] =
+            [&self.old, &self.new].map(|encoder| encoder.after(key).cloned().unwrap_or_default());
+        let equal = aig.equal(&old, &new);
+        let stops = aig.xor(self.old.running(), self.new.running());
+        let run = aig.and(self.old.running(), self.new.running());
+        let differs = aig.and(run, !equal);
+        let bad = aig.or(differs, stops);
+        let mut system = System {
+            aig,
+            latches: Vec::new(),
+            inputs: Vec::new(),
+            constraints: Vec::new(),
+            wishes: Vec::new(),
+            first_wishes: Vec::new(),
+            bad,
+        };
+        let in_old = |name: Key| self.old.after(name).is_some();
+        self.old
+            .add_to(&mut system, &|_| true, &|key| self.free.contains(&key));
+        let own = |key: Key| !in_old(names.name(key)) || self.apart.contains(&names.name(key));
+        self.new.add_to(&mut system, &own, &|key| {
+            self.free.contains(&names.name(key))
+        });
+        self.begin_equal(&mut system, names);
+        let mut seen = FxHashSet::default();
+        system.inputs.retain(|(lit, _)| seen.insert(*lit));
+        system.sliced()
+    }
+
+    /// What begins with any value begins with the same in both.
+    fn begin_equal(&self, system: &mut System, names: &Names) {
+        let Some(first) = self.old.before(Key::First).map(|bits| bits[0]) else {
+            return;
+        };
+        let pairs = self.new.memory().filter_map(|(key, now, _)| {
+            let name = names.name(key);
+            let any = self.new.initial(key).is_none() && self.old.initial(name).is_none();
+            let other = self
+                .old
+                .before(name)
+                .filter(|_| any && self.apart.contains(&name))?;
+            Some((other.clone(), now.clone()))
+        });
+        for (old, new) in pairs.collect::<Vec<(Bits, Bits)>>() {
+            let equal = system.aig.equal(&old, &new);
+            let holds: Lit = system.aig.or(!first, equal);
+            system.constraints.push(holds);
+        }
+    }
+}
+
+fn suppose(encoder: &mut Encoder, assumed: &[Condition]) {
+    for condition in assumed {
+        let holds = condition.encode(encoder);
+        encoder.suppose(holds);
+    }
+}
+
+/// The world of both programs, in which each has the special devices and outputs of the other, and what each names.
+fn common_world(modules: [&Module; 2], world: &World) -> (World, [BTreeSet<Key>; 2]) {
+    let named = modules.map(|module| {
+        let encoder = Encoder::scan_beside(module, world.clone(), Beside::default());
+        encoder
+            .memory()
+            .map(|(key, ..)| key)
+            .collect::<BTreeSet<_>>()
+    });
+    let mut world = world.clone();
+    let devices = named.iter().flatten().filter_map(|&key| device_of(key));
+    let common =
+        devices.filter(|&(class, number)| class == DeviceClass::Y || is_special(class, number));
+    world.observed.extend(common);
+    (world, named)
+}
