@@ -39,7 +39,10 @@ fn an_interlock_is_proved_and_its_lack_is_shown() {
     let (good, bad) = (reverser("ANI Y000"), reverser("ANI X003"));
     let folder = folder(&[("good.il", good.as_bytes()), ("bad.il", bad.as_bytes())]);
     let verify = |args: &[&str]| {
-        let output = rungc(folder.path(), &[&["verify"], args].concat());
+        let output = rungc(
+            folder.path(),
+            &[&["verify", "--replay", "interp"], args].concat(),
+        );
         let code = output.status.code();
         (code, timeless(&text(&output.stdout)), text(&output.stderr))
     };
@@ -72,6 +75,8 @@ fn a_counterexample_is_a_test() {
         "Y000 & Y001",
         "--write-test",
         "bad.plctest.toml",
+        "--replay",
+        "interp",
     ];
     let output = rungc(folder.path(), &args);
     assert_eq!(output.status.code(), Some(1));
@@ -180,6 +185,8 @@ fn another_model_checker_agrees() {
             "Y000 & Y001",
             "--aiger",
             "program.aig",
+            "--replay",
+            "interp",
         ];
         let output = rungc(folder.path(), &args);
         assert!(
@@ -194,5 +201,73 @@ fn another_model_checker_agrees() {
             .unwrap();
         let answer = text(&asked.stdout);
         assert!(answer.contains(theirs), "{answer}");
+    }
+}
+
+/// A start-stop circuit, a timer, a controller, an edge.
+const LINE: &str = "\
+LD X000
+OR M0
+ANI X001
+OUT M0
+LD M0
+OUT T0 K30
+LD T0
+OUT Y000
+LDP X002
+ADD D0 K1 D0
+LD M0
+PID D100 D110 D200 D220
+LD> D220 K100
+OUT Y001
+LDP X003
+OUT Y002
+END
+";
+
+#[test]
+fn outputs_of_two_programs_are_compared() {
+    let added = LINE.replace("LDP X002", "LDP X005\nOUT Y004\nLDP X002");
+    let slower = LINE.replace("K30", "K31");
+    // The same relay by another way: the two contacts of a latch, and a relay nobody else reads.
+    let rewritten = LINE.replace(
+        "LD X000\nOR M0\nANI X001\nOUT M0\n",
+        "LDI X001\nOUT M9\nLD M9\nAND X000\nLD M0\nAND M9\nORB\nOUT M0\n",
+    );
+    let folder = folder(&[
+        ("old.il", LINE.as_bytes()),
+        ("added.il", added.as_bytes()),
+        ("slower.il", slower.as_bytes()),
+        ("rewritten.il", rewritten.as_bytes()),
+    ]);
+    let compared = |new: &str, engine: &str| {
+        let args = ["verify", new, "--same-as", "old.il", "--replay", engine];
+        let output = rungc(folder.path(), &args);
+        (output.status.code(), timeless(&text(&output.stdout)))
+    };
+    assert_eq!(compared("old.il", "interp").0, Some(0));
+    let (code, same) = compared("rewritten.il", "interp");
+    assert_eq!(code, Some(0), "{same}");
+    insta::assert_snapshot!("same_rewritten", same);
+    let (code, other) = compared("added.il", "interp");
+    assert_eq!(code, Some(1), "{other}");
+    insta::assert_snapshot!("same_added", other);
+    // Emitted C must show the run, too.
+    let (code, other) = compared("slower.il", "c");
+    assert_eq!(code, Some(1), "{other}");
+    insta::assert_snapshot!("same_slower", other);
+}
+
+#[test]
+fn devices_that_a_panel_can_set_are_inputs() {
+    // Nothing drives the step, the counter or the relay: a panel or another PLC may.
+    let program = "LD S500\nOUT Y000\nLD C20\nOUT Y001\nLD M77\nOUT Y002\nEND\n";
+    let folder = folder(&[("panel.il", program.as_bytes())]);
+    for output in ["Y000", "Y001", "Y002"] {
+        let args = [
+            "verify", "panel.il", "--never", output, "--replay", "interp",
+        ];
+        let output = rungc(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
     }
 }

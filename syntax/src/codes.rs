@@ -10,7 +10,7 @@
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
-//! | E080x, W080x | properties that are verified |
+//! | E080x, W080x, E0821, W0821 | properties that are verified |
 //! | E082x | connections of a running program |
 //! | E085x, W085x | boards, and writing images into them |
 //! | E087x | fleets of PLCs |

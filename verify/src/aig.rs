@@ -201,21 +201,6 @@ impl Aig {
         let lits = lits.into_iter();
         lits.fold(Lit::FALSE, |any, lit| self.or(any, lit))
     }
-
-    /// The nodes on which literals depend, in order.
-    pub fn cone(&self, roots: impl IntoIterator<Item = Lit>) -> Vec<usize> {
-        let mut wanted = vec![false; self.nodes.len()];
-        let mut open: Vec<usize> = roots.into_iter().map(Lit::node).collect();
-        while let Some(node) = open.pop() {
-            if std::mem::replace(&mut wanted[node], true) {
-                continue;
-            }
-            if let Node::And(a, b) = self.nodes[node] {
-                open.extend([a.node(), b.node()]);
-            }
-        }
-        (0..wanted.len()).filter(|&node| wanted[node]).collect()
-    }
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 pub mod aig;
 pub mod aiger;
 pub mod bits;
+pub mod engines;
 pub mod model;
 pub mod pdr;
 pub mod property;

@@ -2,7 +2,7 @@
 
 use crate::aig::{Aig, Lit, Node};
 use crate::model::{Input, Key};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A bit that lasts from scan to scan.
 #[derive(Clone, Debug)]
@@ -87,9 +87,20 @@ impl System {
 
     /// The inputs and latches on which a literal depends within a scan.
     fn support(&self, lit: Lit) -> Vec<usize> {
-        let cone = self.aig.cone([lit]);
-        let is_input = |&node: &usize| matches!(self.aig.nodes()[node], Node::Input(_));
-        cone.into_iter().filter(is_input).collect()
+        let mut seen = FxHashSet::default();
+        let mut open = vec![lit.node()];
+        let mut found = Vec::new();
+        while let Some(node) = open.pop() {
+            if !seen.insert(node) {
+                continue;
+            }
+            match self.aig.nodes()[node] {
+                Node::And(a, b) => open.extend([a.node(), b.node()]),
+                Node::Input(_) => found.push(node),
+                Node::False => {}
+            }
+        }
+        found
     }
 
     /// The wanted nodes, in a new graph.

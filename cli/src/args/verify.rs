@@ -1,6 +1,6 @@
 //! Arguments of `verify`.
 
-use super::{Input, Properties};
+use super::{EngineChoice, Input, Properties};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,6 +11,13 @@ pub struct VerifyArgs {
     pub input: Input,
     #[command(flatten)]
     pub asked: Properties,
+    /// Compare with this older program instead: can an output differ, given the same inputs at the same times?
+    #[arg(long, value_name = "OLD", conflicts_with_all = ["never", "always", "reachable", "aiger", "write_test"])]
+    pub same_as: Option<PathBuf>,
+    /// The engines that must show a run before it is reported, beside the interpreter. Default: all that can be built
+    /// here.
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    pub replay: Option<EngineChoice>,
     /// Latched devices begin with 0, as on a new PLC. Default: with any value.
     #[arg(long)]
     pub cleared: bool,

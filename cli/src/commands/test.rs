@@ -177,7 +177,7 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
 
 /// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a
 /// cache a temporary one.
-enum BuildFolder {
+pub(super) enum BuildFolder {
     Kept(Slot),
     Temporary(tempfile::TempDir),
     /// The interpreter is there already.
@@ -185,7 +185,7 @@ enum BuildFolder {
 }
 
 impl BuildFolder {
-    fn take() -> std::io::Result<Self> {
+    pub(super) fn take() -> std::io::Result<Self> {
         let kept = cache::folder().and_then(|cache| Slot::take(&cache, "engines"));
         match kept {
             Ok(slot) => Ok(BuildFolder::Kept(slot)),
@@ -193,7 +193,7 @@ impl BuildFolder {
         }
     }
 
-    fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &Path {
         match self {
             BuildFolder::Kept(slot) => slot.path(),
             BuildFolder::Temporary(folder) => folder.path(),
@@ -202,7 +202,7 @@ impl BuildFolder {
     }
 }
 
-fn engines(choice: EngineChoice) -> Vec<EngineKind> {
+pub(super) fn engines(choice: EngineChoice) -> Vec<EngineKind> {
     match choice {
         EngineChoice::Interp => vec![EngineKind::Interp],
         EngineChoice::C => vec![EngineKind::C],

@@ -1,6 +1,8 @@
 //! `rungc verify`.
 
+mod engines;
 mod report;
+mod same;
 mod test_file;
 
 use super::check::draw;
@@ -23,6 +25,9 @@ const TIMEOUT_MS: u64 = 60_000;
 
 /// Decides properties of a program.
 pub fn run(args: &VerifyArgs, cx: Context) -> Result {
+    if let Some(old) = &args.same_as {
+        return same::run(args, old, cx);
+    }
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = read(&subject, &mut reporter)?;
@@ -61,6 +66,27 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             (decide(&module, &asked.property, &options), begin.elapsed())
         })
         .collect();
+    let found = asked
+        .iter()
+        .zip(&decided)
+        .filter_map(|(asked, (decision, _))| {
+            let Verdict::Found(trace) = &decision.verdict else {
+                return None;
+            };
+            let conditions = asked.property.conditions().into_iter();
+            Some(engines::Shown {
+                what: &asked.text,
+                program: 0,
+                devices: conditions.flat_map(Condition::devices).collect(),
+                trace,
+            })
+        });
+    engines::replay(
+        args.replay,
+        std::slice::from_ref(&module),
+        &found.collect::<Vec<_>>(),
+        cx,
+    )?;
     let results: Vec<report::Result> = asked
         .iter()
         .zip(&decided)

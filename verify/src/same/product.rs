@@ -173,6 +173,14 @@ impl<'m> Product<'m> {
         self.begin_equal(&mut system, names);
         let mut seen = FxHashSet::default();
         system.inputs.retain(|(lit, _)| seen.insert(*lit));
+        for conditions in [
+            &mut system.constraints,
+            &mut system.wishes,
+            &mut system.first_wishes,
+        ] {
+            let mut seen = FxHashSet::default();
+            conditions.retain(|lit| seen.insert(*lit));
+        }
         system.sliced()
     }
 

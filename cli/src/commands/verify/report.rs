@@ -3,7 +3,7 @@
 use crate::commands::{Outcome, counted};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
-use rungc_verify::model::{Key, device_of};
+use rungc_verify::model::{Gap, Key, device_of};
 use rungc_verify::property::Property;
 use rungc_verify::prove::{Decision, Options, Verdict, Why};
 use rungc_verify::replay::{Change, Setting, story};
@@ -55,7 +55,8 @@ impl Result<'_> {
     }
 }
 
-fn reason(why: &Why) -> String {
+/// Why something is not decided, in words.
+pub fn reason(why: &Why) -> String {
     match why {
         Why::Time { scans } => format!(
             "the time was up; no run of {} does it",
@@ -92,16 +93,7 @@ pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[
             }
             Verdict::Proved => {}
         }
-        for gap in &result.decision.gaps {
-            let step = gap
-                .step
-                .map_or_else(String::new, |step| format!(" (network at step {step})"));
-            let _ = writeln!(
-                text,
-                "            not modelled, any value possible: {}{step}",
-                gap.what
-            );
-        }
+        gaps(&mut text, &result.decision.gaps);
         let unwritten = &result.decision.unwritten;
         if !unwritten.is_empty() {
             let names = list(unwritten);
@@ -123,8 +115,22 @@ pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[
     text
 }
 
+/// What is not modelled, a line each.
+pub fn gaps(text: &mut String, gaps: &[Gap]) {
+    for gap in gaps {
+        let step = gap
+            .step
+            .map_or_else(String::new, |step| format!(" (network at step {step})"));
+        let what = &gap.what;
+        let _ = writeln!(
+            text,
+            "            not modelled, any value possible: {what}{step}"
+        );
+    }
+}
+
 /// What every proof supposes.
-fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
+pub fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
     let ms = options.world.scan_ms;
     let mut lines = vec![
         "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
@@ -136,7 +142,7 @@ fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
             true => "latched devices begin with 0".to_string(),
             false => "latched devices begin with any value, all others as at power-on".to_string(),
         },
-        "nothing but the program writes the devices that it writes, except inputs and `--free`"
+        "nothing but the program writes the devices that it writes, except inputs and `--free`: no panel, no other PLC"
             .to_string(),
     ];
     lines.extend(
@@ -165,7 +171,7 @@ fn list(keys: &[Key]) -> String {
 }
 
 /// A run, a line for each scan in which something changes.
-fn tell(text: &mut String, module: &Module, story: &[Change]) {
+pub fn tell(text: &mut String, module: &Module, story: &[Change]) {
     let settings = |settings: &[Setting]| -> String {
         let settings = settings.iter();
         let settings = settings.map(|(name, device, value)| setting(module, name, *device, *value));

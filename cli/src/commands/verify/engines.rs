@@ -1,0 +1,97 @@
+//! Runs on emitted C and Rust before they are reported.
+
+use crate::args::EngineChoice;
+use crate::commands::test::{BuildFolder, engines};
+use crate::commands::{Context, Failure};
+use crate::progress;
+use rungc_ir::Module;
+use rungc_sim::engines::{BuildError, EngineKind, build};
+use rungc_syntax::DeviceClass;
+use rungc_verify::engines::compare;
+use rungc_verify::search::Trace;
+
+/// A run that the interpreter has shown.
+pub struct Shown<'a> {
+    /// What it shows, as it was asked for.
+    pub what: &'a str,
+    /// The program, by number.
+    pub program: usize,
+    /// The devices that are compared after every scan.
+    pub devices: Vec<(DeviceClass, u32)>,
+    pub trace: &'a Trace,
+}
+
+/// Replays runs on the engines chosen, or on all that can be built here.
+///
+/// # Errors
+///
+/// An engine does otherwise, or one that was chosen cannot be built.
+pub fn replay(
+    choice: Option<EngineChoice>,
+    modules: &[Module],
+    runs: &[Shown],
+    cx: Context,
+) -> Result<(), Failure> {
+    let kinds = engines(choice.unwrap_or(EngineChoice::All)).into_iter();
+    let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
+    if runs.is_empty() || kinds.is_empty() {
+        return Ok(());
+    }
+    let folder = BuildFolder::take()?;
+    for kind in kinds {
+        let built = progress::spin("building the engine", || {
+            build(kind, modules, folder.path())
+        });
+        let mut engine = match (built, choice) {
+            (Ok(engine), _) => engine,
+            // Nobody asked for this engine, and its compiler is not there.
+            (Err(error), None) if lacks_tool(kind, &error) => {
+                let name = kind.name();
+                cx.note(&format!(
+                    "    Not replayed on {name}: {}",
+                    first_line(&error)
+                ));
+                continue;
+            }
+            (Err(error), _) => return Err(Failure::Because(error.to_string())),
+        };
+        for run in runs {
+            let module = (run.program, &modules[run.program]);
+            compare(engine.as_mut(), module, &run.devices, run.trace).map_err(|why| {
+                let (name, what) = (kind.name(), run.what);
+                Failure::Because(format!(
+                    "the engines of rungc disagree, so no verdict can be trusted: replaying the run for `{what}` on \
+                     {name}: {why}; please report this with the program"
+                ))
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a tool is missing, as opposed to a fault of what was emitted.
+fn lacks_tool(kind: EngineKind, error: &BuildError) -> bool {
+    let runs = |tool: &str| {
+        let mut command = std::process::Command::new(tool);
+        command
+            .arg("--version")
+            .output()
+            .is_ok_and(|output| output.status.success())
+    };
+    match (error, kind) {
+        (BuildError::Io { .. }, _) => true,
+        (BuildError::Tool { .. }, EngineKind::C) => {
+            !runs(&std::env::var("CC").unwrap_or_else(|_| "cc".to_string())) || !runs("make")
+        }
+        (BuildError::Tool { .. }, _) => !runs("cargo") || !runs("rustc"),
+    }
+}
+
+fn first_line(error: &BuildError) -> String {
+    let text = error.to_string();
+    text.lines()
+        .next()
+        .unwrap_or_default()
+        .trim_end_matches(':')
+        .to_string()
+}

@@ -1,0 +1,230 @@
+//! `--same-as`: two programs.
+
+use super::engines::{self, Shown};
+use super::report;
+use crate::args::{Input, VerifyArgs};
+use crate::commands::properties::{Reader, module};
+use crate::commands::subject::{self, Subject};
+use crate::commands::{Context, Failure, Outcome, Result, counted, read, say};
+use crate::report::{Findings, Reporter};
+use rungc_frontend::Read;
+use rungc_sim::Target;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, Span, codes};
+use rungc_verify::property::{Condition, Property};
+use rungc_verify::prove::{Options, Verdict};
+use rungc_verify::same::{Compared, Output, compare};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Compares a program with an older one.
+pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
+    let subject = subject::one(&args.input, cx)?;
+    let before = subject::one(
+        &Input {
+            file: Some(old.to_owned()),
+            reading: args.input.reading.clone(),
+        },
+        cx,
+    )?;
+    let mut reporter = Reporter::new(&subject.reporting, cx, false);
+    let (read_old, read_new) = (
+        read(&before, &mut reporter)?,
+        read(&subject, &mut reporter)?,
+    );
+    let reader = Reader {
+        args: &args.asked,
+        subject: &subject,
+        program: &read_new.program,
+        cx,
+    };
+    let assumed = reader.assumed()?;
+    let options = super::options(args, &reader, &assumed)?;
+    let looked = || options.assumed.iter();
+    let old_module = module(&before, &read_old, looked(), &mut reporter)?;
+    let new_module = module(&subject, &read_new, looked(), &mut reporter)?;
+    let (Some(old_module), Some(new_module)) = (old_module, new_module) else {
+        reporter.finish()?;
+        return Ok(Outcome::Unusable);
+    };
+    if old_module.model.name != new_module.model.name {
+        let models = [&old_module, &new_module].map(|module| module.model.name.to_uppercase());
+        let why = format!(
+            "the programs are for different models: {} and {}",
+            models[0], models[1]
+        );
+        return Err(Failure::Because(why));
+    }
+    let modules = [old_module, new_module];
+    let compared = compare(&modules[0], &modules[1], &options);
+    let names = [&before, &subject].map(|subject| subject.file.display().to_string());
+    let mut shown = Vec::new();
+    for output in &compared.outputs {
+        if let Verdict::Found(trace) = &output.verdict {
+            shown.extend([0, 1].map(|program| Shown {
+                what: "an output that differs",
+                program,
+                devices: vec![(DeviceClass::Y, output.number)],
+                trace,
+            }));
+        }
+    }
+    engines::replay(args.replay, &modules, &shown, cx)?;
+    let for_people = reporter.is_for_people();
+    publish(&subject, &read_new, &compared, reporter)?;
+    if for_people {
+        let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
+        say(&text(&compared, &names, &modules[1], &options, &assumed))?;
+    }
+    let outcomes = compared
+        .outputs
+        .iter()
+        .map(|output| outcome(&output.verdict));
+    Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+fn outcome(verdict: &Verdict) -> Outcome {
+    match verdict {
+        Verdict::Proved => Outcome::Success,
+        Verdict::Undecided(_) => Outcome::Undecided,
+        Verdict::Found(_) => Outcome::Failed,
+    }
+}
+
+fn named(output: &Output) -> Device {
+    Device {
+        class: DeviceClass::Y,
+        number: output.number,
+    }
+}
+
+/// Reports outputs that differ, or may, as diagnostics where they are written.
+fn publish(
+    subject: &Subject,
+    read: &Read,
+    compared: &Compared,
+    mut reporter: Reporter,
+) -> std::result::Result<(), Failure> {
+    let mut diagnostics = Diagnostics::new();
+    for output in &compared.outputs {
+        let name = named(output);
+        let (code, text) = match &output.verdict {
+            Verdict::Proved => continue,
+            Verdict::Found(trace) => {
+                let scans = counted(trace.scans.len(), "scan");
+                (
+                    &codes::OUTPUTS_DIFFER,
+                    format!("`{name}` can differ from the older program, after {scans}"),
+                )
+            }
+            Verdict::Undecided(why) => {
+                let reason = report::reason(why);
+                (
+                    &codes::SAMENESS_UNDECIDED,
+                    format!("`{name}` may differ from the older program: {reason}"),
+                )
+            }
+        };
+        let written = read.program.instrs.iter().filter(|instr| {
+            let first = instr.operands.first().map(|operand| &operand.kind);
+            matches!(first, Some(OperandKind::Device(device, None)) if *device == name)
+                && !instr.mnemonic.as_str().starts_with(['L', 'A'])
+        });
+        let span = written.map(|instr| instr.span).next();
+        let mut diagnostic = code.at(span.unwrap_or(Span::default()), text);
+        if span.is_some() {
+            diagnostic.label = format!("`{name}` is written here").into();
+        }
+        diagnostics.push(diagnostic);
+    }
+    reporter.add(&Findings::new(
+        &subject.file,
+        &read.program,
+        diagnostics,
+        &subject.reporting,
+    ))?;
+    Ok(reporter.finish()?)
+}
+
+/// The answer in words.
+fn text(
+    compared: &Compared,
+    names: &[String; 2],
+    module: &rungc_ir::Module,
+    options: &Options,
+    assumed: &[String],
+) -> String {
+    let mut text = String::new();
+    let same: Vec<String> = compared
+        .outputs
+        .iter()
+        .filter(|output| output.verdict == Verdict::Proved)
+        .map(|output| named(output).to_string())
+        .collect();
+    if !same.is_empty() {
+        let list = same.join(", ");
+        let all = if same.len() == compared.outputs.len() {
+            "all outputs: "
+        } else {
+            ""
+        };
+        let _ = writeln!(text, "the same    {all}{list}");
+    }
+    for output in &compared.outputs {
+        let (name, seconds) = (named(output), output.time.as_secs_f64());
+        match &output.verdict {
+            Verdict::Proved => continue,
+            Verdict::Found(trace) => {
+                let _ = writeln!(text, "differs     {name} ({seconds:.2} s)");
+                let property =
+                    Target::parse(&name.to_string()).map(|t| Property::Never(Condition::On(t)));
+                if let Ok(property) = property {
+                    let story = rungc_verify::replay::story(module, &property, trace);
+                    let on = story
+                        .last()
+                        .is_some_and(|last| last.after.iter().any(|(.., value)| *value != 0));
+                    report::tell(&mut text, module, &story);
+                    let (old, new) = (names[0].as_str(), names[1].as_str());
+                    let _ = writeln!(
+                        text,
+                        "            {:<26}  in {new}; {} in {old}",
+                        "",
+                        i32::from(!on)
+                    );
+                }
+            }
+            Verdict::Undecided(why) => {
+                let _ = writeln!(text, "not decided {name} ({seconds:.2} s)");
+                let _ = writeln!(text, "            {}", report::reason(why));
+            }
+        }
+        report::gaps(&mut text, &output.gaps);
+    }
+    if !compared.same_outside {
+        let _ = writeln!(
+            text,
+            "not compared: what the programs send to modules, serial ports and pulse outputs"
+        );
+    }
+    if !same.is_empty() {
+        let _ = writeln!(text, "Proved for this model under these assumptions:");
+        for line in report::assumptions(options, assumed) {
+            let _ = writeln!(text, "  - {line}");
+        }
+        let calls: Vec<&str> = compared
+            .functions
+            .iter()
+            .map(|gap| gap.what.as_str())
+            .collect();
+        if !calls.is_empty() {
+            let list = rungc_syntax::order::set(calls)
+                .into_iter()
+                .collect::<Vec<_>>()
+                .join(", ");
+            let _ = writeln!(
+                text,
+                "  - from the same values this makes the same in both programs: {list}"
+            );
+        }
+    }
+    text
+}
