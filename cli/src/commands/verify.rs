@@ -6,7 +6,7 @@ mod same;
 mod test_file;
 
 use super::check::draw;
-use super::properties::{Reader, module};
+use super::properties::{Asked, Reader, module};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, read, say, write_file};
 use crate::args::VerifyArgs;
@@ -66,27 +66,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             (decide(&module, &asked.property, &options), begin.elapsed())
         })
         .collect();
-    let found = asked
-        .iter()
-        .zip(&decided)
-        .filter_map(|(asked, (decision, _))| {
-            let Verdict::Found(trace) = &decision.verdict else {
-                return None;
-            };
-            let conditions = asked.property.conditions().into_iter();
-            Some(engines::Shown {
-                what: &asked.text,
-                program: 0,
-                devices: conditions.flat_map(Condition::devices).collect(),
-                trace,
-            })
-        });
-    engines::replay(
-        args.replay,
-        std::slice::from_ref(&module),
-        &found.collect::<Vec<_>>(),
-        cx,
-    )?;
+    let runs = shown(&asked, &decided);
+    engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
     let results: Vec<report::Result> = asked
         .iter()
         .zip(&decided)
@@ -114,6 +95,24 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// The runs that were found, to be shown on other engines.
+fn shown<'a>(asked: &'a [Asked], decided: &'a [(Decision, Duration)]) -> Vec<engines::Shown<'a>> {
+    let pairs = asked.iter().zip(decided);
+    let found = pairs.filter_map(|(asked, (decision, _))| {
+        let Verdict::Found(trace) = &decision.verdict else {
+            return None;
+        };
+        let conditions = asked.property.conditions().into_iter();
+        Some(engines::Shown {
+            what: &asked.text,
+            program: 0,
+            devices: conditions.flat_map(Condition::devices).collect(),
+            trace,
+        })
+    });
+    found.collect()
 }
 
 /// What is supposed of the world around the program, and how long to try.
