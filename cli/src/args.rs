@@ -97,8 +97,8 @@ pub enum Command {
     Serve(RunArgs),
     /// Run many PLCs in lock step, each with its ports or its topics of a broker, until Ctrl-C.
     ///
-    /// At the end, it says how many scans there were and how many were missed, how late they began, and what a PLC takes
-    /// in memory.
+    /// At the end, it says how many scans there were and how many were missed, how late they began, and what a PLC
+    /// takes in memory.
     Fleet(FleetArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),

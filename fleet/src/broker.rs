@@ -53,7 +53,7 @@ impl Broker {
         let parts = plcs.chunks((share as usize).clamp(1, SHARE));
         let many = parts.len() > 1;
         let (mut connections, mut rows, mut taken) = (Vec::new(), Vec::new(), Vec::new());
-        // Processes in containers have the same number, but clients of a broker are told apart by their names.
+        // Processes in containers have the same number, but clients of a broker are distinguished by their names.
         let own = RandomState::new().build_hasher().finish();
         for (part, plcs) in parts.enumerate() {
             let mut connection = usual.clone();
@@ -101,7 +101,7 @@ impl Broker {
         })
     }
 
-    /// Before a scan: devices take what topics have told since the last one. Returns what there is to report.
+    /// Before a scan: devices take the values that topics have got since the last one. Returns what there is to report.
     pub fn take(&mut self, groups: &mut [Group<'_>]) -> Vec<String> {
         let (rows, taken) = (&self.rows, &mut self.taken);
         self.io.take_rows(&mut |connection, place, row, values| {
@@ -118,7 +118,7 @@ impl Broker {
         })
     }
 
-    /// After a scan: topics are told what the devices are, as often as the broker is to be told.
+    /// After a scan: topics get the values of devices, as often as the broker is to get some.
     pub fn give(&mut self, groups: &mut [Group<'_>], now_ms: u64) {
         if now_ms < self.next_ms {
             return;

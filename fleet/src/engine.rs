@@ -35,7 +35,7 @@ impl At {
         }
     }
 
-    /// The devices that a target consists of, with the part of the value for each; `None` of what is no device of the
+    /// The devices that a target consists of, with the part of the value for each; `None` of what is not a device of the
     /// PLC itself: channels of modules, pulses, texts.
     pub fn parts(target: Target, value: f64) -> Option<Vec<(At, i32)>> {
         let integer = value as i64;
@@ -86,7 +86,7 @@ pub enum Trouble {
     Compiler {
         /// The command.
         command: String,
-        /// The begin of what it says.
+        /// The first lines of what it says.
         output: String,
     },
     /// A child ended before its time.

@@ -1,4 +1,5 @@
-//! `fleet.toml`: which programs run how often, and what each of their PLCs is connected to. Every mistake with its place.
+//! `fleet.toml`: which programs run how often, and what each of their PLCs is connected to. Every mistake with its
+//! place.
 
 use crate::broker::{Broker, NUMBER, Rows};
 use rungc_models::Model;
@@ -17,7 +18,7 @@ use toml::de::{DeTable, DeValue};
 /// PLCs of one program at most; a device number of `{n}` stays short.
 const MOST: i64 = 1_000_000;
 
-/// Units behind a port at most: Modbus has no others.
+/// Units of a port at most: Modbus has no others.
 const MOST_UNITS: i64 = 247;
 
 /// The longest cycle, spread or repetition, in milliseconds.
@@ -99,7 +100,7 @@ pub struct Plcs {
     pub repeat_ms: Option<u64>,
     /// Devices that are stored though the program may not name them: class, first and last number.
     pub store: Vec<(DeviceClass, u32, u32)>,
-    /// What a broker is told and tells.
+    /// What a broker reports and is sent.
     pub topics: Topics,
 }
 

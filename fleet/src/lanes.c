@@ -27,32 +27,28 @@ typedef struct request {
 static NAME_lanes *blocks;
 static uint32_t block_count;
 
-/* The PLC whose struct is filled in, and whether it was changed. */
-static NAME_plc open_plc;
-static uint32_t opened = UINT32_MAX;
-static bool changed;
-
-static void close_plc(void)
+/* Where the lanes of a bit are; NULL if the program does not store it. */
+static plc_lanes *find_bit(NAME_lanes *all, unsigned device, uint32_t number)
 {
-    if (changed) {
-        NAME_lanes_load(&blocks[opened / PLC_LANES], opened % PLC_LANES, &open_plc);
+    plc_lanes *found = NULL;
+
+    switch (device) {
+BITS
+    default:
+        break;
     }
-    changed = false;
-    opened = UINT32_MAX;
+    (void)all;
+    (void)number;
+    return found;
 }
 
-static void open_one(uint32_t plc)
+static bool is_bit(unsigned device)
 {
-    if (plc != opened) {
-        close_plc();
-        NAME_lanes_store(&blocks[plc / PLC_LANES], plc % PLC_LANES, &open_plc);
-        opened = plc;
-    }
+    return device <= (unsigned)PLC_CLASS_S;
 }
 
 static void scan(const request *asked)
 {
-    close_plc();
     for (uint32_t block = 0; block < block_count; block++) {
         NAME_lanes_scan(&blocks[block], asked->number, (uint32_t)asked->value);
     }
@@ -62,18 +58,45 @@ static void scan(const request *asked)
 
 static void read_devices(const request *asked)
 {
-    open_one(asked->plc);
+    NAME_lanes *const all = &blocks[asked->plc / PLC_LANES];
+    const unsigned lane = asked->plc % PLC_LANES;
+
     for (uint32_t n = 0; n < asked->count; n++) {
+        const uint32_t number = asked->number + n;
         int32_t answer[2] = {0, 0};
-        answer[0] = NAME_read(&open_plc, (plc_class)asked->device, asked->number + n, &answer[1]) ? 1 : 0;
+
+        if (is_bit(asked->device)) {
+            const plc_lanes *const bit = find_bit(all, asked->device, number);
+            answer[0] = (bit != NULL) ? 1 : 0;
+            answer[1] = ((bit != NULL) && plc_in_lane(*bit, lane)) ? 1 : 0;
+        } else {
+            /* Words, timers and counters are in the struct of the PLC. */
+            answer[0] = NAME_read(&all->lane[lane], (plc_class)asked->device, number, &answer[1]) ? 1 : 0;
+        }
         (void)fwrite(answer, sizeof answer, 1, stdout);
     }
 }
 
 static void write_device(const request *asked)
 {
-    open_one(asked->plc);
-    changed = NAME_write(&open_plc, (plc_class)asked->device, asked->number, asked->value) || changed;
+    NAME_lanes *const all = &blocks[asked->plc / PLC_LANES];
+    const unsigned lane = asked->plc % PLC_LANES;
+    const plc_class device = (plc_class)asked->device;
+
+    if (is_bit(asked->device)) {
+        plc_lanes *const bit = find_bit(all, asked->device, asked->number);
+        if (bit != NULL) {
+            plc_put_lane(bit, lane, asked->value != 0);
+        }
+    } else if ((device == PLC_CLASS_TS) || (device == PLC_CLASS_CS)) {
+        /* Contacts are in lanes, too. */
+        static NAME_plc plc;
+        NAME_lanes_store(all, lane, &plc);
+        (void)NAME_write(&plc, device, asked->number, asked->value);
+        NAME_lanes_load(all, lane, &plc);
+    } else {
+        (void)NAME_write(&all->lane[lane], device, asked->number, asked->value);
+    }
 }
 
 static void say_size(void)

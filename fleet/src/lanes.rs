@@ -6,6 +6,7 @@ use rungc_codegen_c::{Members, Options, emit};
 use rungc_ir::Module;
 use rungc_models::runs::name_class;
 use rungc_rt::Class;
+use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
@@ -64,7 +65,9 @@ pub fn build(module: &Module, folder: &Path) -> Result<PathBuf, Trouble> {
         lanes: true,
         ..Options::default()
     };
-    let main = MAIN.replace("NAME", &module.name);
+    let main = MAIN
+        .replace("BITS\n", &bits(module))
+        .replace("NAME", &module.name);
     let mut command = Command::new("cc");
     command.args(["-std=c99", "-O2", "-o", "plcs", "plcs.c"]);
     let written = folder.join("plcs.c");
@@ -89,6 +92,38 @@ pub fn build(module: &Module, folder: &Path) -> Result<PathBuf, Trouble> {
         command: format!("cc in {}", folder.display()),
         output: quoted.join("\n"),
     })
+}
+
+/// The cases that find the lanes of each bit.
+fn bits(module: &Module) -> String {
+    let members = Members::new(module);
+    let mut cases = String::new();
+    for class in [
+        DeviceClass::X,
+        DeviceClass::Y,
+        DeviceClass::M,
+        DeviceClass::S,
+    ] {
+        let areas = module
+            .layout
+            .areas
+            .iter()
+            .filter(|area| area.class == class);
+        let numbers = areas.flat_map(|area| area.first..area.first + area.count);
+        let stored = numbers.filter_map(|number| Some((number, members.of(class, number)?)));
+        let lines: Vec<String> = stored
+            .map(|(number, member)| {
+                format!("        case {number}: found = &all->{member}; break;\n")
+            })
+            .collect();
+        if !lines.is_empty() {
+            let (name, lines) = (class.prefix(), lines.concat());
+            cases.push_str(&format!(
+                "    case PLC_CLASS_{name}:\n        switch (number) {{\n{lines}        default: break;\n        }}\n        break;\n"
+            ));
+        }
+    }
+    cases
 }
 
 impl<'m> Lanes<'m> {

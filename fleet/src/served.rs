@@ -23,7 +23,7 @@ pub struct Served {
     pub requests: [u64; 2],
 }
 
-/// A port, and the PLCs behind it.
+/// A port, and the PLCs that it reaches.
 struct Door {
     server: Server,
     plcs: Range<u32>,
@@ -33,7 +33,7 @@ struct Door {
 struct Reached<'a> {
     engine: RefCell<&'a mut dyn Engine>,
     plc: Cell<u32>,
-    /// Those behind the port.
+    /// Those of the port.
     plcs: Range<u32>,
     type_code: u16,
     /// RUN or STOP was asked for: of which PLC.
@@ -42,7 +42,7 @@ struct Reached<'a> {
 
 impl Served {
     /// Opens the ports of `count` PLCs from an address on: a port for each, or for each `units` of them; the first PLC
-    /// behind a port is unit 1. Port 0 stands for free ports.
+    /// of a port is unit 1. Port 0 stands for free ports.
     ///
     /// # Errors
     /// The address that is not to be had, and what the system says.
@@ -52,9 +52,9 @@ impl Served {
         units: Option<u32>,
         service: Service,
     ) -> Result<Self, (SocketAddr, io::Error)> {
-        let behind = units.unwrap_or(1).max(1);
+        let share = units.unwrap_or(1).max(1);
         let mut doors = Vec::new();
-        for (n, plc) in (0..count).step_by(behind as usize).enumerate() {
+        for (n, plc) in (0..count).step_by(share as usize).enumerate() {
             let mut address = first;
             if first.port() != 0 {
                 let port = usize::from(first.port()) + n;
@@ -67,7 +67,7 @@ impl Served {
             let server = Server::bind(address, service).map_err(|error| (address, error))?;
             doors.push(Door {
                 server,
-                plcs: plc..count.min(plc + behind),
+                plcs: plc..count.min(plc + share),
             });
         }
         Ok(Served {
@@ -78,13 +78,13 @@ impl Served {
         })
     }
 
-    /// Where the ports are, with how many PLCs are behind each.
+    /// Where the ports are.
     pub fn addresses(&self) -> impl Iterator<Item = io::Result<SocketAddr>> {
         self.doors.iter().map(|door| door.server.address())
     }
 
-    /// Carries out and answers what has been asked since the last scan. Calls `switch` for PLCs that are asked to change
-    /// between RUN and STOP.
+    /// Carries out and answers what has been asked since the last scan. Calls `switch` for PLCs that are asked to
+    /// change between RUN and STOP.
     pub fn poll(&mut self, engine: &mut dyn Engine, switch: &mut dyn FnMut(u32, bool)) {
         let (count, next) = (self.doors.len(), self.next);
         let turn = |n: usize| (n + count - next) % count < ASKED_AT_ONCE;

@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             What::Book => book::make()?,
             What::Commands => rungc::commands()?,
             What::Diagram => rungc::diagrams()?,
-            What::Figures | What::Benchmarks | What::Snapshots | What::Screens if args.check => {
+            What::Figures | What::Benchmarks | What::Snapshots if args.check => {
                 return Err(format!(
                     "{} cannot be checked here: cargo test does that where it can be done",
                     what.to_possible_value()
@@ -92,7 +92,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
                 continue;
             }
             What::Screens => {
-                tools::screens()?;
+                tools::screens(args.check)?;
                 continue;
             }
         };

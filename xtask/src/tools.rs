@@ -50,18 +50,29 @@ pub fn snapshots() -> Result<(), Problem> {
     run(cargo(&args).envs([("INSTA_UPDATE", "always"), ("INSTA_FORCE_PASS", "1")]))
 }
 
-/// Takes a picture of the live page, and puts it into the book.
-pub fn screens() -> Result<(), Problem> {
+/// How a PNG begins: its signature, and a header with width and height.
+const PNG_HEAD: usize = 24;
+
+/// Takes a picture of the live page, and puts it into the book; if it is only checked, it has to be one of the same
+/// size. What it shows differs from time to time.
+pub fn screens(check: bool) -> Result<(), Problem> {
     let taken = root().join("target/screens");
+    if taken.exists() {
+        fs::remove_dir_all(&taken)?;
+    }
     fs::create_dir_all(&taken)?;
     let args = ["test", "-p", "rungc", "--test", "live", "in_a_browser"];
     run(cargo(&args).env("RUNGC_PICTURES", &taken))?;
-    let page = fs::copy(
-        taken.join("live-light.png"),
-        root().join("docs/src/live.png"),
-    );
-    page.map_err(|error| format!("{error}: is RUNGC_BROWSER set?"))?;
-    Ok(())
+    let picture = fs::read(taken.join("live-light.png"))
+        .map_err(|error| format!("{error}: is RUNGC_BROWSER set?"))?;
+    let place = root().join("docs/src/live.png");
+    if !check {
+        return Ok(fs::write(place, picture)?);
+    }
+    match picture.get(..PNG_HEAD) == fs::read(place)?.get(..PNG_HEAD) {
+        true => Ok(()),
+        false => Err("docs/src/live.png is not of the size that is taken now".into()),
+    }
 }
 
 /// The crates of the workspace that are not published.

@@ -35,8 +35,8 @@ pub trait Map {
         None
     }
 
-    /// Whether a request over Modbus TCP to this unit is for these devices: 0, 1 and 255 mean the PLC itself rather than
-    /// a device connected to it. A map of several PLCs is that of this unit from then on.
+    /// Whether a request over Modbus TCP to this unit is for these devices: 0, 1 and 255 mean the PLC itself rather
+    /// than a device connected to it. A map of several PLCs is that of this unit from then on.
     fn takes_unit(&mut self, unit: u8) -> bool {
         matches!(unit, 0 | 1 | 255)
     }

@@ -162,8 +162,8 @@ impl Io {
         std::mem::take(&mut self.said)
     }
 
-    /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its connection
-    /// and of the row in it, and the values of its devices; `None` of one that stays as it is.
+    /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its
+    /// connection and of the row in it, and the values of its devices; `None` of one that stays as it is.
     pub fn take_rows(
         &mut self,
         set: &mut dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>),
@@ -187,8 +187,8 @@ impl Io {
         })
     }
 
-    /// As [`Io::give`], for a host of several PLCs: calls `get` with each row that is written, as [`Io::take_rows`] does;
-    /// it fills in the values.
+    /// As [`Io::give`], for a host of several PLCs: calls `get` with each row that is written, as [`Io::take_rows`]
+    /// does; it fills in the values.
     pub fn give_rows(&mut self, get: &mut dyn FnMut(usize, usize, &Row, &mut [i16])) {
         for (n, running) in self.running.iter_mut().enumerate() {
             let rows = running.connection.rows.iter().enumerate();

@@ -27,8 +27,8 @@ pub fn allow_files(fleet: &Fleet) {
 #[cfg(not(unix))]
 pub fn allow_files(_: &Fleet) {}
 
-/// The most memory that processes have taken so far, in bytes: this one and the others; `None` where the system does not
-/// say (others than Linux).
+/// The most memory that processes have taken so far, in bytes: this one and the others; `None` where the system does
+/// not say (others than Linux).
 pub fn peak(others: &[u32]) -> Option<u64> {
     let own = std::process::id();
     let each = std::iter::once(&own).chain(others);
