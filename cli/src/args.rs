@@ -20,7 +20,7 @@ pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
 pub use properties::Properties;
 pub use serve::ServeArgs;
-pub use test::{TestArgs, TestFormat};
+pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

@@ -41,7 +41,24 @@ fn places(first: Place, count: u32) -> impl Iterator<Item = Place> {
 impl<'m> Machine<'m> {
     /// Executes a body.
     pub(crate) fn run(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
+        if self.observer.is_some() {
+            return self.run_observed(body, hal);
+        }
         for stmt in body {
+            let flow = self.step(stmt, hal);
+            if flow != Flow::Next {
+                return flow;
+            }
+        }
+        Flow::Next
+    }
+
+    fn run_observed(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
+        for stmt in body {
+            if let Some(mut observer) = self.observer.take() {
+                observer.before(self, stmt);
+                self.observer = Some(observer);
+            }
             let flow = self.step(stmt, hal);
             if flow != Flow::Next {
                 return flow;

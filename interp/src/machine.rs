@@ -8,7 +8,7 @@ use crate::errors::OperationError;
 use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
-use rungc_ir::node::{CellId, EdgeId, FlagId, FunctionKind, TableId, TempId};
+use rungc_ir::node::{CellId, EdgeId, ExprId, FlagId, FunctionKind, Stmt, TableId, TempId};
 use rungc_models::special::RunCommand;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::modbus::Profile;
@@ -95,6 +95,14 @@ pub struct Machine<'m> {
     pub(crate) retained: (String, Vec<RetainedRun>),
     /// What partners on a line read as program memory, from 8000h on.
     pub(crate) program_memory: Option<&'m [u8]>,
+    /// Who looks on.
+    pub(crate) observer: Option<Box<dyn Observer>>,
+}
+
+/// Looks on while a program is executed.
+pub trait Observer: Send {
+    /// A statement is about to be executed.
+    fn before(&mut self, machine: &Machine, stmt: &Stmt);
 }
 
 impl<'m> Machine<'m> {
@@ -128,6 +136,7 @@ impl<'m> Machine<'m> {
             type_code: module.model.type_code(),
             retained: (module.retained_as(), module.retained()),
             program_memory: None,
+            observer: None,
         };
         machine.preset(true);
         machine.power_on();
@@ -156,6 +165,16 @@ impl<'m> Machine<'m> {
                 let _ = self.set_bit(Class::M, number, true);
             }
         }
+    }
+
+    /// Lets someone look on, which takes time: a machine without observer is as fast as if there were none.
+    pub fn observe(&mut self, observer: Box<dyn Observer>) {
+        self.observer = Some(observer);
+    }
+
+    /// Whether a bit expression without `And`, `Or` and `Not` is on now.
+    pub fn is_on(&self, id: ExprId) -> bool {
+        self.eval(id) == Value::Bit(true)
     }
 
     /// The module it runs.

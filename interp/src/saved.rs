@@ -56,6 +56,7 @@ impl Machine<'_> {
             type_code: _,
             retained: _,
             program_memory: _,
+            observer: _,
         } = self;
         Saved {
             devices: devices.cells(),

@@ -19,6 +19,9 @@ impl Lowerer<'_> {
             .max()
             .unwrap_or(0);
         self.depths.push(depth);
+        if let Some(marks) = &mut self.marks {
+            marks.exprs.push(self.at as u32);
+        }
         self.module.add(expr)
     }
 

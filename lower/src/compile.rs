@@ -1,6 +1,7 @@
 //! The whole way from a program to its module.
 
-use crate::{LowerOptions, lower};
+use crate::marks::Marks;
+use crate::{LowerOptions, lower, lower_marked};
 use rungc_analysis::check::ports::{Setup, setups};
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::{check, latches};
@@ -35,6 +36,8 @@ pub struct CompileOptions {
     pub bounds: Vec<Bound>,
     /// Simplify the module.
     pub optimise: bool,
+    /// Mark the module, which then is not simplified.
+    pub marks: bool,
     /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]);
     /// others stay errors.
     pub warn: Vec<&'static str>,
@@ -45,6 +48,8 @@ pub struct CompileOptions {
 pub struct Compiled {
     /// The module; `None` if there were errors, or if the program's reader could not read all of it.
     pub module: Option<Module>,
+    /// Where its parts come from, if that was asked for.
+    pub marks: Option<Marks>,
     /// All findings.
     pub diagnostics: Diagnostics,
     /// The model it was compiled for.
@@ -68,7 +73,11 @@ pub fn check(program: &Program, options: &CompileOptions) -> Compiled {
 /// Compiles a program.
 pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
     let mut compiled = lowered(program, options);
-    if let Some(module) = compiled.module.as_mut().filter(|_| options.optimise) {
+    if let Some(module) = compiled
+        .module
+        .as_mut()
+        .filter(|_| options.optimise && !options.marks)
+    {
         optimise(module);
     }
     compiled
@@ -122,7 +131,8 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let eased = codes::eased().map(|code| code.id);
     let eased: Vec<_> = eased.filter(|id| options.warn.contains(id)).collect();
     diagnostics.ease(&eased);
-    let module = if diagnostics.has_errors() || !program.is_complete() {
+    let wants_marks = options.marks;
+    let lowered = if diagnostics.has_errors() || !program.is_complete() {
         None
     } else {
         let mut ports = options.ports.clone();
@@ -137,12 +147,26 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
             },
             bounds: options.bounds.clone(),
         };
-        let (module, findings) = lower(&resolved, &options);
+        let (lowered, findings) = match wants_marks {
+            true => {
+                let (lowered, findings) = lower_marked(&resolved, &options);
+                (
+                    lowered.map(|(module, marks)| (module, Some(marks))),
+                    findings,
+                )
+            }
+            false => {
+                let (module, findings) = lower(&resolved, &options);
+                (module.map(|module| (module, None)), findings)
+            }
+        };
         diagnostics.extend(findings.sorted());
-        module
+        lowered
     };
+    let (module, marks) = lowered.unzip();
     Compiled {
         module,
+        marks: marks.flatten(),
         diagnostics,
         model,
         steps: resolved.steps,

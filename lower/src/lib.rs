@@ -34,6 +34,7 @@ mod inline;
 mod input_axes;
 mod interrupt;
 mod logic;
+pub mod marks;
 mod name;
 mod operand;
 mod origins;
@@ -64,6 +65,7 @@ use rungc_models::Model;
 use typed_index_collections::TiVec;
 
 use flow::{Flow, Open};
+use marks::Marks;
 use parts::Item;
 use rungc_rt::{EdgeKind, RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
@@ -84,17 +86,36 @@ pub struct LowerOptions {
 
 /// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors, and then there is no module.
 pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Diagnostics) {
+    let (lowered, findings) = lower_with(resolved, options, None);
+    (lowered.map(|(module, _)| module), findings)
+}
+
+/// As [`lower`], with marks in the module, which say where its parts come from.
+pub fn lower_marked(
+    resolved: &Resolved,
+    options: &LowerOptions,
+) -> (Option<(Module, Marks)>, Diagnostics) {
+    lower_with(resolved, options, Some(Marks::default()))
+}
+
+fn lower_with(
+    resolved: &Resolved,
+    options: &LowerOptions,
+    marks: Option<Marks>,
+) -> (Option<(Module, Marks)>, Diagnostics) {
     let mut findings = Diagnostics::new();
     bounds::check(resolved, &options.bounds, &mut findings);
     let mut reached = Reached::default();
-    let (mut module, specials, indexes) = loop {
+    let (mut module, specials, indexes, marks) = loop {
         let mut lowerer = Lowerer::new(resolved, options, &reached);
+        lowerer.marks.clone_from(&marks);
         lowerer.program(&options.wanted);
         let Lowerer {
             mut module,
             diagnostics,
             specials,
             indexes,
+            marks,
             ..
         } = lowerer;
         if diagnostics.has_errors() || findings.has_errors() {
@@ -103,7 +124,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
         }
         // The scan keeps special devices that an index leads to, too: then it has to be lowered with them.
         if !reached.add(ranges::find(&mut module, &options.wanted)) {
-            break (module, specials, indexes);
+            break (module, specials, indexes, marks);
         }
     };
     bounds::costs(&module, &indexes, &mut findings);
@@ -139,7 +160,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
         .filter(|relay| module.layout.area(DeviceClass::M, relay.number()).is_some())
         .collect();
     debug_assert_eq!(rungc_ir::validate::validate(&module), Ok(()));
-    (Some(module), findings)
+    (Some((module, marks.unwrap_or_default())), findings)
 }
 
 /// State of the walk.
@@ -186,6 +207,8 @@ struct Lowerer<'a> {
     matrices: usize,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
+    /// Where the parts of the module come from, if that is asked for.
+    marks: Option<Marks>,
 }
 
 impl<'a> Lowerer<'a> {
@@ -236,6 +259,7 @@ impl<'a> Lowerer<'a> {
             out: Vec::new(),
             open: Vec::new(),
             heading: None,
+            marks: None,
         }
     }
 
@@ -375,6 +399,7 @@ impl<'a> Lowerer<'a> {
         }
         self.emit(Stmt::Network(self.module.networks.len() as u32));
         self.module.networks.push(network);
+        self.mark_network();
         if self.flow.in_main() {
             self.interruptible();
         }

@@ -96,13 +96,15 @@ impl Lowerer<'_> {
             }
         }
         let on_bus = |this: &mut Self| this.bit_const(true);
-        match (self.logic.bus, self.logic.stack.last().copied()) {
+        let drive = match (self.logic.bus, self.logic.stack.last().copied()) {
             (None, None) => on_bus(self),
             (None, Some(result)) => result,
             (Some(bus), None) => bus,
             (Some(bus), Some(result)) if matches!(self.expr(result), Expr::Bit(true)) => bus,
             (Some(bus), Some(result)) => self.and(bus, result),
-        }
+        };
+        self.mark_output(drive);
+        drive
     }
 
     /// As [`Lowerer::drive`], on for one scan if the instruction is written in its pulse form.

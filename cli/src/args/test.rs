@@ -40,10 +40,19 @@ pub struct TestArgs {
     /// Run all cases, also those that passed before with the same files and compiler.
     #[arg(long)]
     pub no_cache: bool,
+    /// Report what the cases execute of their programs: networks, contacts that decide, coils on and off, transitions,
+    /// timers (docs/src/coverage.md). The interpreter runs them all.
+    #[arg(long, value_enum, value_name = "FORMAT", conflicts_with_all = ["mutants", "watch", "review", "accept", "reject"])]
+    pub coverage: Option<CoverageFormat>,
+    /// Change the programs a little, again and again, and report the changes that no case notices
+    /// (docs/src/mutants.md).
+    #[arg(long, conflicts_with_all = ["watch", "review", "accept", "reject"])]
+    pub mutants: bool,
     /// Format of the results.
     #[arg(long, value_enum, default_value_t = TestFormat::Human)]
     pub format: TestFormat,
-    /// File to write the results to, overwriting an existing one. Default: standard output.
+    /// File to write the results to, or those of --coverage or --mutants, overwriting an existing one. Default: standard
+    /// output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
@@ -61,4 +70,15 @@ pub enum TestFormat {
     Sarif,
     /// Workflow commands of GitHub Actions, which mark the places of failed cases.
     Github,
+}
+
+/// How `test` reports coverage.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CoverageFormat {
+    /// What was not reached, line by line.
+    Text,
+    /// A page with the ladder.
+    Html,
+    /// A tracefile for genhtml and services.
+    Lcov,
 }

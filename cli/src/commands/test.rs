@@ -1,5 +1,6 @@
 //! `rungc test`.
 
+mod coverage;
 mod files;
 mod github;
 mod junit;
@@ -34,6 +35,9 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     }
     let chosen = Chosen::of(args, cx)?;
     let files = chosen.load(args)?;
+    if args.coverage.is_some() || args.mutants {
+        return coverage::run(args, &chosen, files, cx);
+    }
     run_files(args, &chosen, files, cx)
 }
 
@@ -160,18 +164,30 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
         TestFormat::Sarif => visible_json(&sarif::sarif(results)?).into_owned(),
         TestFormat::Github => github::github(results),
     };
+    let (passed, failed) = (results.report.passed(), results.report.failures().count());
+    put(
+        args,
+        &text,
+        &format!("{passed} passed, {failed} failed"),
+        cx,
+    )
+}
+
+/// Prints a report, or writes it to the file that was asked for.
+fn put(
+    args: &TestArgs,
+    text: &str,
+    summary: &str,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
     let Some(path) = &args.output else {
-        return say(&text).map_err(Failure::from);
+        return say(text).map_err(Failure::from);
     };
     let file = AtomicFile::create(path)?;
     let written = file.writer()?.write_all(text.as_bytes());
     written.map_err(|error| file.failed(error))?;
     file.persist()?;
-    let (passed, failed) = (results.report.passed(), results.report.failures().count());
-    let path = path.display();
-    cx.note(&format!(
-        "       Wrote {path}: {passed} passed, {failed} failed"
-    ));
+    cx.note(&format!("       Wrote {}: {summary}", path.display()));
     Ok(())
 }
 

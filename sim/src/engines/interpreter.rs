@@ -3,7 +3,7 @@
 use super::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
 use crate::target::Channel;
-use rungc_interp::Machine;
+use rungc_interp::{Machine, Observer};
 use rungc_ir::Module;
 use rungc_rt::modules::{KINDS, Signal};
 use rungc_rt::{Class, Cx, Operand, Plc, Program, Site, VirtualHal};
@@ -15,7 +15,12 @@ pub struct Interpreter<'m> {
     plcs: Vec<(Machine<'m>, VirtualHal)>,
     /// Which of them is asked.
     current: usize,
+    /// Makes who looks on, for the program of a number.
+    observers: Option<Observers<'m>>,
 }
+
+/// Makes those who look on, by the number of the program.
+pub type Observers<'m> = Box<dyn FnMut(usize) -> Box<dyn Observer> + 'm>;
 
 impl<'m> Interpreter<'m> {
     /// An engine for these programs.
@@ -24,6 +29,15 @@ impl<'m> Interpreter<'m> {
             modules,
             plcs: Vec::new(),
             current: 0,
+            observers: None,
+        }
+    }
+
+    /// An engine for these programs, whose execution others look on.
+    pub fn observed(modules: &'m [Module], observers: Observers<'m>) -> Self {
+        Interpreter {
+            observers: Some(observers),
+            ..Interpreter::new(modules)
         }
     }
 }
@@ -81,7 +95,11 @@ impl Interpreter<'_> {
     fn join(&mut self, number: usize) -> Result<Answer, EngineError> {
         let module = self.modules.get(number);
         let module = module.ok_or(EngineError::NoProgram(number))?;
-        self.plcs.push((Machine::new(module), VirtualHal::new()));
+        let mut machine = Machine::new(module);
+        if let Some(observers) = &mut self.observers {
+            machine.observe(observers(number));
+        }
+        self.plcs.push((machine, VirtualHal::new()));
         Ok(Answer::Ok)
     }
 }

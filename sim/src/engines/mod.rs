@@ -7,7 +7,7 @@ mod interpreter;
 mod process;
 
 pub use build::{BuildError, EngineKind, build};
-pub use interpreter::Interpreter;
+pub use interpreter::{Interpreter, Observers};
 pub use process::Process;
 
 use crate::protocol::{Answer, Request};

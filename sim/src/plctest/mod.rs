@@ -22,7 +22,7 @@ mod wiring;
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
 pub use rules::{Never, RuleKind, Rules, Whenever, Within};
-pub use runner::run;
+pub use runner::{run, run_steps};
 pub use serial::{Item, Port, PortId, Protocol, Sent};
 pub use suite::{Id, Suite};
 pub use trace::Trace;

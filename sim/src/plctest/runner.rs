@@ -48,13 +48,8 @@ pub fn run(
             (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
             )),
-            (Check::Steps { init, steps }, Built::Modules(built)) => {
-                let machine = case.machine.as_deref();
-                wiring::check(machine, case.model, init, steps).and_then(|()| {
-                    let plcs = built.iter().map(|&module| PlcInfo::of(module, suite));
-                    let servers = Servers::new(&case.serve, &suite.modules()[built[0]]);
-                    run_case(engine, case, (plcs.collect(), servers), init, steps)
-                })
+            (Check::Steps { .. }, Built::Modules(built)) => {
+                run_steps(engine, case, built, suite.modules())
             }
         };
         let outcome = Outcome {
@@ -71,6 +66,25 @@ pub fn run(
         }
     }
     report
+}
+
+/// Runs a case whose programs have these numbers among the engine's.
+///
+/// # Errors
+/// Why it fails.
+pub fn run_steps(
+    engine: &mut dyn Engine,
+    case: &Case,
+    built: &[usize],
+    modules: &[Module],
+) -> Result<(), Failure> {
+    let Check::Steps { init, steps } = &case.check else {
+        return Ok(());
+    };
+    wiring::check(case.machine.as_deref(), case.model, init, steps)?;
+    let plcs = built.iter().map(|&module| PlcInfo::of(module, modules));
+    let servers = Servers::new(&case.serve, &modules[built[0]]);
+    run_case(engine, case, (plcs.collect(), servers), init, steps)
 }
 
 /// Whether the compiler raised the error that a case asks for.
@@ -118,8 +132,8 @@ pub(super) struct PlcInfo {
 }
 
 impl PlcInfo {
-    fn of(module: usize, suite: &Suite) -> Self {
-        let program = suite.modules().get(module);
+    fn of(module: usize, modules: &[Module]) -> Self {
+        let program = modules.get(module);
         PlcInfo {
             module,
             takes_events: program.is_some_and(Module::takes_events),

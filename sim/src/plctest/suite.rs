@@ -4,9 +4,11 @@ use super::{Case, CaseProgram, Check, OtherPlc, TestFile};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_lower::marks::Marks;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -33,6 +35,18 @@ pub(super) enum Built {
 /// The PLC's code, the line in the program, and the message of each error.
 type Errors = Vec<(Option<u16>, u32, String)>;
 
+/// How programs are compiled.
+#[derive(Clone, Copy)]
+struct How<'a> {
+    /// Codes of errors that are warnings.
+    warn: &'a [&'static str],
+    /// Whether they are marked.
+    marks: bool,
+}
+
+/// A program, and where its parts come from.
+type Lowered = (Module, Marks);
+
 /// Devices that a host looks at.
 type Devices = Vec<(DeviceClass, u32)>;
 
@@ -41,6 +55,7 @@ type Devices = Vec<(DeviceClass, u32)>;
 pub struct Suite {
     files: Vec<TestFile>,
     modules: Vec<Module>,
+    marks: Vec<Marks>,
     built: Vec<Vec<Built>>,
 }
 
@@ -53,7 +68,18 @@ impl Suite {
 
     /// As [`Suite::compile`], but for cases that are known to pass.
     pub fn compile_but(files: Vec<TestFile>, warn: &[&'static str], known: &BTreeSet<Id>) -> Self {
-        let mut modules = Vec::new();
+        let how = How { warn, marks: false };
+        Suite::compile_as(files, how, known)
+    }
+
+    /// As [`Suite::compile`], with marks that say where the parts of each program come from.
+    pub fn compile_marked(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
+        let how = How { warn, marks: true };
+        Suite::compile_as(files, how, &BTreeSet::new())
+    }
+
+    fn compile_as(files: Vec<TestFile>, how: How, known: &BTreeSet<Id>) -> Self {
+        let mut lowered: Vec<Lowered> = Vec::new();
         let mut built = Vec::with_capacity(files.len());
         for (number, file) in files.iter().enumerate() {
             let shared = Shared::of(file);
@@ -69,14 +95,13 @@ impl Suite {
                     continue;
                 }
                 let Some(first) = shared.first(i) else {
-                    of_file.push(build(case, warn, &mut modules));
+                    of_file.push(build(case, how, &mut lowered));
                     continue;
                 };
                 let compiled = done.entry(first).or_insert_with(|| {
                     let observed = shared.observed(file, first);
-                    let compiled = compile_case(case, observed, warn)?;
-                    modules.push(compiled);
-                    Ok(modules.len() - 1)
+                    lowered.push(compile_case(case, observed, how)?);
+                    Ok(lowered.len() - 1)
                 });
                 of_file.push(match compiled {
                     Ok(module) => Built::Modules(vec![*module]),
@@ -85,11 +110,50 @@ impl Suite {
             }
             built.push(of_file);
         }
+        let (modules, marks) = lowered.into_iter().unzip();
         Suite {
             files,
             modules,
+            marks,
             built,
         }
+    }
+
+    /// Where the parts of a program come from, which has the number that engines give it. They are known only of
+    /// [`Suite::compile_marked`].
+    pub fn marks(&self, module: usize) -> &Marks {
+        &self.marks[module]
+    }
+
+    /// The number of a case's program, and those of the other PLCs in their order; none if one does not compile.
+    pub fn modules_of(&self, id: Id) -> &[usize] {
+        match self.built(id) {
+            Built::Modules(modules) => modules,
+            Built::Refused(_) | Built::Known => &[],
+        }
+    }
+
+    /// The program of a case as it is compiled, and how.
+    pub fn source(&self, id: Id) -> (Program, CompileOptions) {
+        let file = &self.files[id.file];
+        let case = &file.cases[id.case];
+        let shared = Shared::of(file);
+        let observe = match shared.first(id.case) {
+            Some(first) => shared.observed(file, first),
+            None => observed(case, 0),
+        };
+        let model = self
+            .modules_of(id)
+            .first()
+            .map(|&module| self.modules[module].model.id);
+        let read = read_case(case);
+        let options = options(case, 0, observe);
+        let how = How {
+            warn: &[],
+            marks: false,
+        };
+        let options = options_of(model.unwrap_or(case.model), case, (&options, how));
+        (case.with_modules(&read.program).into_owned(), options)
     }
 
     /// The compiled programs, in the order in which engines number them.
@@ -126,12 +190,12 @@ impl Suite {
 }
 
 /// Compiles the programs of a case that shares none.
-fn build(case: &Case, warn: &[&'static str], modules: &mut Vec<Module>) -> Built {
+fn build(case: &Case, how: How, modules: &mut Vec<Lowered>) -> Built {
     let others = (1..).zip(&case.others);
-    let others = others.map(|(plc, other)| compile_other(case, plc, other, warn));
-    let own = compile_case(case, observed(case, 0), warn);
+    let others = others.map(|(plc, other)| compile_other(case, plc, other, how));
+    let own = compile_case(case, observed(case, 0), how);
     let compiled = std::iter::once(own).chain(others);
-    match compiled.collect::<Result<Vec<Module>, Errors>>() {
+    match compiled.collect::<Result<Vec<Lowered>, Errors>>() {
         Ok(compiled) => {
             let first = modules.len();
             modules.extend(compiled);
@@ -239,35 +303,35 @@ fn opened(case: &Case, plc: usize) -> Vec<u8> {
     ports.into_iter().collect()
 }
 
-fn compile_case(case: &Case, observe: Devices, warn: &[&'static str]) -> Result<Module, Errors> {
-    let of_list;
-    let read = match &case.program {
-        CaseProgram::List(list) => {
-            of_list = rungc_frontend::read_text(&format!("{}.il", case.name), list);
-            &of_list
-        }
-        CaseProgram::File(file) => &file.read,
-    };
+/// The program of a case as it is read.
+fn read_case(case: &Case) -> Cow<'_, Read> {
+    match &case.program {
+        CaseProgram::List(list) => Cow::Owned(rungc_frontend::read_text(
+            &format!("{}.il", case.name),
+            list,
+        )),
+        CaseProgram::File(file) => Cow::Borrowed(&file.read),
+    }
+}
+
+fn compile_case(case: &Case, observe: Devices, how: How) -> Result<Lowered, Errors> {
+    let read = read_case(case);
     let program = &case.with_modules(&read.program);
     let compiling = options(case, 0, observe);
-    let compiled = compile_on(case.model, case, program, (&compiling, warn));
-    let compiled = for_boards(case, program, &compiled, (&compiling, warn)).unwrap_or(compiled);
-    finish(read, compiled)
+    let compiled = compile_on(case.model, case, program, (&compiling, how));
+    let compiled = for_boards(case, program, &compiled, (&compiling, how)).unwrap_or(compiled);
+    finish(&read, compiled)
 }
 
 /// The program of another PLC.
-fn compile_other(
-    case: &Case,
-    plc: usize,
-    other: &OtherPlc,
-    warn: &[&'static str],
-) -> Result<Module, Errors> {
+fn compile_other(case: &Case, plc: usize, other: &OtherPlc, how: How) -> Result<Lowered, Errors> {
     let name = format!("{}_{}", case.name, other.name);
     let read = rungc_frontend::read_text(&format!("{name}.il"), &other.program);
     let options = CompileOptions {
         model: Some(other.model),
         name: Some(name),
-        warn: warn.to_vec(),
+        warn: how.warn.to_vec(),
+        marks: how.marks,
         ..options(case, plc, observed(case, plc))
     };
     let compiled = compile(&read.program, &options);
@@ -275,7 +339,7 @@ fn compile_other(
 }
 
 /// The module, or all errors.
-fn finish(read: &Read, compiled: Compiled) -> Result<Module, Errors> {
+fn finish(read: &Read, compiled: Compiled) -> Result<Lowered, Errors> {
     let source = &read.program.source;
     let mut found = read.diagnostics.clone();
     found.refine(&compiled.diagnostics);
@@ -285,7 +349,7 @@ fn finish(read: &Read, compiled: Compiled) -> Result<Module, Errors> {
         .map(|d| (d.plc_error, line_of(source, d), d.message.clone()))
         .collect();
     match compiled.module {
-        Some(module) if errors.is_empty() => Ok(module),
+        Some(module) if errors.is_empty() => Ok((module, compiled.marks.unwrap_or_default())),
         _ => Err(errors),
     }
 }
@@ -294,20 +358,28 @@ fn compile_on(
     model: ModelId,
     case: &Case,
     program: &Program,
-    (compiling, warn): (&CompileOptions, &[&'static str]),
+    compiling: (&CompileOptions, How),
 ) -> Compiled {
+    compile(program, &options_of(model, case, compiling))
+}
+
+fn options_of(
+    model: ModelId,
+    case: &Case,
+    (compiling, how): (&CompileOptions, How),
+) -> CompileOptions {
     let (bounds, eased) = match &case.program {
         CaseProgram::List(_) => (Vec::new(), &[][..]),
         CaseProgram::File(file) => (file.bounds.clone(), &file.warn[..]),
     };
-    let options = CompileOptions {
+    CompileOptions {
         model: Some(model),
         name: Some(case.name.clone()),
         bounds,
-        warn: warn.iter().chain(eased).copied().collect(),
+        warn: how.warn.iter().chain(eased).copied().collect(),
+        marks: how.marks,
         ..compiling.clone()
-    };
-    compile(program, &options)
+    }
 }
 
 /// What a case asks of the program of a PLC. Partners on a line may ask for any device.
@@ -329,7 +401,7 @@ fn for_boards(
     case: &Case,
     program: &Program,
     compiled: &Compiled,
-    compiling: (&CompileOptions, &[&'static str]),
+    compiling: (&CompileOptions, How),
 ) -> Option<Compiled> {
     let refused = |compiled: &Compiled| {
         let mut errors = compiled.diagnostics.iter();

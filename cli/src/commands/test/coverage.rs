@@ -1,0 +1,110 @@
+//! `rungc test --coverage` and `--mutants`.
+
+use super::super::{Context, Failure, Outcome, Result, counted, interruption, say, tell};
+use super::report::{Results, human};
+use super::{Chosen, put};
+use crate::args::{CoverageFormat, EngineChoice, TestArgs};
+use crate::progress;
+use rungc_coverage::mutants::{self, Fate};
+use rungc_coverage::{Covered, cover, html, lcov, text};
+use rungc_sim::plctest::{Suite, TestFile};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// Runs the cases while what they execute is noted, and reports that, or what became of mutants.
+pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) -> Result {
+    let start = Instant::now();
+    let option = if args.mutants {
+        "--mutants"
+    } else {
+        "--coverage"
+    };
+    if matches!(
+        args.engine,
+        Some(EngineChoice::C | EngineChoice::Rust | EngineChoice::All)
+    ) {
+        let why = format!("{option}: the interpreter runs the cases; leave out --engine");
+        return Err(Failure::Because(why));
+    }
+    if args.coverage == Some(CoverageFormat::Html) && args.output.is_none() {
+        let why = "--coverage html: name the page to write with -o";
+        return Err(Failure::Because(why.to_string()));
+    }
+    let suite = progress::spin("compiling the cases", || {
+        Suite::compile_marked(files, chosen.warn())
+    });
+    let cases = counted(suite.len(), "case");
+    cx.note(&format!("     Running {cases} on interp"));
+    let (programs, report) = cover(&suite, &mut |_| match interruption::is_asked() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    });
+    let results = Results {
+        suite: &suite,
+        report: &report,
+        elapsed: start.elapsed(),
+    };
+    say(&human(&results))?;
+    if interruption::is_asked() {
+        return Ok(Outcome::Interrupted);
+    }
+    if args.mutants {
+        if !report.is_success() {
+            let why = "--mutants: all cases must pass before the program is changed";
+            return Err(Failure::Because(why.to_string()));
+        }
+        return judge(args, &suite, &programs, cx);
+    }
+    let shown = match args.coverage {
+        Some(CoverageFormat::Html) => html::page(&programs),
+        Some(CoverageFormat::Lcov) => {
+            lines(&programs);
+            lcov::lcov(&programs)
+        }
+        Some(CoverageFormat::Text) | None => text::text(&programs),
+    };
+    let reached = programs.iter().map(Covered::reached).sum();
+    let all = programs.iter().map(|program| program.goals.len()).sum();
+    put(args, &shown, &text::share(reached, all), cx)?;
+    Ok(match report.is_success() {
+        true => Outcome::Success,
+        false => Outcome::Failed,
+    })
+}
+
+/// Says which programs have no lines that a tracefile could name.
+fn lines(programs: &[Covered]) {
+    for program in programs.iter().filter(|program| !lcov::has_lines(program)) {
+        tell(&format!(
+            "rungc: {} is left out: lcov needs a program whose file is a list; use --coverage html or text",
+            program.name
+        ));
+    }
+}
+
+/// Runs the mutants of all programs.
+fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> Result {
+    let (mut shown, mut gaps, mut noticed) = (String::new(), 0, 0);
+    for program in programs {
+        let all = mutants::mutants(program);
+        let bar = progress::bar(all.len() as u64).with_message("mutants");
+        let fates = mutants::run(suite, program, &all, &|| {
+            bar.inc(1);
+            !interruption::is_asked()
+        });
+        bar.finish_and_clear();
+        if interruption::is_asked() {
+            return Ok(Outcome::Interrupted);
+        }
+        let count = |fate| fates.iter().filter(|f| **f == fate).count();
+        gaps += count(Fate::Survived) + count(Fate::NotExecuted);
+        noticed += count(Fate::Noticed);
+        shown += &mutants::text(program, &all, &fates);
+    }
+    let summary = format!("{noticed} of {} mutants noticed", noticed + gaps);
+    put(args, &shown, &summary, cx)?;
+    Ok(match gaps {
+        0 => Outcome::Success,
+        _ => Outcome::Failed,
+    })
+}

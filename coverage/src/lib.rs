@@ -1,0 +1,186 @@
+//! What the test cases of a program execute, and which changes of the program they notice.
+//!
+//! [`cover`] runs the cases of a suite on the interpreter while an observer looks on, and says of each [`Goal`] whether
+//! a case reached it; [`text`], [`lcov`] and [`html`] show that. [`mutants`] changes a program a little, again and
+//! again, and says which changes no case notices. Start reading at [`cover`].
+
+mod goals;
+pub mod html;
+pub mod lcov;
+pub mod mutants;
+mod observe;
+pub mod text;
+
+pub use goals::{Goal, What};
+
+use goals::goals;
+use observe::{EXECUTED, Seen, Watcher};
+use rungc_analysis::resolve::resolve;
+use rungc_interp::Observer;
+use rungc_ladder::{Ladder, build};
+use rungc_lower::compile::CompileOptions;
+use rungc_models::Model;
+use rungc_sim::engines::Interpreter;
+use rungc_sim::plctest::{self, CaseProgram, Id, Outcome, Report, Suite};
+use rungc_syntax::Program;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A program that cases test.
+pub struct Covered {
+    /// Its name: that of its file, or of the test file that holds its list.
+    pub name: String,
+    /// Its file, if it has one.
+    pub path: Option<PathBuf>,
+    /// Its instructions.
+    pub program: Program,
+    /// The PLC.
+    pub model: &'static Model,
+    /// How it is compiled for the first of its cases.
+    pub options: CompileOptions,
+    /// What a case could reach, in the order of the program.
+    pub goals: Vec<Goal>,
+    /// The cases that run it, each with the instructions that it executes: by instruction, whether.
+    pub cases: Vec<(Id, Vec<bool>)>,
+    /// By instruction: what was seen of it.
+    seen: Vec<u16>,
+}
+
+impl Covered {
+    /// How many goals were reached.
+    pub fn reached(&self) -> usize {
+        self.goals
+            .iter()
+            .filter(|goal| self.is_reached(goal))
+            .count()
+    }
+
+    /// Whether a goal was reached.
+    pub fn is_reached(&self, goal: &Goal) -> bool {
+        goal.is_reached(&self.seen)
+    }
+
+    /// Goals of these instructions that were not reached.
+    fn missed(&self, instrs: std::ops::Range<usize>) -> impl Iterator<Item = &Goal> {
+        let goals = self.goals.iter();
+        goals.filter(move |goal| instrs.contains(&goal.instr) && !self.is_reached(goal))
+    }
+
+    /// The line of an instruction in the source of the program, from 1.
+    pub fn line(&self, instr: usize) -> u32 {
+        let start = self.program.instrs[instr].span.start;
+        self.program.source.line_col(start).0
+    }
+}
+
+/// What distinguishes programs: their file or list, and their PLC.
+type Key = (Option<PathBuf>, String, &'static str);
+
+/// Runs all cases of a suite that is compiled with marks. `progress` is told each result, and may cancel the run.
+pub fn cover(
+    suite: &Suite,
+    progress: &mut dyn FnMut(&Outcome) -> ControlFlow<()>,
+) -> (Vec<Covered>, Report) {
+    let mut programs = Programs::default();
+    let of_module = programs.find(suite);
+    let seen: Vec<Option<Arc<Seen>>> = of_module
+        .iter()
+        .map(|program| program.map(|i| Arc::clone(&programs.seen[i])))
+        .collect();
+    let observers = |module: usize| -> Box<dyn Observer> {
+        match &seen[module] {
+            Some(seen) => Box::new(Watcher::new(suite.marks(module), Arc::clone(seen))),
+            None => Box::new(observe::Nobody),
+        }
+    };
+    let mut engine = Interpreter::observed(suite.modules(), Box::new(observers));
+    let report = plctest::run(suite, &mut engine, &mut |outcome| {
+        programs.end_case(suite, outcome.id, &of_module);
+        progress(outcome)
+    });
+    drop(engine);
+    (programs.found, report)
+}
+
+/// The programs of a suite.
+#[derive(Default)]
+struct Programs {
+    found: Vec<Covered>,
+    /// What the case that runs has seen of each.
+    seen: Vec<Arc<Seen>>,
+}
+
+impl Programs {
+    /// Finds the programs of all cases; of each module, which of them it is. Programs of other PLCs are not looked at.
+    fn find(&mut self, suite: &Suite) -> Vec<Option<usize>> {
+        let mut known: BTreeMap<Key, usize> = BTreeMap::new();
+        let mut of_module = vec![None; suite.modules().len()];
+        for (id, case) in suite.cases() {
+            let Some(&module) = suite.modules_of(id).first() else {
+                continue;
+            };
+            if of_module[module].is_some() {
+                continue;
+            }
+            let model = suite.modules()[module].model;
+            let (path, list) = match &case.program {
+                CaseProgram::List(list) => (None, list.clone()),
+                CaseProgram::File(file) => (Some(file.path.clone()), String::new()),
+            };
+            let number = *known
+                .entry((path.clone(), list, model.name))
+                .or_insert_with(|| {
+                    let name = match &path {
+                        Some(path) => path.display().to_string(),
+                        None => format!("{}: {}", suite.files()[id.file].name, case.name),
+                    };
+                    let (program, options) = suite.source(id);
+                    let count = program.instrs.len();
+                    self.found.push(Covered {
+                        name,
+                        path,
+                        goals: goals(
+                            &program,
+                            model,
+                            suite.marks(module),
+                            &suite.modules()[module],
+                        ),
+                        program,
+                        model,
+                        options,
+                        cases: Vec::new(),
+                        seen: vec![0; count],
+                    });
+                    self.seen.push(Arc::new(Seen::new(count)));
+                    self.found.len() - 1
+                });
+            of_module[module] = Some(number);
+        }
+        of_module
+    }
+
+    /// A case is over.
+    fn end_case(&mut self, suite: &Suite, id: Id, of_module: &[Option<usize>]) {
+        let modules = suite.modules_of(id).iter();
+        let programs = modules.filter_map(|&module| of_module[module]);
+        for number in programs {
+            let now = self.seen[number].take();
+            let program = &mut self.found[number];
+            for (all, now) in program.seen.iter_mut().zip(&now) {
+                *all |= now;
+            }
+            let executed = now.iter().map(|seen| seen & EXECUTED != 0).collect();
+            program.cases.push((id, executed));
+        }
+    }
+}
+
+impl Covered {
+    /// Its ladder, whose networks have the numbers that people see.
+    fn drawn<T>(&self, f: impl FnOnce(&rungc_analysis::resolve::Resolved, &Ladder) -> T) -> T {
+        let (resolved, _) = resolve(&self.program, self.model);
+        f(&resolved, &build::ladder(&resolved))
+    }
+}

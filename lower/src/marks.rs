@@ -1,0 +1,56 @@
+//! Which instruction each part of a module comes from, for tools that say what of a program was executed.
+//!
+//! A marked module has more [`Stmt::Network`]s than others: one after the drive of each output is known.
+
+use super::Lowerer;
+use rungc_ir::node::{ExprId, Network, Stmt};
+use typed_index_collections::TiVec;
+
+/// Where the parts of a module come from. Instructions are positions in [`rungc_syntax::Program::instrs`].
+#[derive(Clone, Debug, Default)]
+pub struct Marks {
+    /// By expression: the instruction that it was made for. Expressions of the scan itself are not in it.
+    pub exprs: TiVec<ExprId, u32>,
+    /// By network, as [`Stmt::Network`] numbers them.
+    pub places: Vec<Mark>,
+}
+
+/// What a [`Stmt::Network`] of a marked module stands before.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Mark {
+    /// A network that begins with this instruction.
+    Network(u32),
+    /// A coil or another instruction that the logic drives.
+    Output {
+        /// The instruction.
+        instr: u32,
+        /// Whether it is driven.
+        drive: ExprId,
+    },
+}
+
+impl Lowerer<'_> {
+    /// Notes that a network begins.
+    pub(super) fn mark_network(&mut self) {
+        if let Some(marks) = &mut self.marks {
+            marks.places.push(Mark::Network(self.at as u32));
+        }
+    }
+
+    /// Marks that the drive of the instruction at hand is known.
+    pub(super) fn mark_output(&mut self, drive: ExprId) {
+        let Some(marks) = &mut self.marks else {
+            return;
+        };
+        let instr = self.at as u32;
+        marks.places.push(Mark::Output { instr, drive });
+        let network = Network {
+            step: self.step(),
+            span: self.instr().span,
+            statement: None,
+            note: None,
+        };
+        self.emit(Stmt::Network(self.module.networks.len() as u32));
+        self.module.networks.push(network);
+    }
+}
