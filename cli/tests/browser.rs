@@ -133,3 +133,63 @@ fn a_comparison_works_in_a_browser() {
     });
     assert_eq!(report, expected);
 }
+
+#[test]
+fn coverage_is_drawn_on_the_ladder() {
+    let tests = "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"motor.il\"\n[[case]]\nname = \"a\"\n[[case.step]]\nset = { X000 = 1 }\nrun_ms = 200\n\
+        [[case]]\nname = \"b\"\nprogram = \"steps.il\"\n[[case.step]]\nscans = 2\n";
+    let files: &[(&str, &[u8])] = &[
+        ("motor.il", PROGRAM.as_bytes()),
+        ("steps.il", STEPS.as_bytes()),
+        ("t.plctest.toml", tests.as_bytes()),
+    ];
+    let args = ["test", ".", "--coverage", "html", "-o", "coverage.html"];
+    let Some(report) = report(files, &args, "coverage.html", "coverage.js") else {
+        return;
+    };
+    for none in ["light", "dark", "narrow", "requests", "errors"] {
+        assert_eq!(report[none], json!([]), "{none}");
+    }
+    insta::assert_snapshot!(
+        serde_json::to_string_pretty(&json!({
+            "titles": report["titles"],
+            "sections": report["sections"],
+            "colours": report["colours"],
+            "missed": report["missed"],
+        }))
+        .unwrap(),
+        @r#"
+    {
+      "colours": [
+        "rgb(26, 127, 55)",
+        "rgb(154, 91, 0)",
+        "rgb(179, 38, 30)"
+      ],
+      "missed": [
+        "LD X000 never decided while it did not conduct",
+        "OR M0 never decided while it conducted",
+        "OR M0 never decided while it did not conduct",
+        "ANI X001 never decided while it did not conduct",
+        "OUT M0 was never off",
+        "LD M0 never decided while it did not conduct",
+        "OUT T0 K30 was never off",
+        "OUT T0 K30 never expired",
+        "AND T0 never decided while it conducted",
+        "OUT Y000 was never on",
+        "LD X002 never decided while it conducted",
+        "MOV K5 D0 was never on",
+        "LD X000 never decided while it conducted",
+        "SET S20 was never taken",
+        "OUT Y000 was never on",
+        "OUT Y000 was never off",
+        "LD X001 was never executed"
+      ],
+      "sections": 12,
+      "titles": [
+        "motor.il: 12 of 24 (50 %)",
+        "steps.il: 8 of 16 (50 %)"
+      ]
+    }
+    "#
+    );
+}

@@ -93,8 +93,8 @@ fn class(program: &Covered, instr: usize) -> Option<&'static str> {
 
 /// In words what the colours show.
 fn write_missed(out: &mut String, program: &Covered, network: &Network) -> fmt::Result {
-    let mut missed = program.missed(network.instrs.clone()).peekable();
-    if missed.peek().is_none() {
+    let missed = program.missed(network.instrs.clone());
+    if missed.is_empty() {
         return Ok(());
     }
     writeln!(out, "<ul class=\"missed\">")?;

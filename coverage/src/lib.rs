@@ -62,10 +62,15 @@ impl Covered {
         goal.is_reached(&self.seen)
     }
 
-    /// Goals of these instructions that were not reached.
-    fn missed(&self, instrs: std::ops::Range<usize>) -> impl Iterator<Item = &Goal> {
+    /// Goals of these instructions, a network, that were not reached: only that, if it was not executed.
+    fn missed(&self, instrs: std::ops::Range<usize>) -> Vec<&Goal> {
         let goals = self.goals.iter();
-        goals.filter(move |goal| instrs.contains(&goal.instr) && !self.is_reached(goal))
+        let missed = goals.filter(|goal| instrs.contains(&goal.instr) && !self.is_reached(goal));
+        let missed: Vec<&Goal> = missed.collect();
+        match missed.iter().position(|goal| goal.what == What::Executed) {
+            Some(at) => vec![missed[at]],
+            None => missed,
+        }
     }
 
     /// The line of an instruction in the source of the program, from 1.

@@ -72,7 +72,8 @@ impl Mutant {
             _ => {
                 let (new, old) = (&self.changed[0], &program.instrs[self.instr]);
                 match self.change {
-                    Change::Dropped => format!("{old} was left out"),
+                    Change::Dropped if new.operands.is_empty() => format!("{old} was left out"),
+                    Change::Dropped => format!("{old} was bridged"),
                     _ => format!("{new} instead of {old}"),
                 }
             }

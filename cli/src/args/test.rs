@@ -42,11 +42,11 @@ pub struct TestArgs {
     pub no_cache: bool,
     /// Report what the cases execute of their programs: networks, contacts that decide, coils on and off, transitions,
     /// timers (docs/src/coverage.md). The interpreter runs them all.
-    #[arg(long, value_enum, value_name = "FORMAT", conflicts_with_all = ["mutants", "watch", "review", "accept", "reject"])]
+    #[arg(long, value_enum, value_name = "FORMAT", conflicts_with_all = ["format", "mutants", "watch", "review", "accept", "reject"])]
     pub coverage: Option<CoverageFormat>,
     /// Change the programs a little, again and again, and report the changes that no case notices
     /// (docs/src/mutants.md).
-    #[arg(long, conflicts_with_all = ["watch", "review", "accept", "reject"])]
+    #[arg(long, conflicts_with_all = ["format", "watch", "review", "accept", "reject"])]
     pub mutants: bool,
     /// Format of the results.
     #[arg(long, value_enum, default_value_t = TestFormat::Human)]

@@ -33,6 +33,15 @@ fn named(row: &RawRow) -> (Option<String>, Row) {
     (own, row)
 }
 
+/// A path as seen from the current folder, where it lies below it.
+fn near(path: PathBuf) -> PathBuf {
+    let folder = std::env::current_dir().and_then(|folder| folder.canonicalize());
+    let below = folder
+        .ok()
+        .and_then(|f| path.strip_prefix(f).ok().map(Path::to_path_buf));
+    below.unwrap_or(path)
+}
+
 /// Collects the problems of one file.
 pub(super) struct Reader<'t> {
     source: &'t Source,
@@ -175,7 +184,7 @@ impl Reader<'_> {
     fn of_project(&mut self, at: usize) -> Option<Tested> {
         let settings = Project::find(Path::new(&self.source.name))?;
         let path = match Project::load(&settings) {
-            Ok(project) => project.program()?,
+            Ok(project) => near(project.program()?),
             Err(error) => {
                 self.report(at, program::mistakes(&error));
                 return Some(Tested::unread());
