@@ -256,6 +256,11 @@ pub struct CheckArgs {
     /// Draw the network that each diagnostic is about as ladder, with its place marked.
     #[arg(long)]
     pub draw: bool,
+    /// Also look for what can never happen, each with its proof: coils that are never on, rungs that never do anything,
+    /// steps that are never reached or left, comparisons with one result, timers that never expire; and for outputs that
+    /// change in every scan. At most 20 seconds a program. Draws.
+    #[arg(long)]
+    pub deep: bool,
 }
 
 /// Arguments of `build`.

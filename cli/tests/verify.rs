@@ -155,18 +155,61 @@ until = \"X002 | Y001\"
     );
 }
 
-/// The model checker `abc`, under one of its names.
-fn abc() -> Option<&'static str> {
+/// The first of these programs that is installed.
+fn installed<'a>(names: &[&'a str]) -> Option<&'a str> {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let names = ["berkeley-abc", "abc"].into_iter();
-    let mut names =
-        names.filter(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()));
-    names.next()
+    let mut names = names.iter().copied();
+    names.find(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()))
+}
+
+#[test]
+fn sat_solvers_confirm_proofs() {
+    let solvers = ["cadical", "minisat"].map(|name| installed(&[name]));
+    if solvers.iter().all(Option::is_none) {
+        eprintln!("skipped: neither cadical nor minisat is installed");
+        return;
+    }
+    // By induction, by an invariant, and one that holds only while the counter keeps below its limit.
+    let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
+    let chain = "LD X000\nOUT M0\nLD M0\nANI M20\nOUT M1\nLDP X001\nADD D0 K1 D0\nLD> D0 K5\nMOV K0 D0\n\
+                 LD> D0 K9\nOUT M20\nLD M20\nOUT Y000\nLD M1\nOUT Y001\nEND\n";
+    for program in [reverser("ANI Y000"), timer.to_string(), chain.to_string()] {
+        let folder = folder(&[("program.il", program.as_bytes())]);
+        let args = [
+            "verify",
+            "program.il",
+            "--never",
+            "Y000 & Y001",
+            "--certificate",
+            "proof",
+            "--cleared",
+        ];
+        let output = rungc(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let mut formulas = 0;
+        for entry in std::fs::read_dir(folder.path().join("proof")).unwrap() {
+            formulas += 1;
+            for solver in solvers.iter().flatten() {
+                let asked = std::process::Command::new(solver)
+                    .arg(entry.as_ref().unwrap().path())
+                    .output()
+                    .unwrap();
+                // Solvers agree on the exit code of what cannot be satisfied.
+                assert_eq!(
+                    asked.status.code(),
+                    Some(20),
+                    "{solver}: {}",
+                    text(&asked.stdout)
+                );
+            }
+        }
+        assert!(formulas >= 2, "{formulas} formulas");
+    }
 }
 
 #[test]
 fn another_model_checker_agrees() {
-    let Some(abc) = abc() else {
+    let Some(abc) = installed(&["berkeley-abc", "abc"]) else {
         eprintln!("skipped: berkeley-abc is not installed");
         return;
     };
@@ -270,4 +313,66 @@ fn devices_that_a_panel_can_set_are_inputs() {
         let output = rungc(folder.path(), &args);
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
     }
+}
+
+#[test]
+fn what_can_never_happen_is_found() {
+    let program = "\
+LD X000
+ANI X000
+OUT M10
+LD M10
+OUT Y000
+LD X001
+ANI T0
+OUT M11
+LD M11
+ANI M12
+OUT T0 K50
+LDI M13
+OUT M12
+LDI M12
+OUT M13
+LD X002
+MOV K3 D0
+LD X003
+MOV K7 D0
+LD> D0 K9
+OUT Y001
+LDI Y002
+AND X004
+OUT Y002
+LD M8002
+SET S0
+STL S0
+LD X005
+SET S20
+STL S20
+OUT Y003
+RET
+LD X006
+OUT Y004
+END
+";
+    // The same, as it was meant.
+    let plain = "LD X000\nANI X001\nOUT M10\nLD M10\nOUT T0 K50\nLD T0\nOUT Y000\nLD> D0 K9\nOUT Y001\nEND\n";
+    let folder = folder(&[
+        ("never.il", program.as_bytes()),
+        ("plain.il", plain.as_bytes()),
+    ]);
+    let output = rungc(folder.path(), &["check", "--deep", "never.il"]);
+    insta::assert_snapshot!(
+        "deep",
+        text(&output.stderr)
+            .lines()
+            .filter(|line| !line.contains(" Checked "))
+            .collect::<Vec<_>>()
+            .join("\n")
+    );
+    let output = rungc(folder.path(), &["check", "--deep", "plain.il"]);
+    assert!(
+        !text(&output.stderr).contains("W09"),
+        "{}",
+        text(&output.stderr)
+    );
 }

@@ -14,6 +14,7 @@
 //! | E082x | connections of a running program |
 //! | E085x, W085x | boards, and writing images into them |
 //! | E087x | fleets of PLCs |
+//! | W090x | what can never happen in a program (`check --deep`) |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.

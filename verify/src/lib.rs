@@ -9,6 +9,8 @@
 pub mod aig;
 pub mod aiger;
 pub mod bits;
+pub mod certificate;
+pub mod deep;
 pub mod engines;
 pub mod model;
 pub mod pdr;

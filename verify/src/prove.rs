@@ -66,7 +66,7 @@ pub struct Decision {
 }
 
 /// How many scans induction supposes at most.
-const INDUCTION: usize = 12;
+pub(crate) const INDUCTION: usize = 12;
 
 /// What a property asks, as a system of what it depends on, and the program's logic that it was cut out of.
 pub fn system<'m>(
@@ -152,7 +152,7 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 }
 
 /// A time, in milliseconds, in which every timer expires.
-const FOREVER_MS: u32 = 4_000_000;
+pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
 /// Bounded search and induction side by side; then a search, and one for an invariant, where a scan may come any time
 /// after the one before, so that a few scans show what takes many; then bounded search alone. `system` is that of the

@@ -117,7 +117,7 @@ impl<'s> Bounded<'s> {
 }
 
 /// Gives the bits of a word their meaning as a signed number.
-fn with_sign((key, value): (&Key, &mut i64)) {
+pub(crate) fn with_sign((key, value): (&Key, &mut i64)) {
     *value = match device_of(*key) {
         Some((class, number)) if is_counter32(class, number) => (*value as i32).into(),
         _ => (*value as i16).into(),

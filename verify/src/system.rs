@@ -42,11 +42,16 @@ impl System {
     /// What the answer depends on, alone: the cone of influence of `bad`. A constraint or a wish stays if it meets the
     /// cone, and what it depends on belongs to the cone then.
     pub fn sliced(&self) -> System {
+        self.about(self.bad)
+    }
+
+    /// The same with another question.
+    pub fn about(&self, bad: Lit) -> System {
         let number_of = self.latch_numbers();
         let mut wanted = vec![false; self.aig.nodes().len()];
         let conditions: Vec<Lit> = self.conditions().collect();
         let mut kept = vec![false; conditions.len()];
-        let mut open = vec![self.bad.node()];
+        let mut open = vec![bad.node()];
         let supports: Vec<Vec<usize>> = conditions.iter().map(|&c| self.support(c)).collect();
         loop {
             while let Some(node) = open.pop() {
@@ -68,7 +73,7 @@ impl System {
                 }
             }
             if open.is_empty() {
-                return self.keep(&wanted);
+                return self.keep(&wanted, bad);
             }
         }
     }
@@ -104,7 +109,7 @@ impl System {
     }
 
     /// The wanted nodes, in a new graph.
-    fn keep(&self, wanted: &[bool]) -> System {
+    fn keep(&self, wanted: &[bool], bad: Lit) -> System {
         let mut aig = Aig::default();
         let mut map = vec![None; wanted.len()];
         map[0] = Some(Lit::FALSE);
@@ -143,7 +148,7 @@ impl System {
             constraints: lits(&self.constraints),
             wishes: lits(&self.wishes),
             first_wishes: lits(&self.first_wishes),
-            bad: new(&map, self.bad).unwrap_or(Lit::FALSE),
+            bad: new(&map, bad).unwrap_or(Lit::FALSE),
             aig,
         }
     }

@@ -15,11 +15,12 @@ const EXAMPLES: [&str; 4] = [
 ];
 
 /// The pages whose commands draw.
-const PAGES: [&str; 4] = [
+const PAGES: [&str; 5] = [
     "docs/src/machines.md",
     "docs/src/modules.md",
     "docs/src/ladder.md",
     "docs/src/diff.md",
+    "docs/src/prove.md",
 ];
 
 /// Options before the name of a diagram.

@@ -12,7 +12,7 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub asked: Properties,
     /// Compare with this older program instead: can an output differ, given the same inputs at the same times?
-    #[arg(long, value_name = "OLD", conflicts_with_all = ["never", "always", "reachable", "aiger", "write_test"])]
+    #[arg(long, value_name = "OLD", conflicts_with_all = ["never", "always", "reachable", "aiger", "certificate", "write_test"])]
     pub same_as: Option<PathBuf>,
     /// The engines that must show a run before it is reported, beside the interpreter. Default: all that can be built
     /// here.
@@ -28,6 +28,10 @@ pub struct VerifyArgs {
     /// its output can be on.
     #[arg(long, value_name = "FILE")]
     pub aiger: Option<PathBuf>,
+    /// Write the proof of the only property into this folder, as formulas (`*.cnf`) that any SAT solver confirms to be
+    /// unsatisfiable.
+    #[arg(long, value_name = "FOLDER")]
+    pub certificate: Option<PathBuf>,
     /// Write the runs that were found as a test file, which shows them again: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,

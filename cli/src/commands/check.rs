@@ -1,5 +1,6 @@
 //! `rungc check`.
 
+pub(super) mod deep;
 pub(super) mod draw;
 
 use super::subject::{self, Subject};
@@ -18,16 +19,26 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
         if args.fix {
             fix::fix(subject, cx)?;
         }
-        check(subject, reporter, args.draw, cx)
+        check(subject, reporter, args, cx)
     })
 }
 
-fn check(subject: &Subject, reporter: &mut Reporter, draw: bool, cx: Context) -> Result {
+fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Context) -> Result {
     let start = Instant::now();
     let read = read(subject, reporter)?;
     let checked = compile::check(&read.program, &subject.options());
     let mut findings = findings(subject, &read, &checked);
-    if draw && reporter.is_for_people() {
+    if args.deep && !findings.failed() {
+        let (found, open) = deep::findings(subject, &read, &checked);
+        if open > 0 {
+            let open = counted(open, "question");
+            cx.note(&format!(
+                "        Open {open} of --deep: not decided in time"
+            ));
+        }
+        findings.add(found, &subject.reporting);
+    }
+    if (args.draw || args.deep) && reporter.is_for_people() {
         findings.drawn = draw::networks(&read.program, checked.model, &findings.diagnostics);
     }
     if let Some(parameters) = &read.program.parameters {

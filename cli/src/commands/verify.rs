@@ -1,20 +1,22 @@
 //! `rungc verify`.
 
 mod engines;
-mod report;
+pub(super) mod report;
 mod same;
 mod test_file;
 
 use super::check::draw;
 use super::properties::{Asked, Reader, module};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, read, say, write_file};
+use super::{Context, Failure, Outcome, Result, counted, read, say, write_file};
 use crate::args::VerifyArgs;
 use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::Read;
+use rungc_ir::Module;
 use rungc_syntax::{Diagnostic, Diagnostics, OperandKind, Span, codes};
 use rungc_verify::aiger;
+use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
 use rungc_verify::property::Condition;
 use rungc_verify::prove::{Decision, Options, Verdict, decide, system};
@@ -50,15 +52,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         reporter.finish()?;
         return Ok(Outcome::Unusable);
     };
-    if let Some(path) = &args.aiger {
-        let [only] = &asked[..] else {
-            let why = "--aiger: name one property";
-            return Err(Failure::Because(why.to_string()));
-        };
-        let (_, system) = system(&module, &only.property, &options);
-        write_file(path, &aiger::binary(&system), args.force)?;
-        cx.note(&format!("       Wrote {}", path.display()));
-    }
+    export(args, &module, &asked, &options, cx)?;
     let decided: Vec<(Decision, Duration)> = asked
         .iter()
         .map(|asked| {
@@ -95,6 +89,40 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Writes what other programs read: the question, or the proof.
+fn export(
+    args: &VerifyArgs,
+    module: &Module,
+    asked: &[Asked],
+    options: &Options,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let only = |option: &str| match asked {
+        [only] => Ok(&only.property),
+        _ => Err(Failure::Because(format!("{option}: name one property"))),
+    };
+    if let Some(path) = &args.aiger {
+        let (_, system) = system(module, only("--aiger")?, options);
+        write_file(path, &aiger::binary(&system), args.force)?;
+        cx.note(&format!("       Wrote {}", path.display()));
+    }
+    let Some(folder) = &args.certificate else {
+        return Ok(());
+    };
+    match certificate(module, only("--certificate")?, options) {
+        Some(files) => {
+            std::fs::create_dir_all(folder)?;
+            for (name, text) in &files {
+                write_file(&folder.join(name), text.as_bytes(), args.force)?;
+            }
+            let count = counted(files.len(), "formula");
+            cx.note(&format!("       Wrote {count} into {}", folder.display()));
+        }
+        None => cx.note("     Nothing was proved, so no certificate is written"),
+    }
+    Ok(())
 }
 
 /// The runs that were found, to be shown on other engines.

@@ -84,6 +84,18 @@ impl<'a> Findings<'a> {
         }
     }
 
+    /// Adds diagnostics that `reporting` lets through, in the order of their places.
+    pub fn add(&mut self, more: Diagnostics, reporting: &Reporting) {
+        let Some(program) = self.program else {
+            return;
+        };
+        let more = Findings::new(self.path, program, more, reporting);
+        self.diagnostics.extend(more.diagnostics);
+        rungc_syntax::order::by(&mut self.diagnostics, |a, b| {
+            a.span.start.cmp(&b.span.start)
+        });
+    }
+
     /// Of a file that could not be read at all, and why.
     pub fn unread(path: &'a Path, why: Diagnostic) -> Self {
         Findings {

@@ -24,4 +24,46 @@ super::codes! {
     "`rungc verify --same-as` has neither found a run in which the output differs nor a proof that there is none: the time was up (`--timeout`), or something that is not modelled is used differently in both.",
     wrong: "",
     right: "";
+
+    NEVER_ON = "W0901" "never-on" Warning None,
+    "a coil that can never be on",
+    "No run of the program switches this relay or output on, whatever its inputs are: the contacts before it contradict each other, or depend on something that never happens. `rungc check --deep` has proved it. Networks that name M8000 or M8001 are left out, since they are meant so.",
+    wrong: "",
+    right: "";
+
+    RUNG_NEVER_ACTS = "W0902" "rung-never-acts" Warning None,
+    "a rung that can never do anything",
+    "The scan comes to this rung, but its contacts never conduct, so no instruction in it is ever executed. `rungc check --deep` has proved it.",
+    wrong: "",
+    right: "";
+
+    STATE_UNREACHABLE = "W0903" "state-unreachable" Warning None,
+    "a step that can never be reached",
+    "No run of the program switches this step on: the transition to it never takes place. `rungc check --deep` has proved it.",
+    wrong: "",
+    right: "";
+
+    STATE_ENDLESS = "W0904" "state-endless" Warning None,
+    "a step that can never be left",
+    "Once this step is on, nothing switches it off: no transition leads out of it that can take place. `rungc check --deep` has proved it.",
+    wrong: "",
+    right: "";
+
+    COMPARISON_CONSTANT = "W0905" "comparison-constant" Warning None,
+    "a comparison that always has the same result",
+    "In every run of the program, this comparison has the same result whenever the scan comes to it. `rungc check --deep` has proved it.",
+    wrong: "",
+    right: "";
+
+    TIMER_NEVER_EXPIRES = "W0906" "timer-never-expires" Warning None,
+    "a timer that can never expire",
+    "The timer's coil can be on, but never long enough, or never in two scans in a row. `rungc check --deep` has proved it.",
+    wrong: "",
+    right: "";
+
+    OUTPUT_OSCILLATES = "W0907" "output-oscillates" Warning None,
+    "an output that can change in every scan",
+    "In the run shown, the output is switched on and off in turn, scan by scan, while no input changes. Contactors and relays do not last long that way. `rungc check --deep` has seen it on the interpreter.",
+    wrong: "",
+    right: "";
 }

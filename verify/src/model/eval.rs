@@ -131,9 +131,12 @@ impl Encoder<'_> {
 
     fn compare(&mut self, op: CmpOp, a: ExprId, b: ExprId) -> Lit {
         let floats = self.module.ty(a) == Ty::F32;
+        let sides = [a, b];
         let (a, b) = (self.eval(a), self.eval(b));
         if !floats {
-            return self.compare_bits(op, &a, &b);
+            let holds = self.compare_bits(op, &a, &b);
+            self.note_comparison(op, sides, holds);
+            return holds;
         }
         match (float(&a), float(&b)) {
             (Some(a), Some(b)) => op.holds(a, b).into(),

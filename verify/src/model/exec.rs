@@ -63,8 +63,12 @@ impl Encoder<'_> {
 
     /// Executes a statement; under which condition the next one is reached.
     fn step(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
+        if let Stmt::Network(network) = stmt {
+            self.network = Some(*network);
+        }
+        self.note_stmt(stmt, guard);
         match stmt {
-            Stmt::Network(network) => self.network = Some(*network),
+            Stmt::Network(_) => {}
             &Stmt::Let(temp, value) => {
                 let value = self.eval(value);
                 self.assign(temp, value, guard);
@@ -346,6 +350,10 @@ impl Encoder<'_> {
         let key = match class {
             DeviceClass::T => Key::Timer(number, super::TimerPart::Done),
             DeviceClass::C => Key::Counter(number, super::CounterPart::Done),
+            DeviceClass::Y | DeviceClass::M | DeviceClass::S => {
+                self.note_bit((class, number), on, guard);
+                Key::Bit(class, number)
+            }
             _ => Key::Bit(class, number),
         };
         self.store(key, &[on], guard);

@@ -9,10 +9,12 @@ mod calls;
 mod eval;
 mod exec;
 mod memory;
+mod probes;
 mod shared;
 mod timing;
 
 pub use memory::device_of;
+pub use probes::{Compared, Expiry, Probes, Rung, Written};
 pub use shared::{Beside, Names};
 
 use crate::aig::{Aig, Lit};
@@ -206,20 +208,32 @@ pub struct Encoder<'m> {
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
     /// What is shared with another program.
     beside: Option<Beside>,
+    /// What is noted for those who look for what can never happen.
+    pub probes: Option<Probes>,
 }
 
 impl<'m> Encoder<'m> {
     /// Executes a scan of a module.
     pub fn scan(module: &'m Module, world: World) -> Self {
-        Self::executed(module, world, None)
+        Self::executed(module, world, None, None)
+    }
+
+    /// Executes a scan of a module and notes what can happen in it.
+    pub fn scan_probed(module: &'m Module, world: World) -> Self {
+        Self::executed(module, world, None, Some(Probes::default()))
     }
 
     /// Executes a scan of a module at the same time as another is executed.
     pub fn scan_beside(module: &'m Module, world: World, beside: Beside) -> Self {
-        Self::executed(module, world, Some(beside))
+        Self::executed(module, world, Some(beside), None)
     }
 
-    fn executed(module: &'m Module, world: World, mut beside: Option<Beside>) -> Self {
+    fn executed(
+        module: &'m Module,
+        world: World,
+        mut beside: Option<Beside>,
+        probes: Option<Probes>,
+    ) -> Self {
         let aig = beside
             .as_mut()
             .map(|beside| std::mem::take(&mut beside.aig));
@@ -256,6 +270,7 @@ impl<'m> Encoder<'m> {
             extra_latches: Vec::new(),
             world,
             beside,
+            probes,
         };
         encoder.find_memory();
         encoder.find_outside();

@@ -173,6 +173,8 @@ impl Encoder<'_> {
         self.store(key(TimerPart::Part), &part, runs);
         let reached = !self.aig.less(&new, &preset);
         let closed = self.aig.or(done, reached);
+        let expires = self.aig.and(runs, closed);
+        self.note_timer(number, guard, expires);
         self.store(key(TimerPart::Done), &[closed], runs);
     }
 

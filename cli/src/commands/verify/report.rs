@@ -218,3 +218,24 @@ fn setting(module: &Module, name: &str, (class, number): (DeviceClass, u32), val
         None => format!("{name} = {value}"),
     }
 }
+
+/// A run in one line: what is set when.
+pub fn changes(module: &Module, story: &[Change]) -> String {
+    let mut parts = Vec::new();
+    for change in story {
+        let all = change.start.iter().chain(&change.set);
+        let set = all.map(|(name, device, value)| setting(module, name, *device, *value));
+        let set: Vec<String> = set.collect();
+        if !set.is_empty() {
+            parts.push(format!(
+                "from scan {} on {}",
+                change.first + 1,
+                set.join(", ")
+            ));
+        }
+    }
+    match parts.is_empty() {
+        true => "with all inputs off".to_string(),
+        false => parts.join("; "),
+    }
+}

@@ -3,13 +3,14 @@
 use super::engines::{self, Shown};
 use super::report;
 use crate::args::{Input, VerifyArgs};
+use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
 use crate::commands::subject::{self, Subject};
 use crate::commands::{Context, Failure, Outcome, Result, counted, read, say};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::Read;
 use rungc_sim::Target;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same::{Compared, Output, compare};
@@ -124,12 +125,12 @@ fn publish(
                 )
             }
         };
-        let written = read.program.instrs.iter().filter(|instr| {
-            let first = instr.operands.first().map(|operand| &operand.kind);
-            matches!(first, Some(OperandKind::Device(device, None)) if *device == name)
-                && !instr.mnemonic.as_str().starts_with(['L', 'A'])
-        });
-        let span = written.map(|instr| instr.span).next();
+        let mut written = read
+            .program
+            .instrs
+            .iter()
+            .filter(|instr| writes(instr, name));
+        let span = written.next().map(|instr| instr.span);
         let mut diagnostic = code.at(span.unwrap_or(Span::default()), text);
         if span.is_some() {
             diagnostic.label = format!("`{name}` is written here").into();

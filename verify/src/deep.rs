@@ -1,0 +1,369 @@
+//! What can never happen in a program, though it is written as if it could: found without being asked.
+//!
+//! Runs by chance ([`simulate`]) show most of what can happen. What they have not shown is tried to be proved
+//! impossible, each by itself; only what is proved is reported. An output that changes in every scan is shown by
+//! a run that the interpreter has confirmed.
+
+mod simulate;
+
+use crate::aig::Lit;
+use crate::model::{Encoder, Key, World};
+use crate::pdr;
+use crate::prove::FOREVER_MS;
+use crate::replay::{Run, plain};
+use crate::search::{Bounded, Induction, Step, Trace};
+use crate::system::System;
+use rungc_ir::Module;
+use rungc_ir::node::ExprId;
+use rungc_rt::{Class, CmpOp, Plc};
+use rungc_syntax::DeviceClass;
+use simulate::{Chance, Lanes};
+use std::time::{Duration, Instant};
+
+/// What was found.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Kind {
+    /// A relay or an output is never switched on.
+    NeverOn,
+    /// A step is never reached.
+    NeverReached,
+    /// A step that can be reached is never left.
+    NeverLeft,
+    /// The scan comes to a rung, but what is in it is never executed.
+    NeverActs,
+    /// A comparison has the same result always.
+    Constant {
+        /// What holds between the numbers.
+        op: CmpOp,
+        /// The numbers.
+        sides: [ExprId; 2],
+        /// The result.
+        result: bool,
+    },
+    /// A timer never expires.
+    NeverExpires,
+    /// An output changes in every scan though no input does.
+    Oscillates,
+}
+
+/// How it is known.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Evidence {
+    /// If it has not happened in this many scans in a row, it does not in the next one.
+    Induction(usize),
+    /// No run reaches one of this many sets of states, of which one includes all in which it happens.
+    Invariant(usize),
+    /// This run shows it.
+    Trace(Trace),
+}
+
+/// A finding.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finding {
+    /// What is wrong.
+    pub kind: Kind,
+    /// The device that it is about.
+    pub device: Option<(DeviceClass, u32)>,
+    /// The network, by number in the module.
+    pub network: u32,
+    /// How it is known.
+    pub evidence: Evidence,
+}
+
+/// All that was found.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Report {
+    /// In the order of the networks.
+    pub findings: Vec<Finding>,
+    /// How many questions were not answered in time.
+    pub open: usize,
+}
+
+/// Something that may be impossible.
+struct Candidate {
+    kind: Kind,
+    device: Option<(DeviceClass, u32)>,
+    network: u32,
+    /// It is on in a scan that shows that it is possible.
+    happens: Lit,
+    /// It must have been on in some run: that the network is reached, for example.
+    before: Lit,
+    happened: bool,
+    began: bool,
+}
+
+/// How often runs by chance begin anew, and how many scans each has.
+const RUNS: usize = 24;
+/// Scans with changing inputs, and then with the same.
+const PHASE: usize = 8;
+/// How long one proof may take.
+const PROOF: Duration = Duration::from_millis(1500);
+/// How many scans induction supposes at most.
+const INDUCTION: usize = 3;
+/// How many changes in a row make an output one that oscillates.
+const CHANGES: usize = 6;
+
+/// Looks for what can never happen, within this time.
+pub fn look(module: &Module, time: Duration) -> Report {
+    let begin = Instant::now();
+    let world = World {
+        scan_ms: FOREVER_MS,
+        ..World::default()
+    };
+    let encoder = Encoder::scan_probed(module, world);
+    let system = encoder.system(Lit::FALSE);
+    let mut candidates = candidates(&encoder);
+    let mut report = Report::default();
+    simulate(
+        module,
+        &encoder,
+        &system,
+        (&mut candidates, &mut report),
+        begin + time / 4,
+    );
+    for candidate in candidates.iter().filter(|c| !c.happened && c.began) {
+        let now = Instant::now();
+        if now >= begin + time {
+            report.open += 1;
+            continue;
+        }
+        match never(
+            &system.about(candidate.happens),
+            (now + PROOF).min(begin + time),
+        ) {
+            Answer::Proved(evidence) => report.findings.push(Finding {
+                kind: candidate.kind.clone(),
+                device: candidate.device,
+                network: candidate.network,
+                evidence,
+            }),
+            Answer::Possible => {}
+            Answer::Open => report.open += 1,
+        }
+    }
+    rungc_syntax::order::by(&mut report.findings, |a, b| a.network.cmp(&b.network));
+    report
+}
+
+/// What a program says could happen.
+fn candidates(encoder: &Encoder) -> Vec<Candidate> {
+    let Some(probes) = &encoder.probes else {
+        return Vec::new();
+    };
+    let reached = |network: u32| {
+        probes
+            .rungs
+            .get(&network)
+            .map_or(Lit::TRUE, |rung| rung.reached)
+    };
+    let candidate = |kind, device, network, happens, before| Candidate {
+        kind,
+        device,
+        network,
+        happens,
+        before,
+        happened: false,
+        began: before == Lit::TRUE,
+    };
+    let mut found = Vec::new();
+    for (&(class, number), written) in &probes.bits {
+        let key = Key::Bit(class, number);
+        let begins_off = encoder.initial(key) == Some(0) && !encoder.is_free(key);
+        if !begins_off || rungc_models::runs::is_special(class, number) {
+            continue;
+        }
+        let device = Some((class, number));
+        let kind = match class {
+            DeviceClass::S => Kind::NeverReached,
+            _ => Kind::NeverOn,
+        };
+        found.push(candidate(
+            kind,
+            device,
+            written.network,
+            written.on,
+            reached(written.network),
+        ));
+        if class == DeviceClass::S {
+            found.push(candidate(
+                Kind::NeverLeft,
+                device,
+                written.network,
+                written.off,
+                written.on,
+            ));
+        }
+    }
+    for (&number, timer) in &probes.timers {
+        let device = Some((DeviceClass::T, number));
+        found.push(candidate(
+            Kind::NeverExpires,
+            device,
+            timer.network,
+            timer.expires,
+            timer.driven,
+        ));
+    }
+    for (&network, rung) in &probes.rungs {
+        if let Some(acts) = rung.acts.filter(|acts| *acts != rung.reached) {
+            found.push(candidate(
+                Kind::NeverActs,
+                None,
+                network,
+                acts,
+                rung.reached,
+            ));
+        }
+    }
+    for compared in &probes.comparisons {
+        // Nobody is surprised that constants compare the same always.
+        if compared.holds.constant().is_some() {
+            continue;
+        }
+        for result in [true, false] {
+            let kind = Kind::Constant {
+                op: compared.op,
+                sides: compared.sides,
+                result,
+            };
+            let otherwise = compared.holds.invert_if(result);
+            found.push(candidate(
+                kind,
+                None,
+                compared.network,
+                otherwise,
+                reached(compared.network),
+            ));
+        }
+    }
+    found
+}
+
+/// Notes what happens in runs by chance, and finds outputs that oscillate.
+fn simulate(
+    module: &Module,
+    encoder: &Encoder,
+    system: &System,
+    (candidates, report): (&mut [Candidate], &mut Report),
+    deadline: Instant,
+) {
+    let mut chance = Chance::new();
+    let written = encoder.probes.iter().flat_map(|probes| &probes.bits);
+    let mut outputs: Vec<(u32, u32, Lit)> = written
+        .filter(|((class, _), _)| *class == DeviceClass::Y)
+        .filter_map(|(&(class, number), written)| {
+            let after = encoder.after(Key::Bit(class, number))?;
+            Some((number, written.network, after[0]))
+        })
+        .collect();
+    for run in 0..RUNS {
+        let mut lanes = Lanes::new(system, &mut chance);
+        // Some runs wait for all timers; in the others scans are short.
+        let waits = run % 2 == 1;
+        for phase in 0..4 {
+            let mut shown: Vec<Vec<u64>> = Vec::new();
+            for scan in 0..2 * PHASE {
+                let quiet = scan >= PHASE;
+                let ms = match (run + phase + scan, scan) {
+                    (0, _) => 0,
+                    _ if waits && chance.below(3) == 0 => FOREVER_MS,
+                    _ => [1, 10, 100, 30][chance.below(4) as usize],
+                };
+                let ms = if phase + scan == 0 { 0 } else { ms };
+                lanes.scan(
+                    if quiet && !waits { ms.min(1) } else { ms },
+                    !quiet,
+                    &mut chance,
+                );
+                for candidate in candidates.iter_mut() {
+                    candidate.happened |= lanes.value(candidate.happens) != 0;
+                    candidate.began |= lanes.value(candidate.before) != 0;
+                }
+                if quiet {
+                    shown.push(outputs.iter().map(|(.., lit)| lanes.value(*lit)).collect());
+                }
+            }
+            if waits {
+                continue;
+            }
+            let last = &shown[shown.len() - CHANGES - 1..];
+            outputs = std::mem::take(&mut outputs)
+                .into_iter()
+                .enumerate()
+                .filter(|&(i, (number, network, _))| {
+                    let changes = last
+                        .windows(2)
+                        .fold(lanes.alive, |all, pair| all & (pair[0][i] ^ pair[1][i]));
+                    let finding = (changes != 0)
+                        .then(|| oscillation(module, number, lanes.trace(changes.trailing_zeros())))
+                        .flatten();
+                    let new = finding.is_none();
+                    report.findings.extend(finding.map(|trace| Finding {
+                        kind: Kind::Oscillates,
+                        device: Some((DeviceClass::Y, number)),
+                        network,
+                        evidence: Evidence::Trace(trace),
+                    }));
+                    new
+                })
+                .map(|(_, output)| output)
+                .collect();
+        }
+        if Instant::now() > deadline {
+            break;
+        }
+    }
+}
+
+/// The run, if the output changes in each of its last scans on the interpreter, too, though its inputs do not.
+fn oscillation(module: &Module, number: u32, trace: Trace) -> Option<Trace> {
+    let happens = |trace: &Trace| {
+        let mut run = Run::new(module, trace);
+        let (mut before, mut changes) = (None, 0);
+        for (n, scan) in trace.scans.iter().enumerate() {
+            run.scan(scan)?;
+            let on = run.machine.bit(Class::Y, number)?;
+            let same_inputs = n > 0 && trace.scans[n - 1].set == scan.set;
+            let changed = same_inputs && before == Some(!on);
+            changes = if changed { changes + 1 } else { 0 };
+            before = Some(on);
+            if changes == CHANGES {
+                return Some(n + 1);
+            }
+        }
+        None
+    };
+    happens(&trace)?;
+    Some(plain(&happens, trace))
+}
+
+/// An answer to whether something never happens.
+enum Answer {
+    Proved(Evidence),
+    Possible,
+    Open,
+}
+
+fn never(system: &System, deadline: Instant) -> Answer {
+    let mut bounded = Bounded::new(system, false, deadline);
+    let mut induction = Induction::new(system, deadline);
+    for scans in 1..=INDUCTION {
+        match bounded.step() {
+            Step::Holds if induction.step() => return Answer::Proved(Evidence::Induction(scans)),
+            Step::Holds => {}
+            Step::Violated(_) => return Answer::Possible,
+            Step::Impossible | Step::TimeUp => return Answer::Open,
+        }
+    }
+    match pdr::search(system, deadline) {
+        pdr::Found::Invariant(cubes) => {
+            let checked = pdr::check(system, &cubes, deadline + PROOF);
+            match checked {
+                true => Answer::Proved(Evidence::Invariant(cubes.len())),
+                false => Answer::Open,
+            }
+        }
+        pdr::Found::Violated => Answer::Possible,
+        pdr::Found::TimeUp => Answer::Open,
+    }
+}
