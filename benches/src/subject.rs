@@ -364,6 +364,7 @@ impl RustSubject {
         let options = rungc_codegen_rust::Options {
             main: false,
             servers: false,
+            io: false,
             runtime: rungc_codegen_rust::Runtime::At(RUNTIME.to_string()),
         };
         for file in rungc_codegen_rust::emit(&module, &options) {

@@ -176,6 +176,7 @@ pub fn runtime(target: Option<&Target>) -> Result<PathBuf> {
         rustc: rustc.unwrap_or("rustc".as_ref()),
         target: target.and_then(Target::rustc_name),
         optimise: target.map_or(Optimise::Speed, Target::optimise),
+        std: false,
         cargo_args: &[],
     };
     let cache = cache::folder().map_err(|error| Problem::File {

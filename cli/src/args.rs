@@ -316,6 +316,10 @@ pub struct Plan {
     /// the model. They need the runtime library (docs/src/serve.md).
     #[arg(long)]
     pub servers: bool,
+    /// Executables and main programs take --io FILE, which connects terminals and registers to remote I/O, brokers, pins
+    /// and files as `rungc run` does, and --log FILE. They need the runtime library (docs/src/linux.md).
+    #[arg(long)]
+    pub io: bool,
     /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
     #[arg(long)]
     pub device_access: bool,

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{folder, free_port, text};
+use common::{folder, free_port, rungc, text};
 use std::fs;
 use std::net::TcpStream;
 use std::path::Path;
@@ -189,6 +189,30 @@ fn works(folder: &Path, port: u16, recipe: i16) {
 
 #[test]
 fn a_broker_is_lost_and_comes_back() {
+    let serve = |_: &Path| {
+        let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
+        serve.arg("serve");
+        serve
+    };
+    lost_and_back(serve, 130);
+}
+
+/// The same of an executable, with the client of the runtime.
+#[test]
+fn a_broker_of_an_executable_is_lost_and_comes_back() {
+    let start = |folder: &Path| {
+        let args = ["build", "p.il", "--emit", "bin", "--io", "-o", "p"];
+        let built = rungc(folder, &args);
+        assert!(built.status.success(), "{}", text(&built.stderr));
+        let mut command = Command::new(folder.join("p"));
+        command.args(["--io", "rungc.toml"]).stdin(Stdio::null());
+        command
+    };
+    lost_and_back(start, 0);
+}
+
+/// `start` makes the command that runs the program of a folder; interrupted, it ends with a code.
+fn lost_and_back(start: impl Fn(&Path) -> Command, code: i32) {
     if !is_there() {
         return;
     }
@@ -211,8 +235,8 @@ fn a_broker_is_lost_and_comes_back() {
         .args(["-b", "-c", "users", "plc", "secret"])
         .current_dir(folder);
     assert!(users.status().unwrap().success());
-    let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
-    serve.arg("serve").current_dir(folder).stdout(Stdio::null());
+    let mut serve = start(folder);
+    serve.current_dir(folder).stdout(Stdio::null());
     let mut run = Ends(serve.stderr(Stdio::null()).spawn().unwrap());
     soon("the broker is not there yet", || {
         file(folder, "lost") == "1"
@@ -236,7 +260,7 @@ fn a_broker_is_lost_and_comes_back() {
             .unwrap()
             .success()
     );
-    assert_eq!(run.0.wait().unwrap().code(), Some(130));
+    assert_eq!(run.0.wait().unwrap().code(), Some(code));
     shows(port, "plant/status", "offline");
     shows(port, "plant/motor", "0");
 }

@@ -134,15 +134,20 @@ fn rust_program(folder: &Path, option: &[&str]) -> PathBuf {
         folder,
         &[&["--emit", "rust", "--main", "-o", "slave"], option].concat(),
     );
+    cargo_built(&folder.join("slave"), "slave")
+}
+
+/// What cargo builds of an emitted package.
+fn cargo_built(package: &Path, name: &str) -> PathBuf {
     let output = Command::new("cargo")
         .args(["build", "--quiet", "--offline"])
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
-        .env("CARGO_TARGET_DIR", folder.join("target"))
-        .current_dir(folder.join("slave"))
+        .env("CARGO_TARGET_DIR", package.join("target"))
+        .current_dir(package)
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", text(&output.stderr));
-    folder.join("target/debug/slave")
+    package.join("target/debug").join(name)
 }
 
 /// Two pseudo-terminals that are joined.
@@ -370,4 +375,147 @@ fn servers_need_a_main_program() {
         text(&output.stderr).trim_end(),
         @"rungc: --servers only applies to --emit bin, and to --emit c and --emit rust with --main"
     );
+}
+
+/// Y000 follows X000; Y010 shows that the folder is lost, D0 counts scans.
+const CONNECTED: &str = "\
+LD X000
+OUT Y000
+LD M100
+OUT Y010
+LD M8000
+INC D0
+END
+";
+
+const CONNECTIONS: &str = "\
+[project]
+model = 'fx3u'
+
+[io.plant]
+files = 'plant'
+every = '5ms'
+fault = 'M100'
+X000 = 'read switch'
+Y000 = 'write lamp'
+
+[io.shown]
+files = '.'
+every = '5ms'
+Y010 = 'write lost'
+D0 = 'write scans'
+";
+
+/// Descriptions that are wrong.
+const WRONG: [&str; 12] = [
+    "",
+    "[io.a]\n",
+    "[io.a]\nfiles = '.'\n",
+    "[io.a]\nfiles = '.'\nX000 = 'switch'\n",
+    "[io.a]\nfiles = '.'\nY000 = 'read lamp'\n",
+    "[io.a]\nfiles = '.'\nX000 = 'read a\n",
+    "[io.a]\nfiles = '.'\nevery = '5 weeks'\nX000 = 'read a'\n",
+    "[io.a]\nfiles = '.'\nbaud = 9600\nX000 = 'read a'\n",
+    "[io.a]\nfiles = '.'\nX000 = 'read a'\nX0-X3 = 'read b'\n",
+    "[io.a]\nfiles = '.'\nM99999 = 'read a'\n",
+    "[io.a]\nmqtt = 'h'\ncertificate = 'c'\nX000 = 'read a'\n",
+    "[io.a]\nmqtt = 'h'\nca = 'c'\nX000 = 'read a'\n",
+];
+
+/// Waits until a file holds a value.
+fn shows(folder: &Path, name: &str, value: &str) {
+    let until = Instant::now() + Duration::from_secs(60);
+    let shown = || std::fs::read_to_string(folder.join(name)).unwrap_or_default();
+    while shown().trim() != value {
+        assert!(Instant::now() < until, "{name} is {}, not {value}", shown());
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// What a program says of wrong descriptions.
+fn refusals(folder: &Path, program: &Path) -> String {
+    let mut said = String::new();
+    for wrong in WRONG {
+        std::fs::write(folder.join("wrong.toml"), wrong).unwrap();
+        let mut command = Command::new(program);
+        command.args(["--io", "wrong.toml"]).current_dir(folder);
+        let output = command.stdin(Stdio::null()).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        said.push_str(&text(&output.stderr));
+    }
+    // C programs say their name first.
+    said.replace("p: ", "").replace("--io wrong.toml: ", "")
+}
+
+/// A program is connected while its outputs have no room, rubbish is typed, its folder goes and comes back; it ends in
+/// order.
+fn connects(folder: &Path, program: &Path) {
+    let plant = folder.join("plant");
+    std::fs::create_dir_all(&plant).unwrap();
+    std::fs::write(plant.join("switch"), "1").unwrap();
+    let full = || {
+        std::fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .unwrap()
+    };
+    let mut command = Command::new(program);
+    command.args(["--io", "rungc.toml", "--log", "log"]);
+    command.stdin(Stdio::piped()).stdout(full()).stderr(full());
+    let mut running = Running(command.current_dir(folder).spawn().unwrap());
+    let mut typed = running.0.stdin.take().unwrap();
+    let rubbish: Vec<u8> = (0..20_000u32).map(|n| (n * n >> 3) as u8).collect();
+    let typing = std::thread::spawn(move || typed.write_all(&rubbish));
+    for _ in 0..2 {
+        shows(folder, "plant/lamp", "1");
+        shows(folder, "lost", "0");
+        std::fs::rename(&plant, folder.join("away")).unwrap();
+        shows(folder, "lost", "1");
+        let scans = std::fs::read_to_string(folder.join("scans")).unwrap();
+        std::thread::sleep(Duration::from_millis(200));
+        assert_ne!(
+            std::fs::read_to_string(folder.join("scans")).unwrap(),
+            scans
+        );
+        std::fs::rename(folder.join("away"), &plant).unwrap();
+    }
+    shows(folder, "lost", "0");
+    typing.join().unwrap().unwrap();
+    // The end of the terminal.
+    let pid = running.0.id().to_string();
+    let sent = Command::new("kill").args(["-HUP", &pid]).status().unwrap();
+    assert!(sent.success());
+    assert_eq!(running.0.wait().unwrap().code(), Some(0));
+    shows(folder, "plant/lamp", "0");
+    let log = std::fs::read_to_string(folder.join("log")).unwrap();
+    let line = log
+        .lines()
+        .find(|line| line.ends_with("io plant: connected to plant"));
+    let (time, _) = line.expect("it is in the log").split_once(' ').unwrap();
+    assert_eq!((time.len(), time.ends_with('Z')), (20, true), "{time}");
+    assert!(log.contains("not an input"), "{log}");
+}
+
+#[test]
+fn executables_connect_terminals() {
+    let folder = folder(&[
+        ("p.il", CONNECTED.as_bytes()),
+        ("rungc.toml", CONNECTIONS.as_bytes()),
+    ]);
+    let folder = folder.path();
+    let build = |args: &[&str]| {
+        let args = [&["build", "p.il", "--io"], args].concat();
+        let output = rungc(folder, &args);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    };
+    build(&["--emit", "bin", "-o", "p"]);
+    let in_c = folder.join("p");
+    connects(folder, &in_c);
+    build(&["--emit", "rust", "--main", "-o", "rust"]);
+    let in_rust = cargo_built(&folder.join("rust"), "p");
+    std::fs::remove_file(folder.join("log")).unwrap();
+    connects(folder, &in_rust);
+    let said = refusals(folder, &in_c);
+    assert_eq!(said, refusals(folder, &in_rust));
+    insta::assert_snapshot!("wrong_descriptions", said);
 }

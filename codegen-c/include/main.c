@@ -21,6 +21,21 @@ static void stop(int signal_number)
     stopped = 1;
 }
 
+/* Prints a line. A file that is full or closed does no harm. */
+static void print(FILE *to, const char *format, ...)
+{
+    char line[512];
+    va_list values;
+
+    va_start(values, format);
+    (void)vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    if (fputs(line, to) < 0 || fflush(to) != 0) {
+        clearerr(to);
+    }
+    /* NOTE */
+}
+
 /* Output terminals: number, name, comment. The last entry ends the table. */
 static const struct {
     unsigned number;
@@ -65,6 +80,7 @@ static void read_commands(PROGRAM_plc *plc)
     char text[512];
     struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
 
+    /* COMMANDS */
     if (closed || poll(&input, 1, 0) <= 0) {
         return;
     }
@@ -91,7 +107,7 @@ static void read_commands(PROGRAM_plc *plc)
                 continue;
             }
         }
-        fprintf(stderr, "%s: not an input of the program; type for example X0=1\n", line);
+        print(stderr, "%s: not an input of the program; type for example X0=1\n", line);
     }
 }
 
@@ -133,10 +149,10 @@ static void print_stop(const PROGRAM_plc *plc, uint32_t now_ms)
     const plc_error error = PROGRAM_error(plc);
 
     if (!told && error.stop == PLC_STOP_WATCHDOG) {
-        fprintf(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, %s; the PLC is in STOP\n", (unsigned long)now_ms, error.stop_step,
+        print(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, %s; the PLC is in STOP\n", (unsigned long)now_ms, error.stop_step,
                 instructions[instruction_at(error.stop_step)].text, error.stop, meaning(error.stop));
     } else if (!told && error.stop == PLC_STOP_M8037) {
-        fprintf(stderr, "PROGRAM: the program has stopped itself (M8037)\n");
+        print(stderr, "PROGRAM: the program has stopped itself (M8037)\n");
     }
     told = error.stop != PLC_STOP_NONE;
 }
@@ -151,9 +167,8 @@ static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
         const bool on = PROGRAM_output(plc, outputs[i].number);
         if (on != shown[i]) {
             shown[i] = on;
-            printf("%7lu.%03u s  %s %-3s %s\n", (unsigned long)(now_ms / 1000u), (unsigned)(now_ms % 1000u), outputs[i].name,
+            print(stdout, "%7lu.%03u s  %s %-3s %s\n", (unsigned long)(now_ms / 1000u), (unsigned)(now_ms % 1000u), outputs[i].name,
                    on ? "on" : "off", outputs[i].comment);
-            fflush(stdout);
         }
     }
 }
@@ -175,11 +190,21 @@ static int read_options(int argc, char **argv)
             return 0;
         }
         /* OPTIONS */
-        fprintf(stderr, "PROGRAM: %s: not an option, or its value is missing\n", argv[i]);
+        print(stderr, "PROGRAM: %s: not an option, or its value is missing\n", argv[i]);
         print_usage(stderr);
         return 2;
     }
     return -1;
+}
+
+/* A signal ends the run in order, unless the caller ignores it (`nohup`). */
+static void catch_signal(int number, const struct sigaction *action)
+{
+    struct sigaction before;
+
+    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+        sigaction(number, action, NULL);
+    }
 }
 
 int main(int argc, char **argv)
@@ -194,21 +219,26 @@ int main(int argc, char **argv)
     uint64_t next = start;
     uint32_t scan_us = 0;
 
-    action.sa_handler = stop;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, NULL);
+    action.sa_handler = stop;
+    catch_signal(SIGHUP, &action);
+    catch_signal(SIGINT, &action);
+    catch_signal(SIGTERM, &action);
     PROGRAM_init(plc);
     /* LOAD */
     /* REPORT */
     /* HAL */
     /* ASK */
+    /* BEGIN */
     while (!stopped) {
         const uint64_t begin = microseconds();
         const uint32_t now_ms = (uint32_t)((begin - start) / 1000u);
         read_commands(plc);
         /* SERVE */
         PROGRAM_scan(plc, now_ms, scan_us);
+        /* GIVE */
         print_outputs(plc, now_ms);
         print_stop(plc, now_ms);
         /* SAVE */

@@ -35,7 +35,7 @@ static serial_line *line_of(uint8_t port)
 /* The line has vanished; the program runs on without it. */
 static void close_line(serial_line *line)
 {
-    fprintf(stderr, "PROGRAM: COM%u: %s is gone; waiting for it\n", line->port, line->path);
+    print(stderr, "PROGRAM: COM%u: %s is gone; waiting for it\n", line->port, line->path);
     close(line->file);
     line->file = -1;
     line->waiting = 0;
@@ -89,7 +89,7 @@ static void set_line(void *context, uint8_t port, const rungc_line_format *forma
     cfsetispeed(&settings, speed_of(format->bits_per_second));
     cfsetospeed(&settings, speed_of(format->bits_per_second));
     if (tcsetattr(line->file, TCSANOW, &settings) != 0) {
-        fprintf(stderr, "PROGRAM: COM%u: the line cannot be set to %lu bit/s\n", port, (unsigned long)format->bits_per_second);
+        print(stderr, "PROGRAM: COM%u: the line cannot be set to %lu bit/s\n", port, (unsigned long)format->bits_per_second);
     }
 }
 
@@ -103,7 +103,7 @@ static void reopen_line(serial_line *line, uint32_t now_us)
     line->file = open(line->path, O_RDWR | O_NOCTTY | O_NONBLOCK);
     if (line->file >= 0) {
         const rungc_line_format format = line->format;
-        fprintf(stderr, "PROGRAM: COM%u: %s is back\n", line->port, line->path);
+        print(stderr, "PROGRAM: COM%u: %s is back\n", line->port, line->path);
         set_line(NULL, line->port, &format);
     }
 }
@@ -218,11 +218,11 @@ static bool connect_line(uint8_t port, const char *path)
     serial_line *const line = line_of(port);
 
     if (line == NULL) {
-        fprintf(stderr, "PROGRAM: the program has no port COM%u\n", port);
+        print(stderr, "PROGRAM: the program has no port COM%u\n", port);
         return false;
     }
     if (line->path != NULL) {
-        fprintf(stderr, "PROGRAM: COM%u is connected to two lines\n", port);
+        print(stderr, "PROGRAM: COM%u is connected to two lines\n", port);
         return false;
     }
     line->path = path;
@@ -230,10 +230,10 @@ static bool connect_line(uint8_t port, const char *path)
         line->file = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK);
     }
     if (strcmp(path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
-        fprintf(stderr, "PROGRAM: COM%u=%s: %s\n", port, path, strerror(errno));
+        print(stderr, "PROGRAM: COM%u=%s: %s\n", port, path, strerror(errno));
         return false;
     }
-    fprintf(stderr, "PROGRAM: COM%u at %s\n", port, line->path);
+    print(stderr, "PROGRAM: COM%u at %s\n", port, line->path);
     return true;
 }
 
@@ -244,7 +244,7 @@ static bool open_line(const char *what)
     const unsigned long port = strncmp(what, "COM", 3) == 0 ? strtoul(what + 3, &end, 10) : 0;
 
     if (end == NULL || end == what + 3 || *end != '=' || port > 255u) {
-        fprintf(stderr, "PROGRAM: --serial %s: a line is written COM1=/dev/ttyUSB0 or COM1=pty\n", what);
+        print(stderr, "PROGRAM: --serial %s: a line is written COM1=/dev/ttyUSB0 or COM1=pty\n", what);
         return false;
     }
     return connect_line((uint8_t)port, end + 1);

@@ -33,11 +33,11 @@ static bool load_kept(PROGRAM_plc *plc)
         return true;
     }
     if (file == NULL && errno == ENOENT) {
-        fprintf(stderr, "PROGRAM: %s does not exist yet: latched devices begin as the PLC leaves the factory\n", kept.path);
+        print(stderr, "PROGRAM: %s does not exist yet: latched devices begin as the PLC leaves the factory\n", kept.path);
         return true;
     }
     if (file == NULL) {
-        fprintf(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
+        print(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
         return false;
     }
     const long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
@@ -46,12 +46,12 @@ static bool load_kept(PROGRAM_plc *plc)
     }
     fclose(file);
     if (loaded == RUNGC_LOADED_FOREIGN) {
-        fprintf(stderr, "PROGRAM: %s holds the latched devices of `%s`, and this program is `%s`; name another file\n", kept.path, record.owner,
+        print(stderr, "PROGRAM: %s holds the latched devices of `%s`, and this program is `%s`; name another file\n", kept.path, record.owner,
                 PROGRAM_retained.program);
     } else if (loaded != RUNGC_LOADED_DEVICES) {
-        fprintf(stderr, "PROGRAM: %s does not hold latched devices, or is damaged\n", kept.path);
+        print(stderr, "PROGRAM: %s does not hold latched devices, or is damaged\n", kept.path);
     } else if (dropped != 0u) {
-        fprintf(stderr, "PROGRAM: %s: %lu of its devices are dropped: the program does not use them as latched devices any more\n",
+        print(stderr, "PROGRAM: %s: %lu of its devices are dropped: the program does not use them as latched devices any more\n",
                 kept.path, (unsigned long)dropped);
     }
     kept.sequence = record.sequence + 1u;
@@ -113,7 +113,7 @@ static void save_kept(const PROGRAM_plc *plc, uint32_t now_ms, bool now)
         return;
     }
     if (!replace_kept(plc)) {
-        fprintf(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
+        print(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
     } else {
         kept.sequence++;
         kept.has_saved = true;

@@ -104,12 +104,12 @@ static bool listen_at(tcp_server *server, const struct addrinfo *at)
 static bool open_server(rungc_speaks speaks, const char *name, const char *text)
 {
     if (tcp_server_count == SERVERS) {
-        fprintf(stderr, "PROGRAM: at most %d servers\n", SERVERS);
+        print(stderr, "PROGRAM: at most %d servers\n", SERVERS);
         return false;
     }
     struct addrinfo *const found = find_address(text);
     if (found == NULL) {
-        fprintf(stderr, "PROGRAM: %s: an address is written 127.0.0.1:5020, [::1]:5020 or 5020\n", text);
+        print(stderr, "PROGRAM: %s: an address is written 127.0.0.1:5020, [::1]:5020 or 5020\n", text);
         return false;
     }
     tcp_server *const server = &tcp_servers[tcp_server_count];
@@ -118,11 +118,11 @@ static bool open_server(rungc_speaks speaks, const char *name, const char *text)
     const bool listens = listen_at(server, found);
     freeaddrinfo(found);
     if (!listens) {
-        fprintf(stderr, "PROGRAM: cannot serve %s at %s: %s\n", name, text, strerror(errno));
+        print(stderr, "PROGRAM: cannot serve %s at %s: %s\n", name, text, strerror(errno));
         return false;
     }
     tcp_server_count++;
-    fprintf(stderr, "PROGRAM: %s at %s\n", name, server->address);
+    print(stderr, "PROGRAM: %s at %s\n", name, server->address);
     return true;
 }
 
@@ -292,7 +292,7 @@ static void poll_servers(PROGRAM_plc *plc)
 static void print_connections(void)
 {
     if (tcp_server_count > 0) {
-        fprintf(stderr, "HEADING\n");
+        print(stderr, "HEADING\n");
     }
     for (size_t server = 0; server < tcp_server_count; server++) {
         const char *const address = tcp_servers[server].address;
@@ -302,11 +302,11 @@ static void print_connections(void)
             const tcp_client *const client = &tcp_clients[i];
             if (client->server == server) {
                 any = true;
-                fprintf(stderr, ROW, address, client->address, name, client->requests, client->answers, client->rejected);
+                print(stderr, ROW, address, client->address, name, client->requests, client->answers, client->rejected);
             }
         }
         if (!any) {
-            fprintf(stderr, ROW, address, "-", name, 0ul, 0ul, 0ul);
+            print(stderr, ROW, address, "-", name, 0ul, 0ul, 0ul);
         }
     }
 }

@@ -1160,6 +1160,25 @@ typedef struct rungc_module {
 } rungc_module;
 
 /**
+ * What a host does for connections: `input_edge` is told of inputs that change, `output` has the state of an output
+ * terminal. Both are given `context`; `input_edge` may be NULL.
+ */
+typedef struct rungc_terminal {
+    /**
+     * What the functions are given.
+     */
+    void *context;
+    /**
+     * An input terminal turns on or off.
+     */
+    void (*input_edge)(void *context, uint32_t number, bool on);
+    /**
+     * The state of an output terminal.
+     */
+    bool (*output)(void *context, uint32_t number);
+} rungc_terminal;
+
+/**
  * What a server speaks, for a model.
  */
 typedef struct rungc_service {
@@ -1458,6 +1477,46 @@ bool rungc_module_read(struct rungc_module *module, uint16_t address, int16_t *v
  * Writes a word of buffer memory; false if the module does not have that many.
  */
 bool rungc_module_write(struct rungc_module *module, uint16_t address, int16_t value);
+
+/**
+ * `--io FILE`: reads the connections that a file describes; false after a message if it cannot be used.
+ */
+bool rungc_outside_describe(const char *program, const char *path);
+
+/**
+ * `--log FILE`: begins or continues a log; false after a message if it cannot be written.
+ */
+bool rungc_outside_log(const char *program, const char *path);
+
+/**
+ * Adds a line to the log, if there is one.
+ */
+void rungc_outside_note(const char *line);
+
+/**
+ * Whether a connection reads standard input, which means no commands then.
+ */
+bool rungc_outside_takes_input(void);
+
+/**
+ * Starts the connections, before the first scan; false after a message if that cannot be done.
+ */
+bool rungc_outside_begin(const char *program, const struct rungc_map *map);
+
+/**
+ * Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
+ */
+void rungc_outside_take(struct rungc_map *map, const struct rungc_terminal *terminal);
+
+/**
+ * After a scan: the other ends are given what the devices are.
+ */
+void rungc_outside_give(struct rungc_map *map, const struct rungc_terminal *terminal);
+
+/**
+ * The run is over: outputs are turned off, and the log is written.
+ */
+void rungc_outside_end(void);
 
 /**
  * A connection begins.

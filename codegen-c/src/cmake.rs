@@ -97,7 +97,12 @@ pub fn cmake_lists(recipes: &[Recipe]) -> String {
         PROJECT.replace("@PROJECT@", &project)
     );
     if recipes.iter().any(|recipe| recipe.shared.runtime) {
-        text.push_str(&runtime(&project, "", TARGET));
+        let runtime = runtime(&project, "", TARGET);
+        let std = recipes.iter().any(|recipe| recipe.shared.std);
+        text.push_str(&match std {
+            true => runtime.replace("--features staticlib", "--features staticlib,std"),
+            false => runtime,
+        });
     }
     for recipe in recipes {
         program(&mut text, recipe, &project);
@@ -147,7 +152,14 @@ fn program(text: &mut String, recipe: &Recipe, project: &str) {
     let install = INSTALL.replace("@HEADERS@", &headers.join(" "));
     text.push_str(&install.replace("@NAME@", name));
     if recipe.main {
-        let main = MAIN.replace("@FOLDER@", folder);
+        let system = if recipe.shared.std {
+            "plc_@NAME@ pthread dl m)"
+        } else {
+            "plc_@NAME@)"
+        };
+        let main = MAIN
+            .replace("@FOLDER@", folder)
+            .replace("PRIVATE plc_@NAME@)", &format!("PRIVATE {system}"));
         text.push_str(&main.replace("@NAME@", name));
     }
 }

@@ -34,11 +34,16 @@ pub struct Part {
 impl Part {
     /// Emits a program. The same module gives the same bytes.
     pub fn new(module: &Module, options: &Options) -> Part {
-        let unit = unit::unit(module, options.main && options.servers, options.lanes);
+        let unit = unit::unit(
+            module,
+            options.main && (options.servers || options.io),
+            options.lanes,
+        );
         let name = &module.name;
         let retain = (options.retain || options.main) && cycle::keeps_any(module);
         let shared = Shared {
             runtime: unit.runtime,
+            std: options.main && options.io,
             board: options.board || module.takes_events(),
             access: options.access || retain,
             retain,
@@ -80,7 +85,7 @@ impl Part {
             files.push(OutFile::new(&path, format!("/* {banner} */\n{text}")));
         }
         if options.main {
-            let main = crate::host::main_file(module, options.servers);
+            let main = crate::host::main_file(module, options);
             files.push(OutFile::new("main.c", main));
             recipe.sources.push("main.c".to_string());
         }
@@ -113,6 +118,7 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
     let needed = |what: fn(&Shared) -> bool| recipes.iter().any(|recipe| what(&recipe.shared));
     let shared = Shared {
         runtime: needed(|shared| shared.runtime),
+        std: needed(|shared| shared.std),
         board: needed(|shared| shared.board),
         access: needed(|shared| shared.access),
         retain: needed(|shared| shared.retain),
@@ -244,6 +250,8 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
 pub struct Shared {
     /// The runtime library: its header and its sources.
     pub runtime: bool,
+    /// The library has the standard library of Rust in it, for connections.
+    pub std: bool,
     /// What describes a board; its types are in the runtime's header, too.
     pub board: bool,
     /// Devices by number and by name.
@@ -446,6 +454,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files.push(OutFile::new("main.c", main));
     let shared = Shared {
         runtime: true,
+        std: false,
         board: false,
         access: false,
         retain: false,

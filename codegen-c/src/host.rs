@@ -1,9 +1,10 @@
 //! The host program for Linux: scans in real time.
 
 mod clients;
+mod outside;
 
 use crate::fields::PrintStorage;
-use crate::{include, text};
+use crate::{Options, include, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
@@ -84,8 +85,8 @@ static bool set_clock(void *context, const rungc_clock *clock)
 ";
 
 /// Headers that every host needs, those with serial ports, and those with servers.
-const HEADERS: [&str; 7] = [
-    "poll", "signal", "stdio", "stdlib", "string", "time", "unistd",
+const HEADERS: [&str; 8] = [
+    "poll", "signal", "stdarg", "stdio", "stdlib", "string", "time", "unistd",
 ];
 const LINES_HEADERS: [&str; 3] = ["errno", "fcntl", "termios"];
 const RETAIN_HEADERS: [&str; 2] = ["errno", "fcntl"];
@@ -106,8 +107,8 @@ static void print_overrun(uint32_t scan_us, uint32_t constant_us)
     static bool told;
 
     if (!told) {
-        fprintf(stderr, \"PROGRAM: a scan took %lu us, longer than the constant scan time of %lu us\\n\", (unsigned long)scan_us,
-                (unsigned long)constant_us);
+        print(stderr, \"PROGRAM: a scan took %lu us, longer than the constant scan time of %lu us\\n\", (unsigned long)scan_us,
+              (unsigned long)constant_us);
     }
     told = true;
 }
@@ -123,24 +124,21 @@ static void print_error(const void *program, uint16_t code, uint16_t step)
     const PROGRAM_plc *const plc = program;
     const size_t i = instruction_at(step);
     char device[40];
+    const bool is_missing_device = missing_device(plc, step, device, sizeof device);
 
     if (told[i]) {
         return;
     }
     told[i] = true;
-    fprintf(stderr, \"PROGRAM: at %lu ms, step %u: %s: error %u, \", (unsigned long)plc->sys.now_ms, step,
-            instructions[i].text, code);
-    if (missing_device(plc, step, device, sizeof device)) {
-        fprintf(stderr, \"%s does not exist\\n\", device);
-    } else {
-        fprintf(stderr, \"%s\\n\", meaning(code));
-    }
+    print(stderr, \"PROGRAM: at %lu ms, step %u: %s: error %u, %s%s\\n\", (unsigned long)plc->sys.now_ms, step,
+          instructions[i].text, code, is_missing_device ? device : meaning(code), is_missing_device ? \" does not exist\" : \"\");
 }
 
 ";
 
-/// `main.c` for a program; `servers`: it takes options that open servers.
-pub fn main_file(module: &Module, servers: bool) -> String {
+/// `main.c` for a program.
+pub fn main_file(module: &Module, options: &Options) -> String {
+    let Options { servers, io, .. } = *options;
     let fields = Storage::new(module);
     let name = &module.name;
     let wait = match module.takes_time() {
@@ -173,7 +171,9 @@ pub fn main_file(module: &Module, servers: bool) -> String {
     let host = Host {
         lines: &["/dev/ttyUSB0", "pty"],
         servers,
+        io,
     };
+    let outside = outside::parts(module, io);
     let (serve, connections) = match servers {
         true => ("        poll_servers(plc);\n", "    print_connections();\n"),
         false => ("", ""),
@@ -189,8 +189,18 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("        /* SAVE */\n", save)
         .replace("    /* END */\n", end)
         .replace("    /* ASK */\n", begin_clients)
-        .replace("        /* SERVE */\n", &[serve, ask].concat())
-        .replace("    /* CONNECTIONS */\n", &[connections, asked].concat())
+        .replace(
+            "        /* SERVE */\n",
+            &[serve, ask, outside.take].concat(),
+        )
+        .replace(
+            "    /* CONNECTIONS */\n",
+            &[connections, asked, outside.end].concat(),
+        )
+        .replace("        /* GIVE */\n", outside.give)
+        .replace("    /* BEGIN */\n", outside.begin)
+        .replace("    /* NOTE */\n", outside.note)
+        .replace("    /* COMMANDS */\n", outside.commands)
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)
@@ -202,6 +212,7 @@ pub fn main_file(module: &Module, servers: bool) -> String {
                 retain,
                 &hardware,
                 &server_code(module, servers),
+                &outside.code,
             ]
             .concat(),
         )
@@ -212,7 +223,7 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("/* INTERRUPTS */", interrupts)
         .replace("PROGRAM", name)
         // Texts of the program come last: they may contain any word.
-        .replace("        /* OPTIONS */\n", &options(module, &host))
+        .replace("        /* OPTIONS */\n", &valued(module, &host))
         .replace("    /* ERRORS */\n", &errors(module))
         .replace("    /* INPUTS */\n", &inputs(module, &fields))
         .replace("    /* USAGE */\n", &usage(module, &host))
@@ -312,12 +323,14 @@ fn usage(module: &Module, host: &Host) -> String {
 }
 
 /// The statements that take the options with a value.
-fn options(module: &Module, host: &Host) -> String {
+fn valued(module: &Module, host: &Host) -> String {
     let options = usage::options(module, host).into_iter();
     let options = options.map(|option| {
         let call = match option.takes {
             Takes::Line => "open_line(argv[++i])".to_string(),
             Takes::Retained => "keep_in(argv[++i])".to_string(),
+            Takes::Io => outside::option(module, "describe"),
+            Takes::Log => outside::option(module, "log"),
             Takes::Address(speaks) => open_server(speaks),
             Takes::AddressOrLine(speaks, port) => {
                 let open = open_server(speaks);

@@ -58,6 +58,9 @@ pub struct Options {
     pub main: bool,
     /// The `main.c` takes options that open servers over TCP; the runtime library is needed then.
     pub servers: bool,
+    /// The `main.c` takes options that connect terminals and keep a log; the runtime library is needed then, with the
+    /// standard library of Rust.
+    pub io: bool,
     /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that
     /// does always has it.
     pub board: bool,

@@ -19,12 +19,17 @@ RUNTIME_PROFILE = $(if $(filter s z,$(RUNTIME_OPT)),CARGO_PROFILE_RELEASE_LTO=fa
 LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
 ";
 
+/// What it has, and what it needs of the system then.
+const PLAIN: &str = "RUNTIME_FEATURES = staticlib\n";
+const WITH_STD: &str =
+    "RUNTIME_FEATURES = staticlib,std\noverride LDFLAGS += -s -lpthread -ldl -lm\n";
+
 /// How it is built.
 const LIBRARY_RULE: &str = "\
 ifndef RUNGC_RT
 $(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
 \tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(RUNTIME_PROFILE) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
-\t\t--crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
+\t\t--crate-type staticlib --features $(RUNTIME_FEATURES) $(TARGET_FLAG) $(CARGOFLAGS)
 endif
 
 ";
@@ -134,6 +139,8 @@ pub fn makefile(recipes: &[Recipe]) -> String {
     }
     if runtime {
         text.push_str(LIBRARY_PATH);
+        let std = recipes.iter().any(|recipe| recipe.shared.std);
+        text.push_str(if std { WITH_STD } else { PLAIN });
     }
     let _ = writeln!(text, "\nall: {targets}{}\n", library(runtime));
     if runtime {

@@ -63,7 +63,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
     let mut runtime_at = at(runtime_path);
-    if options.main && (options.servers || cycle::keeps_any(module)) {
+    if options.main && (options.servers || options.io || cycle::keeps_any(module)) {
         runtime_at.push_str(", features = [\"std\"]");
     }
     let description = format!("PLC program {}", module.source_name);
@@ -79,7 +79,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     if options.main {
         files.push(OutFile::new(
             "src/main.rs",
-            host::main_file(&generator, &crate_name, options.servers),
+            host::main_file(&generator, &crate_name, options),
         ));
     }
     files.extend(runtime);

@@ -1,5 +1,6 @@
 //! The main program for a host: scans in real time.
 
+use crate::Options;
 use crate::generate::Generator;
 use rungc_emit::cycle;
 use rungc_emit::usage::{self, Host, Takes};
@@ -25,6 +26,9 @@ const SERVERS: &str = include_str!("../templates/servers.rs");
 /// What lets a run end in order when it is interrupted.
 const SIGNALS: &str = include_str!("../templates/signals.rs");
 
+/// What connections and the log share with the program.
+const OUTSIDE: &str = include_str!("../templates/outside.rs");
+
 /// What keeps latched devices in a file.
 const RETAIN: &str = include_str!("../templates/retain.rs");
 
@@ -39,7 +43,7 @@ const LINES_USES: [&str; 5] = [
 
 /// What one without uses.
 const USES: [&str; 3] = [
-    "std::io::{self, BufRead}",
+    "std::io::{self, BufRead, Read, Write}",
     "std::sync::mpsc::{self, Receiver}",
     "std::time::{Duration, Instant}",
 ];
@@ -51,7 +55,16 @@ const ON_ERROR: &str = include_str!("../templates/host_errors.rs");
 const REPORT: &str = "    plc.on_error = Some(report_error);\n";
 
 /// What it uses.
-const ERROR_USES: [&str; 2] = ["std::collections::BTreeSet", "std::sync::Mutex"];
+const ERROR_USES: [&str; 2] = ["std::collections::BTreeSet", MUTEX];
+
+/// What the error reports and connections use.
+const MUTEX: &str = "std::sync::Mutex";
+
+/// What connections use.
+const OUTSIDE_USES: [&str; 2] = [
+    "rungc_rt::io::{Of, Outside}",
+    "std::sync::{LazyLock, MutexGuard, PoisonError}",
+];
 
 /// What servers use.
 const SERVERS_USES: [&str; 3] = [
@@ -66,8 +79,9 @@ const CLIENTS_USES: [&str; 2] = [
     "rungc_rt::servers::Clients",
 ];
 
-/// `src/main.rs` of a crate; `servers`: it takes options that open servers.
-pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> String {
+/// `src/main.rs` of a crate.
+pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> String {
+    let Options { servers, io, .. } = *options;
     let module = generator.module;
     let wait = match (module.takes_events(), module.has_ports()) {
         (false, _) => WAIT,
@@ -102,6 +116,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     let host = Host {
         lines: &["/dev/ttyUSB0"],
         servers,
+        io,
     };
     let text = usage::lines(module, &host).join("\n") + "\n";
     let names = usage::options(module, &host).into_iter();
@@ -111,16 +126,21 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         false => ("", ""),
     };
     let mut code = HOST
-        .replace("USES;\n", &uses(generator, crate_name, servers))
+        .replace("USES;\n", &uses(generator, crate_name, options))
         .replace("    REPORT;\n", report)
         .replace("ON_ERROR;\n", on_error);
     // There is something to do at the end.
-    let in_order = servers || keeps;
+    let in_order = servers || keeps || io;
+    let [commands, take, give, leave, report_line, show_line] = match io {
+        true => CONNECTED,
+        false => ALONE,
+    };
     let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
     let parts = [
         (module.has_ports(), LINES),
         (servers, SERVERS),
         (keeps, RETAIN),
+        (io, OUTSIDE),
         (in_order, SIGNALS),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
@@ -132,8 +152,12 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("    CLOCK;\n", set)
         .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
-        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}"))
-        .replace("    CONNECTIONS;\n", &[connections, asked].concat())
+        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}{take}"))
+        .replace("        GIVE;\n", give)
+        .replace("COMMANDS;", commands)
+        .replace("    REPORT_LINE;\n", report_line)
+        .replace("    SHOW_LINE;\n", show_line)
+        .replace("    CONNECTIONS;\n", &[connections, asked, leave].concat())
         .replace("        SAVE;\n", save)
         .replace("    END;\n", end)
         .replace("OPTION_NAMES", &names.join(", "))
@@ -175,7 +199,8 @@ fn outputs(generator: &Generator) -> String {
 }
 
 /// What is used of the standard library and of the runtime.
-fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
+fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
+    let Options { servers, io, .. } = *options;
     let module = generator.module;
     let clock = match cycle::asks_clock(module) {
         true => "Class, Clock, Hal",
@@ -193,7 +218,8 @@ fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
         .chain(of_lines)
         .chain(of_servers)
         .chain(of_clients)
-        .chain(of_retain);
+        .chain(of_retain)
+        .chain(OUTSIDE_USES.iter().chain([&MUTEX]).filter(|_| io));
     let mut all = order::set(all.map(|name| (*name).to_string()));
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
@@ -231,8 +257,10 @@ fn open(module: &Module, host: &Host) -> String {
                 "Line::connect(&mut plc, &value).map(|line| lines.push(line))".to_string()
             }
             Takes::Retained => {
-                "RetainFile::begin(&value, &mut plc, |text| eprintln!(\"{text}\")).map(|file| kept = Some(file))".to_string()
+                "RetainFile::begin(&value, &mut plc, |text| report(&text)).map(|file| kept = Some(file))".to_string()
             }
+            Takes::Io => "outside().describe(&value)".to_string(),
+            Takes::Log => "outside().log(&value)".to_string(),
             Takes::Address(speaks) => open_server(speaks),
             Takes::AddressOrLine(speaks, port) => {
                 let open = open_server(speaks);
@@ -250,6 +278,7 @@ fn open(module: &Module, host: &Host) -> String {
     text + "    for (option, value) in options() {\n        let done = match option.as_str() {\n"
         + &arms
         + OPENED
+        + if host.io { BEGUN } else { "" }
 }
 
 /// What asks servers over TCP.
@@ -266,11 +295,43 @@ fn open_server(speaks: Speaks) -> String {
 const OPENED: &str = "            _ => Ok(()),
         };
         if let Err(error) = done {
-            eprintln!(\"{option} {value}: {error}\");
+            report!(\"{option} {value}: {error}\");
             std::process::exit(2);
         }
     }
 ";
+
+/// How a host with connections begins.
+const BEGUN: &str = "    let begun = outside().begin(&plc);
+    if let Err(why) = begun {
+        report!(\"{why}\");
+        std::process::exit(2);
+    }
+";
+
+/// What a host without connections does: where commands come from, before a scan, after one, at the end, and how lines
+/// are reported and printed.
+const ALONE: [&str; 6] = [
+    "commands();",
+    "",
+    "",
+    "",
+    "    let _ = writeln!(io::stderr(), \"{line}\");\n",
+    "    let _ = writeln!(io::stdout(), \"{line}\");\n",
+];
+
+/// The same with connections.
+const CONNECTED: [&str; 6] = [
+    "match outside().takes_input() {
+        true => mpsc::sync_channel(0).1,
+        false => commands(),
+    };",
+    "        outside().take(&mut Of(&mut plc, &mut hal));\n",
+    "        outside().give(&mut Of(&mut plc, &mut hal));\n",
+    "    outside().end();\n",
+    "    outside().say(line);\n",
+    "    let _ = writeln!(io::stdout(), \"{line}\");\n    outside().note(line);\n",
+];
 
 /// Latched devices are saved after a scan, and after the last one.
 const SAVE: [&str; 2] = [
@@ -304,7 +365,7 @@ const POLL: &str = "        if let Some(running) = servers.poll(&mut plc) {
 
 /// The table of connections, at the end.
 const CONNECTIONS: &str = "    for row in servers.table() {
-        eprintln!(\"{row}\");
+        report!(\"{row}\");
     }
 ";
 
@@ -313,7 +374,7 @@ const ASK: &str = "        clients.poll(&mut plc, |_| {});\n";
 
 /// What they were asked, at the end.
 const ASKED: &str = "    for row in clients.table() {
-        eprintln!(\"{row}\");
+        report!(\"{row}\");
     }
 ";
 
@@ -382,7 +443,7 @@ const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().
             }
             Some(us) => {
                 if !overrun {
-                    eprintln!(\"a scan took {scan_us} us, longer than the constant scan time of {us} us\");
+                    report!(\"a scan took {scan_us} us, longer than the constant scan time of {us} us\");
                 }
                 overrun = true;
                 Instant::now()

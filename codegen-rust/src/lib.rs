@@ -41,6 +41,8 @@ pub struct Options {
     pub main: bool,
     /// The `src/main.rs` takes options that open servers over TCP.
     pub servers: bool,
+    /// It takes options that connect terminals and keep a log.
+    pub io: bool,
     /// Where the emitted crate finds `rungc-rt`.
     pub runtime: Runtime,
 }

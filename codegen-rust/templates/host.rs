@@ -5,11 +5,30 @@
 
 USES;
 
+/// Reports a line on standard error. One that is full or closed does no harm.
+macro_rules! report {
+    ($($text:tt)*) => {
+        report(&format!($($text)*))
+    };
+}
+
+fn report(line: &str) {
+    REPORT_LINE;
+}
+
+/// Prints a line to standard output. One that is full or closed does no harm.
+fn show(line: &str) {
+    SHOW_LINE;
+}
+
 /// Time from the start of one scan to the start of the next.
 const SCAN: Duration = Duration::from_millis(10);
 
 /// The number of lines of standard input that a scan reads.
 const COMMANDS_PER_SCAN: usize = 16;
+
+/// The longest of them, in bytes.
+const LONGEST_COMMAND: u64 = 1024;
 
 /// Output terminals: number, name, comment.
 const OUTPUTS: &[(u32, &str, &str)] = &[OUTPUT_TABLE];
@@ -32,7 +51,7 @@ fn main() {
     OPEN;
     CLOCK;
     let mut shown = [false; OUTPUTS.len()];
-    let commands = commands();
+    let commands = COMMANDS;
     let start = Instant::now();
     let mut next = start;
     let mut scan_us = 0;
@@ -49,19 +68,20 @@ fn main() {
                 break 'run;
             }
             if set_input(&mut plc, &mut hal, &line).is_none() {
-                eprintln!("{line}: not an input; type for example X0=1");
+                report!("{line}: not an input; type for example X0=1");
             }
         }
         hal.advance_to(now_ms);
         SERVE;
         plc.scan(&mut hal, now_ms, scan_us);
+        GIVE;
         for (&(number, name, comment), shown) in OUTPUTS.iter().zip(&mut shown) {
             let on = plc.output(number);
             if on != *shown {
                 *shown = on;
                 let state = if on { "on" } else { "off" };
                 let seconds = f64::from(now_ms) / 1000.0;
-                println!("{seconds:>11.3} s  {name} {state:<3} {comment}");
+                show(&format!("{seconds:>11.3} s  {name} {state:<3} {comment}"));
             }
         }
         report_stop(&plc, now_ms, &mut stop);
@@ -83,13 +103,13 @@ fn options() -> Vec<(String, String)> {
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         if ["-h", "--help"].contains(&word.as_str()) {
-            print!("{USAGE}");
+            show(USAGE.trim_end());
             std::process::exit(0);
         }
         match words.next().filter(|_| VALUED.contains(&word.as_str())) {
             Some(value) => options.push((word, value)),
             None => {
-                eprint!("{word}: not an option, or its value is missing\n{USAGE}");
+                report!("{word}: not an option, or its value is missing\n{}", USAGE.trim_end());
                 std::process::exit(2);
             }
         }
@@ -107,11 +127,11 @@ fn meaning(code: u16) -> &'static str {
 fn report_stop(plc: &TYPE, now_ms: u32, before: &mut Stop) {
     let LastError { stop, stop_step, .. } = plc.last_error();
     match stop {
-        Stop::Program if stop != *before => eprintln!("the program has stopped itself (M8037)"),
+        Stop::Program if stop != *before => report!("the program has stopped itself (M8037)"),
         Stop::Watchdog if stop != *before => {
             let (code, text) = (Stop::Watchdog as u16, instruction(stop_step).0);
             let what = meaning(code);
-            eprintln!("at {now_ms} ms, step {stop_step}: {text}: error {code}, {what}; the PLC is in STOP");
+            report!("at {now_ms} ms, step {stop_step}: {text}: error {code}, {what}; the PLC is in STOP");
         }
         Stop::No | Stop::Program | Stop::Watchdog => {}
     }
@@ -130,10 +150,15 @@ fn commands() -> Receiver<String> {
     // A flood of lines waits until the scans have looked at them.
     let (sender, receiver) = mpsc::sync_channel(COMMANDS_PER_SCAN);
     std::thread::spawn(move || {
-        for line in io::stdin().lock().lines().map_while(Result::ok) {
-            if sender.send(line).is_err() {
+        let mut input = io::stdin().lock();
+        let mut line = Vec::new();
+        // A longer line is cut, so that it cannot fill the memory.
+        while let Ok(1..) = input.by_ref().take(LONGEST_COMMAND).read_until(b'\n', &mut line) {
+            let text = String::from_utf8_lossy(&line).trim().to_string();
+            if sender.send(text).is_err() {
                 break;
             }
+            line.clear();
         }
     });
     receiver

@@ -5,7 +5,7 @@ fn report_error(plc: &TYPE, code: u16, step: u16) {
     if is_new {
         let what = missing_device(plc, step).unwrap_or(meaning(code).to_string());
         let now_ms = plc.sys().now_ms;
-        eprintln!("at {now_ms} ms, step {step}: {}: error {code}, {what}", instruction(step).0);
+        report!("at {now_ms} ms, step {step}: {}: error {code}, {what}", instruction(step).0);
     }
 }
 

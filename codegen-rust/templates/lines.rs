@@ -63,7 +63,7 @@ impl Line {
             return Err(format!("the program has no port COM{port}"));
         }
         let line = Line::open(port, path).map_err(|error| error.to_string())?;
-        eprintln!("COM{port} at {path}");
+        report!("COM{port} at {path}");
         Ok(line)
     }
 
@@ -86,7 +86,7 @@ impl Line {
         if format != self.format && format.bits_per_second != 0 {
             self.format = format;
             if let Err(error) = stty(&self.path, &settings(format)) {
-                eprintln!("COM{}: the line cannot be set to {} bit/s: {error}", self.port, format.bits_per_second);
+                report!("COM{}: the line cannot be set to {} bit/s: {error}", self.port, format.bits_per_second);
             }
         }
         let character_us = self.format.character_us();
@@ -94,12 +94,12 @@ impl Line {
             let (came, bytes) = match event {
                 Event::Came(at, bytes) => (at, bytes),
                 Event::Gone => {
-                    eprintln!("COM{}: {} is gone; waiting for it", self.port, self.path);
+                    report!("COM{}: {} is gone; waiting for it", self.port, self.path);
                     self.file = None;
                     continue;
                 }
                 Event::Back(file) => {
-                    eprintln!("COM{}: {} is back", self.port, self.path);
+                    report!("COM{}: {} is back", self.port, self.path);
                     self.file = Some(file);
                     self.format = LineFormat::new();
                     continue;

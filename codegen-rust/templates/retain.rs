@@ -2,6 +2,6 @@
 /// Reports that latched devices cannot be saved.
 fn report_unsaved(file: &RetainFile, saved: io::Result<bool>) {
     if let Err(error) = saved {
-        eprintln!("{}: {error}", file.path().display());
+        report!("{}: {error}", file.path().display());
     }
 }

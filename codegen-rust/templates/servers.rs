@@ -11,6 +11,6 @@ fn open_server(servers: &mut Servers, speaks: Speaks, value: &str) -> Result<(),
     let name = speaks.name();
     let opened = servers.open(service, at);
     let at = opened.map_err(|error| format!("cannot serve {name} at {at}: {error}"))?;
-    eprintln!("{name} at {at}");
+    report!("{name} at {at}");
     Ok(())
 }

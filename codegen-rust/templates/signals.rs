@@ -1,26 +1,31 @@
 
-/// Ctrl-C and a request to terminate end the run as `quit` does. The standard library knows no signals, but the C library that it uses does.
+/// Ctrl-C, the end of the terminal and a request to terminate end the run as `quit` does. The standard library knows no signals, but the C library that it uses does.
 #[cfg(unix)]
 mod signals {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     static STOPPED: AtomicBool = AtomicBool::new(false);
 
-    /// SIGINT and SIGTERM.
-    const NUMBERS: [i32; 2] = [2, 15];
+    /// SIGHUP, SIGINT and SIGTERM.
+    const NUMBERS: [i32; 3] = [1, 2, 15];
+
+    /// Nothing is done about a signal: `SIG_IGN`.
+    const IGNORED: usize = 1;
 
     unsafe extern "C" {
-        safe fn signal(number: i32, handler: extern "C" fn(i32)) -> usize;
+        safe fn signal(number: i32, handler: usize) -> usize;
     }
 
     extern "C" fn stop(_: i32) {
         STOPPED.store(true, Ordering::Relaxed);
     }
 
-    /// From now on the signals do not end the program at once.
+    /// From now on the signals do not end the program at once. What the caller ignores (`nohup`) stays so.
     pub fn catch() {
         for number in NUMBERS {
-            signal(number, stop);
+            if signal(number, stop as extern "C" fn(i32) as usize) == IGNORED {
+                signal(number, IGNORED);
+            }
         }
     }
 

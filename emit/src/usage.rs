@@ -16,6 +16,8 @@ pub struct Host {
     pub lines: &'static [&'static str],
     /// Whether it opens servers.
     pub servers: bool,
+    /// Whether it has connections and a log.
+    pub io: bool,
 }
 
 /// What an option takes.
@@ -29,6 +31,10 @@ pub enum Takes {
     AddressOrLine(Speaks, u8),
     /// The file that keeps latched devices from run to run.
     Retained,
+    /// The file that describes connections.
+    Io,
+    /// The file of the log.
+    Log,
 }
 
 /// An option with a value.
@@ -61,7 +67,11 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
         takes: Takes::Retained,
     });
     let servers = servers.into_iter().filter(|_| host.servers);
-    line.into_iter().chain(retain).chain(servers).collect()
+    let outside = [("--io", Takes::Io), ("--log", Takes::Log)];
+    let outside = outside.map(|(name, takes)| Valued { name, takes });
+    let outside = outside.into_iter().filter(|_| host.io);
+    let own = line.into_iter().chain(retain).chain(outside);
+    own.chain(servers).collect()
 }
 
 /// The port that examples name: the first that the program itself uses.
@@ -102,6 +112,14 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                 &format!("{name} FILE"),
                 "keep latched devices in this file from run to run",
             ),
+            Takes::Io => option(
+                &format!("{name} FILE"),
+                "connect terminals and registers as [io.NAME] in this file says",
+            ),
+            Takes::Log => option(
+                &format!("{name} FILE"),
+                "add what is printed to this file, with the time (UTC)",
+            ),
             Takes::Address(speaks) | Takes::AddressOrLine(speaks, _) => {
                 let or_line = match takes {
                     Takes::AddressOrLine(_, port) => {
@@ -110,7 +128,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                             host.lines.join(&format!(", {name} "))
                         )
                     }
-                    Takes::Line | Takes::Address(_) | Takes::Retained => String::new(),
+                    _ => String::new(),
                 };
                 option(
                     &format!("{name} ADDRESS"),

@@ -47,6 +47,7 @@ pub struct Tools {
     cargo: OsString,
     rustc: OsString,
     cargo_args: Vec<String>,
+    std: bool,
 }
 
 fn variable(name: &str, default: &str) -> OsString {
@@ -79,6 +80,7 @@ impl Tools {
             cargo: variable("CARGO", "cargo"),
             rustc: variable("RUSTC", "rustc"),
             cargo_args: cargo_args.to_vec(),
+            std: false,
         }
     }
 
@@ -86,6 +88,13 @@ impl Tools {
     #[must_use]
     pub fn announcing(mut self, announce: fn(&str)) -> Self {
         self.announce = announce;
+        self
+    }
+
+    /// Whether the runtime library has connections, and with them the standard library in it.
+    #[must_use]
+    pub fn with_std(mut self, std: bool) -> Self {
+        self.std = std;
         self
     }
 
@@ -152,6 +161,7 @@ impl Tools {
             rustc: &self.rustc,
             target: self.target.rustc_name(),
             optimise: self.target.optimise(),
+            std: self.std,
             cargo_args: &self.cargo_args,
         };
         let announce = || (self.announce)(&format!("the runtime for {}", self.target.title));

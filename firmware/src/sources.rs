@@ -2,6 +2,7 @@
 
 use crate::target::Target;
 pub use rungc_codegen_c::{Options, Part, Recipe};
+pub use rungc_codegen_rust::Options as RustOptions;
 use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::library::Optimise;
@@ -60,14 +61,9 @@ fn makefile(text: &str, target: &Target, triple: &str) -> String {
     )
 }
 
-/// A Rust crate that cargo builds for the target; `main`: with a main program, `servers`: which opens servers over TCP.
-pub fn rust(module: &Module, target: &Target, main: bool, servers: bool) -> Vec<OutFile> {
-    let options = rungc_codegen_rust::Options {
-        main,
-        servers,
-        ..Default::default()
-    };
-    let files = rungc_codegen_rust::emit(module, &options).into_iter();
+/// A Rust crate that cargo builds for the target.
+pub fn rust(module: &Module, target: &Target, options: &RustOptions) -> Vec<OutFile> {
+    let files = rungc_codegen_rust::emit(module, options).into_iter();
     let config = target.rustc_name().map(|triple| {
         let text = format!("[build]\ntarget = \"{triple}\"\n");
         OutFile::new(".cargo/config.toml", text)

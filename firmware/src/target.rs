@@ -62,7 +62,7 @@ pub const CORTEX_M4F: Target = cortex(
 );
 
 /// All of them.
-pub static ALL: [Target; 6] = [
+pub static ALL: [Target; 9] = [
     HOST,
     cortex(
         "thumbv6m-none-eabi",
@@ -80,6 +80,33 @@ pub static ALL: [Target; 6] = [
         "-mcpu=cortex-m4 -mthumb -mfloat-abi=soft",
     ),
     CORTEX_M4F,
+    Target {
+        triple: "x86_64-unknown-linux-gnu",
+        title: "64-bit PC Linux",
+        cc: "x86_64-linux-gnu-gcc",
+        ar: "x86_64-linux-gnu-ar",
+        packages: "gcc-x86-64-linux-gnu libc6-dev",
+        flags: "",
+        system: System::Linux,
+    },
+    Target {
+        triple: "x86_64-unknown-linux-musl",
+        title: "64-bit PC Linux, without shared libraries",
+        cc: "musl-gcc",
+        ar: "ar",
+        packages: "musl-tools",
+        flags: "-static",
+        system: System::Linux,
+    },
+    Target {
+        triple: "aarch64-unknown-linux-gnu",
+        title: "64-bit Arm Linux",
+        cc: "aarch64-linux-gnu-gcc",
+        ar: "aarch64-linux-gnu-ar",
+        packages: "gcc-aarch64-linux-gnu libc6-dev-arm64-cross",
+        flags: "",
+        system: System::Linux,
+    },
     Target {
         triple: "armv7-unknown-linux-gnueabihf",
         title: "32-bit Arm Linux",

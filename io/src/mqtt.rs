@@ -1,10 +1,8 @@
-//! Brokers: a topic for each device, or one JSON object for the devices of a row.
+//! Brokers, by rumqttc: values are published at least once.
 
 use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
-use rungc_rt::io::{Connection, Driver, End, Row, Trouble};
-use serde_json::{Map, Value};
+use rungc_rt::io::{Connection, Driver, Opener, Trouble, address, password, take, topics};
 use std::collections::BTreeMap;
-use std::fs;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -12,15 +10,15 @@ use std::time::Duration;
 /// The port of MQTT.
 const PORT: u16 = 1883;
 
+/// The port of MQTT over TLS.
+const TLS_PORT: u16 = 8883;
+
 /// The shortest time without a word after which the broker and this end look for each other.
 const KEEP_ALIVE: Duration = Duration::from_secs(5);
 
 /// Requests that wait for the broker, beside a subscription for each topic; what does not fit is published later, with
 /// the value of then.
 const WAITING: usize = 256;
-
-/// Stands for the name of the device in the topic of a row.
-const DEVICE: &str = "{}";
 
 /// Payloads of the topic that shows whether the PLC is there.
 const ONLINE: &str = "online";
@@ -47,16 +45,27 @@ struct Broker {
     published: BTreeMap<String, String>,
 }
 
+/// What opens a broker.
+///
+/// # Errors
+/// A connection by TLS, which this build lacks.
+pub fn opener(connection: &Connection) -> Result<Opener, String> {
+    match connection.is_encrypted() && cfg!(not(feature = "tls")) {
+        true => Err(String::from(
+            "this rungc is built without TLS; install it with `--features tls` (docs/src/linux.md)",
+        )),
+        false => Ok(open),
+    }
+}
+
 /// Connects to the broker of a connection, and subscribes to the topics that are read.
-pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
-    let (host, port) = match connection.end.rsplit_once(':') {
-        Some((host, port)) => (
-            host,
-            port.parse()
-                .map_err(|_| format!("`{port}` is not a port"))?,
-        ),
-        None => (&*connection.end, PORT),
+fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+    let port = if connection.is_encrypted() {
+        TLS_PORT
+    } else {
+        PORT
     };
+    let (host, port) = address(&connection.end, port)?;
     let option = |key: &str| connection.options.get(key);
     let usual = || format!("rungc-{}-{}", connection.name, std::process::id());
     let id = option("client").cloned().unwrap_or_else(usual);
@@ -66,13 +75,11 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     if let Some(topic) = &status {
         options.set_last_will(LastWill::new(topic, OFFLINE, QoS::AtLeastOnce, true));
     }
-    if let Some(user) = option("user") {
-        let password = match option("password-file") {
-            Some(file) => fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?,
-            None => String::new(),
-        };
-        options.set_credentials(user, password.trim_end_matches(['\r', '\n']));
+    if let Some((user, password)) = password(connection)? {
+        options.set_credentials(user, password);
     }
+    #[cfg(feature = "tls")]
+    encrypt(connection, &mut options)?;
     let subscribed = connection
         .directed(true)
         .flat_map(topics)
@@ -117,8 +124,8 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         Ok(News::Lost(why)) => return Err(why),
         _ => return Err("no answer in time".to_string()),
     }
-    for (topic, _) in subscribed {
-        let subscribed = broker.client.try_subscribe(topic, QoS::AtLeastOnce);
+    for topic in subscribed {
+        let subscribed = broker.client.try_subscribe(topic.name, QoS::AtLeastOnce);
         subscribed.map_err(|error| error.to_string())?;
     }
     if let Some(topic) = broker.status.clone() {
@@ -127,21 +134,20 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     Ok(Box::new(broker))
 }
 
-/// The topics of a row, with the device of each; one for the row if its topic does not name the device.
-fn topics(row: &Row) -> Vec<(String, Option<u32>)> {
-    let End::Name(topic) = &row.end else {
-        return Vec::new();
+/// Encrypts a connection, if that is asked for: with the certificates in the files that it names.
+#[cfg(feature = "tls")]
+fn encrypt(connection: &Connection, options: &mut MqttOptions) -> Result<(), String> {
+    let read = |key: &str| {
+        let path = connection.options.get(key);
+        path.map(|path| std::fs::read(path).map_err(|error| format!("{path}: {error}")))
+            .transpose()
     };
-    match topic.contains(DEVICE) {
-        true => {
-            let devices = 0..row.count;
-            devices
-                .map(|n| (topic.replace(DEVICE, &row.name(n)), Some(n)))
-                .collect()
-        }
-        false if row.count == 1 => vec![(topic.clone(), Some(0))],
-        false => vec![(topic.clone(), None)],
-    }
+    let Some(ca) = read("ca")? else {
+        return Ok(());
+    };
+    let client_auth = read("certificate")?.zip(read("key")?);
+    options.set_transport(rumqttc::Transport::tls(ca, client_auth, None));
+    Ok(())
 }
 
 impl Broker {
@@ -168,17 +174,16 @@ impl Driver for Broker {
     ) -> Result<(), Trouble> {
         for row in connection.directed(false) {
             let values = &outputs[row.place.clone()];
-            for (topic, device) in topics(row) {
-                let payload = match device {
-                    Some(n) => values[n as usize].to_string(),
-                    None => object(row, values),
-                };
-                self.publish(topic, payload);
+            for topic in topics(row) {
+                let payload = topic.payload(row, values);
+                self.publish(topic.name, payload);
             }
         }
         loop {
             match self.news.try_recv() {
-                Ok(News::Value(publish)) => take(connection, &publish, inputs),
+                Ok(News::Value(publish)) => {
+                    take(connection, &publish.topic, &publish.payload, inputs);
+                }
                 Ok(News::Connected) => {}
                 Ok(News::Lost(why)) => return Err(Trouble::Lost(why)),
                 Err(TryRecvError::Empty) => return Ok(()),
@@ -198,69 +203,5 @@ impl Driver for Broker {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
-    }
-}
-
-/// The values of a row by the names of its devices.
-fn object(row: &Row, values: &[i16]) -> String {
-    let values = (0..).zip(values);
-    let object: Map<String, Value> = values
-        .map(|(n, &value)| (row.name(n), value.into()))
-        .collect();
-    Value::Object(object).to_string()
-}
-
-/// Takes the value of a topic; what does not fit a device is left out.
-fn take(connection: &Connection, publish: &Publish, inputs: &mut [i16]) {
-    for row in connection.directed(true) {
-        let own = topics(row)
-            .into_iter()
-            .filter(|(topic, _)| *topic == publish.topic);
-        for (_, device) in own {
-            let values = &mut inputs[row.place.clone()];
-            let payload = serde_json::from_slice(&publish.payload);
-            let payload = payload.unwrap_or_else(|_| word(&publish.payload));
-            match (device, payload) {
-                (Some(n), payload) => set(row, &mut values[n as usize], &payload),
-                (None, Value::Object(object)) => {
-                    for (n, value) in (0..).zip(values) {
-                        if let Some(payload) = object.get(&row.name(n)) {
-                            set(row, value, payload);
-                        }
-                    }
-                }
-                (None, Value::Array(list)) => {
-                    for (value, payload) in values.iter_mut().zip(&list) {
-                        set(row, value, payload);
-                    }
-                }
-                (None, _) => {}
-            }
-        }
-    }
-}
-
-/// `on` and `off`, as many switches say.
-fn word(payload: &[u8]) -> Value {
-    match payload.trim_ascii().to_ascii_lowercase().as_slice() {
-        b"on" => Value::Bool(true),
-        b"off" => Value::Bool(false),
-        _ => Value::Null,
-    }
-}
-
-/// Gives a device a value that fits it.
-fn set(row: &Row, device: &mut i16, payload: &Value) {
-    let number = match payload {
-        Value::Bool(on) => Some(i64::from(*on)),
-        payload => payload.as_i64(),
-    };
-    let range = if row.is_bits() {
-        0..=1
-    } else {
-        -0x8000..=0xffff
-    };
-    if let Some(number) = number.filter(|number| range.contains(number)) {
-        *device = number as i16;
     }
 }

@@ -1,30 +1,12 @@
-//! Remote I/O on a serial line: Modbus RTU.
+//! Remote I/O on a serial line of any system.
 
-use rungc_rt::io::{Connection, Driver, Remote, Wire};
+use rungc_rt::io::{Connection, Driver, Rtu, SerialLine};
 use serial2::{CharSize, Parity, SerialPort, StopBits};
-use std::io::{self, ErrorKind};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::io;
+use std::time::Duration;
 
-/// Bits of a character on the line: start, data, parity or a second stop bit, stop.
-const CHARACTER: u32 = 11;
-
-/// From this rate on, the silence between frames no longer shrinks ("MODBUS over serial line" 1.02 §2.5.1.1).
-const FAST: u32 = 19_200;
-
-/// The silence between frames then.
-const LEAST_SILENCE: Duration = Duration::from_micros(1750);
-
-/// The longest frame.
-const LONGEST: usize = 256;
-
-/// A serial line to slaves.
-struct Line {
-    port: SerialPort,
-    timeout: Duration,
-    /// The silence before a request.
-    silence: Duration,
-}
+/// A serial line of this machine.
+struct Line(SerialPort);
 
 /// Opens the line of a connection.
 pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
@@ -49,54 +31,20 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     let timeout = Duration::from_millis(connection.timeout_ms);
     port.set_write_timeout(timeout)
         .map_err(|error| error.to_string())?;
-    let characters = Duration::from_secs(1) * CHARACTER * 7 / 2 / baud;
-    let line = Line {
-        port,
-        timeout,
-        silence: if baud > FAST {
-            LEAST_SILENCE
-        } else {
-            characters
-        },
-    };
-    Ok(Box::new(Remote::new(line, connection)?))
+    Rtu::driver(Line(port), connection)
 }
 
-impl Wire for Line {
-    fn ask(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
-        thread::sleep(self.silence);
-        // What is left of an answer that came too late belongs to no request.
-        self.port.discard_input_buffer()?;
-        self.port.write_all(request)?;
-        let until = Instant::now() + self.timeout;
-        let mut reply = Vec::new();
-        while length(&reply).is_none_or(|length| reply.len() < length) {
-            let left = until.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                return Err(io::Error::new(ErrorKind::TimedOut, "no answer in time"));
-            }
-            self.port.set_read_timeout(left)?;
-            let mut bytes = [0; LONGEST];
-            match self.port.read(&mut bytes) {
-                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
-                Ok(count) => reply.extend_from_slice(&bytes[..count]),
-                // Looked at again with the time that is left.
-                Err(error)
-                    if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => {}
-                Err(error) => return Err(error),
-            }
-        }
-        Ok(reply)
+impl SerialLine for Line {
+    fn discard(&mut self) -> io::Result<()> {
+        self.0.discard_input_buffer()
     }
-}
 
-/// How long an answer is that begins so, with its sum; `None` while that is not known.
-fn length(reply: &[u8]) -> Option<usize> {
-    match *reply {
-        [_, function, ..] if function & 0x80 != 0 => Some(5),
-        [_, 0x01..=0x04, count, ..] => Some(5 + usize::from(count)),
-        [_, 0x01..=0x04] => None,
-        [_, _, ..] => Some(8),
-        _ => None,
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.write_all(bytes)
+    }
+
+    fn receive(&mut self, bytes: &mut [u8], wait: Duration) -> io::Result<usize> {
+        self.0.set_read_timeout(wait)?;
+        self.0.read(bytes)
     }
 }

@@ -3,8 +3,8 @@
 use crate::{Error, Project};
 use rungc_models::Model;
 use rungc_models::runs::name_class;
-use rungc_rt::io::{Connection, Kind};
-use rungc_syntax::{Span, codes};
+use rungc_rt::io::Connection;
+use rungc_syntax::{DeviceRun, Program, Span, codes};
 use std::path::Path;
 
 /// A connection, with the places of what it says.
@@ -20,21 +20,61 @@ pub struct Connected {
     pub fault: Span,
 }
 
+fn run(of: rungc_rt::Class, first: u32, count: u32) -> DeviceRun {
+    DeviceRun {
+        class: name_class(of),
+        first,
+        count,
+    }
+}
+
 impl Project {
     /// What `[io]` connects, with paths as seen from the caller's folder.
     pub fn connections(&self) -> Vec<Connection> {
         let connected = self.io.iter().map(|row| {
             let mut connection = row.connection.clone();
             let seen = |path: &str| self.at(Path::new(path)).display().to_string();
-            if connection.kind == Kind::Files {
-                connection.end = seen(&connection.end);
-            }
-            if let Some(file) = connection.options.get_mut("password-file") {
-                *file = seen(file);
-            }
+            connection.seen_from(seen);
             connection
         });
         connected.collect()
+    }
+
+    /// Tells a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
+    /// device of `[retain]`.
+    pub(crate) fn add_outside(&self, program: &mut Program) {
+        let mut read = Vec::new();
+        let mut written = Vec::new();
+        for Connected { connection, .. } in &self.io {
+            for row in &connection.rows {
+                let run = run(row.class, row.first, row.count);
+                match row.reads {
+                    true => written.push(run),
+                    false => read.push(run),
+                }
+            }
+            let fault = connection.fault.iter();
+            written.extend(fault.map(|&(class, number)| run(class, number, 1)));
+        }
+        for range in &self.serve.devices {
+            let served = DeviceRun {
+                class: range.class,
+                first: range.first,
+                count: range.last - range.first + 1,
+            };
+            read.push(served.clone());
+            written.push(served);
+        }
+        written.extend(self.retain_fault.iter().map(|fault| DeviceRun {
+            class: fault.class,
+            first: fault.first,
+            count: 1,
+        }));
+        if !read.is_empty() || !written.is_empty() {
+            let parameters = program.parameters.get_or_insert_default();
+            parameters.read_outside = read;
+            parameters.written_outside = written;
+        }
     }
 
     /// A device of `[io]` that the model does not have is a mistake.
@@ -63,6 +103,13 @@ impl Project {
                 }
             }
         }
-        Ok(())
+        match &self.retain_fault {
+            Some(fault) if !model.has(fault.class, fault.first) => {
+                let device = fault.class.number(fault.first);
+                let message = format!("{device} does not exist on {}", model.title);
+                Err(self.mistake(codes::PROJECT_VALUE.at(fault.span, message)))
+            }
+            _ => Ok(()),
+        }
     }
 }

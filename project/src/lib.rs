@@ -74,6 +74,8 @@ pub struct Project {
     pub latched: Vec<Range>,
     /// `[retain] file`: where `run` and `serve` keep latched devices.
     pub retain: Option<PathBuf>,
+    /// `[retain] fault`: the bit that is on while they cannot be saved.
+    pub retain_fault: Option<Range>,
     /// `[plcopen]`: the devices of variables of PLCopen XML.
     pub plcopen: Names,
     /// `[serve]`: servers and serial lines of a running program, and devices that it serves.

@@ -32,6 +32,7 @@ impl Project {
         if self.is_about(file) {
             self.add_table(program, model)?;
             self.add_station(program, model)?;
+            self.add_outside(program);
         }
         if self.latched.is_empty() {
             return Ok(());

@@ -32,7 +32,7 @@ const TABLES: [(&str, &[&str]); 16] = [
     ("tokens", &[]),
     ("index", &[]),
     ("latched", &[]),
-    ("retain", &["file"]),
+    ("retain", &["file", "fault"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
     (IO, &[]),
@@ -161,7 +161,10 @@ impl Reader {
                 "test" => self.test(table, project),
                 "tokens" => self.tokens(table, project),
                 "index" => self.index(table, project),
-                "retain" => project.retain = self.path(table, "file"),
+                "retain" => {
+                    project.retain = self.path(table, "file");
+                    project.retain_fault = self.fault(table);
+                }
                 "serve" => self.serve(table, project),
                 IO => self.io(table, project),
                 "verify" => self.verify(table, project),
@@ -266,6 +269,27 @@ impl Reader {
 
     fn path(&mut self, table: &DeTable<'_>, key: &str) -> Option<PathBuf> {
         self.get(table, key).map(|named| PathBuf::from(named.text))
+    }
+
+    /// `fault = "M100"`: a bit that shows that something does not work.
+    fn fault(&mut self, table: &DeTable<'_>) -> Option<DeviceRange> {
+        let Named { text, span } = self.get(table, "fault")?;
+        match device::device(&text) {
+            Some(Device {
+                class: class @ (DeviceClass::Y | DeviceClass::M | DeviceClass::S),
+                number,
+            }) => Some(DeviceRange {
+                class,
+                first: number,
+                last: number,
+                span,
+            }),
+            _ => {
+                let message = format!("`{text}` is not a bit device Y, M or S");
+                self.wrong(span, message, "write for example `fault = \"M100\"`");
+                None
+            }
+        }
     }
 
     /// A list of texts.

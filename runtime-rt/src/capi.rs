@@ -17,6 +17,8 @@ mod exports;
 mod hal;
 mod map;
 mod modules;
+#[cfg(feature = "std")]
+mod outside;
 mod servers;
 mod stored;
 

@@ -20,7 +20,7 @@ pub mod board;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;
-#[cfg(feature = "staticlib")]
+#[cfg(all(feature = "staticlib", not(feature = "std")))]
 #[allow(unsafe_code, reason = "abort() is the C library's")]
 mod capi_panic;
 #[cfg(feature = "capi")]

@@ -21,6 +21,8 @@ pub struct Recipe<'a> {
     pub target: Option<&'a str>,
     /// What to optimise for.
     pub optimise: Optimise,
+    /// Whether it has connections, and with them the standard library in it.
+    pub std: bool,
     /// More arguments of cargo, such as `-Zbuild-std=core`.
     pub cargo_args: &'a [String],
 }
@@ -108,6 +110,7 @@ pub fn build(cache: &Path, recipe: &Recipe, building: impl FnOnce()) -> Result<P
     let key = cache::hash(&(
         recipe.target,
         recipe.optimise.level(),
+        recipe.std,
         recipe.cargo_args,
         toolchain(recipe.rustc),
         env::var_os("RUSTFLAGS"),
@@ -159,7 +162,12 @@ fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
     cargo
         .args(["rustc", "--release"])
         .args(strictly(recipe.cargo_args))
-        .args(["--crate-type", "staticlib", "--features", "staticlib"])
+        .args(["--crate-type", "staticlib", "--features"])
+        .arg(if recipe.std {
+            "staticlib,std"
+        } else {
+            "staticlib"
+        })
         .arg("--target-dir")
         .arg(&folder)
         .args(recipe.cargo_args)

@@ -49,6 +49,10 @@ pub struct Parameters {
     pub modules: Vec<FittedModule>,
     /// What the PLC asks of servers over TCP; empty if nothing is said.
     pub requests: Vec<NetworkRequest>,
+    /// Devices that something outside the program reads, as the settings say.
+    pub read_outside: Vec<DeviceRun>,
+    /// Devices that something outside the program writes.
+    pub written_outside: Vec<DeviceRun>,
     /// Whether a keyword keeps the program from being read.
     pub protected: bool,
 }

@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 45] = [
+const NAMES: [(&str, &str); 46] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -45,6 +45,7 @@ const NAMES: [(&str, &str); 45] = [
     ("Connection", "rungc_connection"),
     ("Memory", "rungc_memory"),
     ("Reply", "rungc_reply"),
+    ("Terminal", "rungc_terminal"),
     ("ModuleRoom", "rungc_module"),
     ("ClientRow", "rungc_client_row"),
     ("Link", "rungc_link"),
@@ -136,6 +137,7 @@ pub fn make() -> Result<Made, Problem> {
         "capi/clients.rs",
         "capi/exports.rs",
         "capi/modules.rs",
+        "capi/outside.rs",
         "capi/servers.rs",
         "capi_virtual.rs",
     ];

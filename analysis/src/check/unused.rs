@@ -53,6 +53,20 @@ impl<'a, 'p> Unused<'a, 'p> {
         for known in &mut classes {
             (known.any_read, known.any_written) = (unread, unread);
         }
+        let parameters = code.resolved.program.parameters.as_ref();
+        if let Some(parameters) = parameters {
+            let outside = [
+                (&parameters.read_outside, false),
+                (&parameters.written_outside, true),
+            ];
+            for (runs, write) in outside {
+                for run in runs {
+                    if let Some(at) = CLASSES.iter().position(|class| *class == run.class) {
+                        classes[at].add_run(run.first, run.count, write);
+                    }
+                }
+            }
+        }
         Unused {
             code,
             classes,
@@ -179,12 +193,16 @@ impl Class {
             *any = true;
             return;
         };
+        self.add_run(access.first.number, count, write);
+    }
+
+    fn add_run(&mut self, first: u32, count: u32, write: bool) {
         let counts = if write {
             &mut self.writes
         } else {
             &mut self.reads
         };
-        let first = access.first.number as usize;
+        let first = first as usize;
         let end = first
             .saturating_add(count as usize)
             .min(counts.len().saturating_sub(1));

@@ -63,7 +63,7 @@ fn build(
     let options = CompileOptions {
         name: Some(name.clone()),
         optimise: !plan.no_opt,
-        observe_all: plan.servers,
+        observe_all: plan.servers || plan.io,
         programmer: plan.servers,
         ports: image.iter().flat_map(ForImage::ports).collect(),
         without_qlink: image.as_ref().is_some_and(|image| !image.answers_qlink()),
@@ -234,6 +234,8 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         }
         _ if args.servers && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_SERVERS),
         Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
+        _ if args.io && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_IO),
+        Emit::C | Emit::Rust if args.io && !args.main => wrong(NO_IO),
         Emit::Bin if target.is_bare() => {
             wrong("--emit bin: the target has no operating system; use --emit elf for an image")
         }
@@ -251,6 +253,9 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
 /// Why `--servers` does not apply.
 const NO_SERVERS: &str =
     "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
+
+/// Why `--io` does not apply.
+const NO_IO: &str = "--io only applies to --emit bin, and to --emit c and --emit rust with --main";
 
 /// What an image needs in addition to its program.
 struct ForImage {
@@ -425,6 +430,7 @@ impl Job<'_> {
         sources::Options {
             main,
             servers: self.plan.servers,
+            io: self.plan.io,
             access: self.plan.device_access,
             retain: self.plan.retain,
             lanes: self.plan.lanes.is_some(),
@@ -433,8 +439,18 @@ impl Job<'_> {
         }
     }
 
+    /// What to emit in Rust.
+    fn rust_options(&self) -> sources::RustOptions {
+        sources::RustOptions {
+            main: self.plan.main,
+            servers: self.plan.servers,
+            io: self.plan.io,
+            ..Default::default()
+        }
+    }
+
     fn tools(&self) -> Tools {
-        let tools = Tools::new(self.target(), &self.plan.cargo_arg);
+        let tools = Tools::new(self.target(), &self.plan.cargo_arg).with_std(self.plan.io);
         if self.cx.verbosity == Verbosity::Quiet {
             return tools;
         }
@@ -479,7 +495,7 @@ impl Job<'_> {
             Emit::Rust => {
                 let files = match self.image {
                     Some(image) => image.sources(module, Backend::Rust)?,
-                    None => sources::rust(module, self.target, main, self.plan.servers),
+                    None => sources::rust(module, self.target, &self.rust_options()),
                 };
                 self.folder(what, || Ok(bytes(files)))?
             }

@@ -27,8 +27,10 @@ use super::{
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use live::Live;
+use retaining::Kept;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::{Read, image};
+use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
@@ -132,7 +134,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
-        retain: args.retain.clone().or_else(|| usual_retain(subject)),
+        retain: retained(args, subject),
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
@@ -204,11 +206,18 @@ fn machine(
     Ok(described)
 }
 
-/// Where the project keeps latched devices.
-fn usual_retain(subject: &Subject) -> Option<PathBuf> {
-    let project = subject.project.as_ref()?;
-    let file = project.retain.as_deref()?;
-    Some(project.at(file))
+/// Where a run keeps latched devices: in the file of the command line, or in that of the project.
+fn retained(args: &RunArgs, subject: &Subject) -> Option<Kept> {
+    let project = subject.project.as_ref();
+    let usual = || {
+        let project = project?;
+        Some(project.at(project.retain.as_deref()?))
+    };
+    let fault = project.and_then(|project| project.retain_fault.as_ref());
+    Some(Kept {
+        path: args.retain.clone().or_else(usual)?,
+        fault: fault.and_then(|fault| Some((rt_class(fault.class)?, fault.first))),
+    })
 }
 
 /// Names the axes of a machine that the program cannot move.

@@ -1,8 +1,8 @@
 //! Threads that exchange values with the other ends, and what they share with the scan.
 
-use super::settings::{Connection, Kind, Loss, Row};
-use crate::hal::Hal;
-use crate::plc::Class;
+use super::settings::{Connection, Loss, Row};
+use crate::hal::{Hal, NoHal};
+use crate::plc::{Class, Plc};
 use crate::program::Program;
 use std::boxed::Box;
 use std::format;
@@ -56,6 +56,35 @@ pub trait Driver: Send {
 
 /// Opens an other end, waiting for it no longer than the connection says.
 pub type Opener = fn(&Connection) -> Result<Box<dyn Driver>, String>;
+
+/// A running program as its connections see it.
+pub trait Terminals {
+    /// Its devices.
+    fn plc(&mut self) -> &mut dyn Plc;
+
+    /// State of output terminal Y `number` ([`Program::output`]).
+    fn output(&mut self, number: u32) -> bool;
+
+    /// Input terminal X `number` turns on or off ([`Program::input_edge`]).
+    fn input_edge(&mut self, number: u32, on: bool);
+}
+
+/// A program and its hardware.
+pub struct Of<'a, P>(pub &'a mut P, pub &'a mut dyn Hal);
+
+impl<P: Program> Terminals for Of<'_, P> {
+    fn plc(&mut self) -> &mut dyn Plc {
+        self.0
+    }
+
+    fn output(&mut self, number: u32) -> bool {
+        self.0.output(number)
+    }
+
+    fn input_edge(&mut self, number: u32, on: bool) {
+        self.0.input_edge(self.1, number, on);
+    }
+}
 
 /// What a thread shares with the scan.
 #[derive(Default)]
@@ -113,16 +142,15 @@ impl Io {
     /// Starts a thread for each connection; `opener` knows the drivers of this program.
     ///
     /// # Errors
-    /// A kind of connection that this program has no driver for, or a thread that cannot be had.
+    /// A connection that this program has no driver for, or a thread that cannot be had.
     pub fn start(
         connections: Vec<Connection>,
-        opener: impl Fn(Kind) -> Option<Opener>,
+        opener: impl Fn(&Connection) -> Result<Opener, String>,
     ) -> Result<Self, String> {
         let mut io = Io::default();
         for connection in connections {
-            let (name, key) = (&connection.name, connection.kind.key());
-            let open = opener(connection.kind)
-                .ok_or_else(|| format!("[io.{name}]: this program has no driver for {key}"))?;
+            let open =
+                opener(&connection).map_err(|why| format!("[io.{}]: {why}", connection.name))?;
             let shared = Arc::new(Shared::default());
             let (inputs, outputs) = (connection.values(true), connection.values(false));
             *shared.lock() = State {
@@ -155,9 +183,14 @@ impl Io {
     /// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
     /// Returns what there is to report.
     pub fn take(&mut self, plc: &mut impl Program, hal: &mut dyn Hal) -> Vec<String> {
+        self.take_into(&mut Of(plc, hal))
+    }
+
+    /// The same for what is no [`Program`].
+    pub fn take_into(&mut self, plc: &mut dyn Terminals) -> Vec<String> {
         for running in &mut self.running {
             running.refresh(&mut self.said);
-            running.apply(plc, hal);
+            running.apply(plc);
         }
         std::mem::take(&mut self.said)
     }
@@ -201,6 +234,11 @@ impl Io {
 
     /// After a scan: the other ends are given what the devices are.
     pub fn give(&mut self, plc: &mut impl Program) {
+        self.give_from(&mut Of(plc, &mut NoHal));
+    }
+
+    /// The same for what is no [`Program`].
+    pub fn give_from(&mut self, plc: &mut dyn Terminals) {
         for running in &mut self.running {
             for row in running.connection.directed(false) {
                 for (value, number) in running.outputs[row.place.clone()]
@@ -209,8 +247,10 @@ impl Io {
                 {
                     *value = match row.class {
                         Class::Y => i16::from(plc.output(number)),
-                        class if row.is_bits() => i16::from(plc.bit(class, number) == Some(true)),
-                        class => plc.word(class, number).unwrap_or(0),
+                        class if row.is_bits() => {
+                            i16::from(plc.plc().bit(class, number) == Some(true))
+                        }
+                        class => plc.plc().word(class, number).unwrap_or(0),
                     };
                 }
             }
@@ -285,25 +325,25 @@ impl Running {
         })
     }
 
-    fn apply(&self, plc: &mut (impl Program + ?Sized), hal: &mut dyn Hal) {
+    fn apply(&self, plc: &mut dyn Terminals) {
         let fault = self.connection.fault;
         for row in self.connection.directed(true) {
             for (value, number) in self.values(row).zip(row.first..) {
                 let Some(value) = value else { continue };
                 if !row.is_bits() {
-                    let _ = plc.set_word(row.class, number, value);
+                    let _ = plc.plc().set_word(row.class, number, value);
                     continue;
                 }
                 let on = value != 0;
-                let before = plc.bit(row.class, number);
-                let _ = plc.set_bit(row.class, number, on);
+                let before = plc.plc().bit(row.class, number);
+                let _ = plc.plc().set_bit(row.class, number, on);
                 if row.class == Class::X && before != Some(on) {
-                    plc.input_edge(hal, number, on);
+                    plc.input_edge(number, on);
                 }
             }
         }
         if let Some((class, number)) = fault {
-            let _ = plc.set_bit(class, number, !self.is_up);
+            let _ = plc.plc().set_bit(class, number, !self.is_up);
         }
     }
 }

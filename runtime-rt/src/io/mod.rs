@@ -12,27 +12,63 @@
 //! | `text.rs` | the same from a file, for hosts without a library for TOML |
 //! | `cycle.rs` | threads, and what they share with the scan |
 //! | `modbus.rs` | remote I/O over Modbus: the requests, and TCP |
+//! | `rtu.rs` | the same on a serial line |
+//! | `mqtt.rs` | brokers, by a client of QoS 0 |
+//! | `topics.rs`, `json.rs` | topics and payloads of brokers, by any client |
+//! | `gpio.rs` | pins (Linux) |
 //! | `files.rs` | files, standard input and output |
+//! | `sys.rs` | the calls of Linux that the standard library does not have |
+//! | `host.rs`, `log.rs` | what `--io` and `--log` of an executable do |
 
 mod cycle;
 mod files;
+#[cfg(target_os = "linux")]
+mod gpio;
+mod host;
+mod json;
+mod log;
 mod modbus;
+mod mqtt;
+mod rtu;
 mod settings;
+#[cfg(target_os = "linux")]
+#[allow(unsafe_code, reason = "ioctl and poll take pointers")]
+mod sys;
 #[cfg(test)]
 mod tests;
 mod text;
+mod topics;
 
-pub use cycle::{Driver, Io, Opener, Trouble};
+pub use cycle::{Driver, Io, Of, Opener, Terminals, Trouble};
+pub use host::Outside;
 pub use modbus::{Remote, Wire};
+pub use rtu::{Rtu, SerialLine};
 pub use settings::{Connection, End, Kind, Loss, Mistake, Place, Row, Table, overlap, time};
 pub use text::parse;
+pub use topics::{Topic, address, password, take, topics};
 
-/// The drivers that need nothing but the standard library.
-pub fn opener(kind: Kind) -> Option<Opener> {
-    match kind {
-        Kind::ModbusTcp => Some(modbus::open_tcp),
-        Kind::Files => Some(files::open_folder),
-        Kind::Console => Some(files::open_console),
-        Kind::ModbusRtu | Kind::Mqtt | Kind::Gpio => None,
+use std::string::String;
+
+/// The driver of a connection that needs nothing but the standard library and the system.
+///
+/// # Errors
+/// This system has none, or only rungc does.
+pub fn opener(connection: &Connection) -> Result<Opener, String> {
+    match connection.kind {
+        Kind::ModbusTcp => Ok(modbus::open_tcp),
+        Kind::Files => Ok(files::open_folder),
+        Kind::Console => Ok(files::open_console),
+        Kind::Mqtt => match connection.is_encrypted() {
+            true => Err(String::from(
+                "this program has no TLS; connect to a broker on this machine that forwards to the other (docs/src/linux.md)",
+            )),
+            false => Ok(mqtt::open),
+        },
+        #[cfg(target_os = "linux")]
+        Kind::ModbusRtu => Ok(sys::open_line),
+        #[cfg(target_os = "linux")]
+        Kind::Gpio => Ok(gpio::open),
+        #[cfg(not(target_os = "linux"))]
+        kind => Err(format!("only Linux has {}", kind.key())),
     }
 }

@@ -213,7 +213,7 @@ pub(super) fn open_tcp(connection: &Connection) -> Result<Box<dyn Driver>, Strin
 }
 
 /// Connects to a host with or without a port.
-fn connect(end: &str, port: u16, timeout: Duration) -> Result<TcpStream, String> {
+pub(super) fn connect(end: &str, port: u16, timeout: Duration) -> Result<TcpStream, String> {
     let found = match end.parse::<std::net::IpAddr>() {
         Ok(address) => Ok(vec![(address, port).into()]),
         Err(_) if end.contains(':') => end.to_socket_addrs().map(Iterator::collect::<Vec<_>>),

@@ -54,7 +54,15 @@ impl Kind {
         match self {
             Kind::ModbusTcp => &["unit"],
             Kind::ModbusRtu => &["unit", "baud", "format"],
-            Kind::Mqtt => &["client", "user", "password-file", "status"],
+            Kind::Mqtt => &[
+                "client",
+                "user",
+                "password-file",
+                "status",
+                "ca",
+                "certificate",
+                "key",
+            ],
             Kind::Gpio | Kind::Files | Kind::Console => &[],
         }
     }
@@ -243,6 +251,15 @@ impl Connection {
                 });
             }
         }
+        if mistakes.is_empty()
+            && let Some(message) = connection.lacks_keys()
+        {
+            mistakes.push(Mistake {
+                pair: None,
+                message: message.to_owned(),
+                help: String::new(),
+            });
+        }
         if mistakes.is_empty() && connection.rows.is_empty() {
             mistakes.push(Mistake {
                 pair: None,
@@ -310,6 +327,50 @@ impl Connection {
                 "`format` is for example \"8N1\", \"8E1\" or \"8N2\"",
             )),
         }
+    }
+
+    /// What is wrong with the keys of TLS together.
+    fn lacks_keys(&self) -> Option<&'static str> {
+        let has = |option: &str| self.options.contains_key(option);
+        match (has("ca"), has("certificate"), has("key")) {
+            (false, false, false) | (true, false, false) | (true, true, true) => None,
+            (false, ..) => Some(
+                "`certificate` and `key` need `ca`, the authority that the broker's certificate is from",
+            ),
+            _ => Some("`certificate` and `key` belong together"),
+        }
+    }
+
+    /// Whether a broker is reached by TLS: a key says how.
+    pub fn is_encrypted(&self) -> bool {
+        self.options.contains_key("ca")
+    }
+
+    /// Changes the paths that it names, which are as seen from where it is described.
+    pub fn seen_from(&mut self, seen: impl Fn(&str) -> String) {
+        if self.kind == Kind::Files {
+            self.end = seen(&self.end);
+        }
+        for key in ["password-file", "ca", "certificate", "key"] {
+            if let Some(path) = self.options.get_mut(key) {
+                *path = seen(path);
+            }
+        }
+    }
+
+    /// The first of its devices that a PLC does not have.
+    pub fn missing(&self, has: impl Fn(Class, u32) -> bool) -> Option<String> {
+        let rows = self
+            .rows
+            .iter()
+            .map(|row| (row.class, row.first..row.first + row.count));
+        let fault = self
+            .fault
+            .map(|(class, number)| (class, number..number + 1));
+        rows.chain(fault).find_map(|(class, mut numbers)| {
+            let missing = numbers.find(|&number| !has(class, number))?;
+            Some(device_name(class, missing))
+        })
     }
 
     fn set(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {

@@ -1,6 +1,6 @@
 //! Connections from a file, for hosts without a library for TOML.
 
-use super::settings::{Connection, overlap};
+use super::settings::{Connection, Mistake, overlap};
 use std::borrow::ToOwned;
 use std::format;
 use std::string::String;
@@ -59,10 +59,20 @@ impl Lines<'_> {
     fn read(&self) -> Result<Connection, String> {
         let pairs: Vec<_> = self.pairs.iter().map(|(_, pair)| *pair).collect();
         Connection::read(self.name, &pairs).map_err(|mistakes| {
-            let first = mistakes.first();
-            let (pair, message) = first.map_or((None, ""), |first| (first.pair, &first.message));
+            let Some(Mistake {
+                pair,
+                message,
+                help,
+            }) = mistakes.first()
+            else {
+                return String::new();
+            };
             let line = pair.and_then(|pair| self.pairs.get(pair));
-            format!("line {}: {message}", line.map_or(self.at, |line| line.0))
+            let line = line.map_or(self.at, |line| line.0);
+            match help.as_str() {
+                "" => format!("line {line}: {message}"),
+                help => format!("line {line}: {message}; {help}"),
+            }
         })
     }
 }

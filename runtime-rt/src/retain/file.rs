@@ -9,16 +9,47 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
+use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
+use std::thread;
 use std::vec::Vec;
 
 /// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed
 /// to the disk, renamed. Whenever the process or the machine ends, the file is the old one or the new one.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct RetainFile {
     path: PathBuf,
     sequence: u32,
     saved: Option<u32>,
     looked_ms: u32,
+    /// What writes between scans; there is none before it is first needed.
+    writer: Option<Writer>,
+    /// The state that it writes now.
+    writing: Option<u32>,
+}
+
+/// A thread that replaces the file, so that no scan waits for the disk. It ends with the file.
+#[derive(Debug)]
+struct Writer {
+    records: Sender<Vec<u8>>,
+    results: Receiver<io::Result<()>>,
+}
+
+impl Writer {
+    fn start(path: PathBuf) -> io::Result<Self> {
+        let (records, to_write) = mpsc::channel::<Vec<u8>>();
+        let (written, results) = mpsc::channel();
+        let work = move || {
+            for record in to_write {
+                if written.send(replace(&path, &record)).is_err() {
+                    break;
+                }
+            }
+        };
+        thread::Builder::new()
+            .name("retain".to_string())
+            .spawn(work)?;
+        Ok(Writer { records, results })
+    }
 }
 
 impl RetainFile {
@@ -32,6 +63,8 @@ impl RetainFile {
             sequence: 0,
             saved: None,
             looked_ms: 0,
+            writer: None,
+            writing: None,
         };
         let bytes = match fs::read(&file.path) {
             Ok(bytes) => bytes,
@@ -97,35 +130,83 @@ impl RetainFile {
     }
 
     /// Saves a program's latched devices if one has changed since they were loaded or saved last. Returns whether they
-    /// were saved.
+    /// were saved. Waits for the disk: for the end of a run.
     ///
     /// # Errors
     /// The file cannot be replaced; it is the old one then.
     pub fn save(&mut self, program: &dyn Program) -> io::Result<bool> {
+        if self.writing.is_some() {
+            let result = match &self.writer {
+                Some(writer) => writer.results.recv().unwrap_or_else(|_| Err(gone())),
+                None => Err(gone()),
+            };
+            // What has failed is tried once more.
+            let _ = self.written(result);
+        }
         let state = record::state(program);
         if self.saved == Some(state) {
             return Ok(false);
         }
-        let mut bytes = Vec::new();
-        record::write(program, self.sequence, &mut |piece| bytes.write_all(piece))?;
-        replace(&self.path, &bytes)?;
-        self.sequence = self.sequence.wrapping_add(1);
-        self.saved = Some(state);
+        let bytes = self.record(program)?;
+        self.writing = Some(state);
+        self.written(replace(&self.path, &bytes))?;
         Ok(true)
     }
 
-    /// To be called between scans, `now_ms` is the program's time: saves once in `every_ms` if a latched device has
-    /// changed. Returns whether they were saved.
+    /// To be called between scans, `now_ms` is the program's time: begins to save once in `every_ms` if a latched device
+    /// has changed, in another thread. Returns whether an earlier save is done by now.
     ///
     /// # Errors
-    /// The file cannot be replaced; it is the old one then.
+    /// An earlier save has failed: the file is the old one. It is tried again.
     pub fn poll(&mut self, program: &dyn Program, now_ms: u32, every_ms: u32) -> io::Result<bool> {
+        if self.writing.is_some() {
+            let result = match &self.writer {
+                Some(writer) => match writer.results.try_recv() {
+                    Ok(result) => result,
+                    Err(TryRecvError::Empty) => return Ok(false),
+                    Err(TryRecvError::Disconnected) => Err(gone()),
+                },
+                None => Err(gone()),
+            };
+            return self.written(result).map(|()| true);
+        }
         if now_ms.wrapping_sub(self.looked_ms) < every_ms {
             return Ok(false);
         }
         self.looked_ms = now_ms;
-        self.save(program)
+        let state = record::state(program);
+        if self.saved != Some(state) {
+            let record = self.record(program)?;
+            let writer = match self.writer.take() {
+                Some(writer) => writer,
+                None => Writer::start(self.path.clone())?,
+            };
+            if writer.records.send(record).is_ok() {
+                self.writing = Some(state);
+                self.writer = Some(writer);
+            }
+        }
+        Ok(false)
     }
+
+    fn record(&self, program: &dyn Program) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        record::write(program, self.sequence, &mut |piece| bytes.write_all(piece))?;
+        Ok(bytes)
+    }
+
+    /// A save has ended.
+    fn written(&mut self, result: io::Result<()>) -> io::Result<()> {
+        let state = self.writing.take();
+        result?;
+        self.sequence = self.sequence.wrapping_add(1);
+        self.saved = state;
+        Ok(())
+    }
+}
+
+fn gone() -> io::Error {
+    io::Error::other("the thread that writes it has ended")
 }
 
 /// Replaces a file: one of another name beside it is written and flushed, and takes its name; then the folder is

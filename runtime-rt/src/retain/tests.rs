@@ -340,6 +340,24 @@ mod files {
         let (_, what) = RetainFile::open(&path, &mut kept).unwrap();
         assert_eq!(what, Loaded::Restored { dropped: 0 });
         assert_eq!(kept.state(), Kept::with_state(3).state());
+        // Between scans another thread writes.
+        let kept = Kept::with_state(4);
+        let until = std::time::Instant::now() + std::time::Duration::from_secs(30);
+        let mut now_ms = 1000;
+        while !file.poll(&kept, now_ms, 1000).unwrap() {
+            assert!(std::time::Instant::now() < until, "it is saved");
+            now_ms += 1000;
+        }
+        assert!(!file.save(&kept).unwrap(), "saved already");
+        assert!(
+            !file
+                .poll(&Kept::with_state(5), now_ms + 1000, 1000)
+                .unwrap()
+        );
+        assert!(file.save(&Kept::with_state(6)).unwrap(), "the last one");
+        let mut read = Kept::new();
+        let _ = RetainFile::open(&path, &mut read).unwrap();
+        assert_eq!(read.state(), Kept::with_state(6).state());
         let whole = std::fs::read(&path).unwrap();
         for cut in 0..whole.len() {
             std::fs::write(&path, &whole[..cut]).unwrap();

@@ -9,7 +9,7 @@ use super::mode::Mode;
 use super::pace::{self, Pace};
 use super::plotting::Plotting;
 use super::recording::Recording;
-use super::retaining::Retaining;
+use super::retaining::{Kept, Retaining};
 use super::scope::Scope;
 use super::serving::{Asked, Servers};
 use super::view::{Column, Kind, View};
@@ -28,7 +28,6 @@ use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::io::{self, Write};
 use std::iter::Peekable;
-use std::path::PathBuf;
 use std::slice::Iter;
 use std::time::{Duration, Instant};
 
@@ -72,7 +71,7 @@ pub struct Run<'a> {
     /// The command line.
     pub args: &'a RunArgs,
     /// Where latched devices are kept from run to run.
-    pub retain: Option<PathBuf>,
+    pub retain: Option<Kept>,
     /// The program.
     pub module: &'a Module,
     /// Whether operation errors are reported as they occur.
@@ -113,7 +112,7 @@ impl Run<'_> {
             Reading::of(seen, target).ok_or_else(|| missing(target, module))?;
         }
         let retaining = match &self.retain {
-            Some(path) => Some(Retaining::begin(path, &mut machine)?),
+            Some(kept) => Some(Retaining::begin(kept, &mut machine)?),
             None => None,
         };
         let seen = Seen {
@@ -275,7 +274,7 @@ impl<'a> Simulation<'a> {
             }
             if args.in_real_time() {
                 if let Some(retaining) = &mut self.retaining {
-                    retaining.poll(&self.machine, self.now_ms);
+                    retaining.poll(&mut self.machine, self.now_ms);
                 }
                 (begin, scan_ms) = self.rest(begin, scan_ms, args.scan)?;
                 self.lines

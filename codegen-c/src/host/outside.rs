@@ -1,0 +1,48 @@
+//! What a host does for connections and its log, which the runtime library has.
+
+use crate::include;
+use rungc_ir::Module;
+
+/// The parts of a main program.
+#[derive(Default)]
+pub struct Parts {
+    /// Functions.
+    pub code: String,
+    /// Before the first scan.
+    pub begin: &'static str,
+    /// Before each scan.
+    pub take: &'static str,
+    /// After each.
+    pub give: &'static str,
+    /// After the last.
+    pub end: &'static str,
+    /// With each line that is printed.
+    pub note: &'static str,
+    /// Before commands are read.
+    pub commands: &'static str,
+}
+
+/// The parts of a main program with connections; nothing of one without.
+pub fn parts(module: &Module, io: bool) -> Parts {
+    if !io {
+        return Parts::default();
+    }
+    let edge = match module.takes_events() {
+        true => "    PROGRAM_input_edge(context, number, on);\n",
+        false => "    (void)context;\n    (void)number;\n    (void)on;\n",
+    };
+    Parts {
+        code: include("main_io.c").replace("    /* EDGE */\n", edge),
+        begin: "    if (!begin_outside(plc)) {\n        return 2;\n    }\n",
+        take: "        take_outside(plc);\n",
+        give: "        give_outside(plc);\n",
+        end: "    rungc_outside_end();\n",
+        note: "    rungc_outside_note(line);\n",
+        commands: "    if (rungc_outside_takes_input()) {\n        return;\n    }\n",
+    }
+}
+
+/// The call for the value of an option.
+pub fn option(module: &Module, function: &str) -> String {
+    format!("rungc_outside_{function}(\"{}\", argv[++i])", module.name)
+}

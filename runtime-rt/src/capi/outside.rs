@@ -1,0 +1,124 @@
+//! What is outside a program on a computer, for hosts in C: there is one for the process.
+
+use super::Map;
+use crate::io::{Outside, Terminals};
+use crate::plc::Plc;
+use core::ffi::{CStr, c_char, c_void};
+use std::borrow::Cow;
+use std::format;
+use std::string::String;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+static OUTSIDE: Mutex<Option<Outside>> = Mutex::new(None);
+
+/// The one that there is.
+fn with<T>(does: impl FnOnce(&mut Outside) -> T) -> T {
+    let mut outside: MutexGuard<'_, _> = OUTSIDE.lock().unwrap_or_else(PoisonError::into_inner);
+    does(outside.get_or_insert_with(Outside::new))
+}
+
+fn text<'a>(text: *const c_char) -> Cow<'a, str> {
+    if text.is_null() {
+        return Cow::Borrowed("");
+    }
+    // SAFETY: a host passes texts that end with a zero and outlive the call.
+    unsafe { CStr::from_ptr(text) }.to_string_lossy()
+}
+
+/// Reports what is wrong with the value of an option.
+fn check(program: &str, option: &str, value: &str, result: Result<(), String>) -> bool {
+    let wrong = result.err();
+    if let Some(why) = &wrong {
+        with(|outside| outside.say(&format!("{program}: {option} {value}: {why}")));
+    }
+    wrong.is_none()
+}
+
+/// `--io FILE`: reads the connections that a file describes; false after a message if it cannot be used.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_describe(program: *const c_char, path: *const c_char) -> bool {
+    let (program, path) = (text(program), text(path));
+    let described = with(|outside| outside.describe(&path));
+    check(&program, "--io", &path, described)
+}
+
+/// `--log FILE`: begins or continues a log; false after a message if it cannot be written.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_log(program: *const c_char, path: *const c_char) -> bool {
+    let (program, path) = (text(program), text(path));
+    let begun = with(|outside| outside.log(&path));
+    check(&program, "--log", &path, begun)
+}
+
+/// Adds a line to the log, if there is one.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_note(line: *const c_char) {
+    with(|outside| outside.note(text(line).trim_end_matches('\n')));
+}
+
+/// Whether a connection reads standard input, which means no commands then.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_takes_input() -> bool {
+    with(|outside| outside.takes_input())
+}
+
+/// Starts the connections, before the first scan; false after a message if that cannot be done.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_begin(program: *const c_char, map: &Map) -> bool {
+    let begun = with(|outside| outside.begin(map));
+    if let Err(why) = &begun {
+        let program = text(program);
+        with(|outside| outside.say(&format!("{program}: {why}")));
+    }
+    begun.is_ok()
+}
+
+/// What a host does for connections: `input_edge` is told of inputs that change, `output` has the state of an output
+/// terminal. Both are given `context`; `input_edge` may be NULL.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Terminal {
+    /// What the functions are given.
+    pub context: *mut c_void,
+    /// An input terminal turns on or off.
+    pub input_edge: Option<extern "C" fn(context: *mut c_void, number: u32, on: bool)>,
+    /// The state of an output terminal.
+    pub output: Option<extern "C" fn(context: *mut c_void, number: u32) -> bool>,
+}
+
+/// A program in C.
+struct InC<'a>(&'a mut Map, &'a Terminal);
+
+impl Terminals for InC<'_> {
+    fn plc(&mut self) -> &mut dyn Plc {
+        self.0
+    }
+
+    fn output(&mut self, number: u32) -> bool {
+        self.1.output.is_some_and(|f| f(self.1.context, number))
+    }
+
+    fn input_edge(&mut self, number: u32, on: bool) {
+        if let Some(tell) = self.1.input_edge {
+            tell(self.1.context, number, on);
+        }
+    }
+}
+
+/// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_take(map: &mut Map, terminal: &Terminal) {
+    with(|outside| outside.take(&mut InC(map, terminal)));
+}
+
+/// After a scan: the other ends are given what the devices are.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_give(map: &mut Map, terminal: &Terminal) {
+    with(|outside| outside.give(&mut InC(map, terminal)));
+}
+
+/// The run is over: outputs are turned off, and the log is written.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_outside_end() {
+    with(Outside::end);
+}

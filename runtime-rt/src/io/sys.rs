@@ -1,0 +1,215 @@
+//! The calls of Linux that the standard library does not have: `ioctl` for serial lines and pins, `poll`.
+
+use super::cycle::Driver;
+use super::rtu::{Rtu, SerialLine};
+use super::settings::Connection;
+use core::ffi::{c_int, c_ulong, c_void};
+use std::boxed::Box;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read, Write};
+use std::os::fd::{AsRawFd, FromRawFd, OwnedFd};
+use std::os::unix::fs::OpenOptionsExt;
+use std::string::{String, ToString};
+use std::time::{Duration, Instant};
+
+unsafe extern "C" {
+    fn ioctl(file: c_int, request: c_ulong, ...) -> c_int;
+    fn poll(files: *mut PollFile, count: c_ulong, timeout_ms: c_int) -> c_int;
+}
+
+/// `struct pollfd`.
+#[repr(C)]
+struct PollFile {
+    file: c_int,
+    events: i16,
+    came: i16,
+}
+
+const POLLIN: i16 = 1;
+const POLLOUT: i16 = 4;
+
+/// `O_NOCTTY | O_NONBLOCK`, as Linux has them on all but MIPS, PowerPC and SPARC, where opening fails then.
+const FLAGS: i32 = 0o400 | 0o4000;
+
+/// `struct termios2` of the kernel, which any rate fits (asm-generic/termbits.h).
+#[repr(C)]
+#[derive(Default)]
+struct Termios {
+    input: u32,
+    output: u32,
+    control: u32,
+    local: u32,
+    discipline: u8,
+    characters: [u8; 19],
+    input_rate: u32,
+    output_rate: u32,
+}
+
+/// Bits of `Termios::control`.
+const CS8: u32 = 0o60;
+const CSTOPB: u32 = 0o100;
+const CREAD: u32 = 0o200;
+const PARENB: u32 = 0o400;
+const PARODD: u32 = 0o1000;
+const CLOCAL: u32 = 0o4000;
+/// The rate is the number in `output_rate`.
+const BOTHER: u32 = 0o10000;
+
+/// What the kernel takes and gives by a pointer to it.
+///
+/// # Safety
+/// The type is that of the kernel's headers, and any bytes are a value of it.
+pub(super) unsafe trait Passed {}
+
+// SAFETY: as asm-generic/termbits.h has it.
+unsafe impl Passed for Termios {}
+
+/// A request to a file of the kernel (asm-generic/ioctl.h).
+#[derive(Clone, Copy)]
+pub(super) struct Request {
+    direction: u32,
+    group: u8,
+    number: u8,
+}
+
+const SET_TERMIOS: Request = Request {
+    direction: 1,
+    group: b'T',
+    number: 0x2b,
+};
+
+const GET_TERMIOS: Request = Request {
+    direction: 2,
+    group: b'T',
+    number: 0x2a,
+};
+
+impl Request {
+    /// One that takes a value and gives it back.
+    pub(super) const fn exchange(group: u8, number: u8) -> Self {
+        Request {
+            direction: 3,
+            group,
+            number,
+        }
+    }
+
+    /// Passes a value to a file, and takes what the kernel makes of it.
+    pub(super) fn pass<T: Passed>(self, file: &impl AsRawFd, value: &mut T) -> io::Result<()> {
+        let Request {
+            direction,
+            group,
+            number,
+        } = self;
+        let size = size_of::<T>() as u32;
+        let request = direction << 30 | size << 16 | u32::from(group) << 8 | u32::from(number);
+        let value: *mut T = value;
+        // SAFETY: the kernel reads and writes as many bytes as the request states, which are those of `value`.
+        match unsafe { ioctl(file.as_raw_fd(), request as c_ulong, value.cast::<c_void>()) } {
+            0.. => Ok(()),
+            _ => Err(io::Error::last_os_error()),
+        }
+    }
+}
+
+/// Takes what a request has opened.
+///
+/// # Safety
+/// `file` is open, and belongs to no one else.
+pub(super) unsafe fn own(file: i32) -> OwnedFd {
+    // SAFETY: the caller's.
+    unsafe { OwnedFd::from_raw_fd(file) }
+}
+
+/// Waits until a file can be read or written; whether it can.
+fn wait(file: &File, events: i16, wait: Duration) -> io::Result<bool> {
+    let mut one = PollFile {
+        file: file.as_raw_fd(),
+        events,
+        came: 0,
+    };
+    // A wait below a millisecond is not none.
+    let milliseconds = wait.as_millis().clamp(1, 1_000_000) as c_int;
+    // SAFETY: one entry, as the count says.
+    match unsafe { poll(&mut one, 1, milliseconds) } {
+        0 => Ok(false),
+        1.. => Ok(true),
+        _ => Err(io::Error::last_os_error()),
+    }
+}
+
+/// A serial line of this machine.
+struct Line {
+    file: File,
+    timeout: Duration,
+}
+
+/// Opens the line of a connection, to slaves.
+pub(super) fn open_line(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+    let baud = connection.baud()?;
+    let (parity, stop) = connection.format()?;
+    let mut options = File::options();
+    options.read(true).write(true).custom_flags(FLAGS);
+    let wrong = |error: io::Error| error.to_string();
+    let file = options.open(&connection.end).map_err(wrong)?;
+    let mut settings = Termios::default();
+    GET_TERMIOS.pass(&file, &mut settings).map_err(wrong)?;
+    settings.input = 0;
+    settings.output = 0;
+    settings.local = 0;
+    settings.control = CS8 | CREAD | CLOCAL | BOTHER;
+    settings.control |= match parity {
+        'E' => PARENB,
+        'O' => PARENB | PARODD,
+        _ => 0,
+    };
+    if stop == 2 {
+        settings.control |= CSTOPB;
+    }
+    settings.input_rate = baud;
+    settings.output_rate = baud;
+    SET_TERMIOS.pass(&file, &mut settings).map_err(wrong)?;
+    let timeout = Duration::from_millis(connection.timeout_ms);
+    Rtu::driver(Line { file, timeout }, connection)
+}
+
+impl SerialLine for Line {
+    fn discard(&mut self) -> io::Result<()> {
+        let mut bytes = [0; 256];
+        loop {
+            match self.file.read(&mut bytes) {
+                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+                Ok(_) => {}
+                Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    fn send(&mut self, mut bytes: &[u8]) -> io::Result<()> {
+        let until = Instant::now() + self.timeout;
+        while !bytes.is_empty() {
+            match self.file.write(bytes) {
+                Ok(count) => bytes = &bytes[count..],
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    let left = until.saturating_duration_since(Instant::now());
+                    if left.is_zero() || !wait(&self.file, POLLOUT, left)? {
+                        let why = "the line takes no characters";
+                        return Err(io::Error::new(ErrorKind::TimedOut, why));
+                    }
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, bytes: &mut [u8], longest: Duration) -> io::Result<usize> {
+        match wait(&self.file, POLLIN, longest)? {
+            true => self.file.read(bytes),
+            false => Err(ErrorKind::TimedOut.into()),
+        }
+    }
+}
