@@ -61,6 +61,9 @@ static void read_devices(const request *asked)
     NAME_lanes *const all = &blocks[asked->plc / PLC_LANES];
     const unsigned lane = asked->plc % PLC_LANES;
 
+    if (asked->device == (uint8_t)PLC_CLASS_T) {
+        NAME_lanes_settle(all);
+    }
     for (uint32_t n = 0; n < asked->count; n++) {
         const uint32_t number = asked->number + n;
         int32_t answer[2] = {0, 0};
@@ -95,6 +98,9 @@ static void write_device(const request *asked)
         (void)NAME_write(&plc, device, asked->number, asked->value);
         NAME_lanes_load(all, lane, &plc);
     } else {
+        if (device == PLC_CLASS_T) {
+            NAME_lanes_settle(all);
+        }
         (void)NAME_write(&all->lane[lane], device, asked->number, asked->value);
     }
 }

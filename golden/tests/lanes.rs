@@ -64,6 +64,9 @@ OFFSETS
                     return 1;
                 }
             }
+            if (((unsigned)scan + l) % 50u == 0u) {
+                NAME_lanes_load(&all, l, &stored);
+            }
         }
     }
     return 0;
@@ -155,6 +158,62 @@ fn differs(module: &Module, folder: &Path) -> Option<String> {
         .expect("the program");
     (!ran.status.success())
         .then(|| format!("{}\n{}", ran.status, String::from_utf8_lossy(&ran.stdout)))
+}
+
+/// Timers that wait for one of them to start, stop or time out, and some that cannot, because their value is read or
+/// something else changes them.
+const TIMERS: &str = "\
+LD X000
+OUT T0 K3
+LD X001
+AND T0
+OUT T200 K17
+LD T200
+OUT Y000
+LD X002
+OUT T256 K55
+LDI T256
+OUT Y001
+LD X003
+OUT T1 K5
+LD M8000
+MOV T1 D0
+LD X004
+OUT T2 K4
+LD X005
+RST T2
+LD X006
+MC N0 M10
+LD X007
+OUT T3 K2
+MCR N0
+LD X010
+OUT T4 D1
+LD X011
+OUT T5 K0
+LD T5
+OUT Y002
+LD X012
+INC D1
+END
+";
+
+#[test]
+fn timers_wait_until_something_happens() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lanes");
+    let module = compiled(TIMERS, ModelId::Fx3u, "timers", true).expect("it runs in lanes");
+    let options = Options {
+        lanes: true,
+        ..Options::default()
+    };
+    let files = emit(&module, &options);
+    let source = files.iter().find(|file| file.path == "timers.c");
+    let source = &source.expect("the source").contents;
+    let waits = |number: u32| source.contains(&format!("T{number}_left = UINT32_MAX"));
+    let all = [0, 1, 2, 3, 4, 5, 200, 256];
+    let found: Vec<u32> = all.into_iter().filter(|&number| waits(number)).collect();
+    assert_eq!(found, [0, 3, 5, 200, 256], "{source}");
+    assert_eq!(differs(&module, &folder), None);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod classify;
 mod mirror;
 mod slice;
 mod text;
+mod waiting;
 
 pub use text::{header, source};
 

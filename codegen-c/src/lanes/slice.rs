@@ -2,6 +2,7 @@
 
 use super::classify::Classes;
 use super::mirror::{coil, copies_in, copies_out, in_lanes, lanes};
+use super::waiting::{Waiting, waiting};
 use crate::code::Code;
 use crate::devices::run_timer;
 use crate::expr::Around;
@@ -18,13 +19,15 @@ use rungc_ir::walk::assigned;
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Writes the functions of a program in lanes.
 pub(super) struct Slicer<'a, 'm> {
     pub classes: Classes<'a, 'm>,
     /// Writes the code of one instance.
     pub writer: Writer<'a, 'm>,
+    /// The timers that wait, by number.
+    pub waiting: BTreeMap<u32, Waiting>,
     /// The instances that execute what is being written; `None`: all.
     mask: Option<String>,
     /// Whether any code of one instance was written.
@@ -36,8 +39,9 @@ pub(super) struct Slicer<'a, 'm> {
 }
 
 impl<'a, 'm> Slicer<'a, 'm> {
-    pub fn new(classes: Classes<'a, 'm>, writer: Writer<'a, 'm>) -> Self {
+    pub fn new(classes: Classes<'a, 'm>, mut writer: Writer<'a, 'm>) -> Self {
         Slicer {
+            waiting: waiting(&classes, &mut writer),
             classes,
             writer,
             mask: None,
@@ -362,6 +366,11 @@ impl<'a, 'm> Slicer<'a, 'm> {
         let forced = self.classes.forced.contains(&(DeviceClass::T, number));
         page.open("{");
         let drive = self.named_bits(page, timer.drive, "drive");
+        if let Some(waiting) = self.waiting.get(&number).cloned() {
+            self.wait(page, &waiting);
+            self.put(page, &coil, &drive);
+            return page.close();
+        }
         // One that has timed out stays so, and one that has not been on stays off.
         let work = match (forced, plain) {
             (true, _) => "PLC_ALL_LANES".to_string(),
@@ -380,6 +389,37 @@ impl<'a, 'm> Slicer<'a, 'm> {
             page.line(&format!("plc_put_lane(&{done}, l, {device}.done);"));
         });
         self.put(page, &coil, &drive);
+        page.close();
+    }
+
+    /// A timer that waits as long as it can; `drive` says where its coil is on.
+    fn wait(&mut self, page: &mut Page, timer: &Waiting) {
+        let Waiting {
+            device,
+            done,
+            coil,
+            passed,
+            left,
+            rest,
+            ..
+        } = timer;
+        page.line(&format!("{passed} += all->sys.dt_ms;"));
+        page.open(&format!(
+            "if ((drive != {coil}) || ({passed} >= {left})) {{"
+        ));
+        page.line("plc_sys sys = all->sys;");
+        page.line(&format!("sys.dt_ms = {passed};"));
+        page.line(&format!("{passed} = 0;"));
+        page.line(&format!("{left} = UINT32_MAX;"));
+        let work = format!("(drive & ~({done} & {coil})) | ({coil} & ~drive)");
+        self.open_instances(page, Some(&work));
+        page.line(&timer.run.replace("DRIVE", "plc_in_lane(drive, l)"));
+        page.line(&format!("plc_put_lane(&{done}, l, {device}.done);"));
+        page.open(&format!("if (plc_in_lane(drive, l) && !{device}.done) {{"));
+        page.line(&format!("const uint32_t more = {rest};"));
+        page.line(&format!("{left} = (more < {left}) ? more : {left};"));
+        page.close();
+        page.close();
         page.close();
     }
 

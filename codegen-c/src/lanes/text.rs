@@ -24,7 +24,7 @@ extern \"C\" {
 
 /* PLC_LANES instances of the program that scan together. A bit device has one bit for each instance; write inputs and
    read outputs here. Words, and the values of timers and counters, are in the structs of the instances, whose own bits
-   mean nothing. */
+   mean nothing. A timer whose value the program does not look at is not updated in each scan: NAME_lanes_settle does it. */
 typedef struct NAME_lanes {
 FIELDS    plc_sys sys;
     NAME_plc lane[PLC_LANES]; /* words, timers and counters of each instance */
@@ -35,6 +35,9 @@ void NAME_lanes_init(NAME_lanes *all);
 
 /* One scan of all instances. `now_ms`: milliseconds since power-on, wrapping; `scan_us`: how long the last scan took. */
 void NAME_lanes_scan(NAME_lanes *all, uint32_t now_ms, uint32_t scan_us);
+
+/* Brings the values of all timers up to date. */
+void NAME_lanes_settle(NAME_lanes *all);
 
 /* Gives an instance the state of `plc`, which has been scanned as often and at the same times as all instances. */
 void NAME_lanes_load(NAME_lanes *all, unsigned lane, const NAME_plc *plc);
@@ -61,6 +64,10 @@ pub fn header(module: &Module) -> String {
         let _ = writeln!(members, "    plc_lanes {name}{extents};");
         if field.kind.has_members() {
             let _ = writeln!(members, "    plc_lanes {name}_coil{extents};");
+        }
+        if field.kind == Kind::Timer {
+            let _ = writeln!(members, "    uint32_t {name}_passed{extents};");
+            let _ = writeln!(members, "    uint32_t {name}_left{extents};");
         }
     }
     if module.edges > 0 {
@@ -100,14 +107,16 @@ pub fn source(module: &Module, plan: &Plan, fields: &Storage) -> String {
     let name = &module.name;
     let _ = write!(
         out,
-        "void {name}_lanes_load({name}_lanes *all, unsigned lane, const {name}_plc *plc)\n{{\n{}}}\n\n\
+        "void {name}_lanes_settle({name}_lanes *all)\n{{\n{}}}\n\n\
+         void {name}_lanes_load({name}_lanes *all, unsigned lane, const {name}_plc *plc)\n{{\n    {name}_lanes_settle(all);\n{}}}\n\n\
          void {name}_lanes_store(const {name}_lanes *all, unsigned lane, {name}_plc *plc)\n{{\n{}}}\n\n",
+        settle(name, &slicer),
         load(module, fields),
-        store(module, fields),
+        store(module, fields, &slicer),
     );
     let _ = write!(
         out,
-        "void {name}_lanes_init({name}_lanes *all)\n{{\n    {name}_plc plc;\n\n    {name}_init(&plc);\n    all->sys = plc.sys;\n    \
+        "void {name}_lanes_init({name}_lanes *all)\n{{\n    {name}_plc plc;\n\n    {name}_init(&plc);\n    (void)memset(all, 0, sizeof *all);\n    all->sys = plc.sys;\n    \
          for (unsigned l = 0; l < PLC_LANES; l++) {{\n        {name}_lanes_load(all, l, &plc);\n    }}\n}}\n\n"
     );
     let each = |line: &str| match slicer.singles {
@@ -177,7 +186,17 @@ fn load(module: &Module, fields: &Storage) -> String {
     out
 }
 
-fn store(module: &Module, fields: &Storage) -> String {
+/// What brings the values of timers that wait up to date.
+fn settle(name: &str, slicer: &Slicer) -> String {
+    if slicer.waiting.is_empty() {
+        return "    (void)all;\n".to_string();
+    }
+    let timers = slicer.waiting.values().map(|timer| timer.settle(name));
+    let timers: String = timers.collect();
+    format!("    plc_sys sys = all->sys;\n\n{timers}")
+}
+
+fn store(module: &Module, fields: &Storage, slicer: &Slicer) -> String {
     let mut out = String::from("    *plc = all->lane[lane];\n    plc->sys = all->sys;\n");
     for (lanes, single) in members(module, fields) {
         // Coils and contacts of timers and counters are in the struct, too.
@@ -186,5 +205,9 @@ fn store(module: &Module, fields: &Storage) -> String {
         }
         let _ = writeln!(out, "    {single} = plc_in_lane({lanes}, lane);");
     }
+    slicer
+        .waiting
+        .values()
+        .for_each(|timer| out.push_str(&timer.store()));
     out
 }
