@@ -3,6 +3,8 @@
 mod common;
 
 use common::{MOTOR, folder, rungc, shown, text};
+use std::path::Path;
+use std::process::Command;
 
 #[test]
 fn a_program_is_drawn_with_numbers_steps_and_comments() {
@@ -106,5 +108,85 @@ fn a_document_is_the_same_each_time_and_has_all_pages() {
     assert_eq!(pages.count(), 11);
     for what in ["/Count 11", "/UniGB-UTF16-H", "(motor.il)", "/FlateDecode"] {
         assert!(holds(what), "{what}");
+    }
+}
+
+/// The standard output of a tool that reads PDF, or nothing where it is not installed.
+fn read_by(folder: &Path, tool: &str, args: &[&str]) -> Option<Vec<u8>> {
+    let out = match Command::new(tool).args(args).current_dir(folder).output() {
+        Ok(out) => out,
+        Err(_) => {
+            let required = std::env::var_os("RUNGC_REQUIRE_PEERS").is_some();
+            assert!(
+                !required,
+                "RUNGC_REQUIRE_PEERS is set, but there is no {tool}"
+            );
+            eprintln!("skipped: there is no {tool}");
+            return None;
+        }
+    };
+    let said = text(&out.stderr);
+    assert!(out.status.success() && said.is_empty(), "{tool}: {said}");
+    Some(out.stdout)
+}
+
+/// How many dots of each picture in a PGM stream are not white.
+fn dark_dots(mut pictures: &[u8]) -> Vec<usize> {
+    let mut dark = Vec::new();
+    while pictures.starts_with(b"P5") {
+        let mut fields = pictures
+            .splitn(4, |byte| byte.is_ascii_whitespace())
+            .skip(1);
+        let mut number = || -> usize {
+            let field = std::str::from_utf8(fields.next().unwrap()).unwrap();
+            field.parse().unwrap()
+        };
+        let (width, height) = (number(), number());
+        let rest = fields.next().unwrap();
+        // The brightest value, one space, the dots.
+        let start = rest.iter().position(u8::is_ascii_whitespace).unwrap() + 1;
+        let (dots, after) = rest[start..].split_at(width * height);
+        dark.push(dots.iter().filter(|dot| **dot < 128).count());
+        pictures = after;
+    }
+    dark
+}
+
+/// Programs that nobody here wrote check the document, find its texts, and draw its pages.
+#[test]
+fn readers_of_pdf_take_the_document() {
+    let list = format!(
+        ";! X000 = 启动按钮\n;! M0 = motor latch\n; 电机\n{}\
+         LD M8002\nSET S0\nSTL S0\nLD X5\nSET S20\nSTL S20\nOUT Y7\nLD X6\nOUT S0\nRET\n\
+         LD X7\n{}OUT Y10\nEND\n",
+        MOTOR.replace("END\n", "").repeat(12),
+        "AND M7\n".repeat(30)
+    );
+    let folder = folder(&[("motor.il", list.as_bytes())]);
+    let path = folder.path();
+    let out = rungc(path, &["view", "motor.il", "-o", "motor.pdf"]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    if let Some(said) = read_by(path, "qpdf", &["--check", "motor.pdf"]) {
+        assert!(text(&said).contains("No syntax or stream encoding errors"));
+    }
+    if let Some(found) = read_by(path, "pdftotext", &["-layout", "motor.pdf", "-"]) {
+        let found = text(&found);
+        for what in [
+            "X000",
+            "T0 K3",
+            "ADD D0 K1 D0",
+            "motor latch",
+            "启动按钮",
+            "电机",
+            "S20",
+            "→0",
+        ] {
+            assert!(found.contains(what), "{what}:\n{found}");
+        }
+    }
+    if let Some(pages) = read_by(path, "pdftoppm", &["-r", "40", "-gray", "motor.pdf"]) {
+        let dark = dark_dots(&pages);
+        assert!(dark.len() > 3, "{dark:?}");
+        assert!(dark.iter().all(|dots| *dots > 150), "{dark:?}");
     }
 }

@@ -16,7 +16,7 @@ mod atoms;
 mod order;
 
 use crate::node::Module;
-use atoms::{Atom, Names, Sequence, Uses};
+use atoms::{Atom, ERRORS, Names, Sequence, Uses};
 use rungc_rt::special::D_FIRST_ERROR_STEP;
 use rungc_syntax::order as sorting;
 use rungc_syntax::{DeviceClass, DeviceRun};
@@ -75,6 +75,10 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
             if taint.reaches(atom) {
                 taint.write(atom);
             }
+        }
+        // Whether an error is the first one, the errors before it decide.
+        if ERRORS.into_iter().any(|run| taint.meets(run)) {
+            ERRORS.into_iter().for_each(|run| taint.add(run));
         }
         // What a port is set up to do, and so what it writes, is in special devices.
         taint.all |= ports && taint.has_special();

@@ -55,6 +55,7 @@ mod runs;
 #[cfg(any(test, feature = "std"))]
 pub mod servers;
 pub mod special;
+mod specials;
 mod timing;
 mod virtual_hal;
 mod virtual_line;
@@ -79,6 +80,7 @@ pub use pulse_side::count_pulses;
 pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use special::{Register, Relay};
+pub use specials::Specials;
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;
 pub use virtual_line::VirtualLine;

@@ -6,7 +6,7 @@ use crate::node::{
 };
 use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::{bodies, for_exprs_mut, operands, operands_mut};
-use rungc_rt::Needs;
+use rungc_rt::{Needs, Register, Relay};
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -25,8 +25,8 @@ const SPECIAL: [Run; 3] = [
     (DeviceClass::D, 8000, LAST_SPECIAL),
 ];
 
-/// What an operation error writes.
-const ERRORS: [Run; 4] = [
+/// What an operation error writes. The first one of a scan is kept, so an error also depends on them.
+pub(super) const ERRORS: [Run; 4] = [
     (DeviceClass::M, 8004, 8004),
     (DeviceClass::M, 8067, 8069),
     (DeviceClass::D, 8004, 8004),
@@ -543,20 +543,33 @@ impl<'a> Reader<'a> {
             reads.names.push(memory);
             writes.names.push(memory);
         }
+        reads.runs.extend(writes.runs.iter().copied());
+        if let Some(specials) = call.function.specials() {
+            let relay = |of: &Relay| (DeviceClass::M, of.number(), of.number());
+            let register = |of: &Register| (DeviceClass::D, of.number(), of.number());
+            let registers = specials.registers.iter().map(register);
+            reads
+                .runs
+                .extend(specials.reads.iter().map(relay).chain(registers.clone()));
+            writes
+                .runs
+                .extend(specials.writes.iter().map(relay).chain(registers));
+            writes.runs.extend(ERRORS);
+            return memory;
+        }
         let needs = call.function.needs();
         let at_rest = Needs {
             state: needs.state,
             always: needs.always,
             ..Needs::default()
         };
-        reads.runs.extend(writes.runs.iter().copied());
         self.runtime(needs != at_rest, reads, writes);
         reads.all = needs.anywhere;
         writes.all = needs.anywhere;
         memory
     }
 
-    /// What every call of the runtime may read and write in addition to its operands.
+    /// What calls of the runtime may read and write in addition to their operands, unless the runtime says what they do.
     fn runtime(&mut self, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
         reads.runs.extend(SPECIAL);
         writes.runs.extend(SPECIAL);
