@@ -194,3 +194,41 @@ proptest! {
         }
     }
 }
+
+/// Coils with their names above them, as forums draw them, some of which set and reset.
+#[test]
+fn coils_may_have_their_names_above() {
+    let drawing = "\
+|   X0      X1               Y0   |
+|---] [--+--]/[-------------( )---|
+|   Y0   |                        |
+|---] [--+                        |
+|   X2                    T0 K50  |
+|---| |----------------+----( )---|
+|                      |     M5   |
+|                      +----(S)---|
+|   T0                       M5   |
+|---| |---------------------(R)---|
+";
+    let read = rungc_frontend::read_bytes("a.txt", drawing.as_bytes()).unwrap();
+    let messages: Vec<_> = read.diagnostics.iter().map(|d| &d.message).collect();
+    assert!(messages.is_empty(), "{messages:?}");
+    let list: Vec<_> = read
+        .program
+        .instrs
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let expected = "LD X000|OR Y000|ANI X001|OUT Y000|LD X002|OUT T0 K50|SET M005|LD T000|RST M5";
+    let expected = expected.replace("M005", "M5").replace("T000", "T0");
+    assert_eq!(list.join("|"), expected);
+    // The name of a contact is none of a coil beside it.
+    let nameless = "|   X0           |\n|---| |--( )-----|\n";
+    let read = rungc_frontend::read_bytes("a.txt", nameless.as_bytes()).unwrap();
+    let messages: Vec<_> = read
+        .diagnostics
+        .iter()
+        .map(|d| d.message.as_str())
+        .collect();
+    assert!(messages.contains(&"a coil needs a device"), "{messages:?}");
+}

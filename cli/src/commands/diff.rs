@@ -2,6 +2,7 @@
 
 mod git;
 mod json;
+mod proof;
 mod text;
 
 use super::subject::{self, Subject};
@@ -108,6 +109,8 @@ struct Compared<'a> {
     comparison: Comparison,
     /// What they do, if that was asked.
     behaviour: Option<Behaviour>,
+    /// Outputs that are proved the same.
+    proved: Vec<u32>,
 }
 
 /// Compares two programs and prints the result; whether they differ.
@@ -116,7 +119,9 @@ fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, 
     let (ladder_a, ladder_b) = (build::ladder(&a), build::ladder(&b));
     let compared = compared(old, new, [(&a, &ladder_a), (&b, &ladder_b)], args.semantic);
     let differs = match &compared.behaviour {
-        Some(behaviour) => *behaviour != Behaviour::Same,
+        Some(Behaviour::Same) => false,
+        Some(Behaviour::CanDiffer { devices, hardware }) => !devices.is_empty() || *hardware,
+        Some(Behaviour::Undecided(_)) => true,
         None => !compared.comparison.is_empty(),
     };
     let text = match args.format {
@@ -152,12 +157,16 @@ fn compared<'a>(
 ) -> Compared<'a> {
     let drawn = |(resolved, ladder)| Drawn { resolved, ladder };
     let (drawn_old, drawn_new) = (drawn(a), drawn(b));
+    let mut behaviour = semantic.then(|| of_both(old, new));
+    let found = behaviour.as_mut();
+    let proved = found.map(|behaviour| proof::proved(old, new, behaviour));
     Compared {
         names: [&old.name, &new.name],
         old: drawn_old,
         new: drawn_new,
         comparison: compare(drawn_old, drawn_new),
-        behaviour: semantic.then(|| of_both(old, new)),
+        behaviour,
+        proved: proved.unwrap_or_default(),
     }
 }
 
@@ -177,8 +186,17 @@ fn of_both(old: &Side, new: &Side) -> Behaviour {
     }
 }
 
+/// Runs of devices by their names.
+fn list(runs: &[&DeviceRun]) -> String {
+    let names = runs.iter().map(|run| match run.count {
+        1 => run.class.number(run.first).to_string(),
+        _ => run.to_string(),
+    });
+    names.collect::<Vec<_>>().join(", ")
+}
+
 /// What a comparison of behaviour says, in sentences.
-fn in_words(behaviour: &Behaviour) -> Vec<String> {
+fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
     match behaviour {
         Behaviour::Same => vec![
             "Same behaviour: with the same inputs, all devices have the same values.".to_string(),
@@ -187,19 +205,23 @@ fn in_words(behaviour: &Behaviour) -> Vec<String> {
         Behaviour::CanDiffer { devices, hardware } => {
             let (outputs, others): (Vec<&DeviceRun>, Vec<_>) =
                 devices.iter().partition(|run| run.class == DeviceClass::Y);
-            let list = |runs: &[&DeviceRun]| -> String {
-                let names = runs.iter().map(|run| match run.count {
-                    1 => run.class.number(run.first).to_string(),
-                    _ => run.to_string(),
-                });
-                names.collect::<Vec<_>>().join(", ")
-            };
             let mut words = vec![match outputs.is_empty() {
                 true => "No output can differ.".to_string(),
                 false => format!("Outputs that can differ: {}.", list(&outputs)),
             }];
             if !others.is_empty() {
                 words.push(format!("Other devices that can differ: {}.", list(&others)));
+            }
+            if !proved.is_empty() {
+                let mut runs = Vec::new();
+                for number in proved {
+                    proof::add(&mut runs, DeviceClass::Y, *number);
+                }
+                words.push(format!(
+                    "Outputs that are proved the same, with scans of at most {} ms: {}.",
+                    proof::scan_ms(),
+                    list(&runs.iter().collect::<Vec<_>>())
+                ));
             }
             if *hardware {
                 let what = "Modules, pulse outputs or serial ports can be used differently.";

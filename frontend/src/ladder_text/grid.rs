@@ -1,5 +1,7 @@
 //! Drawn lines as a grid: which wires hang together, and which symbols lie between them.
 
+mod names;
+
 use super::nets::Nets;
 use rungc_syntax::Span;
 use smol_str::SmolStr;
@@ -346,7 +348,10 @@ impl Scan<'_> {
             end += 1;
         }
         let open = end >= self.block.rows[row].len();
-        let words = self.words(row, at + 1, end);
+        let mut words = self.words(row, at + 1, end);
+        if close == ')' && !open {
+            self.name_coil(row, (at, end + 1), &mut words);
+        }
         let span = self.block.span(row, at, end + 1);
         if open || words.is_empty() && close == ')' {
             let why = if open {
@@ -400,42 +405,6 @@ impl Scan<'_> {
             words[0] = (rest, words[0].1 + sign.len_utf8() as u32);
         }
         self.add(row, columns, kind, words);
-    }
-
-    /// A contact whose name is above it.
-    fn contact(&mut self, row: usize, at: usize, end: usize, sign: char) -> Option<usize> {
-        let kind = kind(sign)?;
-        let above = row
-            .checked_sub(1)
-            .map(|above| self.name_above(above, at, end));
-        match above.flatten() {
-            Some(word) => self.add(row, (at, end), kind, vec![word]),
-            None => {
-                let span = self.block.span(row, at, end);
-                self.drawn
-                    .odd
-                    .push((span, "no device is above this contact"));
-                self.add(row, (at, end), kind, Vec::new());
-            }
-        }
-        Some(end)
-    }
-
-    /// The word above some columns that is the nearest to their middle.
-    fn name_above(&self, row: usize, at: usize, end: usize) -> Option<(String, u32)> {
-        /// How far a name may be from the middle of its contact.
-        const REACH: usize = 8;
-        let from = at.saturating_sub(2 * REACH);
-        let words = self.words(row, from, end + 2 * REACH);
-        let middle = at + end;
-        let near = words.into_iter().filter_map(|(word, place)| {
-            let cells = &self.block.rows[row];
-            let start = cells.iter().position(|cell| cell.1 == place)?;
-            let distance = (2 * start + word.chars().count()).abs_diff(middle);
-            (distance <= 2 * REACH && is_device(&word)).then_some((distance, word, place))
-        });
-        let nearest = near.min_by_key(|found| found.0);
-        nearest.map(|(_, word, place)| (word, place))
     }
 
     /// The words in some columns; a text in quotation marks is one.

@@ -3,6 +3,7 @@
 use super::{Compared, Failure};
 use rungc_ir::compare::Behaviour;
 use rungc_ladder::compare::{Change, Differing, Drawn};
+use rungc_syntax::DeviceClass;
 use serde_json::{Value, json};
 use std::fmt::Display;
 
@@ -21,8 +22,11 @@ pub fn object(compared: &Compared, differs: bool) -> Result<String, Failure> {
         "comments": table("device", &comparison.comments),
         "settings": table("name", &comparison.parameters),
     });
-    if let Some(compared) = &compared.behaviour {
-        object["behaviour"] = behaviour(compared);
+    if let Some(found) = &compared.behaviour {
+        object["behaviour"] = behaviour(found);
+        let proved = compared.proved.iter();
+        let proved = proved.map(|number| DeviceClass::Y.number(*number).to_string());
+        object["behaviour"]["proved"] = proved.collect();
     }
     let text = serde_json::to_string_pretty(&object);
     text.map(|text| text + "\n")

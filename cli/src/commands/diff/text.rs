@@ -38,7 +38,8 @@ pub fn summary(compared: &Compared) -> String {
         parts.push("no differences".to_string());
     }
     let mut text = parts.join(", ");
-    for words in compared.behaviour.iter().flat_map(in_words) {
+    let found = compared.behaviour.iter();
+    for words in found.flat_map(|behaviour| in_words(behaviour, &compared.proved)) {
         let _ = write!(text, "\n{words}");
     }
     text

@@ -1,0 +1,85 @@
+//! Outputs that can differ as far as statements show, and are proved the same nevertheless.
+
+use super::Side;
+use rungc_ir::Module;
+use rungc_ir::compare::Behaviour;
+use rungc_ir::passes::simplify;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_syntax::{DeviceClass, DeviceRun};
+use rungc_verify::model::World;
+use rungc_verify::prove::{Options, Verdict};
+use rungc_verify::same;
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+/// How long all outputs together may take, and one of them at most.
+const TIME: [Duration; 2] = [Duration::from_secs(10), Duration::from_secs(2)];
+
+/// The longest time from one scan to the next that proofs suppose, in milliseconds.
+pub(super) fn scan_ms() -> u32 {
+    World::default().scan_ms
+}
+
+/// Takes the outputs Y out of those that can differ that no run makes differ; their numbers.
+pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u32> {
+    let Behaviour::CanDiffer { devices, .. } = behaviour else {
+        return Vec::new();
+    };
+    let is_output = |run: &&DeviceRun| run.class == DeviceClass::Y;
+    let asked = devices.iter().filter(is_output).flat_map(numbers).count();
+    if asked == 0 {
+        return Vec::new();
+    }
+    let (Some(old), Some(new)) = (module(old), module(new)) else {
+        return Vec::new();
+    };
+    let [all, one] = TIME;
+    let options = Options {
+        world: World::default(),
+        assumed: Vec::new(),
+        time: one.min(all / u32::try_from(asked).unwrap_or(u32::MAX)),
+    };
+    let outputs = same::compare(&old, &new, &options).outputs;
+    let outputs = outputs
+        .iter()
+        .filter(|output| output.verdict == Verdict::Proved);
+    let same: BTreeSet<u32> = outputs.map(|output| output.number).collect();
+    let mut proved = Vec::new();
+    let mut rest = Vec::new();
+    for run in devices.drain(..) {
+        for number in numbers(&run) {
+            match run.class {
+                DeviceClass::Y if same.contains(&number) => proved.push(number),
+                class => add(&mut rest, class, number),
+            }
+        }
+    }
+    *devices = rest;
+    proved
+}
+
+fn numbers(run: &DeviceRun) -> std::ops::Range<u32> {
+    run.first..run.first + run.count
+}
+
+/// Adds a device after others.
+pub(super) fn add(runs: &mut Vec<DeviceRun>, class: DeviceClass, number: u32) {
+    match runs.last_mut() {
+        Some(run) if run.class == class && run.first + run.count == number => run.count += 1,
+        _ => runs.push(DeviceRun {
+            class,
+            first: number,
+            count: 1,
+        }),
+    }
+}
+
+fn module(side: &Side) -> Option<Module> {
+    let options = CompileOptions {
+        optimise: false,
+        ..side.options()
+    };
+    let mut module = compile(&side.read.program, &options).module?;
+    simplify(&mut module);
+    Some(module)
+}
