@@ -91,16 +91,17 @@ impl Reader<'_> {
         &self,
         pins: BTreeMap<Spanned, toml::Spanned<Pin>>,
     ) -> Result<BTreeMap<String, AnalogPin>, BoardError> {
-        let read = |(name, pin): (Spanned, toml::Spanned<Pin>)| {
+        let mut read_pins = BTreeMap::new();
+        for (name, pin) in pins {
             let known = self.analog_pin(&pin)?;
             let own = pin.get_ref();
             if let Some(wired) = &own.pin {
                 let (place, uncertain) = (pin.span().start, own.uncertain.clone());
                 self.connect(place, name.get_ref(), wired, Mode::Analog, uncertain)?;
             }
-            Ok((name.into_inner(), known))
-        };
-        pins.into_iter().map(read).collect()
+            read_pins.insert(name.into_inner(), known);
+        }
+        Ok(read_pins)
     }
 
     fn analog_pin(&self, pin: &toml::Spanned<Pin>) -> Result<AnalogPin, BoardError> {

@@ -3,7 +3,7 @@
 use super::Package;
 use crate::image::{comment, terminals};
 use rungc_emit::storage::Storage;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, order};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ pub struct Terminal {
 
 /// The terminals of the program with their pins: inputs and outputs. If pins are short, each side has half of them.
 pub fn pins(package: &Package, pins: &[u8]) -> [Vec<Terminal>; 2] {
-    let numbers = |class| terminals(package.module, class).collect::<BTreeSet<_>>();
+    let numbers = |class| order::set(terminals(package.module, class));
     let (mut inputs, outputs) = (numbers(DeviceClass::X), numbers(DeviceClass::Y));
     inputs.extend(rungc_emit::events::inputs(package.module));
     let half = pins.len() / 2;

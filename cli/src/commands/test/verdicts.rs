@@ -6,6 +6,7 @@ use crate::args::TestArgs;
 use rungc_runtime_sources::cache;
 use rungc_sim::engines::EngineKind;
 use rungc_sim::plctest::{Id, Report, Suite, TestFile};
+use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -72,7 +73,7 @@ impl Verdicts {
             let of_file = of_file.filter(|o| o.id.file == *file && o.engine == *engine);
             let passed = of_file.filter(|o| o.failure.is_none());
             let names = passed.map(|o| suite.files()[*file].cases[o.id.case].name.clone());
-            let mut names: BTreeSet<String> = names.collect();
+            let mut names = order::set(names);
             // A part of the cases may have run.
             names.extend(read(place, key));
             let names: Vec<String> = names.into_iter().collect();
@@ -88,7 +89,7 @@ fn read(place: &Path, key: &str) -> BTreeSet<String> {
     };
     let mut lines = text.lines();
     match lines.next() {
-        Some(first) if first == key => lines.map(str::to_string).collect(),
+        Some(first) if first == key => order::set(lines.map(str::to_string)),
         _ => BTreeSet::new(),
     }
 }

@@ -7,6 +7,7 @@ use super::super::{Context, Failure, Outcome, Result, interruption, tell};
 use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
+use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::thread::sleep;
@@ -57,7 +58,7 @@ fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> BTreeSet<
     let of_files = files.iter().flat_map(|file| file.inputs.iter().cloned());
     let settings = chosen.project.iter().map(|project| project.path.clone());
     let named = chosen.paths.iter().chain(&args.machine).cloned();
-    of_files.chain(settings).chain(named).collect()
+    order::set(of_files.chain(settings).chain(named))
 }
 
 /// The state of these files, of the files in program folders, and of all test files that there are now.

@@ -4,7 +4,7 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_frontend::iec_timer_unit;
 use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, order};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A contact or a comparison.
@@ -290,8 +290,6 @@ fn timers(resolved: &Resolved) -> BTreeMap<Device, u64> {
         let entry = found.entry(timer);
         entry.and_modify(|preset| *preset = None).or_insert(preset);
     }
-    found
-        .into_iter()
-        .filter_map(|(timer, preset)| Some((timer, preset?)))
-        .collect()
+    let found = found.into_iter();
+    order::map(found.filter_map(|(timer, preset)| Some((timer, preset?))))
 }
