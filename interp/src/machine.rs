@@ -188,6 +188,11 @@ impl<'m> Machine<'m> {
         self.axes.get(i)
     }
 
+    /// What a private number of the module holds.
+    pub fn cell(&self, cell: CellId) -> i32 {
+        self.cells[cell]
+    }
+
     /// Whether the watchdog has stopped the program.
     pub fn watchdog_tripped(&self) -> bool {
         self.last_error.stop == Stop::Watchdog

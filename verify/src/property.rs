@@ -296,6 +296,7 @@ fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
 }
 
 /// Follows a property over the scans of a machine.
+#[derive(Clone)]
 pub struct Watcher<'p> {
     property: &'p Property,
     was_on: bool,

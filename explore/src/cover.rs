@@ -1,0 +1,302 @@
+//! What a run has shown of a program: the features by which a search knows that it has come to something new.
+
+use crate::run::Runner;
+use crate::task::Task;
+use rungc_interp::rt_class;
+use rungc_ir::Module;
+use rungc_ir::node::{AccessKind, CellId, Expr, ExprId, Stmt};
+use rungc_ir::walk::statements;
+use rungc_models::runs::{is_counter32, is_special};
+use rungc_rt::{Class, Plc};
+use rungc_sim::Target;
+use rungc_syntax::DeviceClass;
+use rungc_verify::property::{Condition, Number};
+use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
+use std::hash::Hasher;
+
+/// Something that a scan has shown.
+pub type Feature = u64;
+
+/// More devices of a program are not followed.
+const MOST: usize = 4_000;
+/// So many different states of all relays together count as new.
+const STATES: usize = 3_000;
+
+/// The kinds of features, in their top byte.
+#[derive(Clone, Copy)]
+#[repr(u8)]
+enum Kind {
+    Branch,
+    Bit,
+    Change,
+    Word,
+    Near,
+    Pair,
+    Leaves,
+    State,
+}
+
+fn feature(kind: Kind, index: usize, value: u32) -> Feature {
+    (kind as u64) << 56 | (index as u64 & 0xff_ffff) << 32 | u64::from(value)
+}
+
+/// What is looked at after a scan.
+pub struct View<'t> {
+    branches: &'t [CellId],
+    bits: Vec<(Class, u32)>,
+    words: Vec<(Class, u32)>,
+    /// By word: numbers that the program compares it with.
+    near: Vec<Vec<i32>>,
+    /// The parts of each property's conditions that are true or false by themselves.
+    leaves: Vec<Vec<&'t Condition>>,
+}
+
+/// The last scan, to see what has changed.
+#[derive(Clone, Default)]
+pub struct Last {
+    branches: Vec<bool>,
+    bits: Vec<bool>,
+    words: Vec<i32>,
+}
+
+/// The features that are known.
+#[derive(Clone, Default)]
+pub struct Seen {
+    known: FxHashSet<Feature>,
+    states: usize,
+}
+
+impl Seen {
+    /// Adds a feature; whether it is new.
+    pub fn add(&mut self, feature: Feature) -> bool {
+        let is_state = feature >> 56 == Kind::State as u64;
+        if is_state && self.states >= STATES {
+            return false;
+        }
+        let new = self.known.insert(feature);
+        self.states += usize::from(new && is_state);
+        new
+    }
+
+    /// Whether it is new.
+    pub fn lacks(&self, feature: Feature) -> bool {
+        let is_state = feature >> 56 == Kind::State as u64;
+        !(is_state && self.states >= STATES) && !self.known.contains(&feature)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.known.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+}
+
+impl<'t> View<'t> {
+    /// What is looked at in a search.
+    pub fn new(task: &'t Task<'t>) -> Self {
+        let module = task.module;
+        let compared = compared(module, task);
+        let (mut bits, mut words, mut near) = (Vec::new(), Vec::new(), Vec::new());
+        for area in &module.layout.areas {
+            let Some(class) = rt_class(area.class) else {
+                continue;
+            };
+            use DeviceClass::{C, D, ER, M, R, S, T, V, Y, Z};
+            let followed = (area.first..area.first + area.count)
+                .filter(|&n| !is_special(area.class, n))
+                .take(MOST);
+            for n in followed {
+                if matches!(area.class, Y | M | S | T | C) && bits.len() < MOST {
+                    bits.push((class, n));
+                }
+                if matches!(area.class, D | R | ER | V | Z | T | C) && words.len() < MOST {
+                    words.push((class, n));
+                    let numbers = compared.get(&(area.class, n));
+                    near.push(numbers.cloned().unwrap_or_default());
+                }
+            }
+        }
+        let properties = task.properties.iter();
+        let leaves = properties.map(|property| {
+            let mut found = Vec::new();
+            let conditions = property.conditions();
+            conditions.into_iter().for_each(|c| leaves(c, &mut found));
+            found.truncate(24);
+            found
+        });
+        View {
+            branches: &task.notes.branches,
+            leaves: leaves.collect(),
+            bits,
+            words,
+            near,
+        }
+    }
+
+    /// How many branches have been taken.
+    pub fn taken(&self, seen: &Seen) -> usize {
+        let features = (0..self.branches.len()).map(|i| feature(Kind::Branch, i, 0));
+        features
+            .filter(|feature| seen.known.contains(feature))
+            .count()
+    }
+
+    /// Calls `f` with the features of the scan that has just ended.
+    pub fn look(&self, runner: &Runner, last: &mut Last, f: &mut impl FnMut(Feature)) {
+        let machine = runner.machine();
+        let fresh = last.bits.len() != self.bits.len() || last.words.len() != self.words.len();
+        if fresh {
+            last.branches = vec![false; self.branches.len()];
+            last.bits = vec![false; self.bits.len()];
+            last.words = vec![0; self.words.len()];
+        }
+        for (i, &cell) in self.branches.iter().enumerate() {
+            if !last.branches[i] && machine.cell(cell) != 0 {
+                last.branches[i] = true;
+                f(feature(Kind::Branch, i, 0));
+            }
+        }
+        let mut changed = false;
+        let mut state = FxHasher::default();
+        for (i, &(class, n)) in self.bits.iter().enumerate() {
+            let on = machine.bit(class, n) == Some(true);
+            if std::mem::replace(&mut last.bits[i], on) != on {
+                changed = true;
+                f(feature(Kind::Bit, i, on.into()));
+            }
+            if on {
+                state.write_usize(i);
+            }
+        }
+        if changed || fresh {
+            f((Kind::State as u64) << 56 | state.finish() >> 8);
+            self.pairs(last, f);
+        }
+        for (i, &(class, n)) in self.words.iter().enumerate() {
+            let value = match class {
+                Class::C if is_counter32(DeviceClass::C, n) => machine.counter32(n).unwrap_or(0),
+                _ => machine.word(class, n).unwrap_or(0).into(),
+            };
+            if std::mem::replace(&mut last.words[i], value) != value {
+                f(feature(Kind::Word, i, magnitude(value)));
+                for (j, &number) in self.near[i].iter().enumerate() {
+                    let distance = magnitude(value.wrapping_sub(number));
+                    f(feature(Kind::Near, i << 6 | j, distance));
+                }
+            }
+        }
+        for (property, leaves) in self.leaves.iter().enumerate() {
+            let held = leaves.iter().map(|leaf| leaf.holds(machine));
+            let held = held.fold(0, |all, on| all << 1 | u32::from(on));
+            f(feature(Kind::Leaves, property, held));
+        }
+    }
+
+    /// Outputs that are on together, and what they follow.
+    fn pairs(&self, last: &Last, f: &mut impl FnMut(Feature)) {
+        const MOST_ON: usize = 24;
+        let on = self.bits.iter().enumerate();
+        let on = on.filter(|(i, (class, _))| last.bits[*i] && matches!(class, Class::Y | Class::S));
+        let on: Vec<usize> = on.map(|(i, _)| i).take(MOST_ON).collect();
+        for (at, &a) in on.iter().enumerate() {
+            f(feature(Kind::Change, a, on.len() as u32));
+            for &b in &on[at + 1..] {
+                f(feature(Kind::Pair, a, b as u32));
+            }
+        }
+    }
+}
+
+/// A number up to 32 as it is, others by their length.
+fn magnitude(value: i32) -> u32 {
+    const EXACT: u32 = 32;
+    let size = value.unsigned_abs();
+    let rank = match size {
+        0..=EXACT => size,
+        _ => EXACT + 33 - size.leading_zeros(),
+    };
+    rank << 1 | u32::from(value < 0)
+}
+
+/// The parts of a condition without `!`, `&` and `|`.
+fn leaves<'c>(condition: &'c Condition, found: &mut Vec<&'c Condition>) {
+    match condition {
+        Condition::Constant(_) => {}
+        Condition::On(_) | Condition::Compare(..) => found.push(condition),
+        Condition::Not(a) => leaves(a, found),
+        Condition::And(a, b) | Condition::Or(a, b) => {
+            leaves(a, found);
+            leaves(b, found);
+        }
+    }
+}
+
+/// The numbers with which words are compared: by instructions, as presets, and by properties.
+fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i32>> {
+    const MOST_NUMBERS: usize = 16;
+    let mut found: FxHashMap<(DeviceClass, u32), Vec<i32>> = FxHashMap::default();
+    let mut add = |device, number| {
+        let numbers = found.entry(device).or_default();
+        if numbers.len() < MOST_NUMBERS && !numbers.contains(&number) {
+            numbers.push(number);
+        }
+    };
+    for expr in &module.exprs {
+        if let Expr::Cmp(_, a, b) = *expr {
+            for (a, b) in [(a, b), (b, a)] {
+                if let (Some(device), Some(number)) = (word(module, a), constant(module, b)) {
+                    add(device, number);
+                }
+            }
+        }
+    }
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            let (device, preset) = match stmt {
+                Stmt::Timer(coil) => ((DeviceClass::T, coil.number), coil.preset),
+                Stmt::Counter16(coil) => ((DeviceClass::C, coil.number), coil.preset),
+                Stmt::Counter32(coil) => ((DeviceClass::C, coil.number), coil.preset),
+                _ => return,
+            };
+            if let Some(number) = constant(module, preset) {
+                add(device, number);
+            }
+        });
+    }
+    let conditions = task.properties.iter().flat_map(|p| p.conditions());
+    for condition in conditions {
+        let mut parts = Vec::new();
+        leaves(condition, &mut parts);
+        for part in parts {
+            if let Condition::Compare(_, Number::Of(of), Number::Constant(number))
+            | Condition::Compare(_, Number::Constant(number), Number::Of(of)) = *part
+                && let Target::Word(class, n) | Target::Current(class, n) = of
+            {
+                add((class, n), number);
+            }
+        }
+    }
+    found
+}
+
+/// The word that an expression reads.
+fn word(module: &Module, id: ExprId) -> Option<(DeviceClass, u32)> {
+    let Expr::Read(access) = *module.expr(id) else {
+        return None;
+    };
+    let plain = matches!(access.kind, AccessKind::Word | AccessKind::Pair);
+    (plain && access.place.index.is_none()).then_some((access.place.class, access.place.number))
+}
+
+/// The number that an expression is.
+pub fn constant(module: &Module, id: ExprId) -> Option<i32> {
+    match *module.expr(id) {
+        Expr::I16(value) => Some(value.into()),
+        Expr::I32(value) => Some(value),
+        _ => None,
+    }
+}

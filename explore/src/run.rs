@@ -1,0 +1,317 @@
+//! Runs of a program, step by step, as test files run it.
+
+use crate::notes::NOT_EXECUTED;
+use crate::task::{Kind, Step, Task, What};
+use rungc_interp::{Machine, Saved};
+use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_sim::Target;
+use rungc_sim::plant::{Plant, Wired};
+use rungc_syntax::DeviceClass;
+use rungc_verify::property::Watcher;
+
+/// How many scans in a row an output changes before it counts as one that never comes to rest.
+pub const RESTLESS: u32 = 20;
+
+/// A program that runs.
+pub struct Runner<'t> {
+    task: &'t Task<'t>,
+    machine: Machine<'t>,
+    hal: VirtualHal,
+    plant: Option<Plant>,
+    watchers: Vec<Watcher<'t>>,
+    inputs: Vec<i32>,
+    now_ms: u64,
+    /// How long the last scan took; `None` before the first.
+    last_ms: Option<u32>,
+    takes_events: bool,
+    constant_ms: u32,
+    /// How many operation errors were there before the scan.
+    errors: usize,
+    /// By output that the program stores: what it was, and in how many scans in a row it has changed while no input did.
+    outputs: Vec<(u32, bool, u32)>,
+    /// What has happened in the last scan.
+    pub happened: Vec<What>,
+}
+
+/// A moment of a run, to come back to.
+#[derive(Clone)]
+pub struct Moment<'t> {
+    machine: Saved,
+    hal: Box<VirtualHal>,
+    plant: Option<Plant>,
+    watchers: Vec<Watcher<'t>>,
+    inputs: Vec<i32>,
+    now_ms: u64,
+    last_ms: Option<u32>,
+    constant_ms: u32,
+    errors: usize,
+    outputs: Vec<(u32, bool, u32)>,
+}
+
+/// How a scan ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Scanned {
+    /// The run can go on.
+    Next,
+    /// The PLC has stopped, or the machine is broken.
+    End,
+    /// The machine sees to it that this does not happen: the scan does not count.
+    Excluded,
+}
+
+impl<'t> Runner<'t> {
+    /// The program at power-on. Fails if the machine has a sensor at an input that the PLC does not have.
+    pub fn new(task: &'t Task<'t>) -> Result<Self, String> {
+        let mut machine = Machine::new(&task.noting);
+        let mut hal = task.hal.clone();
+        let mut plant = task.machine.map(|machine| machine.plant());
+        if let Some(plant) = &mut plant {
+            let mut wired = Wired {
+                machine: &mut machine,
+                hal: &mut hal,
+                changed: &mut |_| Ok::<_, String>(()),
+            };
+            wired.connect(plant)?;
+        }
+        let module = task.module;
+        let areas = module.layout.areas.iter();
+        let outputs = areas.filter(|area| area.class == DeviceClass::Y);
+        let outputs = outputs.flat_map(|area| area.first..area.first + area.count);
+        let outputs = outputs.filter(|output| !module.pulse_outputs.contains(output));
+        Ok(Runner {
+            task,
+            machine,
+            hal,
+            plant,
+            watchers: task.properties.iter().map(Watcher::new).collect(),
+            inputs: vec![0; task.inputs.len()],
+            now_ms: 0,
+            last_ms: None,
+            takes_events: module.takes_events(),
+            constant_ms: 0,
+            errors: 0,
+            outputs: outputs.map(|output| (output, false, 0)).collect(),
+            happened: Vec::new(),
+        })
+    }
+
+    /// The PLC.
+    pub fn machine(&self) -> &Machine<'t> {
+        &self.machine
+    }
+
+    /// The PLC's hardware.
+    pub fn hal(&self) -> &VirtualHal {
+        &self.hal
+    }
+
+    /// The machine around it.
+    pub fn plant(&self) -> Option<&Plant> {
+        self.plant.as_ref()
+    }
+
+    /// Milliseconds since power-on.
+    pub fn now_ms(&self) -> u64 {
+        self.now_ms
+    }
+
+    /// What each input is now.
+    pub fn inputs(&self) -> &[i32] {
+        &self.inputs
+    }
+
+    /// The state now.
+    pub fn save(&self) -> Moment<'t> {
+        Moment {
+            machine: self.machine.save(),
+            hal: Box::new(self.hal.clone()),
+            plant: self.plant.clone(),
+            watchers: self.watchers.clone(),
+            inputs: self.inputs.clone(),
+            now_ms: self.now_ms,
+            last_ms: self.last_ms,
+            constant_ms: self.constant_ms,
+            errors: self.errors,
+            outputs: self.outputs.clone(),
+        }
+    }
+
+    /// Goes back to a state.
+    pub fn restore(&mut self, moment: &Moment<'t>) {
+        self.machine.restore(&moment.machine);
+        self.hal.clone_from(&moment.hal);
+        self.plant.clone_from(&moment.plant);
+        self.watchers.clone_from(&moment.watchers);
+        self.inputs.clone_from(&moment.inputs);
+        self.now_ms = moment.now_ms;
+        self.last_ms = moment.last_ms;
+        self.constant_ms = moment.constant_ms;
+        self.errors = moment.errors;
+        self.outputs.clone_from(&moment.outputs);
+    }
+
+    /// Changes inputs, as a step of a run says.
+    pub fn set(&mut self, set: &[(usize, i32)]) {
+        for &(input, value) in set {
+            let before = std::mem::replace(&mut self.inputs[input], value);
+            let target = self.task.inputs[input].target;
+            // Each input exists: it was taken from the program's devices.
+            let _ = rungc_sim::set(&mut self.machine, &mut self.hal, target, value.into());
+            if let Target::Bit(DeviceClass::X, number) = target
+                && self.takes_events
+                && self.last_ms.is_some()
+                && before != value
+            {
+                self.machine.input_edge(&mut self.hal, number, value != 0);
+            }
+            if before != value {
+                self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
+            }
+        }
+    }
+
+    /// Executes a scan and lets the time until the next one pass. What has happened is in `happened` then.
+    pub fn scan(&mut self, scan_ms: u32) -> Scanned {
+        self.happened.clear();
+        let scan_ms = scan_ms.max(self.constant_ms);
+        self.hal.advance_to(self.now_ms as u32);
+        let scan_us = scan_ms.saturating_mul(1000);
+        self.machine
+            .scan(&mut self.hal, self.now_ms as u32, scan_us);
+        let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
+        self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
+        if !self.task.assumed.iter().all(|a| a.holds(&self.machine)) {
+            return Scanned::Excluded;
+        }
+        let machine = &self.machine;
+        for (number, watcher) in self.watchers.iter_mut().enumerate() {
+            if watcher.happened(machine, elapsed_ms) {
+                self.happened.push(What::Property(number));
+            }
+        }
+        self.notice();
+        self.pass(scan_ms);
+        let broken = self.plant.as_ref().and_then(Plant::collision);
+        if let Some(collision) = broken
+            && self.task.wants(Kind::Collisions)
+        {
+            let collision = What::Collision(collision.axis.clone());
+            self.happened.push(collision);
+        }
+        match broken.is_some() || !self.machine.sys().running {
+            true => Scanned::End,
+            false => Scanned::Next,
+        }
+    }
+
+    /// Notes what else has happened in a scan.
+    fn notice(&mut self) {
+        let machine = &self.machine;
+        let mut found = Vec::new();
+        let errors = machine.errors();
+        let new = errors.get(self.errors..).unwrap_or_default();
+        found.extend(new.iter().map(|error| What::Error {
+            code: error.code,
+            step: error.step,
+        }));
+        self.errors = errors.len();
+        if machine.watchdog_tripped() {
+            let step = machine.last_error().stop_step.into();
+            found.push(What::Watchdog { step });
+        }
+        for (output, cells) in &self.task.notes.coils {
+            let said = cells.iter().map(|&cell| machine.cell(cell));
+            let mut said = said.filter(|&value| value != NOT_EXECUTED).rev();
+            if said.next() == Some(0) && said.any(|value| value == 1) {
+                found.push(What::Doubled(*output));
+            }
+        }
+        for (output, was, times) in &mut self.outputs {
+            let is = machine.bit(Class::Y, *output) == Some(true);
+            *times = match std::mem::replace(was, is) != is {
+                true => *times + 1,
+                false => 0,
+            };
+        }
+        let task = self.task;
+        let wanted = found.into_iter();
+        self.happened
+            .extend(wanted.filter(|what| what.kind().is_none_or(|kind| task.wants(kind))));
+    }
+
+    /// The outputs that have changed in so many scans in a row, with inputs that stay.
+    pub fn restless(&self, scans: u32) -> impl Iterator<Item = u32> {
+        let outputs = self.outputs.iter();
+        outputs
+            .filter(move |(.., times)| *times >= scans)
+            .map(|(output, ..)| *output)
+    }
+
+    /// Whether an output changes in every scan from here on, however long scans are; the run stays where it is.
+    pub fn never_rests(&mut self, output: u32) -> bool {
+        /// Times that no clock of a PLC follows both, in milliseconds.
+        const SCAN_MS: [u32; 2] = [10, 7];
+        let here = self.save();
+        let restless = SCAN_MS.into_iter().all(|scan_ms| {
+            self.restore(&here);
+            self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
+            let runs = (0..RESTLESS).all(|_| self.scan(scan_ms) == Scanned::Next);
+            runs && self.restless(RESTLESS).any(|restless| restless == output)
+        });
+        self.restore(&here);
+        self.happened.clear();
+        restless
+    }
+
+    /// The time from one scan to the next.
+    fn pass(&mut self, scan_ms: u32) {
+        if self.plant.is_none() && !self.takes_events {
+            self.now_ms += u64::from(scan_ms);
+            return;
+        }
+        for _ in 0..scan_ms {
+            self.now_ms += 1;
+            self.hal.advance_to(self.now_ms as u32);
+            if let Some(plant) = &mut self.plant {
+                let mut wired = Wired {
+                    machine: &mut self.machine,
+                    hal: &mut self.hal,
+                    changed: &mut |_| Ok::<_, String>(()),
+                };
+                // Nothing can go wrong: all sensors were connected at power-on.
+                let _ = plant.step(self.now_ms, &[], &mut wired);
+            }
+            if self.takes_events {
+                self.machine.tick(&mut self.hal, self.now_ms as u32);
+                self.machine.take_interrupts(&mut self.hal);
+            }
+        }
+    }
+}
+
+/// Runs these steps from power-on; the run until what is searched for has happened, if it does.
+pub fn replay(task: &Task, what: &What, run: &[Step]) -> Option<Vec<Step>> {
+    let mut runner = Runner::new(task).ok()?;
+    let mut done: Vec<Step> = Vec::new();
+    for step in run {
+        runner.set(&step.set);
+        done.push(Step {
+            scans: 0,
+            ..step.clone()
+        });
+        for _ in 0..step.scans {
+            let scanned = runner.scan(step.scan_ms);
+            done.last_mut()?.scans += 1;
+            if scanned != Scanned::Excluded && runner.happened.contains(what) {
+                return Some(done);
+            }
+            if scanned != Scanned::Next {
+                return None;
+            }
+        }
+    }
+    match *what {
+        What::Oscillation(output) => runner.never_rests(output).then_some(done),
+        _ => None,
+    }
+}

@@ -1,0 +1,314 @@
+//! The search: moments of runs, from which others are reached.
+//!
+//! A round goes on from several moments at once, each with its own random numbers, in as many threads as there are
+//! processors. What the parts of a round have found is put together in their order, so that a search with the same seed
+//! finds the same, however many processors there are.
+
+use crate::cover::{Feature, Last, Seen, View};
+use crate::run::{Moment, RESTLESS, Runner, Scanned};
+use crate::task::{Found, Kind, Step, Task, What};
+use crate::vary::Choices;
+use fastrand::Rng;
+use rungc_syntax::order;
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+/// How many parts a round has.
+const PARTS: usize = 8;
+/// How many scans each of them executes, about.
+const PART_SCANS: u32 = 256;
+/// How many moments are kept.
+const KEPT: usize = 400;
+/// How many moments a part of a round brings at most.
+const BROUGHT: usize = 24;
+/// Longer runs are not continued.
+const LONGEST: usize = 3_000;
+
+/// How far a search goes.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// How many scans, about: a search ends with the round in which it passes this.
+    pub scans: u64,
+    /// How long.
+    pub time: Option<Duration>,
+    /// What random numbers begin with.
+    pub seed: u64,
+    /// In how many threads, at least 1.
+    pub threads: usize,
+}
+
+/// What a search has found.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Everything that was found, in the order in which it was, once each.
+    pub found: Vec<Found>,
+    /// How many scans were executed.
+    pub scans: u64,
+    /// How many moments that show something new were reached.
+    pub moments: usize,
+    /// How many branches of the program have been taken, and how many there are.
+    pub branches: (usize, usize),
+}
+
+/// A moment that the search goes on from.
+struct Kept<'t> {
+    moment: Moment<'t>,
+    run: Vec<Step>,
+    chosen: u32,
+}
+
+/// What a part of a round brings.
+#[derive(Default)]
+struct Brought<'t> {
+    found: Vec<Found>,
+    moments: Vec<(Vec<Feature>, Kept<'t>)>,
+    scans: u64,
+}
+
+/// Searches until the limits; stops earlier once all properties are decided and nothing else is searched for, or when
+/// `is_over` says so after a round. Fails if the machine does not fit the PLC.
+pub fn search(
+    task: &Task,
+    limits: &Limits,
+    is_over: &mut dyn FnMut(&Report) -> bool,
+) -> Result<Report, String> {
+    let begin = Instant::now();
+    let (view, choices) = (View::new(task), Choices::new(task));
+    let mut seen = Seen::default();
+    let mut kept = vec![Kept {
+        moment: Runner::new(task)?.save(),
+        run: Vec::new(),
+        chosen: 0,
+    }];
+    let mut report = Report::default();
+    let mut known: BTreeSet<What> = BTreeSet::new();
+    let mut rng = Rng::with_seed(limits.seed);
+    let runners = (0..limits.threads.max(1)).map(|_| Runner::new(task));
+    let mut runners: Vec<Runner> = runners.collect::<Result<_, _>>()?;
+    loop {
+        let parts: Vec<(u64, usize)> = (0..PARTS)
+            .map(|_| (rng.u64(..), choose(&mut kept, &mut rng)))
+            .collect();
+        let left = limits.scans.saturating_sub(report.scans);
+        let scans = u32::try_from(left).map_or(PART_SCANS, |left| {
+            PART_SCANS.min(left.div_ceil(PARTS as u32))
+        });
+        let round = Round {
+            task,
+            view: &view,
+            choices: &choices,
+            seen: &seen,
+            known: &known,
+            kept: &kept,
+            scans,
+        };
+        let brought = round.all(&parts, &mut runners)?;
+        for part in brought {
+            report.scans += part.scans;
+            for found in part.found {
+                if known.insert(found.what.clone()) {
+                    report.found.push(found);
+                }
+            }
+            for (features, moment) in part.moments {
+                let new = features.into_iter().filter(|&f| seen.add(f)).count();
+                if new > 0 {
+                    report.moments += 1;
+                    keep(&mut kept, moment, &mut rng);
+                }
+            }
+        }
+        let branches = &task.notes.branches;
+        report.branches = (view.taken(&seen), branches.len());
+        let late = limits.time.is_some_and(|time| begin.elapsed() >= time);
+        if late || report.scans >= limits.scans || is_over(&report) {
+            return Ok(report);
+        }
+    }
+}
+
+/// A moment to go on from: of some, the one that was chosen least.
+fn choose(kept: &mut [Kept], rng: &mut Rng) -> usize {
+    const TRIED: usize = 3;
+    let tried = (0..TRIED).map(|_| rng.usize(..kept.len()));
+    let best = tried.min_by_key(|&i| (kept[i].chosen, kept[i].run.len()));
+    let best = best.unwrap_or(0);
+    kept[best].chosen += 1;
+    best
+}
+
+/// Keeps a moment; if there are too many, in place of one that was chosen often. The first, power-on, stays.
+fn keep<'t>(kept: &mut Vec<Kept<'t>>, moment: Kept<'t>, rng: &mut Rng) {
+    if kept.len() < KEPT {
+        kept.push(moment);
+        return;
+    }
+    const TRIED: usize = 6;
+    let tried = (0..TRIED).map(|_| rng.usize(1..kept.len()));
+    if let Some(worst) = tried.max_by_key(|&i| kept[i].chosen) {
+        kept[worst] = moment;
+    }
+}
+
+/// What the parts of a round share.
+struct Round<'r, 't> {
+    task: &'t Task<'t>,
+    view: &'r View<'t>,
+    choices: &'r Choices<'t>,
+    seen: &'r Seen,
+    known: &'r BTreeSet<What>,
+    kept: &'r [Kept<'t>],
+    /// Of each part.
+    scans: u32,
+}
+
+impl<'t> Round<'_, 't> {
+    /// All parts, each with the seed of its random numbers and the moment that it goes on from, in their order, a
+    /// thread for each runner.
+    fn all(
+        &self,
+        parts: &[(u64, usize)],
+        runners: &mut [Runner<'t>],
+    ) -> Result<Vec<Brought<'t>>, String> {
+        let threads = runners.len();
+        let of_thread = |thread: usize, runner: &mut Runner<'t>| {
+            let own = parts.iter().enumerate().skip(thread).step_by(threads);
+            let brought = own.map(|(i, &part)| (i, self.part(runner, part)));
+            brought.collect::<Vec<_>>()
+        };
+        let mut all: Vec<(usize, Brought)> = Vec::new();
+        if let [only] = runners {
+            all = of_thread(0, only);
+        } else {
+            let of_thread = &of_thread;
+            std::thread::scope(|scope| {
+                let runners = runners.iter_mut().enumerate();
+                let running = runners.map(|(i, runner)| scope.spawn(move || of_thread(i, runner)));
+                for thread in running.collect::<Vec<_>>() {
+                    let brought = thread.join();
+                    all.extend(brought.map_err(|_| "a thread of the search has failed")?);
+                }
+                Ok::<(), String>(())
+            })?;
+        }
+        order::by_key(&mut all, |(i, _)| *i);
+        Ok(all.into_iter().map(|(_, brought)| brought).collect())
+    }
+
+    /// Goes on from a moment, and from it again when the run has become long or has ended.
+    fn part(&self, runner: &mut Runner<'t>, (seed, start): (u64, usize)) -> Brought<'t> {
+        let mut rng = Rng::with_seed(seed);
+        let mut brought = Brought::default();
+        let mut own = Seen::default();
+        while brought.scans < u64::from(self.scans) {
+            let start = &self.kept[start];
+            runner.restore(&start.moment);
+            let mut way = Way {
+                run: start.run.clone(),
+                last: Last::default(),
+            };
+            // What the moment itself shows is nothing new.
+            self.view.look(runner, &mut way.last, &mut |_| {});
+            let steps = 1 + rng.u32(..8) + rng.u32(..8);
+            for _ in 0..steps {
+                let left = u64::from(self.scans).saturating_sub(brought.scans);
+                if left == 0 || way.run.len() >= LONGEST {
+                    break;
+                }
+                let goes_on = self.step(runner, &mut way, &mut rng, (&mut brought, &mut own));
+                if !goes_on {
+                    break;
+                }
+            }
+        }
+        brought
+    }
+
+    /// A step; whether the run can go on.
+    fn step(
+        &self,
+        runner: &mut Runner<'t>,
+        way: &mut Way,
+        rng: &mut Rng,
+        (brought, own): (&mut Brought<'t>, &mut Seen),
+    ) -> bool {
+        let step = self.choices.step(runner, rng, 4 * self.scans.max(64));
+        runner.set(&step.set);
+        let mut done = Step { scans: 0, ..step };
+        let mut new = Vec::new();
+        let mut scanned = Scanned::Next;
+        for _ in 0..step.scans {
+            scanned = runner.scan(done.scan_ms);
+            brought.scans += 1;
+            done.scans += 1;
+            if scanned == Scanned::Excluded {
+                break;
+            }
+            let happened = std::mem::take(&mut runner.happened);
+            for what in happened {
+                self.note(brought, way, &done, what);
+            }
+            self.view.look(runner, &mut way.last, &mut |feature| {
+                if self.seen.lacks(feature) && own.add(feature) {
+                    new.push(feature);
+                }
+            });
+            if scanned == Scanned::End {
+                break;
+            }
+        }
+        if scanned == Scanned::Next && self.task.wants(Kind::Oscillation) {
+            self.find_restless(runner, way, &done, brought);
+        }
+        way.run.push(done);
+        if scanned == Scanned::Next && !new.is_empty() && brought.moments.len() < BROUGHT {
+            let moment = Kept {
+                moment: runner.save(),
+                run: way.run.clone(),
+                chosen: 0,
+            };
+            brought.moments.push((new, moment));
+        }
+        scanned == Scanned::Next
+    }
+
+    fn find_restless(
+        &self,
+        runner: &mut Runner<'t>,
+        way: &Way,
+        done: &Step,
+        brought: &mut Brought<'t>,
+    ) {
+        /// After so many scans it is worth a closer look.
+        const SUSPECT: u32 = 4;
+        let suspects: Vec<u32> = runner.restless(SUSPECT).collect();
+        for output in suspects {
+            let what = What::Oscillation(output);
+            if self.is_new(brought, &what) {
+                brought.scans += u64::from(2 * RESTLESS);
+                if runner.never_rests(output) {
+                    self.note(brought, way, done, what);
+                }
+            }
+        }
+    }
+
+    fn is_new(&self, brought: &Brought, what: &What) -> bool {
+        !self.known.contains(what) && brought.found.iter().all(|found| found.what != *what)
+    }
+
+    /// Notes what has happened in the scan that has just ended.
+    fn note(&self, brought: &mut Brought<'t>, way: &Way, done: &Step, what: What) {
+        if self.is_new(brought, &what) {
+            let mut run = way.run.clone();
+            run.push(done.clone());
+            brought.found.push(Found { what, run });
+        }
+    }
+}
+
+/// A run that is on its way.
+struct Way {
+    run: Vec<Step>,
+    last: Last,
+}

@@ -1,0 +1,170 @@
+//! How a run goes on: inputs that change, and how long they stay.
+
+use crate::cover::constant;
+use crate::run::Runner;
+use crate::task::{Step, Task};
+use fastrand::Rng;
+use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt};
+use rungc_ir::walk::statements;
+use rungc_rt::{Class, Plc};
+use rungc_syntax::DeviceClass;
+
+/// How many scans a step waits at most.
+const LONGEST: u32 = 2_000;
+
+/// A timer of the program.
+struct Timer {
+    number: u32,
+    unit_ms: u32,
+    preset: Preset,
+}
+
+/// When a timer ends.
+enum Preset {
+    Constant(i32),
+    Register(DeviceClass, u32),
+}
+
+/// What a search does next.
+pub struct Choices<'t> {
+    task: &'t Task<'t>,
+    timers: Vec<Timer>,
+}
+
+impl<'t> Choices<'t> {
+    /// Of a search.
+    pub fn new(task: &'t Task<'t>) -> Self {
+        let mut timers = Vec::new();
+        for function in &task.module.functions {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::Timer(coil) = stmt
+                    && let Some(preset) = preset(task, coil.preset)
+                {
+                    timers.push(Timer {
+                        number: coil.number,
+                        unit_ms: coil.kind.unit_ms.into(),
+                        preset,
+                    });
+                }
+            });
+        }
+        Choices { task, timers }
+    }
+
+    /// A step, at most this many scans long.
+    pub fn step(&self, runner: &Runner, rng: &mut Rng, most_scans: u32) -> Step {
+        let set = self.changes(runner, rng);
+        let (scans, scan_ms) = match rng.u32(..100) {
+            0..=24 => self.to_a_timer(runner, rng),
+            25..=29 => (rng.u32(8..=40), self.scan_ms(rng)),
+            30..=54 => (rng.u32(2..=4), self.scan_ms(rng)),
+            _ => (1, self.scan_ms(rng)),
+        };
+        Step {
+            set,
+            scans: scans.clamp(1, most_scans.clamp(1, LONGEST)),
+            scan_ms,
+        }
+    }
+
+    /// Which inputs change.
+    fn changes(&self, runner: &Runner, rng: &mut Rng) -> Vec<(usize, i32)> {
+        let inputs = self.task.inputs.len();
+        if inputs == 0 {
+            return Vec::new();
+        }
+        let count = match rng.u32(..100) {
+            0..=9 => 0,
+            10..=69 => 1,
+            70..=89 => 2,
+            90..=95 => 3,
+            _ => rng.usize(1..=inputs),
+        };
+        let mut set: Vec<(usize, i32)> = Vec::new();
+        for _ in 0..count {
+            let input = rng.usize(..inputs);
+            if set.iter().any(|(other, _)| *other == input) {
+                continue;
+            }
+            let before = runner.inputs()[input];
+            set.push((input, self.value(input, before, rng)));
+        }
+        set.sort_unstable();
+        set
+    }
+
+    /// What an input becomes.
+    fn value(&self, input: usize, before: i32, rng: &mut Rng) -> i32 {
+        let input = &self.task.inputs[input];
+        if input.is_bit() {
+            return i32::from(before == 0);
+        }
+        let value = match rng.u32(..10) {
+            0 => before.wrapping_add(1),
+            1 => before.wrapping_sub(1),
+            2 => i32::from(rng.i16(..)),
+            3 => rng.i32(0..1_000),
+            _ => rng.choice(&input.values).copied().unwrap_or(0),
+        };
+        value as i16 as i32
+    }
+
+    /// How long scans last.
+    fn scan_ms(&self, rng: &mut Rng) -> u32 {
+        /// What is usual, in milliseconds.
+        const USUAL_MS: u32 = 10;
+        let most = self.task.scan_ms;
+        match rng.u32(..10) {
+            0..=6 => USUAL_MS.min(most),
+            7..=8 => most,
+            _ => rng.u32(1..=most),
+        }
+    }
+
+    /// About as long as a timer still takes: just before its end, at it, or just after it.
+    fn to_a_timer(&self, runner: &Runner, rng: &mut Rng) -> (u32, u32) {
+        let machine = runner.machine();
+        let remaining = |timer: &Timer| {
+            let value = machine.word(Class::T, timer.number)?;
+            let preset = match timer.preset {
+                Preset::Constant(preset) => preset,
+                Preset::Register(class, n) => {
+                    machine.word(rungc_interp::rt_class(class)?, n)?.into()
+                }
+            };
+            let left = preset - i32::from(value);
+            let begun = value > 0 && machine.bit(Class::T, timer.number) == Some(false);
+            (left > 0).then_some((begun, left as u32 * timer.unit_ms))
+        };
+        let all: Vec<(bool, u32)> = self.timers.iter().filter_map(remaining).collect();
+        let running: Vec<u32> = all.iter().filter(|(b, _)| *b).map(|(_, ms)| *ms).collect();
+        let chosen = match running.is_empty() || rng.u32(..4) == 0 {
+            true => rng.choice(&all).map(|(_, ms)| *ms),
+            false => rng.choice(&running).copied(),
+        };
+        let Some(ms) = chosen else {
+            return (1, self.scan_ms(rng));
+        };
+        // Few scans, none longer than allowed, and none so short that the wait takes too many.
+        let most = self.task.scan_ms;
+        let scan_ms = match rng.u32(..3) {
+            0 => self.scan_ms(rng).max(ms.div_ceil(LONGEST / 4)).min(most),
+            _ => most,
+        };
+        let scans = ms.div_ceil(scan_ms) + rng.u32(0..=2);
+        (scans.saturating_sub(1), scan_ms)
+    }
+}
+
+/// What a timer's preset is, if it can be told before it runs.
+fn preset(task: &Task, id: ExprId) -> Option<Preset> {
+    if let Some(preset) = constant(task.module, id) {
+        return Some(Preset::Constant(preset));
+    }
+    match *task.module.expr(id) {
+        Expr::Read(access) if access.kind == AccessKind::Word && access.place.index.is_none() => {
+            Some(Preset::Register(access.place.class, access.place.number))
+        }
+        _ => None,
+    }
+}
