@@ -3,6 +3,7 @@
 mod boards;
 mod diff;
 mod emit;
+mod explore;
 mod flash;
 mod fleet;
 mod forms;
@@ -15,6 +16,7 @@ mod verify;
 pub use boards::BoardsArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use emit::{Backend, Emit};
+pub use explore::ExploreArgs;
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
@@ -58,6 +60,7 @@ Examples:
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
   rungc test tests --engine all                all test files in a folder
   rungc verify motor.il --never 'Y000 & Y001'  proved, or how it happens
+  rungc explore motor.il --for 10s             errors that some inputs lead to
   rungc view machine.gxw --device Y000         networks, as ladder
   rungc xref machine.gxw --device M100..M199   who reads and writes each device
   rungc diff old.gxw new.gxw --semantic        what changed, and which outputs can differ
@@ -107,6 +110,11 @@ pub enum Command {
     /// A property is a condition over devices as they are after a scan, such as `Y000 & Y001`. Exit codes: 0: proved;
     /// 1: violated; 2: incorrect usage; 3: not decided.
     Verify(VerifyArgs),
+    /// Search runs of a program for violated properties, operation errors and outputs that coils drive differently.
+    ///
+    /// Tries sequences of inputs, and goes on from those that show something new. Shows the shortest run that it finds
+    /// of each thing. Exit codes: 0: nothing found, which proves nothing; 1: found; 2: incorrect usage.
+    Explore(ExploreArgs),
     /// Draw a program as ladder.
     View(ViewArgs),
     /// List who reads, writes, sets and resets each device.

@@ -29,7 +29,8 @@ pub fn main() -> ExitCode {
             | Command::Fleet(_)
             | Command::Stats(_)
             | Command::Diff(_)
-            | Command::Verify(_) => true,
+            | Command::Verify(_)
+            | Command::Explore(_) => true,
             Command::Xref(args) => args.output.is_none(),
             Command::Fmt(args) => args.check,
             _ => false,
@@ -54,6 +55,7 @@ pub fn main() -> ExitCode {
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
         Command::Verify(args) => commands::verify::run(args, cx),
+        Command::Explore(args) => commands::explore::run(args, cx),
         Command::View(args) => commands::view::run(args, cx),
         Command::Xref(args) => commands::xref::run(args, cx),
         Command::Stats(args) => commands::stats::run(args, cx),

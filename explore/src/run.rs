@@ -16,7 +16,8 @@ pub const RESTLESS: u32 = 20;
 pub struct Runner<'t> {
     task: &'t Task<'t>,
     machine: Machine<'t>,
-    hal: VirtualHal,
+    /// Large, so not on the stack.
+    hal: Box<VirtualHal>,
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
     inputs: Vec<i32>,
@@ -24,6 +25,7 @@ pub struct Runner<'t> {
     /// How long the last scan took; `None` before the first.
     last_ms: Option<u32>,
     takes_events: bool,
+    uses_hal: bool,
     constant_ms: u32,
     /// How many operation errors were there before the scan.
     errors: usize,
@@ -37,7 +39,8 @@ pub struct Runner<'t> {
 #[derive(Clone)]
 pub struct Moment<'t> {
     machine: Saved,
-    hal: Box<VirtualHal>,
+    /// `None` if the program does not use it.
+    hal: Option<Box<VirtualHal>>,
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
     inputs: Vec<i32>,
@@ -68,7 +71,7 @@ impl<'t> Runner<'t> {
         if let Some(plant) = &mut plant {
             let mut wired = Wired {
                 machine: &mut machine,
-                hal: &mut hal,
+                hal: &mut *hal,
                 changed: &mut |_| Ok::<_, String>(()),
             };
             wired.connect(plant)?;
@@ -88,6 +91,7 @@ impl<'t> Runner<'t> {
             now_ms: 0,
             last_ms: None,
             takes_events: module.takes_events(),
+            uses_hal: task.uses_hal(),
             constant_ms: 0,
             errors: 0,
             outputs: outputs.map(|output| (output, false, 0)).collect(),
@@ -124,7 +128,7 @@ impl<'t> Runner<'t> {
     pub fn save(&self) -> Moment<'t> {
         Moment {
             machine: self.machine.save(),
-            hal: Box::new(self.hal.clone()),
+            hal: self.uses_hal.then(|| self.hal.clone()),
             plant: self.plant.clone(),
             watchers: self.watchers.clone(),
             inputs: self.inputs.clone(),
@@ -139,7 +143,9 @@ impl<'t> Runner<'t> {
     /// Goes back to a state.
     pub fn restore(&mut self, moment: &Moment<'t>) {
         self.machine.restore(&moment.machine);
-        self.hal.clone_from(&moment.hal);
+        if let Some(hal) = &moment.hal {
+            self.hal.clone_from(hal);
+        }
         self.plant.clone_from(&moment.plant);
         self.watchers.clone_from(&moment.watchers);
         self.inputs.clone_from(&moment.inputs);
@@ -156,13 +162,13 @@ impl<'t> Runner<'t> {
             let before = std::mem::replace(&mut self.inputs[input], value);
             let target = self.task.inputs[input].target;
             // Each input exists: it was taken from the program's devices.
-            let _ = rungc_sim::set(&mut self.machine, &mut self.hal, target, value.into());
+            let _ = rungc_sim::set(&mut self.machine, &mut *self.hal, target, value.into());
             if let Target::Bit(DeviceClass::X, number) = target
                 && self.takes_events
                 && self.last_ms.is_some()
                 && before != value
             {
-                self.machine.input_edge(&mut self.hal, number, value != 0);
+                self.machine.input_edge(&mut *self.hal, number, value != 0);
             }
             if before != value {
                 self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
@@ -177,7 +183,7 @@ impl<'t> Runner<'t> {
         self.hal.advance_to(self.now_ms as u32);
         let scan_us = scan_ms.saturating_mul(1000);
         self.machine
-            .scan(&mut self.hal, self.now_ms as u32, scan_us);
+            .scan(&mut *self.hal, self.now_ms as u32, scan_us);
         let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
         if !self.task.assumed.iter().all(|a| a.holds(&self.machine)) {
@@ -275,15 +281,15 @@ impl<'t> Runner<'t> {
             if let Some(plant) = &mut self.plant {
                 let mut wired = Wired {
                     machine: &mut self.machine,
-                    hal: &mut self.hal,
+                    hal: &mut *self.hal,
                     changed: &mut |_| Ok::<_, String>(()),
                 };
                 // Nothing can go wrong: all sensors were connected at power-on.
                 let _ = plant.step(self.now_ms, &[], &mut wired);
             }
             if self.takes_events {
-                self.machine.tick(&mut self.hal, self.now_ms as u32);
-                self.machine.take_interrupts(&mut self.hal);
+                self.machine.tick(&mut *self.hal, self.now_ms as u32);
+                self.machine.take_interrupts(&mut *self.hal);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::notes::Notes;
 use rungc_ir::Module;
+use rungc_ir::walk::{calls_runtime, statements};
 use rungc_models::runs::is_special;
 use rungc_rt::VirtualHal;
 use rungc_sim::Target;
@@ -133,7 +134,7 @@ pub struct Task<'a> {
     /// The machine around the PLC.
     pub machine: Option<&'a Description>,
     /// The PLC's hardware.
-    pub hal: VirtualHal,
+    pub hal: Box<VirtualHal>,
 }
 
 impl<'a> Task<'a> {
@@ -144,7 +145,7 @@ impl<'a> Task<'a> {
         (properties, assumed): (&'a [Property], &'a [Condition]),
         free: &[(DeviceClass, u32)],
         scan_ms: u32,
-        (machine, hal): (Option<&'a Description>, VirtualHal),
+        (machine, hal): (Option<&'a Description>, Box<VirtualHal>),
     ) -> Self {
         let driven = |(class, n)| machine.is_some_and(|m| m.drives(class, n));
         let areas = module.layout.areas.iter();
@@ -178,6 +179,15 @@ impl<'a> Task<'a> {
             machine,
             hal,
         }
+    }
+
+    /// Whether what the hardware does depends on more than the time.
+    pub fn uses_hal(&self) -> bool {
+        let mut calls = self.machine.is_some() || self.module.takes_events();
+        for function in &self.module.functions {
+            statements(&function.body, &mut |stmt| calls |= calls_runtime(stmt));
+        }
+        calls
     }
 
     /// Whether something of this kind is searched for.

@@ -10,7 +10,7 @@ use rungc_verify::property::{Condition, Property};
 
 fn task<'a>(module: &'a Module, property: &'a Property, assumed: &'a [Condition]) -> Task<'a> {
     let properties = std::slice::from_ref(property);
-    let world = (None, VirtualHal::new());
+    let world = (None, Box::new(VirtualHal::new()));
     let mut task = Task::new(module, (properties, assumed), &[], 200, world);
     task.kinds.clear();
     task

@@ -12,6 +12,7 @@
 //! | W06xx, N06xx, W07xx | how serial ports and the CAN card are set up |
 //! | E080x, W080x, E0821, W0821 | properties that are verified |
 //! | E082x | connections of a running program |
+//! | E083x | what a search of runs finds |
 //! | E085x, W085x | boards, and writing images into them |
 //! | E087x | fleets of PLCs |
 //! | W090x | what can never happen in a program (`check --deep`) |
@@ -24,6 +25,7 @@ use crate::diag::{Diagnostic, Severity};
 use crate::order;
 
 mod boards;
+mod explore;
 mod fleets;
 mod labels;
 mod logic;
@@ -38,6 +40,7 @@ mod structure;
 mod vendor;
 
 pub use boards::*;
+pub use explore::*;
 pub use fleets::*;
 pub use labels::*;
 pub use logic::*;
@@ -152,6 +155,7 @@ pub fn all() -> Vec<&'static Code> {
         modules::TABLE,
         vendor::TABLE,
         properties::TABLE,
+        explore::TABLE,
         boards::TABLE,
         fleets::TABLE,
     ];

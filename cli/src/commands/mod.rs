@@ -7,6 +7,7 @@ pub mod convert;
 mod defaults;
 pub mod diff;
 pub mod explain;
+pub mod explore;
 mod fix;
 pub mod flash;
 pub mod fleet;

@@ -4,14 +4,16 @@ use super::subject::{self, Subject};
 use super::{Context, Failure, findings};
 use crate::args::Properties;
 use crate::report::Reporter;
+use rungc_analysis::resolve::resolve;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::Model;
 use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
-use rungc_syntax::{DeviceClass, Program};
+use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
 use rungc_verify::property::{Condition, Mistake, Property, parse};
 
 type Result<T> = std::result::Result<T, Failure>;
@@ -232,4 +234,38 @@ pub fn module<'a>(
     };
     simplify(&mut module);
     Ok(Some(module))
+}
+
+/// A diagnostic at the instructions that write these devices, if there are any.
+pub fn at_writes(
+    mut diagnostic: Diagnostic,
+    devices: &[(DeviceClass, u32)],
+    read: &Read,
+    model: &'static Model,
+) -> Diagnostic {
+    let (resolved, _) = resolve(&read.program, model);
+    let mut places = resolved.program.instrs.iter().filter_map(|instr| {
+        let drives = matches!(
+            instr.mnemonic.as_str(),
+            "OUT" | "SET" | "RST" | "PLS" | "PLF" | "ALT"
+        );
+        let operand = instr.operands.first().filter(|_| drives)?;
+        let OperandKind::Device(device, None) = operand.kind else {
+            return None;
+        };
+        devices
+            .contains(&(device.class, device.number))
+            .then_some((instr.span, device))
+    });
+    if let Some((span, device)) = places.next() {
+        diagnostic.span = span;
+        diagnostic.label = format!("`{device}` is written here").into();
+        diagnostic.others = places
+            .map(|(span, device)| rungc_syntax::Label {
+                span,
+                text: format!("`{device}` is written here").into(),
+            })
+            .collect();
+    }
+    diagnostic
 }

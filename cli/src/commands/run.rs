@@ -10,7 +10,7 @@ mod live;
 mod mode;
 pub mod pace;
 mod plotting;
-mod recording;
+pub(super) mod recording;
 mod retaining;
 mod scope;
 mod serving;
@@ -245,7 +245,8 @@ fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
     (first..first.saturating_add(count)).map(move |n| (class, n))
 }
 
-fn because(error: LoadError) -> Failure {
+/// Why the description of a machine cannot be used.
+pub(super) fn because(error: LoadError) -> Failure {
     Failure::Because(error.to_string())
 }
 

@@ -3,18 +3,17 @@
 mod engines;
 pub(super) mod report;
 mod same;
-mod test_file;
+pub(super) mod test_file;
 
 use super::check::draw;
-use super::properties::{Asked, Reader, module};
+use super::properties::{Asked, Reader, at_writes, module};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, read, say, write_file};
 use crate::args::VerifyArgs;
 use crate::report::Reporter;
-use rungc_analysis::resolve::resolve;
 use rungc_frontend::Read;
 use rungc_ir::Module;
-use rungc_syntax::{Diagnostic, Diagnostics, OperandKind, Span, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::aiger;
 use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
@@ -211,30 +210,7 @@ fn located(
         .into_iter()
         .flat_map(Condition::devices)
         .collect();
-    let (resolved, _) = resolve(&read.program, model);
-    let mut places = resolved.program.instrs.iter().filter_map(|instr| {
-        let drives = matches!(
-            instr.mnemonic.as_str(),
-            "OUT" | "SET" | "RST" | "PLS" | "PLF" | "ALT"
-        );
-        let operand = instr.operands.first().filter(|_| drives)?;
-        let OperandKind::Device(device, None) = operand.kind else {
-            return None;
-        };
-        devices
-            .contains(&(device.class, device.number))
-            .then_some((instr.span, device))
-    });
-    if let Some((span, device)) = places.next() {
-        diagnostic.span = span;
-        diagnostic.label = format!("`{device}` is written here").into();
-        diagnostic.others = places
-            .map(|(span, device)| rungc_syntax::Label {
-                span,
-                text: format!("`{device}` is written here").into(),
-            })
-            .collect();
-    }
+    diagnostic = at_writes(diagnostic, &devices, read, model);
     if let Verdict::Found(_) = result.decision.verdict {
         diagnostic.help = Some("the run is below; `--write-test FILE` writes it as a test".into());
     }

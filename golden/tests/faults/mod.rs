@@ -21,7 +21,7 @@ pub struct Fault {
     /// What it is.
     pub name: String,
     /// Why it is a fault.
-    pub why: String,
+    why: String,
     never: Option<String>,
     always: Option<String>,
     whenever: Option<String>,
@@ -103,7 +103,11 @@ pub fn all() -> Vec<Fault> {
     for file in files {
         let text = std::fs::read_to_string(&file).expect("a readable file");
         let faults: Faults = toml::from_str(&text).unwrap_or_else(|e| panic!("{file:?}: {e}"));
-        all.extend(faults.fault);
+        for fault in faults.fault {
+            let name = &fault.name;
+            assert!(fault.why.len() > 20, "{name}: say why it is a fault");
+            all.push(fault);
+        }
     }
     all
 }

@@ -62,6 +62,22 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Whether the program ran and did otherwise than the case expects.
+    pub fn is_of_program(&self) -> bool {
+        match self {
+            Failure::Differs { .. }
+            | Failure::Rule { .. }
+            | Failure::Trace { .. }
+            | Failure::Machine { .. } => true,
+            Failure::Refused(_)
+            | Failure::Accepted(_)
+            | Failure::NoDevice { .. }
+            | Failure::Engine { .. } => false,
+        }
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -3,7 +3,7 @@
 super::codes! {
     PROPERTY_VIOLATED = "E0800" "property-violated" Error None,
     "the program can violate a property",
-    "`rungc verify` has found a run of the program, from power-on with the inputs that it lists, after which the property does not hold. The run has been replayed on the interpreter and happened there. `--write-test` writes it as a test file. Inputs that the machine cannot give, such as both end positions at once, are excluded with `--assume`.",
+    "`rungc verify` or `rungc explore` has found a run of the program, from power-on with the inputs that it lists, after which the property does not hold. The run has been replayed on the interpreter and happened there. `--write-test` writes it as a test file. Inputs that the machine cannot give, such as both end positions at once, are excluded with `--assume`.",
     wrong: "",
     right: "";
 

@@ -32,7 +32,8 @@ pub fn text(program: &Path, path: &Path, module: &Module, results: &[Result]) ->
     any.then_some(text)
 }
 
-fn step(text: &mut String, change: &Change) {
+/// A step of a case.
+pub fn step(text: &mut String, change: &Change) {
     let _ = writeln!(text, "[[case.step]]");
     if !change.set.is_empty() {
         let _ = writeln!(text, "set = {}", table(&plain(&change.set)));
@@ -51,7 +52,8 @@ fn plain(values: &[Setting]) -> Vec<(String, i64)> {
         .collect()
 }
 
-fn table(values: &[(String, i64)]) -> String {
+/// Values by the names of devices.
+pub fn table(values: &[(String, i64)]) -> String {
     let values = values.iter();
     let values: Vec<String> = values
         .map(|(name, value)| match name.contains('.') {
@@ -63,12 +65,12 @@ fn table(values: &[(String, i64)]) -> String {
 }
 
 /// A text as TOML has it.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
 /// The program as seen from the test file's folder.
-fn relative(program: &Path, test: &Path) -> String {
+pub fn relative(program: &Path, test: &Path) -> String {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (program, test) = (absolute(program), absolute(test));
     let folder = test.parent().unwrap_or(Path::new(""));

@@ -1,0 +1,287 @@
+//! `rungc explore`.
+
+mod expected;
+mod replayed;
+mod report;
+mod test_file;
+
+use super::check::draw;
+use super::properties::{Asked, Reader, at_writes, module};
+use super::run::{because, hardware, recording::Recording};
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, interruption, read, say, write_file};
+use crate::args::ExploreArgs;
+use crate::progress;
+use crate::report::{Findings, Reporter};
+use rungc_explore::run::Runner;
+use rungc_explore::{Found, Limits, Task, What, search, shrink};
+use rungc_frontend::Read;
+use rungc_ir::Module;
+use rungc_sim::plant;
+use rungc_sim::record::Seen;
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Span, codes};
+use rungc_verify::property::{Condition, Property};
+use rungc_verify::replay::Change;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A program that was searched, and for what.
+struct Searched<'a> {
+    args: &'a ExploreArgs,
+    subject: &'a Subject,
+    read: &'a Read,
+    module: &'a Module,
+    task: &'a Task<'a>,
+    /// The properties as they were asked for.
+    asked: &'a [Asked],
+}
+
+/// Something found, with its run as tests and reports have it.
+struct Shown {
+    found: Found,
+    story: Vec<Change>,
+}
+
+/// Searches runs of a program.
+pub fn run(args: &ExploreArgs, cx: Context) -> Result {
+    let subject = subject::one(&args.input, cx)?;
+    let mut reporter = Reporter::new(&subject.reporting, cx, false);
+    let read = read(&subject, &mut reporter)?;
+    let reader = Reader {
+        args: &args.asked,
+        subject: &subject,
+        program: &read.program,
+        cx,
+    };
+    let (asked, assumed) = (reader.properties()?, reader.assumed()?);
+    let assumed: Vec<Condition> = assumed.into_iter().map(|(_, a)| a).collect();
+    let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
+    let conditions = conditions.chain(&assumed);
+    let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
+        reporter.finish()?;
+        return Ok(Outcome::Unusable);
+    };
+    let machine = args.machine.as_deref().map(plant::load).transpose();
+    let machine = machine.map_err(because)?;
+    if let Some(machine) = &machine {
+        machine.check(module.model).map_err(because)?;
+    }
+    let properties: Vec<Property> = asked.iter().map(|asked| asked.property.clone()).collect();
+    let fitted = read.program.parameters.as_ref();
+    let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
+    let hal = Box::new(hardware::of(false, fitted));
+    let mut task = Task::new(
+        &module,
+        (&properties, &assumed),
+        &reader.free(),
+        reader.scan_ms()?,
+        (machine.as_ref(), hal),
+    );
+    for ignored in &args.ignore {
+        task.kinds.remove(&ignored.kind());
+    }
+    let searched = Searched {
+        args,
+        subject: &subject,
+        read: &read,
+        module: &module,
+        task: &task,
+        asked: &asked,
+    };
+    searched.run(reporter, cx)
+}
+
+impl Searched<'_> {
+    fn run(&self, reporter: Reporter, cx: Context) -> Result {
+        let args = self.args;
+        let limits = Limits {
+            scans: args.scans,
+            time: args.duration.map(Duration::from_millis),
+            seed: args.seed,
+            threads: self.threads(),
+        };
+        interruption::note();
+        let report = progress::spin("searching", || {
+            search(self.task, &limits, &mut |report| {
+                interruption::is_asked() || args.first && !report.found.is_empty()
+            })
+        });
+        let report = report.map_err(Failure::Because)?;
+        let shown: Vec<Shown> = progress::spin("shortening", || {
+            let found = report.found.iter().cloned();
+            let short = found.map(|found| shrink(self.task, found));
+            short.map(|found| self.shown(found)).collect()
+        });
+        let differing = self.replay(&shown)?;
+        let for_people = reporter.is_for_people();
+        self.publish(&shown, &differing, reporter)?;
+        if for_people {
+            say(&self.human(&shown, &report))?;
+        }
+        self.write(&shown, cx)?;
+        Ok(
+            match shown.iter().any(|shown| self.is_fault(&shown.found)) {
+                _ if interruption::is_asked() => Outcome::Interrupted,
+                true => Outcome::Failed,
+                false => Outcome::Success,
+            },
+        )
+    }
+
+    fn threads(&self) -> usize {
+        let given = self.args.threads.map(usize::from);
+        let all = || std::thread::available_parallelism().map_or(1, usize::from);
+        given.unwrap_or_else(all)
+    }
+
+    /// Writes the files that were asked for.
+    fn write(&self, shown: &[Shown], cx: Context) -> std::result::Result<(), Failure> {
+        if let Some(path) = &self.args.write_test {
+            match shown.is_empty() {
+                true => cx.note("     Nothing was found, so no test is written"),
+                false => {
+                    let text = self.test_file(path, shown);
+                    write_file(path, text.as_bytes(), self.args.force)?;
+                    cx.note(&format!("       Wrote {}", path.display()));
+                }
+            }
+        }
+        if let Some(path) = &self.args.vcd {
+            match shown.first() {
+                None => cx.note("     Nothing was found, so no run is recorded"),
+                Some(first) => {
+                    self.record(path, &first.found)?;
+                    cx.note(&format!("       Wrote {}", path.display()));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether this is a fault of the program: all but what `--reachable` asks for.
+    fn is_fault(&self, found: &Found) -> bool {
+        match found.what {
+            What::Property(number) => !self.asked[number].property.is_wanted(),
+            _ => true,
+        }
+    }
+
+    /// A run as tests and reports have it.
+    fn shown(&self, found: Found) -> Shown {
+        let (mut first, mut at_ms) = (0, 0);
+        let mut story = Vec::new();
+        for step in &found.run {
+            let set = step.set.iter().map(|&(input, value)| {
+                let target = self.task.inputs[input].target;
+                let (class, number, _) = target.devices(0);
+                (target.to_string(), (class, number), i64::from(value))
+            });
+            story.push(Change {
+                start: Vec::new(),
+                first,
+                scans: step.scans as usize,
+                at_ms,
+                scan_ms: step.scan_ms,
+                set: set.collect(),
+                after: Vec::new(),
+            });
+            first += step.scans as usize;
+            at_ms += u64::from(step.scans) * u64::from(step.scan_ms);
+        }
+        if let (Some(last), Some(after)) = (story.last_mut(), self.after(&found)) {
+            last.after = after;
+        }
+        Shown { found, story }
+    }
+
+    /// The run with the PLC after each scan.
+    fn follow(
+        &self,
+        found: &Found,
+        f: &mut dyn FnMut(u64, &Runner) -> std::result::Result<(), Failure>,
+    ) -> std::result::Result<(), Failure> {
+        let mut runner = Runner::new(self.task)?;
+        for step in &found.run {
+            runner.set(&step.set);
+            for _ in 0..step.scans {
+                let at_ms = runner.now_ms();
+                runner.scan(step.scan_ms);
+                f(at_ms, &runner)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&self, path: &Path, found: &Found) -> std::result::Result<(), Failure> {
+        let runner = Runner::new(self.task)?;
+        let mut recording = Recording::begin(path, seen(&runner), &[])?;
+        let mut end_ms = 0;
+        self.follow(found, &mut |at_ms, runner| {
+            end_ms = runner.now_ms();
+            recording.sample(1000 * at_ms, seen(runner))
+        })?;
+        recording.keep(1000 * end_ms)
+    }
+
+    /// Reports what was found as diagnostics.
+    fn publish(
+        &self,
+        shown: &[Shown],
+        differing: &[String],
+        mut reporter: Reporter,
+    ) -> std::result::Result<(), Failure> {
+        let model = self.module.model;
+        let mut diagnostics = Diagnostics::new();
+        for shown in shown.iter().filter(|shown| self.is_fault(&shown.found)) {
+            diagnostics.push(self.diagnostic(&shown.found));
+        }
+        for why in differing {
+            diagnostics.push(codes::RUNS_DIFFER.at(Span::default(), why.clone()));
+        }
+        let (file, program) = (&self.subject.file, &self.read.program);
+        let mut findings = Findings::new(file, program, diagnostics, &self.subject.reporting);
+        if reporter.is_for_people() {
+            findings.drawn = draw::networks(program, model, &findings.diagnostics);
+        }
+        reporter.add(&findings)?;
+        Ok(reporter.finish()?)
+    }
+
+    fn diagnostic(&self, found: &Found) -> Diagnostic {
+        let message = self.sentence(&found.what);
+        let (code, devices, step) = match &found.what {
+            What::Property(number) => {
+                let conditions = self.asked[*number].property.conditions();
+                let devices = conditions.into_iter().flat_map(Condition::devices);
+                (&codes::PROPERTY_VIOLATED, devices.collect(), None)
+            }
+            What::Error { step, .. } => (&codes::REACHES_ERROR, Vec::new(), Some(*step)),
+            What::Watchdog { step } => (&codes::REACHES_WATCHDOG, Vec::new(), Some(*step)),
+            What::Doubled(n) => (&codes::DRIVEN_DIFFERENTLY, vec![(DeviceClass::Y, *n)], None),
+            What::Oscillation(n) => (&codes::NEVER_RESTS, vec![(DeviceClass::Y, *n)], None),
+            What::Collision(_) => (&codes::BREAKS_MACHINE, Vec::new(), None),
+        };
+        let mut diagnostic = code.at(Span::default(), message);
+        let networks = step.map(|step| self.module.networks.iter().rfind(|n| n.step <= step));
+        if let Some(network) = networks.flatten() {
+            diagnostic.span = network.span;
+            diagnostic.label = "in the network that begins here".into();
+        }
+        diagnostic = at_writes(diagnostic, &devices, self.read, self.module.model);
+        diagnostic.help = Some("the run is below; `--write-test FILE` writes it as a test".into());
+        diagnostic
+    }
+}
+
+fn seen<'a>(runner: &'a Runner<'_>) -> Seen<'a> {
+    Seen {
+        machine: runner.machine(),
+        hal: runner.hal(),
+        plant: runner.plant(),
+    }
+}
+
+/// A path in a test file's folder, for what the file names.
+fn beside(test: &Path, path: &Path) -> PathBuf {
+    super::verify::test_file::relative(path, test).into()
+}

@@ -1,0 +1,88 @@
+//! What was found, as text.
+
+use super::{Searched, Shown, What};
+use crate::commands::counted;
+use crate::commands::verify::report::tell;
+use rungc_explore::Report;
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+impl Searched<'_> {
+    /// What was found, as a sentence.
+    pub fn sentence(&self, what: &What) -> String {
+        let instruction = |step: u32| match self.module.origin(step) {
+            Some(origin) => format!("`{}` (step {step})", origin.text),
+            None => format!("the instruction at step {step}"),
+        };
+        let output = |n: u32| DeviceClass::Y.number(n);
+        match what {
+            What::Property(number) => format!("`{}` is violated", self.asked[*number].text),
+            What::Error { code, step } => {
+                format!("{} meets operation error {code}", instruction(*step))
+            }
+            What::Watchdog { step } => {
+                format!("a scan does not end; the watchdog stops it at step {step}")
+            }
+            What::Doubled(n) => {
+                format!("one coil of `{}` is on, and a later one is off", output(*n))
+            }
+            What::Oscillation(n) => {
+                format!("`{}` changes in every scan while no input does", output(*n))
+            }
+            What::Collision(axis) => format!("the axis {axis} runs into the end of its travel"),
+        }
+    }
+
+    /// A word for it.
+    fn word(&self, what: &What) -> &'static str {
+        match what {
+            What::Property(number) if self.asked[*number].property.is_wanted() => "reached",
+            What::Property(_) => "violated",
+            What::Error { .. } => "error",
+            What::Watchdog { .. } => "watchdog",
+            What::Doubled(_) => "two coils",
+            What::Oscillation(_) => "restless",
+            What::Collision(_) => "collision",
+        }
+    }
+
+    /// All of it, with the runs, and how far the search went.
+    pub fn human(&self, shown: &[Shown], report: &Report) -> String {
+        let mut text = String::new();
+        for shown in shown {
+            let what = &shown.found.what;
+            let title = match what {
+                What::Property(number) => self.asked[*number].text.clone(),
+                what => self.sentence(what),
+            };
+            let _ = writeln!(text, "{:<11} {title}", self.word(what));
+            tell(&mut text, self.module, &shown.story);
+        }
+        for (number, asked) in self.asked.iter().enumerate() {
+            let is_open = |shown: &&Shown| shown.found.what == What::Property(number);
+            if shown.iter().find(is_open).is_none() {
+                let _ = writeln!(text, "{:<11} {}", "not found", asked.text);
+            }
+        }
+        let (taken, all) = report.branches;
+        let scans = counted(report.scans as usize, "scan");
+        let moments = counted(report.moments, "new moment");
+        let _ = writeln!(
+            text,
+            "Searched {scans} (seed {}): {moments}, {taken} of {all} branches taken.",
+            self.args.seed
+        );
+        match shown.is_empty() {
+            true => {
+                let _ = writeln!(
+                    text,
+                    "Nothing was found. That proves nothing: `rungc verify` proves properties."
+                );
+            }
+            false => {
+                let _ = writeln!(text, "Each run was replayed on {}.", self.replayed());
+            }
+        }
+        text
+    }
+}

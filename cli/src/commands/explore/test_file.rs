@@ -1,0 +1,71 @@
+//! Runs that were found as a test file.
+
+use super::{Searched, Shown, What, beside};
+use crate::commands::verify::test_file::{quoted, step};
+use rungc_verify::replay::Change;
+use std::fmt::Write;
+use std::path::Path;
+
+impl Searched<'_> {
+    /// The test file of these runs, as it stands at this path. Its cases fail; that of what `--reachable` has found
+    /// passes.
+    pub fn test_file(&self, path: &Path, shown: &[Shown]) -> String {
+        let mut text = String::new();
+        let named = |to: &Path| quoted(&beside(path, to).to_string_lossy());
+        let program = named(&self.subject.file);
+        let _ = writeln!(text, "topic = \"runs that rungc explore has found\"");
+        let _ = writeln!(text, "model = {}", quoted(self.module.model.name));
+        let _ = writeln!(text, "program = {{ file = {program} }}");
+        if let Some(machine) = &self.args.machine {
+            let _ = writeln!(text, "machine = {}", named(machine));
+        }
+        for shown in shown {
+            self.case(&mut text, shown);
+        }
+        text
+    }
+
+    fn case(&self, text: &mut String, shown: &Shown) {
+        let expected = self.expected(shown);
+        let name = quoted(&self.title(&shown.found.what));
+        let _ = writeln!(text, "\n[[case]]\nname = {name}");
+        for rule in &expected.rules {
+            let _ = writeln!(text, "{rule}");
+        }
+        let mut story = shown.story.clone();
+        let scan_ms = story.last().map_or(10, |last| last.scan_ms);
+        if expected.one_more {
+            story.push(Change {
+                start: Vec::new(),
+                first: 0,
+                scans: 1,
+                at_ms: 0,
+                scan_ms,
+                set: Vec::new(),
+                after: Vec::new(),
+            });
+        }
+        let last = story.len().saturating_sub(1);
+        for (i, change) in story.iter_mut().enumerate() {
+            let at_end = expected.at_end.iter().filter(|_| i == last);
+            let class = rungc_syntax::DeviceClass::M;
+            change.after = at_end
+                .map(|(name, value)| (name.clone(), (class, 0), *value))
+                .collect();
+            step(text, change);
+        }
+    }
+
+    /// What was found, in a few words: a name for its test.
+    pub fn title(&self, what: &What) -> String {
+        let output = |n: u32| rungc_syntax::DeviceClass::Y.number(n);
+        match what {
+            What::Property(number) => self.asked[*number].text.clone(),
+            What::Error { code, step } => format!("operation error {code} at step {step}"),
+            What::Watchdog { step } => format!("watchdog at step {step}"),
+            What::Doubled(n) => format!("{} driven by two coils", output(*n)),
+            What::Oscillation(n) => format!("{} comes to rest", output(*n)),
+            What::Collision(axis) => format!("{axis} at the end of its travel"),
+        }
+    }
+}
