@@ -297,7 +297,11 @@ impl<'t> Runner<'t> {
 
 /// Runs these steps from power-on; the run until what is searched for has happened, if it does.
 pub fn replay(task: &Task, what: &What, run: &[Step]) -> Option<Vec<Step>> {
-    let mut runner = Runner::new(task).ok()?;
+    follow(&mut Runner::new(task).ok()?, what, run)
+}
+
+/// The same with a runner that is at power-on.
+pub fn follow(runner: &mut Runner, what: &What, run: &[Step]) -> Option<Vec<Step>> {
     let mut done: Vec<Step> = Vec::new();
     for step in run {
         runner.set(&step.set);

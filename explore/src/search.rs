@@ -21,6 +21,8 @@ const PART_SCANS: u32 = 256;
 const KEPT: usize = 400;
 /// How many moments a part of a round brings at most.
 const BROUGHT: usize = 24;
+/// As many scans does one count as that does not end: it repeats millions of steps.
+const ENDLESS: u64 = 2_000;
 /// Longer runs are not continued.
 const LONGEST: usize = 3_000;
 
@@ -63,6 +65,8 @@ struct Brought<'t> {
     found: Vec<Found>,
     moments: Vec<(Vec<Feature>, Kept<'t>)>,
     scans: u64,
+    /// Scans, those that do not end as many.
+    spent: u64,
 }
 
 /// Searches until the limits; stops earlier once all properties are decided and nothing else is searched for, or when
@@ -81,6 +85,7 @@ pub fn search(
         chosen: 0,
     }];
     let mut report = Report::default();
+    let mut spent = 0;
     let mut known: BTreeSet<What> = BTreeSet::new();
     let mut rng = Rng::with_seed(limits.seed);
     let runners = (0..limits.threads.max(1)).map(|_| Runner::new(task));
@@ -89,7 +94,7 @@ pub fn search(
         let parts: Vec<(u64, usize)> = (0..PARTS)
             .map(|_| (rng.u64(..), choose(&mut kept, &mut rng)))
             .collect();
-        let left = limits.scans.saturating_sub(report.scans);
+        let left = limits.scans.saturating_sub(spent);
         let scans = u32::try_from(left).map_or(PART_SCANS, |left| {
             PART_SCANS.min(left.div_ceil(PARTS as u32))
         });
@@ -105,6 +110,7 @@ pub fn search(
         let brought = round.all(&parts, &mut runners)?;
         for part in brought {
             report.scans += part.scans;
+            spent += part.spent;
             for found in part.found {
                 if known.insert(found.what.clone()) {
                     report.found.push(found);
@@ -121,7 +127,7 @@ pub fn search(
         let branches = &task.notes.branches;
         report.branches = (view.taken(&seen), branches.len());
         let late = limits.time.is_some_and(|time| begin.elapsed() >= time);
-        if late || report.scans >= limits.scans || is_over(&report) {
+        if late || spent >= limits.scans || is_over(&report) {
             return Ok(report);
         }
     }
@@ -200,7 +206,7 @@ impl<'t> Round<'_, 't> {
         let mut rng = Rng::with_seed(seed);
         let mut brought = Brought::default();
         let mut own = Seen::default();
-        while brought.scans < u64::from(self.scans) {
+        while brought.spent < u64::from(self.scans) {
             let start = &self.kept[start];
             runner.restore(&start.moment);
             let mut way = Way {
@@ -211,7 +217,7 @@ impl<'t> Round<'_, 't> {
             self.view.look(runner, &mut way.last, &mut |_| {});
             let steps = 1 + rng.u32(..8) + rng.u32(..8);
             for _ in 0..steps {
-                let left = u64::from(self.scans).saturating_sub(brought.scans);
+                let left = u64::from(self.scans).saturating_sub(brought.spent);
                 if left == 0 || way.run.len() >= LONGEST {
                     break;
                 }
@@ -240,12 +246,16 @@ impl<'t> Round<'_, 't> {
         for _ in 0..step.scans {
             scanned = runner.scan(done.scan_ms);
             brought.scans += 1;
+            brought.spent += 1;
             done.scans += 1;
             if scanned == Scanned::Excluded {
                 break;
             }
             let happened = std::mem::take(&mut runner.happened);
             for what in happened {
+                if matches!(what, What::Watchdog { .. }) {
+                    brought.spent += ENDLESS;
+                }
                 self.note(brought, way, &done, what);
             }
             self.view.look(runner, &mut way.last, &mut |feature| {
@@ -286,6 +296,7 @@ impl<'t> Round<'_, 't> {
             let what = What::Oscillation(output);
             if self.is_new(brought, &what) {
                 brought.scans += u64::from(2 * RESTLESS);
+                brought.spent += u64::from(2 * RESTLESS);
                 if runner.never_rests(output) {
                     self.note(brought, way, done, what);
                 }

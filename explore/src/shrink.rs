@@ -1,24 +1,37 @@
 //! Runs made as short as they can be, in scans, in changes of inputs, and in time.
 
-use crate::run::replay;
-use crate::task::{Found, Step, Task};
+use crate::run::{Moment, Runner, follow};
+use crate::task::{Found, Step, Task, What};
 
 /// How many scans may be executed to shrink a run.
 const BUDGET: u64 = 400_000;
 /// A scan time that people expect, in milliseconds.
 const USUAL_MS: u32 = 10;
 
+/// What the beginning of a run costs, in scans.
+const BEGINNING: u64 = 20;
+/// And a scan that does not end.
+const ENDLESS: u64 = 10_000;
+
 /// A run that gets shorter.
 struct Shrinking<'t> {
     task: &'t Task<'t>,
+    runner: Runner<'t>,
+    /// Power-on.
+    start: Moment<'t>,
     found: Found,
     left: u64,
 }
 
 /// The shortest run that was found to show the same; never a longer one. The run must show it.
 pub fn shrink(task: &Task, found: Found) -> Found {
+    let Ok(runner) = Runner::new(task) else {
+        return found;
+    };
     let mut shrinking = Shrinking {
         task,
+        start: runner.save(),
+        runner,
         found,
         left: BUDGET,
     };
@@ -48,8 +61,12 @@ impl Shrinking<'_> {
         if run == self.found.run || self.left == 0 {
             return false;
         }
-        self.left = self.left.saturating_sub(cost.max(1));
-        let Some(mut shown) = replay(self.task, &self.found.what, &run) else {
+        self.left = self.left.saturating_sub(match self.found.what {
+            What::Watchdog { .. } => cost + ENDLESS,
+            _ => cost + BEGINNING,
+        });
+        self.runner.restore(&self.start);
+        let Some(mut shown) = follow(&mut self.runner, &self.found.what, &run) else {
             return false;
         };
         tidy(&mut shown);
@@ -171,11 +188,17 @@ impl Shrinking<'_> {
                 if self.task.inputs[input].is_bit() {
                     continue;
                 }
-                for smaller in [0, 1, value / 2, value - value.signum()] {
+                // The smallest that shows it, if all beyond it do, too.
+                let (mut low, mut high) = (0, value.abs());
+                while low < high {
+                    let middle = low + (high - low) / 2;
                     let mut run = self.run().to_vec();
-                    run[at].set[change].1 = smaller;
-                    if self.attempt(run) {
-                        break;
+                    let of_step = run.get_mut(at).and_then(|step| step.set.get_mut(change));
+                    let Some(smaller) = of_step else { break };
+                    smaller.1 = middle * value.signum();
+                    match self.attempt(run) {
+                        true => high = middle,
+                        false => low = middle + 1,
                     }
                 }
             }

@@ -2,7 +2,8 @@
 //! after each scan.
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
-//! another one.
+//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a C
+//! compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
 
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::random::program;
@@ -14,7 +15,8 @@ use rungc_ir::walk::statements;
 use rungc_lower::compile::{Bound, CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::Class;
-use rungc_sim::engines::{Engine, EngineKind, Interpreter, build};
+use rungc_sim::engines::cortex_m::{CORTEX_M3, CORTEX_M4, build_for};
+use rungc_sim::engines::{BuildError, Engine, EngineKind, Interpreter, build, build_c_with};
 use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::{Classes, Device, DeviceClass, Index};
 use std::path::Path;
@@ -281,6 +283,95 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
     );
 }
 
+/// A number that nobody means: at a border, or beyond.
+fn hostile(rng: &mut Rng) -> &'static str {
+    let numbers = [
+        "K-1",
+        "K0",
+        "K32767",
+        "K-32768",
+        "K2147483647",
+        "K-2147483648",
+        "HFFFF",
+        "HFFFFFFFF",
+        "H80000000",
+    ];
+    numbers[rng.below(numbers.len() as u32) as usize]
+}
+
+/// The instruction with a constant or the number of a device replaced.
+fn spoilt(rng: &mut Rng, instruction: &str) -> String {
+    let mut words: Vec<String> = instruction.split(' ').map(str::to_string).collect();
+    let count = words.len() as u32 - 1;
+    if count == 0 {
+        return instruction.to_string();
+    }
+    let word = &mut words[1 + rng.below(count) as usize];
+    let is_constant = word.starts_with(['K', 'H']) && !word.contains(['X', 'Y', 'M', 'S']);
+    *word = match rng.below(3) {
+        0 if !is_constant => {
+            let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+            let numbers = ["0", "7777", "32767", "99999", "4294967295"];
+            format!("{letters}{}", numbers[rng.below(5) as usize])
+        }
+        _ => hostile(rng).to_string(),
+    };
+    words.join(" ")
+}
+
+#[test]
+fn hostile_operands_are_refused_or_run() {
+    let mut rng = Rng::new(setting("SEED", 1));
+    let (mut refused, mut ran) = (0, 0);
+    for model in ModelId::ALL {
+        for candidate in candidates(model) {
+            let Some(instruction) = candidate.draw(&mut rng, model) else {
+                continue;
+            };
+            for _ in 0..setting("HOSTILE", 2) {
+                let text = format!("LD M8000\n{}\nEND\n", spoilt(&mut rng, &instruction));
+                let Ok(module) = compiled(&text, 1, model, false) else {
+                    refused += 1;
+                    continue;
+                };
+                let modules = [module];
+                let mut engine = Interpreter::new(&modules);
+                let scan = |now_ms| Request::Scan {
+                    now_ms,
+                    scan_us: 10_000,
+                };
+                let asked = [Request::Case(0), scan(0), scan(10)];
+                engine
+                    .ask_all(&asked)
+                    .unwrap_or_else(|e| panic!("{text}: {e}"));
+                ran += 1;
+            }
+        }
+    }
+    assert!(refused > 100 && ran > 100, "{refused} refused, {ran} ran");
+}
+
+/// The engines, or the way that the environment names.
+fn engines<'m>(
+    modules: &'m [Module],
+    target: &Path,
+) -> Result<Vec<Box<dyn Engine + 'm>>, BuildError> {
+    let Ok(way) = std::env::var("RUNGC_RANDOM_WAY") else {
+        let all = EngineKind::ALL.into_iter();
+        return all.map(|kind| build(kind, modules, target)).collect();
+    };
+    let target = target.join(way.replace(|c: char| !c.is_ascii_alphanumeric(), "-"));
+    let (first, rest) = way.split_once(' ').unwrap_or((&way, ""));
+    let kind = |name| EngineKind::from_name(name).unwrap_or_else(|| panic!("no engine {name}"));
+    let engine = match first {
+        "interp" | "rust" => build(kind(first), modules, &target),
+        "cortex-m3" => build_for(&CORTEX_M3, kind(rest), modules, &target),
+        "cortex-m4" => build_for(&CORTEX_M4, kind(rest), modules, &target),
+        compiler => build_c_with(compiler, rest, modules, &target),
+    };
+    Ok(vec![engine?])
+}
+
 #[test]
 fn all_engines_agree_on_random_programs() {
     let scans = setting("SCANS", 60);
@@ -289,10 +380,7 @@ fn all_engines_agree_on_random_programs() {
     let plain: Vec<Module> = samples.iter().map(|s| s.plain.clone()).collect();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("differential");
     let mut reference = Interpreter::new(&plain);
-    let mut engines: Vec<Box<dyn Engine>> = EngineKind::ALL
-        .into_iter()
-        .map(|kind| build(kind, &optimised, &target).unwrap_or_else(|e| panic!("{e}")))
-        .collect();
+    let mut engines = engines(&optimised, &target).unwrap_or_else(|e| panic!("{e}"));
     let mut differences = Vec::new();
     for (case, sample) in samples.iter().enumerate() {
         let expected = trace(&mut reference, case, sample, scans);

@@ -298,8 +298,11 @@ impl Checker<'_> {
         let runs = match (index, used.count) {
             (None, Some(0)) => Vec::new(),
             (None, Some(count)) => {
+                // A hostile operand asks for more than any model has, which was refused before or is cut off.
                 let first = used.place.number;
-                vec![(first, first + count - 1)]
+                let last = first.saturating_add(count - 1);
+                let exist = module.model.ranges_of(class).map(|range| range.last);
+                vec![(first, last.min(exist.max().unwrap_or(first)))]
             }
             _ => used.reach(module.model, &module.exprs),
         };

@@ -1,8 +1,9 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published, `cargo xtask size` measures the executable. No crate may depend on this
+//! package` the packages that are published, `cargo xtask size` measures the executable, `cargo xtask campaign` compares engines for hours. No crate may depend on this
 //! one. Start reading at `generate.rs`, the table of generated files.
 
 mod book;
+mod campaign;
 mod generate;
 mod header;
 mod package;
@@ -28,6 +29,8 @@ enum Chore {
     Generate(generate::Args),
     /// Check that every published crate builds from its package alone, or publish them.
     Package(package::Args),
+    /// Compare random programs on every way to run them, for hours.
+    Campaign(campaign::Args),
     /// Print how large an executable is, and what each crate takes of it.
     Size(size::Args),
 }
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
     let done = match Args::parse().chore {
         Chore::Generate(args) => generate::run(&args),
         Chore::Package(args) => package::run(&args),
+        Chore::Campaign(args) => campaign::run(&args),
         Chore::Size(args) => size::run(&args),
     };
     match done {

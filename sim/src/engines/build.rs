@@ -148,3 +148,24 @@ pub(super) fn make_batch(
 fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
     make_batch(&mut Command::new("make"), "", modules, folder)
 }
+
+/// Emitted C, built by this compiler with these flags in addition to those that it must compile with; where they let
+/// the compiler see more, its warnings are none of the code's. Otherwise as [`build`].
+pub fn build_c_with<'m>(
+    compiler: &str,
+    flags: &str,
+    modules: &'m [Module],
+    folder: &Path,
+) -> Result<Box<dyn Engine + 'm>, BuildError> {
+    let mut make = Command::new("make");
+    make.arg(format!("CC={compiler}"));
+    let flags = format!("-Wno-error {flags}");
+    let command = make_batch(
+        &mut make,
+        &flags,
+        modules,
+        &folder.join(EngineKind::C.name()),
+    )?;
+    let name = EngineKind::C.name();
+    Ok(Box::new(Process::new(name, Command::new(command))))
+}

@@ -6,7 +6,7 @@ pub mod cortex_m;
 mod interpreter;
 mod process;
 
-pub use build::{BuildError, EngineKind, build};
+pub use build::{BuildError, EngineKind, build, build_c_with};
 pub use interpreter::{Interpreter, Observers};
 pub use process::Process;
 
