@@ -112,7 +112,7 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Search runs of a program for violated properties, operation errors and outputs that coils drive differently.
     ///
-    /// Tries sequences of inputs, and goes on from those that show something new. Shows the shortest run that it finds
+    /// Tries sequences of inputs, and continues from those that show something new. Shows the shortest run that it finds
     /// of each thing. Exit codes: 0: nothing found, which proves nothing; 1: found; 2: incorrect usage.
     Explore(ExploreArgs),
     /// Draw a program as ladder.

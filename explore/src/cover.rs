@@ -19,7 +19,7 @@ pub type Feature = u64;
 
 /// More devices of a program are not followed.
 const MOST: usize = 4_000;
-/// So many different states of all relays together count as new.
+/// This many different states of all relays together count as new.
 const STATES: usize = 3_000;
 
 /// The kinds of features, in their top byte.

@@ -29,7 +29,8 @@ pub struct Runner<'t> {
     constant_ms: u32,
     /// How many operation errors were there before the scan.
     errors: usize,
-    /// By output that the program stores: what it was, and in how many scans in a row it has changed while no input did.
+    /// By output that the program stores: what it was, and in how many scans in a row it has changed while no input
+    /// did.
     outputs: Vec<(u32, bool, u32)>,
     /// What has happened in the last scan.
     pub happened: Vec<What>,
@@ -54,7 +55,7 @@ pub struct Moment<'t> {
 /// How a scan ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Scanned {
-    /// The run can go on.
+    /// The run can continue.
     Next,
     /// The PLC has stopped, or the machine is broken.
     End,
@@ -245,7 +246,7 @@ impl<'t> Runner<'t> {
             .extend(wanted.filter(|what| what.kind().is_none_or(|kind| task.wants(kind))));
     }
 
-    /// The outputs that have changed in so many scans in a row, with inputs that stay.
+    /// The outputs that have changed in this many scans in a row, with inputs that stay.
     pub fn restless(&self, scans: u32) -> impl Iterator<Item = u32> {
         let outputs = self.outputs.iter();
         outputs

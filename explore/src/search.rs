@@ -1,6 +1,6 @@
 //! The search: moments of runs, from which others are reached.
 //!
-//! A round goes on from several moments at once, each with its own random numbers, in as many threads as there are
+//! A round continues from several moments at once, each with its own random numbers, in as many threads as there are
 //! processors. What the parts of a round have found is put together in their order, so that a search with the same seed
 //! finds the same, however many processors there are.
 
@@ -52,7 +52,7 @@ pub struct Report {
     pub branches: (usize, usize),
 }
 
-/// A moment that the search goes on from.
+/// A moment that the search continues from.
 struct Kept<'t> {
     moment: Moment<'t>,
     run: Vec<Step>,
@@ -133,7 +133,7 @@ pub fn search(
     }
 }
 
-/// A moment to go on from: of some, the one that was chosen least.
+/// A moment to continue from: of some, the one that was chosen least.
 fn choose(kept: &mut [Kept], rng: &mut Rng) -> usize {
     const TRIED: usize = 3;
     let tried = (0..TRIED).map(|_| rng.usize(..kept.len()));
@@ -169,7 +169,7 @@ struct Round<'r, 't> {
 }
 
 impl<'t> Round<'_, 't> {
-    /// All parts, each with the seed of its random numbers and the moment that it goes on from, in their order, a
+    /// All parts, each with the seed of its random numbers and the moment that it continues from, in their order, a
     /// thread for each runner.
     fn all(
         &self,
@@ -201,7 +201,7 @@ impl<'t> Round<'_, 't> {
         Ok(all.into_iter().map(|(_, brought)| brought).collect())
     }
 
-    /// Goes on from a moment, and from it again when the run has become long or has ended.
+    /// Continues from a moment, and from it again when the run has become long or has ended.
     fn part(&self, runner: &mut Runner<'t>, (seed, start): (u64, usize)) -> Brought<'t> {
         let mut rng = Rng::with_seed(seed);
         let mut brought = Brought::default();
@@ -230,7 +230,7 @@ impl<'t> Round<'_, 't> {
         brought
     }
 
-    /// A step; whether the run can go on.
+    /// A step; whether the run can continue.
     fn step(
         &self,
         runner: &mut Runner<'t>,
@@ -289,7 +289,7 @@ impl<'t> Round<'_, 't> {
         done: &Step,
         brought: &mut Brought<'t>,
     ) {
-        /// After so many scans it is worth a closer look.
+        /// After this many scans it is worth a closer look.
         const SUSPECT: u32 = 4;
         let suspects: Vec<u32> = runner.restless(SUSPECT).collect();
         for output in suspects {

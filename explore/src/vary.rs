@@ -1,4 +1,4 @@
-//! How a run goes on: inputs that change, and how long they stay.
+//! How a run continues: inputs that change, and how long they stay.
 
 use crate::cover::constant;
 use crate::run::Runner;
@@ -156,7 +156,7 @@ impl<'t> Choices<'t> {
     }
 }
 
-/// What a timer's preset is, if it can be told before it runs.
+/// What a timer's preset is, if it is known before it runs.
 fn preset(task: &Task, id: ExprId) -> Option<Preset> {
     if let Some(preset) = constant(task.module, id) {
         return Some(Preset::Constant(preset));

@@ -2,8 +2,8 @@
 //! after each scan.
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
-//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a C
-//! compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
+//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a
+//! C compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
 
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::random::program;
@@ -283,7 +283,7 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
     );
 }
 
-/// A number that nobody means: at a border, or beyond.
+/// A number that no one means: at a border, or beyond.
 fn hostile(rng: &mut Rng) -> &'static str {
     let numbers = [
         "K-1",

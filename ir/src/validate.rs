@@ -298,7 +298,7 @@ impl Checker<'_> {
         let runs = match (index, used.count) {
             (None, Some(0)) => Vec::new(),
             (None, Some(count)) => {
-                // A hostile operand asks for more than any model has, which was refused before or is cut off.
+                // A hostile operand asks for more than any model has, which was rejected before or is cut off.
                 let first = used.place.number;
                 let last = first.saturating_add(count - 1);
                 let exist = module.model.ranges_of(class).map(|range| range.last);

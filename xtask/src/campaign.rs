@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// How long, and with what.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// How long to go on; each way gets at least one batch.
+    /// How many hours to continue; each way gets at least one batch.
     #[arg(long, default_value_t = 1.0)]
     hours: f64,
     /// Stop earlier, once this many executions of instructions have been compared.

@@ -3,7 +3,7 @@
 super::codes! {
     REACHES_ERROR = "E0830" "reaches-operation-error" Error None,
     "an instruction can meet an operation error",
-    "`rungc explore` has found inputs with which this instruction fails when the program runs: the PLC sets M8067, skips the instruction and goes on. The run is in the report; `--write-test` writes it as a test file. Typical causes are an index register that leads beyond the devices, a division by 0, and a BCD number with digits above 9. `rungc explain` with the PLC's code, such as `rungc explain 6706`, says more.",
+    "`rungc explore` has found inputs with which this instruction fails when the program runs: the PLC sets M8067, skips the instruction and continues. The run is in the report; `--write-test` writes it as a test file. Typical causes are an index register that leads beyond the devices, a division by 0, and a BCD number with digits above 9. `rungc explain` with the PLC's code, such as `rungc explain 6706`, says more.",
     wrong: "",
     right: "";
 

@@ -23,7 +23,7 @@ pub struct Expected {
 /// Values that devices have together.
 type Values = Vec<(String, i64)>;
 
-/// More ways are not told apart.
+/// More ways are not listed.
 const MOST: usize = 16;
 
 /// The values with which a condition is as wanted: any one of these; `None` if they cannot be listed.
