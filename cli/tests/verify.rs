@@ -272,7 +272,7 @@ END
 fn outputs_of_two_programs_are_compared() {
     let added = LINE.replace("LDP X002", "LDP X005\nOUT Y004\nLDP X002");
     let slower = LINE.replace("K30", "K31");
-    // The same relay by another way: the two contacts of a latch, and a relay nobody else reads.
+    // The same relay by another way: the two contacts of a latch, and a relay that nothing else reads.
     let rewritten = LINE.replace(
         "LD X000\nOR M0\nANI X001\nOUT M0\n",
         "LDI X001\nOUT M9\nLD M9\nAND X000\nLD M0\nAND M9\nORB\nOUT M0\n",

@@ -1,8 +1,8 @@
 //! Proofs for others to check: formulas that any SAT solver can confirm to be unsatisfiable.
 //!
-//! An induction over `k` scans is two of them: no run of `k` scans from power-on violates the property, and no `k` scans
-//! in a row from any state violate it in the last one first. An invariant is three: no state to begin with is outside,
-//! no scan leads out, and none from inside violates the property.
+//! An induction over `k` scans is two of them: no run of `k` scans from power-on violates the property, and of `k`
+//! scans in a row from any state the last is not the first to violate it. An invariant is three: all states to begin
+//! with are inside, no scan leads out, and none from inside violates the property.
 
 use crate::aig::{Aig, Lit, Node};
 use crate::pdr::{self, Cube, Found};

@@ -14,10 +14,12 @@ use crate::replay::{Run, plain};
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
-use rungc_ir::node::ExprId;
+use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
 use simulate::{Chance, Lanes};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// What was found.
@@ -216,7 +218,7 @@ fn candidates(encoder: &Encoder) -> Vec<Candidate> {
         }
     }
     for compared in &probes.comparisons {
-        // Nobody is surprised that constants compare the same always.
+        // That constants always compare the same is no surprise.
         if compared.holds.constant().is_some() {
             continue;
         }
@@ -239,6 +241,21 @@ fn candidates(encoder: &Encoder) -> Vec<Candidate> {
     found
 }
 
+/// Timers with presets that are set up while the program runs: before that they expire at once, which does no harm.
+fn timers_that_are_set_up(module: &Module) -> BTreeSet<u32> {
+    let mut found = BTreeSet::new();
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            if let Stmt::Timer(coil) = stmt
+                && !matches!(module.expr(coil.preset), Expr::I16(_) | Expr::I32(_))
+            {
+                found.insert(coil.number);
+            }
+        });
+    }
+    found
+}
+
 /// Notes what happens in runs by chance, and finds outputs that oscillate.
 fn simulate(
     module: &Module,
@@ -249,11 +266,17 @@ fn simulate(
 ) {
     let mut chance = Chance::new();
     let written = encoder.probes.iter().flat_map(|probes| &probes.bits);
+    let set_up = timers_that_are_set_up(module);
     let mut outputs: Vec<(u32, u32, Lit)> = written
         .filter(|((class, _), _)| *class == DeviceClass::Y)
         .filter_map(|(&(class, number), written)| {
-            let after = encoder.after(Key::Bit(class, number))?;
-            Some((number, written.network, after[0]))
+            let after = encoder.after(Key::Bit(class, number))?[0];
+            let latches = system.about(after).latches;
+            let depends = latches.iter().any(|latch| match latch.key {
+                Key::Timer(number, _) => set_up.contains(&number),
+                _ => false,
+            });
+            (!depends).then_some((number, written.network, after))
         })
         .collect();
     for run in 0..RUNS {

@@ -44,7 +44,7 @@ pub struct Compared {
 }
 
 /// Compares the outputs of an old and a new program for the same model. [`Options::time`] is the time for what both
-/// have in common, and that for each output that needs a proof of its own.
+/// have in common, and that for each output that needs a separate proof.
 pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     let modules = [old, new];
     let deadline = Instant::now() + options.time;

@@ -5,7 +5,7 @@ use super::{Encoder, Key, STATEMENTS};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, known, signed};
 use rungc_ir::node::{
-    Access, AccessKind, Block, Body, Branch, Edge, EdgeId, ExprId, IndexedCoil, Part, Place,
+    Access, AccessKind, Block, Body, Branch, Edge, EdgeId, Expr, ExprId, IndexedCoil, Part, Place,
     Repeat, SetEntry, Stmt, TempId,
 };
 use rungc_models::runs::is_counter32;
@@ -61,8 +61,24 @@ impl Encoder<'_> {
         self.temps[temp] = Some(value);
     }
 
+    /// Whether a statement writes nothing but zeros.
+    fn is_clearing(&self, stmt: &Stmt) -> bool {
+        let zero = |id: ExprId| {
+            matches!(
+                self.module.expr(id),
+                Expr::Bit(false) | Expr::I16(0) | Expr::I32(0)
+            )
+        };
+        match stmt {
+            Stmt::Write(_, value) | Stmt::Block(Block::Fill { value, .. }) => zero(*value),
+            Stmt::Reset(_) | Stmt::Clear { .. } => true,
+            _ => false,
+        }
+    }
+
     /// Executes a statement; under which condition the next one is reached.
     fn step(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
+        self.clears = self.is_clearing(stmt);
         if let Stmt::Network(network) = stmt {
             self.network = Some(*network);
         }
@@ -446,7 +462,8 @@ impl Encoder<'_> {
         self.store(Key::Running, &[Lit::FALSE], guard);
         let keeps = Key::Bit(DeviceClass::M, M_KEEP_IN_STOP.number());
         let keeps = self.state.get(&keeps).map_or(Lit::FALSE, |bits| bits[0]);
-        let clears = self.aig.and(guard, !keeps);
-        self.clear(false, clears);
+        let stopped = self.aig.and(guard, !keeps);
+        self.clears = true;
+        self.clear(false, stopped);
     }
 }

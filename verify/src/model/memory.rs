@@ -237,7 +237,9 @@ impl Encoder<'_> {
                 }
             };
             self.state.insert(key, new);
-            self.written.insert(key);
+            if !self.clears {
+                self.written.insert(key);
+            }
         }
     }
 

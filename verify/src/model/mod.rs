@@ -69,7 +69,7 @@ pub enum Key {
     Counter(u32, CounterPart),
     /// An edge memory.
     Edge(u32),
-    /// What a call of the runtime remembers, by number: one bit that stands for all of it, in programs that are compared.
+    /// What a call of the runtime remembers, by number: one bit that stands for all of it, if programs are compared.
     Slot(u16),
     /// The same of everything around the PLC that calls of the runtime ask and change.
     Outer,
@@ -185,6 +185,8 @@ pub struct Encoder<'m> {
     state: BTreeMap<Key, Bits>,
     /// What the program may write.
     written: BTreeSet<Key>,
+    /// What is written now is cleared, which leaves setting it to something else.
+    clears: bool,
     /// What something outside the scan may write between two scans.
     outside: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
@@ -252,6 +254,7 @@ impl<'m> Encoder<'m> {
             before: BTreeMap::new(),
             state: BTreeMap::new(),
             written: BTreeSet::new(),
+            clears: false,
             outside: BTreeSet::new(),
             events: BTreeSet::new(),
             exact_timers: None,
@@ -377,7 +380,8 @@ impl<'m> Encoder<'m> {
             .map_or_else(Bits::new, |time| time.all.clone())
     }
 
-    /// Whether the program could read a device but nothing in it writes it: a panel or another PLC may.
+    /// Whether the program could read a device but nothing in it writes it, or only clears it: a panel or another PLC
+    /// may set it.
     fn is_unwritten(&self, key: Key) -> bool {
         use DeviceClass::{D, ER, M, R, S};
         let settable = match key {

@@ -83,9 +83,14 @@ impl Place<'_> {
             .map(|(instr, _)| instr)
     }
 
-    /// Whether a network depends on relays that are on or off always: then it was meant so.
+    /// Whether a network depends on relays that are on or off always: then it was meant so. A bit of a word may be one
+    /// that a panel sets beside those that the program writes.
     fn is_meant(&self, network: u32) -> bool {
         self.instrs(network).any(|instr| {
+            let word_bit = |kind: &OperandKind| matches!(kind, OperandKind::WordBit(..));
+            if instr.operands.iter().any(|operand| word_bit(&operand.kind)) {
+                return true;
+            }
             let constant = |device: Device| {
                 device.class == DeviceClass::M && (8000..8002).contains(&device.number)
             };
@@ -94,6 +99,17 @@ impl Place<'_> {
                 .iter()
                 .filter_map(|operand| operand.kind.device())
                 .any(constant)
+        })
+    }
+
+    /// Whether a step ladder has this step.
+    fn is_step(&self, device: Device) -> bool {
+        self.program.instrs.iter().any(|instr| {
+            let first = instr
+                .operands
+                .first()
+                .and_then(|operand| operand.kind.device());
+            instr.mnemonic.as_str() == "STL" && first == Some(device)
         })
     }
 
@@ -117,6 +133,8 @@ impl Place<'_> {
                 self.instrs(finding.network).find(writes)?,
                 format!("step `{name}` can never be reached"),
             ),
+            // As a relay, a step may stay on.
+            Kind::NeverLeft if !self.is_step(device?) => return None,
             Kind::NeverLeft => (
                 &codes::STATE_ENDLESS,
                 self.instrs(finding.network).find(writes)?,
