@@ -379,6 +379,10 @@ pub struct RunArgs {
     /// overwrites an existing file.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
+    /// Write a test file (`*.plctest.toml`) that sets what this run sets, and expects what the outputs and the devices
+    /// of --watch do; it has passed once. Overwrites an existing file.
+    #[arg(long, value_name = "FILE", conflicts_with = "real_time")]
+    pub record: Option<PathBuf>,
     /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites
     /// an existing file.
     #[arg(long, value_name = "FILE")]

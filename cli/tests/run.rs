@@ -385,3 +385,73 @@ fn a_scan_that_does_not_end_is_the_programs_fault() {
     let args = ["run", "endless.il"];
     insta::assert_snapshot!("run_endless", shown(folder.path(), &args));
 }
+
+#[test]
+fn a_run_becomes_a_test() {
+    let folder = common::folder(&[("motor.il", common::MOTOR.as_bytes())]);
+    let path = folder.path();
+    let run = [
+        "run",
+        "motor.il",
+        "--for",
+        "1s",
+        "--set",
+        "X000=1@105ms,X000=0@200ms,X001=1@800ms",
+        "--watch",
+        "T0,D0",
+        "--record",
+        "tests/motor.plctest.toml",
+    ];
+    let output = common::rungc(path, &run);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        common::text(&output.stderr)
+    );
+    let test = path.join("tests/motor.plctest.toml");
+    insta::assert_snapshot!("run_recorded_test", std::fs::read_to_string(&test).unwrap());
+    for engine in ["interp", "all"] {
+        assert_eq!(
+            common::code(path, &["test", "tests", "--engine", engine]),
+            0,
+            "{engine}"
+        );
+    }
+    // A timer that expires one unit earlier or later is noticed, and so are all other values.
+    for preset in ["K2", "K4"] {
+        std::fs::write(path.join("motor.il"), common::MOTOR.replace("K3", preset)).unwrap();
+        assert_eq!(common::code(path, &["test", "tests"]), 1, "{preset}");
+    }
+    let refused = [
+        &["run", "motor.il", "--record", "motor.il"][..],
+        &[
+            "run",
+            "motor.il",
+            "--record",
+            "a.plctest.toml",
+            "--retain",
+            "kept",
+        ],
+        &[
+            "run",
+            "motor.il",
+            "--record",
+            "a.plctest.toml",
+            "--modbus-tcp",
+            "0",
+        ],
+        &[
+            "run",
+            "motor.il",
+            "--record",
+            "a.plctest.toml",
+            "--real-time",
+        ],
+    ];
+    let story: Vec<String> = refused
+        .iter()
+        .map(|args| common::shown(path, args))
+        .collect();
+    insta::assert_snapshot!("run_record_refused", story.join("\n\n"));
+}

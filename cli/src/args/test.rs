@@ -51,8 +51,8 @@ pub struct TestArgs {
     /// Format of the results.
     #[arg(long, value_enum, default_value_t = TestFormat::Human)]
     pub format: TestFormat,
-    /// File to write the results to, or those of --coverage or --mutants, overwriting an existing one. Default: standard
-    /// output.
+    /// File to write the results to, or those of --coverage or --mutants, overwriting an existing one. Default:
+    /// standard output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }

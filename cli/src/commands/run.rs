@@ -10,6 +10,7 @@ mod live;
 mod mode;
 pub mod pace;
 mod plotting;
+mod recorder;
 pub(super) mod recording;
 mod retaining;
 mod scope;
@@ -27,6 +28,7 @@ use super::{
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use live::Live;
+use recorder::Recorder;
 use retaining::Kept;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::{Read, image};
@@ -131,10 +133,19 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
     let live = page(args, subject, &read, &module, &listed)?;
+    let retain = retained(args, subject);
+    let recorder = match &args.record {
+        Some(path) => {
+            repeatable(args, subject, retain.is_some() || !connections.is_empty())?;
+            let files = (subject.file.as_path(), args.machine.as_deref());
+            Some(Recorder::begin(path, files, (&module, &watched)))
+        }
+        None => None,
+    };
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
-        retain: retained(args, subject),
+        retain,
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
@@ -146,7 +157,23 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         program_memory: program_memory.as_deref(),
         connections,
     };
-    run.simulate(plant, live)
+    run.simulate(plant, live, recorder)
+}
+
+/// Whether a test can repeat the run: nothing but its settings and its machine acts on it.
+fn repeatable(
+    args: &RunArgs,
+    subject: &Subject,
+    connected: bool,
+) -> std::result::Result<(), Failure> {
+    let why = match () {
+        () if args.serve.any() => "no servers, serial lines or pages take part in it",
+        () if connected => "it begins with no kept devices, and has no connections",
+        () if subject.is_stdin() => "its program is a file",
+        () => return Ok(()),
+    };
+    let message = format!("--record: a test can repeat a run only if {why}");
+    Err(Failure::Because(message))
 }
 
 /// What is set, in the order of the times.
@@ -281,6 +308,7 @@ fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Fa
     let table = args.scope.as_deref().map(scope::table);
     let writes = [
         ("--vcd", &args.vcd, "is written by --vcd"),
+        ("--record", &args.record, "is written by --record"),
         ("--plot", &args.plot, "is written by --plot"),
         ("--scope", &args.scope, "is written by --scope"),
         ("--scope", &table, "is written by --scope"),

@@ -8,6 +8,7 @@ use super::live::{Due, Live, Running};
 use super::mode::Mode;
 use super::pace::{self, Pace};
 use super::plotting::Plotting;
+use super::recorder::Recorder;
 use super::recording::Recording;
 use super::retaining::{Kept, Retaining};
 use super::scope::Scope;
@@ -40,6 +41,7 @@ struct Simulation<'a> {
     view: View,
     out: Table,
     recording: Option<Recording>,
+    recorder: Option<Recorder>,
     plotting: Option<Plotting>,
     scope: Option<Scope>,
     retaining: Option<Retaining>,
@@ -64,7 +66,7 @@ struct Simulation<'a> {
 }
 
 /// How many milliseconds a scan takes if nothing says so.
-const USUAL_SCAN_MS: u64 = 10;
+pub const USUAL_SCAN_MS: u64 = 10;
 
 /// What is to be run, and how.
 pub struct Run<'a> {
@@ -95,22 +97,23 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Runs the program, wired to a machine, and shown on a page.
-    pub fn simulate(&self, plant: Option<Plant>, live: Option<Live>) -> Result {
+    /// Runs the program, wired to a machine, shown on a page, and written down as a test.
+    pub fn simulate(
+        &self,
+        plant: Option<Plant>,
+        live: Option<Live>,
+        recorder: Option<Recorder>,
+    ) -> Result {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
         let hal = hardware::of(args.in_real_time(), self.modules);
         machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.
-        let set = self.settings.iter().map(|s| s.target);
-        for target in set.chain(self.shown.iter().copied()).chain(self.over) {
-            let seen = Seen {
-                machine: &machine,
-                hal: &hal,
-                plant: plant.as_ref(),
-            };
-            Reading::of(seen, target).ok_or_else(|| missing(target, module))?;
-        }
+        self.look_for_all(Seen {
+            machine: &machine,
+            hal: &hal,
+            plant: plant.as_ref(),
+        })?;
         let retaining = match &self.retain {
             Some(kept) => Some(Retaining::begin(kept, &mut machine)?),
             None => None,
@@ -147,6 +150,7 @@ impl Run<'_> {
                 optional: recording.is_some() || plotting.is_some() || scope.is_some(),
             },
             recording,
+            recorder,
             plotting,
             scope,
             retaining,
@@ -172,6 +176,15 @@ impl Run<'_> {
         }
         let outcome = simulation.run(args)?;
         simulation.end(args, outcome)
+    }
+
+    /// Looks for all that is set and shown.
+    fn look_for_all(&self, seen: Seen<'_>) -> std::result::Result<(), Failure> {
+        let set = self.settings.iter().map(|s| s.target);
+        for target in set.chain(self.shown.iter().copied()).chain(self.over) {
+            Reading::of(seen, target).ok_or_else(|| missing(target, self.module))?;
+        }
+        Ok(())
     }
 
     /// The diagram that is drawn of the run.
@@ -223,6 +236,9 @@ impl<'a> Simulation<'a> {
         };
         if let Some(recording) = self.recording {
             recording.keep(1000 * end_ms)?;
+        }
+        if let Some(recorder) = self.recorder {
+            recorder.keep(args.scan.unwrap_or(USUAL_SCAN_MS))?;
         }
         if let Some(plotting) = self.plotting {
             plotting.keep()?;
@@ -476,6 +492,10 @@ impl<'a> Simulation<'a> {
             self.out.line(&row)?;
         }
         self.record()?;
+        if let Some(mut recorder) = self.recorder.take() {
+            recorder.scanned(self.seen());
+            self.recorder = Some(recorder);
+        }
         let scan_ms = self.scan_ms(given_ms);
         match self.machine.constant_scan_ms() {
             Some(constant_ms) if u64::from(constant_ms) < scan_ms && !self.overrun => {
@@ -581,6 +601,9 @@ impl<'a> Simulation<'a> {
                 setting.value,
             )
             .ok_or_else(|| missing(setting.target, self.machine.module()))?;
+            if let Some(recorder) = &mut self.recorder {
+                recorder.set(setting.target, setting.value);
+            }
             if let Target::Bit(DeviceClass::X, number) = setting.target
                 && self.now_ms > 0
             {

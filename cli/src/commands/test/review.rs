@@ -72,8 +72,8 @@ fn forget(trace: &Trace) {
     let _ = fs::remove_file(trace.pending());
 }
 
-/// Shows how a trace differs and asks what to do. What is not understood is asked again; the end of the input leaves all
-/// that follows.
+/// Shows how a trace differs and asks what to do. What is not understood is asked again; the end of the input leaves
+/// all that follows.
 fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Wish, Failure> {
     say(&format!("{}\n", outcome.describe(suite)))?;
     if let Some(plctest::Failure::Trace { actual, .. }) = &outcome.failure {

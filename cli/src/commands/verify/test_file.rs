@@ -52,8 +52,8 @@ fn plain(values: &[Setting]) -> Vec<(String, i64)> {
         .collect()
 }
 
-/// Values by the names of devices.
-pub fn table(values: &[(String, i64)]) -> String {
+/// Devices and their values, as a table of TOML.
+pub fn table(values: &[(String, impl std::fmt::Display)]) -> String {
     let values = values.iter();
     let values: Vec<String> = values
         .map(|(name, value)| match name.contains('.') {
