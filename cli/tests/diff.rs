@@ -120,6 +120,43 @@ fn networks_that_move_do_the_same_unless_their_order_matters() {
     );
 }
 
+/// Instructions of the runtime share the flags that they use, not all special devices.
+#[test]
+fn a_changed_calculation_decides_about_what_reads_its_result() {
+    let old = "LD X0\nDMOV K5 D100\nDFLT D100 D102\nDSIN D102 D0\nLD X1\nSUM D20 D21\nLD= D21 K3\nOUT Y0\n\
+        LD X2\nPRUN K2X0 K2M0\nLD M0\nOUT Y1\nEND\n";
+    let (words, code) = behaviour(old, &old.replace("DSIN", "DCOS"));
+    let all_others = "All other devices have the same values, with the same inputs.";
+    assert!(
+        words.starts_with("No output can differ.\n") && words.ends_with(all_others),
+        "{words}"
+    );
+    assert!(!words.contains("D21") && !words.contains("M0"), "{words}");
+    assert_eq!(code, Some(1));
+    // A flag that one sets and another reads is no exception.
+    let old = "LD X0\nROR D0 K1\nLD X1\nRCR D1 K1\nLD= D1 K1\nOUT Y0\nEND\n";
+    let (words, _) = behaviour(old, &old.replace("ROR D0 K1", "ROR D0 K2"));
+    assert!(words.contains("D0 to D1"), "{words}");
+}
+
+/// What no run makes differ is listed apart.
+#[test]
+fn outputs_that_are_proved_the_same_do_not_differ() {
+    let old = "LD X0\nAND X1\nOUT Y3\nLD X2\nOUT Y4\nEND\n";
+    let new = "LD X1\nAND X0\nOUT Y3\nLDI X2\nOUT Y4\nEND\n";
+    let (words, code) = behaviour(old, new);
+    let proved = "Outputs that are proved the same, with scans of at most 200 ms: Y003.";
+    assert!(
+        words.starts_with("Outputs that can differ: Y004.\n"),
+        "{words}"
+    );
+    assert!(words.contains(proved), "{words}");
+    assert_eq!(code, Some(1));
+    let (words, code) = behaviour(old, &new.replace("LDI", "LD"));
+    assert!(words.contains(proved), "{words}");
+    assert_eq!(code, Some(0));
+}
+
 #[test]
 fn jumps_decide_about_what_they_skip_alone() {
     let all_others = "All other devices have the same values, with the same inputs.";
