@@ -68,7 +68,8 @@ fn a_violation_is_found_and_its_test_fails_until_it_is_repaired() {
     fs::write(folder.path().join("reverser.il"), INTERLOCKED).unwrap();
     assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 0);
     let nothing = shown(folder.path(), &args[..6]);
-    insta::assert_snapshot!("nothing_found", nothing);
+    assert!(nothing.contains("Nothing was found."), "{nothing}");
+    assert!(nothing.ends_with("exit code 0"), "{nothing}");
 }
 
 #[test]
@@ -102,9 +103,21 @@ END
         "--write-test",
         "found.plctest.toml",
     ];
-    insta::assert_snapshot!("all_kinds", shown(folder.path(), &args));
+    let report = shown(folder.path(), &args);
+    for expected in [
+        "error[E0830]: `DIV K100 D1 D2` (step 12) meets operation error 6706",
+        "error[E0831]: a scan does not end; the watchdog stops it at step 29",
+        "error[E0832]: one coil of `Y000` is on, and a later one is off",
+        "error[E0833]: `Y001` changes in every scan while no input does",
+        "scan 1                0 ms  X005 = 1, X006 = 1\n",
+        "--- exit code 1",
+    ] {
+        assert!(report.contains(expected), "{expected}:\n{report}");
+    }
     let test = fs::read_to_string(folder.path().join("found.plctest.toml")).unwrap();
-    insta::assert_snapshot!("all_kinds_test_file", test);
+    for expected in ["M8067 = 0", "M8061 = 0", "Y000 = 1", "Y001 = "] {
+        assert!(test.contains(expected), "{expected}:\n{test}");
+    }
     let tested = rungc(folder.path(), &["test", "found.plctest.toml"]);
     let tested = text(&tested.stdout);
     assert!(
