@@ -31,6 +31,7 @@ model = 'fx3u'
 
 [retain]
 file = 'disk/latched'
+fault = 'M102'
 
 [io.files]
 files = '.'
@@ -39,6 +40,7 @@ fault = 'M100'
 X000 = 'read switch'
 Y000 = 'write lamp'
 D0 = 'write scans'
+M102 = 'write unsaved'
 
 [io.lost]
 files = 'plugged'
@@ -188,10 +190,10 @@ fn a_disk_that_vanishes_does_not_stop_the_plc() {
     let serving = Serving::start(&[]);
     serving.go_on();
     fs::remove_dir_all(serving.path().join("disk")).unwrap();
-    thread::sleep(Duration::from_millis(2500));
+    serving.shows("unsaved", "1");
     serving.go_on();
     fs::create_dir(serving.path().join("disk")).unwrap();
-    thread::sleep(Duration::from_millis(2500));
+    serving.shows("unsaved", "0");
     assert!(serving.path().join("disk/latched").exists());
     let (code, said) = serving.end();
     assert_eq!(code, Some(130), "{said}");

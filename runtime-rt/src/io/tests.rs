@@ -141,7 +141,9 @@ allow = [
             "line 5: `M0` takes its value from two places",
         ),
     ] {
-        assert_eq!(parse(text).unwrap_err(), why, "{text}");
+        let said = parse(text).unwrap_err();
+        // Before what helps.
+        assert_eq!(said.split("; ").next(), Some(why), "{text}");
     }
 }
 
