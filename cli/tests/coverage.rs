@@ -290,7 +290,7 @@ fn results_are_read_by_others() {
         }
         _ => missing("junitparser"),
     }
-    // The schema of SARIF is not in a package: where it cannot be fetched, that is no failure of the test.
+    // The schema of SARIF is not in a package: where it cannot be fetched, the test does not fail.
     let schema = Command::new(&python)
         .args([
             "-m",

@@ -83,7 +83,7 @@ impl Covered {
 /// What distinguishes programs: their file or list, and their PLC.
 type Key = (Option<PathBuf>, String, &'static str);
 
-/// Runs all cases of a suite that is compiled with marks. `progress` is told each result, and may cancel the run.
+/// Runs all cases of a suite that is compiled with marks. `progress` receives each result, and may cancel the run.
 pub fn cover(
     suite: &Suite,
     progress: &mut dyn FnMut(&Outcome) -> ControlFlow<()>,

@@ -289,7 +289,7 @@ fn write_network(out: &mut String, covered: &Covered, number: usize, here: &[(&M
     }
 }
 
-/// Runs mutants of a program; what became of each. `progress` is called for each, and says whether to go on.
+/// Runs mutants of a program; what became of each. `progress` is called for each, and says whether to continue.
 pub fn run(
     suite: &Suite,
     covered: &Covered,

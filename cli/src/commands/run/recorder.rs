@@ -127,7 +127,7 @@ impl Recorder {
         });
     }
 
-    /// Another scan in which nothing changes: after one after which something is compared, it is a step of its own.
+    /// Another scan in which nothing changes: after one after which something is compared, it is a separate step.
     fn extend(&mut self) {
         match self.steps.last_mut() {
             Some(step) if step.expect.is_empty() => step.scans += 1,
@@ -180,7 +180,7 @@ impl Recorder {
         }
     }
 
-    /// Runs the test at once: what cannot be repeated is no test.
+    /// Runs the test at once: what cannot be repeated is not a test.
     fn try_out(&self, text: &str) -> Result<(), Failure> {
         let because = |why: String| {
             Failure::Because(format!(
