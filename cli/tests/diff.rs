@@ -133,7 +133,7 @@ fn a_changed_calculation_decides_about_what_reads_its_result() {
     );
     assert!(!words.contains("D21") && !words.contains("M0"), "{words}");
     assert_eq!(code, Some(1));
-    // A flag that one sets and another reads is no exception.
+    // A flag that one sets and another reads counts, too.
     let old = "LD X0\nROR D0 K1\nLD X1\nRCR D1 K1\nLD= D1 K1\nOUT Y0\nEND\n";
     let (words, _) = behaviour(old, &old.replace("ROR D0 K1", "ROR D0 K2"));
     assert!(words.contains("D0 to D1"), "{words}");

@@ -152,7 +152,7 @@ fn dark_dots(mut pictures: &[u8]) -> Vec<usize> {
     dark
 }
 
-/// Programs that nobody here wrote check the document, find its texts, and draw its pages.
+/// Programs that others have written check the document, find its texts, and draw its pages.
 #[test]
 fn readers_of_pdf_take_the_document() {
     let list = format!(

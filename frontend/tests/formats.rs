@@ -477,7 +477,7 @@ fn windows_of_autoshop_are_written() {
     );
 }
 
-/// What names cannot express is refused, where it is.
+/// What names cannot express is rejected, where it is.
 #[test]
 fn programs_that_windows_cannot_hold() {
     let why = |list: &str| {

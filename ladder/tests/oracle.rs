@@ -197,7 +197,7 @@ impl Picture {
                     let after = self.at((row, end + 1));
                     assert!(
                         matches!(after, ' ' | '│'),
-                        "row {row} goes on after its mark: {after}"
+                        "row {row} continues after its mark: {after}"
                     );
                 } else if line[column].is_ascii_digit() {
                     assert_eq!(

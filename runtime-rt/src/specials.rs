@@ -19,7 +19,7 @@ pub struct Specials {
 
 impl RtFn {
     /// The special devices that it uses, if these and its operands are all that it uses: it has no private memory, asks
-    /// no hardware, and finds no devices by numbers of its own.
+    /// no hardware, and finds no devices but those that operands name.
     pub fn specials(self) -> Option<Specials> {
         // ANR looks for annunciators S, ZPUSH and ZPOP keep the index registers.
         let others = matches!(self, RtFn::Anr | RtFn::Zpush | RtFn::Zpop);

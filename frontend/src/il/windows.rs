@@ -224,7 +224,7 @@ fn called(line: &str) -> Option<Range<usize>> {
     places.next().is_none().then_some(to)
 }
 
-/// Whether a line may call something; most lines are no calls.
+/// Whether a line may call something; most lines do not.
 fn may_call(line: &str) -> bool {
     let letter = |c: char| matches!(c, 'C' | 'c' | 'Ｃ' | 'ｃ');
     let code = line.trim_start_matches(|c: char| c.is_ascii_digit() || c.is_whitespace());

@@ -569,7 +569,8 @@ impl<'a> Reader<'a> {
         memory
     }
 
-    /// What calls of the runtime may read and write in addition to their operands, unless the runtime says what they do.
+    /// What calls of the runtime may read and write in addition to their operands, unless the runtime says what they
+    /// do.
     fn runtime(&mut self, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
         reads.runs.extend(SPECIAL);
         writes.runs.extend(SPECIAL);
