@@ -6,7 +6,7 @@ mod pins;
 mod retain;
 mod serial;
 
-pub use analog::{Analog, AnalogPin};
+pub use analog::{Analog, AnalogPin, Start};
 pub use control::Control;
 pub use pins::{Chip, NamedPin};
 pub use retain::{Retain, RetainMemory};
@@ -27,6 +27,8 @@ pub struct Board {
     pub name: String,
     /// What is known of it: where its pins come from, what to be careful about.
     pub notes: String,
+    /// Whose pins have names.
+    pub chip: Option<Chip>,
     /// The pins that the description names, by what they are wired to, in its order.
     pub pins: Vec<NamedPin>,
     /// Its processor.
@@ -432,6 +434,7 @@ impl Reader<'_> {
         let mut board = Board {
             name: format.name,
             notes: format.notes,
+            chip: format.chip,
             pins: Vec::new(),
             target,
             flash: format.memory.flash,

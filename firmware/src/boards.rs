@@ -14,7 +14,7 @@ pub struct Known {
 }
 
 /// All of them.
-pub static ALL: [Known; 4] = [
+pub static ALL: [Known; 5] = [
     Known {
         name: "fx3u-f103vc",
         text: include_str!("../boards/fx3u-f103vc.toml"),
@@ -30,6 +30,10 @@ pub static ALL: [Known; 4] = [
     Known {
         name: "fx2n-10mr-f030c8",
         text: include_str!("../boards/fx2n-10mr-f030c8.toml"),
+    },
+    Known {
+        name: "pico",
+        text: include_str!("../boards/pico.toml"),
     },
 ];
 

@@ -5,6 +5,7 @@
 
 pub mod chips;
 pub mod loader;
+pub mod uf2;
 
 use chips::Chip;
 use loader::{BLOCK, Line, Loader, LoaderError};

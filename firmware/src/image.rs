@@ -1,5 +1,6 @@
 //! The sources of an image: a program, a board, and what is between reset and the first scan.
 
+mod boot2;
 mod c;
 mod modules;
 mod rust;
@@ -157,8 +158,11 @@ impl Image<'_> {
 /// The linker script, the same for both backends.
 fn linker_script(board: &Board) -> String {
     let region = |r: crate::board::Region| format!("0x{:08X}, LENGTH = {}", r.origin, r.length);
+    let [boot2, in_ram] = boot2::sections(board);
     let mut text = format!("/* Memory of {}. */\n", comment(&board.name));
     let script = include_str!("../templates/image.ld")
+        .replace("/* BOOT2 */", boot2)
+        .replace("/* IN_RAM */", in_ram)
         .replace("/* FLASH */", &region(board.flash))
         .replace("/* RAM */", &region(board.ram))
         .replace("/* STACK */", &board.stack.to_string());

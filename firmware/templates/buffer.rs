@@ -3,5 +3,5 @@
     }
 
     fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
-        self.module(unit)?.write(address, value)
+/* BOARD */        self.module(unit)?.write(address, value)
     }

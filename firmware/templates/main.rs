@@ -46,7 +46,7 @@ static MICROSECONDS: AtomicU32 = AtomicU32::new(0);
 extern "C" fn systick_handler() {
     let now = MICROSECONDS.load(Ordering::Relaxed);
     MICROSECONDS.store(now.wrapping_add(TICK_US), Ordering::Relaxed);
-}
+/* LINES */}
 
 /// A semihosting call (bkpt 0xAB) is a hard fault where no debugger listens: it is left out.
 ///

@@ -23,7 +23,7 @@ static bool write_bfm(void *context, uint16_t unit, uint16_t address, int16_t va
 {
     rungc_module *module = module_of(unit);
     (void)context;
-    return module != NULL && rungc_module_write(module, address, value);
+/* BOARD */    return module != NULL && rungc_module_write(module, address, value);
 }
 
 static void fit_modules(void)

@@ -42,7 +42,7 @@ __attribute__((naked)) static void hard_fault_handler(void)
     __asm__ volatile("mrs r0, msp\n\tb hard_fault");
 }
 
-/* A vector is a function, but the first is the stack. */
+/* BOOT2 *//* A vector is a function, but the first is the stack. */
 typedef union {
     void *stack;
     void (*handler)(void);

@@ -18,6 +18,8 @@ pub enum Emit {
     Lib,
     /// An image for a board.
     Elf,
+    /// An image for a board with an RP2040, as its mass-storage volume takes it.
+    Uf2,
     /// A library of Arduino: C, `library.properties`, a sketch.
     Arduino,
     /// A library of PlatformIO: C, `library.json`, an example.
@@ -45,8 +47,13 @@ impl Emit {
             Emit::Platformio => Some(Kind::PlatformIo),
             Emit::Zephyr => Some(Kind::Zephyr),
             Emit::EspIdf => Some(Kind::EspIdf),
-            Emit::Ir | Emit::C | Emit::Rust | Emit::Bin | Emit::Lib | Emit::Elf => None,
+            Emit::Ir | Emit::C | Emit::Rust | Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 => None,
         }
+    }
+
+    /// Whether it is an image for a board.
+    pub fn is_image(self) -> bool {
+        matches!(self, Emit::Elf | Emit::Uf2)
     }
 
     /// Whether C headers are emitted, with what is added to them on request.

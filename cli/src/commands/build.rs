@@ -12,9 +12,10 @@ use crate::progress;
 use crate::report::Reporter;
 use rungc_codegen_c::lanes;
 use rungc_emit::OutFile;
-use rungc_firmware::board::{Board, Retain, RetainMemory};
+use rungc_firmware::board::{Board, Chip, Retain, RetainMemory};
 use rungc_firmware::boards;
 use rungc_firmware::build::Tools;
+use rungc_firmware::flash::{Payload, uf2};
 use rungc_firmware::image::{self, Image, Script};
 use rungc_firmware::package::Package;
 use rungc_firmware::report::{self as firmware, Report};
@@ -147,6 +148,7 @@ impl Plan {
         };
         let path = match (&plan.output, emit) {
             (Some(folder), Emit::Elf) => folder.join(format!("{name}.elf")),
+            (Some(folder), Emit::Uf2) => folder.join(format!("{name}.uf2")),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),
@@ -164,6 +166,7 @@ fn default_output(emit: Emit, name: &str) -> String {
         Emit::Rust => format!("{name}-rust"),
         Emit::Lib => format!("{name}-lib"),
         Emit::Elf => format!("{name}.elf"),
+        Emit::Uf2 => format!("{name}.uf2"),
         Emit::Bin | Emit::Ir => name.to_string(),
         Emit::Arduino => format!("{name}-arduino"),
         Emit::Platformio => format!("{name}-platformio"),
@@ -183,10 +186,10 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         return Ok(target);
     };
     match emit {
-        _ if args.backend.is_some() && emit != Emit::Elf => {
-            wrong("--backend only applies to --emit elf")
+        _ if args.backend.is_some() && !emit.is_image() => {
+            wrong("--backend only applies to --emit elf and --emit uf2")
         }
-        Emit::Elf if args.report && args.backend == Some(Backend::Rust) => {
+        Emit::Elf | Emit::Uf2 if args.report && args.backend == Some(Backend::Rust) => {
             wrong("--report measures C; it does not apply here")
         }
         Emit::Ir | Emit::Rust if args.report => {
@@ -205,25 +208,30 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
             if args.board.is_some() =>
         {
             wrong(
-                "--board only applies to --emit elf (an image), --emit c and --emit rust (its sources)",
+                "--board only applies to --emit elf and --emit uf2 (an image), --emit c and --emit rust (its sources)",
             )
         }
         Emit::Elf if args.board.is_none() => {
             wrong("--emit elf needs --board, a description of the board (docs/src/boards.md)")
         }
-        Emit::Bin | Emit::Elf | Emit::Ir | Emit::Rust if args.device_access => wrong(
+        Emit::Uf2 if args.board.is_none() => {
+            wrong("--emit uf2 needs --board, a description of the board (docs/src/boards.md)")
+        }
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.device_access => wrong(
             "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
         ),
         Emit::C if args.device_access && args.board.is_some() => wrong(
             "--device-access does not apply to the sources of an image; emit the program without --board",
         ),
-        Emit::Bin | Emit::Elf | Emit::Ir | Emit::Rust if args.retain => {
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.retain => {
             wrong("--retain only applies to --emit c and --emit lib (docs/src/retain.md)")
         }
         Emit::C if args.retain && args.board.is_some() => wrong(
             "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
         ),
-        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Ir | Emit::Rust if args.lanes.is_some() => {
+        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust
+            if args.lanes.is_some() =>
+        {
             wrong("--lanes only applies to --emit c (docs/src/lanes.md)")
         }
         Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
@@ -506,6 +514,7 @@ impl Job<'_> {
                 built.map_err(because)
             })?,
             Emit::Elf => self.program(what, || self.elf())?,
+            Emit::Uf2 => self.program(what, || self.uf2())?,
             Emit::Arduino | Emit::Platformio | Emit::Zephyr | Emit::EspIdf => {
                 self.folder(what, || self.package(what))?
             }
@@ -600,6 +609,21 @@ impl Job<'_> {
             Backend::Rust => self.tools().rust_image(&files),
         });
         built.map_err(because)
+    }
+
+    /// The image as the volume of an RP2040 takes it.
+    fn uf2(&self) -> Built<Vec<u8>> {
+        let image = self
+            .image
+            .ok_or_else(|| because("an image needs a board"))?;
+        if image.board.chip != Some(Chip::Rp2040) {
+            return Err(Failure::Because(format!(
+                "--emit uf2 is for boards with an RP2040 (`chip = \"rp2040\"`), which {} is not; use --emit elf",
+                image.board.name
+            )));
+        }
+        let payload = Payload::read(&self.elf()?, 0).map_err(because)?;
+        Ok(uf2::write(&payload))
     }
 
     /// What the program takes. An image that was written is measured as it is.

@@ -70,7 +70,7 @@ pub fn plan(plan: &Plan, subject: &Subject) -> Result<Plan, Failure> {
             plan.emit = usual;
         }
         let as_usual = plan.emit == usual || plan.emit.is_none();
-        if plan.board.is_none() && (as_usual || plan.emit == Some(Emit::Elf)) {
+        if plan.board.is_none() && (as_usual || plan.emit.is_some_and(Emit::is_image)) {
             let board = project.build.board.as_deref();
             plan.board = board.map(|board| project.at(board));
         }

@@ -17,8 +17,23 @@ pub struct AnalogPin {
     pub quantity: Quantity,
     /// The signals at count 0 and at the greatest count, in millionths of the unit.
     pub signal: [i32; 2],
-    /// Which built-in analog input of the PLC it is (D8030 of L01S, RD3A of boards), by its raw counts.
+    /// Which built-in analog input (D8030 of L01S, RD3A of boards) or output (WR3A of boards) of the PLC it is, by its
+    /// raw counts.
     pub channel: Option<u8>,
+    /// What an input's converter is told before its register is read; `None` if it converts by itself.
+    pub start: Option<Start>,
+}
+
+/// What starts a conversion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    /// The address of a register.
+    pub at: u32,
+    /// The word that is written to it.
+    pub write: u32,
+    /// The bits of it that are on when the conversion is over.
+    pub wait: u32,
 }
 
 /// Analog pins by their names.
@@ -33,14 +48,22 @@ pub struct Analog {
 impl Analog {
     /// The pins that are built-in analog inputs of the PLC, with their channels.
     pub fn channels(&self) -> impl Iterator<Item = (u8, &AnalogPin)> {
-        let pins = self.inputs.values();
-        pins.filter_map(|pin| Some((pin.channel?, pin)))
+        numbered(&self.inputs)
+    }
+
+    /// The pins that are built-in analog outputs of the PLC, with their channels.
+    pub fn output_channels(&self) -> impl Iterator<Item = (u8, &AnalogPin)> {
+        numbered(&self.outputs)
     }
 
     /// Whether there are any.
     pub(super) fn has_channels(&self) -> bool {
         self.channels().next().is_some()
     }
+}
+
+fn numbered(pins: &BTreeMap<String, AnalogPin>) -> impl Iterator<Item = (u8, &AnalogPin)> {
+    pins.values().filter_map(|pin| Some((pin.channel?, pin)))
 }
 
 #[derive(Deserialize, Default)]
@@ -63,6 +86,8 @@ struct Pin {
     unit: Unit,
     signal: [f64; 2],
     channel: Option<u8>,
+    start: Option<Start>,
+    function: Option<u32>,
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -81,8 +106,8 @@ fn default_full() -> u16 {
 impl Reader<'_> {
     pub(super) fn analog(&self, format: Format) -> Result<Analog, BoardError> {
         let analog = Analog {
-            inputs: self.analog_pins(format.inputs)?,
-            outputs: self.analog_pins(format.outputs)?,
+            inputs: self.analog_pins(format.inputs, false)?,
+            outputs: self.analog_pins(format.outputs, true)?,
         };
         Ok(analog)
     }
@@ -90,22 +115,44 @@ impl Reader<'_> {
     fn analog_pins(
         &self,
         pins: BTreeMap<Spanned, toml::Spanned<Pin>>,
+        outputs: bool,
     ) -> Result<BTreeMap<String, AnalogPin>, BoardError> {
-        let mut read_pins = BTreeMap::new();
+        let mut known = BTreeMap::new();
+        let mut channels = Vec::new();
         for (name, pin) in pins {
-            let known = self.analog_pin(&pin)?;
+            let analog = self.analog_pin(&pin, outputs)?;
             let own = pin.get_ref();
             if let Some(wired) = &own.pin {
                 let (place, uncertain) = (pin.span().start, own.uncertain.clone());
-                self.connect(place, name.get_ref(), wired, Mode::Analog, uncertain)?;
+                let mode = own.function.map_or(Mode::Analog, Mode::Sends);
+                self.connect(place, name.get_ref(), wired, mode, uncertain)?;
             }
-            read_pins.insert(name.into_inner(), known);
+            if let Some(channel) = analog.channel {
+                if channels.contains(&channel) {
+                    let what = format!("channel {channel} is listed twice");
+                    return Err(self.at(&name, what));
+                }
+                channels.push(channel);
+            }
+            known.insert(name.into_inner(), analog);
         }
-        Ok(read_pins)
+        Ok(known)
     }
 
-    fn analog_pin(&self, pin: &toml::Spanned<Pin>) -> Result<AnalogPin, BoardError> {
+    fn analog_pin(
+        &self,
+        pin: &toml::Spanned<Pin>,
+        is_output: bool,
+    ) -> Result<AnalogPin, BoardError> {
         let own = pin.get_ref();
+        if is_output && own.start.is_some() {
+            let what = "`start` starts the conversion of an input; an output has none".to_string();
+            return Err(self.at(pin, what));
+        }
+        if !is_output && own.function.is_some() {
+            let what = "`function` is that of an output (PWM); an input has none".to_string();
+            return Err(self.at(pin, what));
+        }
         let [low, high] = own.signal.map(|value| (value * 1e6).round());
         let holds =
             |value: f64| (f64::from(i32::MIN) / 2.0..=f64::from(i32::MAX) / 2.0).contains(&value);
@@ -124,6 +171,7 @@ impl Reader<'_> {
             },
             signal: [low as i32, high as i32],
             channel: own.channel,
+            start: own.start,
         })
     }
 }

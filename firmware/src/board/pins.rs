@@ -11,6 +11,9 @@ pub enum Chip {
     Stm32f1,
     /// STM32F0, and parts with the same registers (RM0360 §8).
     Stm32f0,
+    /// RP2040 (data sheet §2.3.1 SIO, §2.19 GPIO). Its flash begins with a second stage of the boot ROM, which an image for it
+    /// has, too.
+    Rp2040,
 }
 
 /// A pin of a part.
@@ -96,10 +99,17 @@ pub(super) struct Output {
 
 impl Chip {
     fn pin(self, name: &str) -> Option<Pin> {
+        if self == Chip::Rp2040 {
+            let digits = name.strip_prefix("GP")?;
+            let bit: u32 = digits.parse().ok().filter(|bit| *bit < 30)?;
+            let canonical = bit.to_string() == digits;
+            let (chip, port) = (self, 0);
+            return canonical.then_some(Pin { chip, port, bit });
+        }
         let letter = name.strip_prefix('P')?.chars().next()?;
         let mut ports = match self {
             Chip::Stm32f1 => 'A'..='G',
-            Chip::Stm32f0 => 'A'..='F',
+            Chip::Stm32f0 | Chip::Rp2040 => 'A'..='F',
         };
         let port = ports.position(|port| port == letter)? as u32;
         let digits = name.get(2..)?;
@@ -113,12 +123,29 @@ impl Chip {
     }
 }
 
+/// Registers of an RP2040: pins as the cores see them, what a pin is used for, its driver and pulls, and which parts are reset.
+const SIO: u32 = 0xD000_0000;
+const IO_BANK0: u32 = 0x4001_4000;
+const PADS_BANK0: u32 = 0x4001_C000;
+const RESETS: u32 = 0x4000_C000;
+
+impl Chip {
+    /// How its pins are called.
+    fn example(self) -> &'static str {
+        match self {
+            Chip::Stm32f1 | Chip::Stm32f0 => "PB13",
+            Chip::Rp2040 => "GP13",
+        }
+    }
+}
+
 impl Pin {
     /// The first register of its port.
     fn base(self) -> u32 {
         match self.chip {
             Chip::Stm32f1 => 0x4001_0800 + 0x400 * self.port,
             Chip::Stm32f0 => 0x4800_0000 + 0x400 * self.port,
+            Chip::Rp2040 => SIO,
         }
     }
 
@@ -126,6 +153,7 @@ impl Pin {
         let at = match self.chip {
             Chip::Stm32f1 => self.base() + 0x08,
             Chip::Stm32f0 => self.base() + 0x10,
+            Chip::Rp2040 => SIO + 0x04,
         };
         InputPin {
             at,
@@ -140,6 +168,8 @@ impl Pin {
         let at = match self.chip {
             Chip::Stm32f1 => self.base() + 0x10,
             Chip::Stm32f0 => self.base() + 0x18,
+            // GPIO_OUT_SET and GPIO_OUT_CLR.
+            Chip::Rp2040 => return [(SIO + 0x14, bit), (SIO + 0x18, bit)],
         };
         [(at, bit), (at, bit << 16)]
     }
@@ -152,13 +182,24 @@ impl Pin {
         }
     }
 
-    /// What switches the clocks of its registers on.
-    fn clock(self) -> Setup {
+    /// What lets its registers work.
+    fn clock(self) -> Vec<Setup> {
         match self.chip {
             // RCC_APB2ENR: IOPAEN and following.
-            Chip::Stm32f1 => Setup::set(0x4002_1018, 1 << (2 + self.port)),
+            Chip::Stm32f1 => vec![Setup::set(0x4002_1018, 1 << (2 + self.port))],
             // RCC_AHBENR: IOPAEN and following.
-            Chip::Stm32f0 => Setup::set(0x4002_1014, 1 << (17 + self.port)),
+            Chip::Stm32f0 => vec![Setup::set(0x4002_1014, 1 << (17 + self.port))],
+            Chip::Rp2040 => {
+                let bits = 1 << 5 | 1 << 8; // IO_BANK0, PADS_BANK0
+                let (at, set) = (RESETS, 0);
+                let leave = Setup::Change {
+                    at,
+                    clear: bits,
+                    set,
+                };
+                let (at, on) = (RESETS + 8, true);
+                vec![leave, Setup::Wait { at, bits, on }]
+            }
         }
     }
 
@@ -172,8 +213,33 @@ impl Pin {
         match self.chip {
             Chip::Stm32f1 => self.set_up_f1(mode, &mut steps),
             Chip::Stm32f0 => self.set_up_f0(mode, &mut steps),
+            Chip::Rp2040 => self.set_up_rp2040(mode, &mut steps),
         }
         steps
+    }
+
+    /// GPIO_OE_SET and GPIO_OE_CLR; the pad (drive of 4 mA, input, Schmitt trigger, pulls; off for converters), then
+    /// GPIOx_CTRL's function.
+    fn set_up_rp2040(self, mode: Mode, steps: &mut Vec<Setup>) {
+        let (pad, function) = match mode {
+            Mode::Input(pull) => match pull {
+                None => (0x42, 5),
+                Some(Pull::Up) => (0x4A, 5),
+                Some(Pull::Down) => (0x46, 5),
+            },
+            Mode::Output(_) => (0x52, 5),
+            Mode::Sends(function) => (0x52, function),
+            Mode::Receives(function) => (0x4A, function),
+            Mode::Analog => (0x80, 31),
+        };
+        let drives = matches!(mode, Mode::Output(_));
+        let enable = if drives { SIO + 0x24 } else { SIO + 0x28 };
+        let words = [
+            (enable, 1 << self.bit),
+            (PADS_BANK0 + 4 + 4 * self.bit, pad),
+            (IO_BANK0 + 4 + 8 * self.bit, function),
+        ];
+        steps.extend(words.map(|(at, word)| Setup::Write { at, word }));
     }
 
     /// GPIOx_CRL and GPIOx_CRH have four bits for each pin; GPIOx_ODR chooses up or down.
@@ -234,9 +300,10 @@ impl Wiring {
     pub fn setup(&self) -> Vec<Setup> {
         let mut steps: Vec<Setup> = Vec::new();
         for (pin, _) in &self.uses {
-            let clock = pin.clock();
-            if !steps.contains(&clock) {
-                steps.push(clock);
+            for clock in pin.clock() {
+                if !steps.contains(&clock) {
+                    steps.push(clock);
+                }
             }
         }
         steps.extend(self.uses.iter().flat_map(|(pin, mode)| pin.set_up(*mode)));
@@ -260,7 +327,8 @@ impl Reader<'_> {
             return Err(self.wrong(place, what.to_string()));
         };
         let Some(pin) = chip.pin(name) else {
-            let what = format!("`{name}` is not a pin: write for example PB13");
+            let example = chip.example();
+            let what = format!("`{name}` is not a pin: write for example {example}");
             return Err(self.wrong(place, what));
         };
         if wiring.uses.iter().any(|(other, _)| *other == pin) {

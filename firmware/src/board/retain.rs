@@ -30,6 +30,8 @@ pub enum RetainMemory {
     Stm32f1,
     /// Sectors of an STM32F4.
     Stm32f4,
+    /// Sectors of the flash beside an RP2040.
+    Rp2040,
 }
 
 #[derive(Deserialize)]
@@ -71,10 +73,17 @@ impl Reader<'_> {
             RetainMemory::Ram => (8, "slots begin and end at multiples of 8"),
             RetainMemory::Stm32f1 => (format.page, "a slot consists of whole pages (`page`)"),
             RetainMemory::Stm32f4 => (8, ""),
+            RetainMemory::Rp2040 => (
+                4096,
+                "a slot beside an RP2040 consists of whole sectors of 4K",
+            ),
         };
         let whole = |n: u32| step != 0 && n.is_multiple_of(step) && n.is_multiple_of(8);
         if slots.iter().any(|s| !whole(s.origin) || !whole(s.length)) {
             return wrong(what);
+        }
+        if format.memory == RetainMemory::Rp2040 && slots.iter().any(|s| s.origin >> 24 != 0x10) {
+            return wrong("flash of an RP2040 is at 0x10000000");
         }
         let in_sectors = |slot: &Region| f4_sectors(&(slot.origin..slot.origin + slot.length));
         if format.memory == RetainMemory::Stm32f4 && slots.iter().any(|s| in_sectors(s).is_none()) {

@@ -46,6 +46,8 @@ pub enum Uart {
     Stm32,
     /// USART of STM32F0, F3, F7, G0, G4, H7, L0, L4 and later: separate registers for what is received and sent.
     Stm32f7,
+    /// Arm's PL011, which RP2040 has.
+    Pl011,
     /// Arm's CMSDK APB UART (MPS2 boards): 8 data bits, no parity, 1 stop bit.
     Cmsdk,
 }

@@ -6,7 +6,7 @@ mod pins;
 mod retain;
 mod serial;
 
-use super::{Image, comment, linker_script, terminals};
+use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
 use rungc_emit::OutFile;
 use rungc_syntax::DeviceClass;
@@ -92,11 +92,11 @@ fn startup(image: &Image) -> String {
         image,
         "startup.c",
         "vectors and what happens between reset and main on",
-    ) + &startup_text(&interrupts)
+    ) + &startup_text(image.board, &interrupts)
 }
 
 /// Vectors, with the handlers of the device's interrupts, and what happens between reset and `main`.
-fn startup_text(interrupts: &BTreeMap<u32, String>) -> String {
+fn startup_text(board: &Board, interrupts: &BTreeMap<u32, String>) -> String {
     let mut prototypes = String::new();
     let mut vectors = String::new();
     let last = interrupts.keys().next_back().copied();
@@ -112,6 +112,7 @@ fn startup_text(interrupts: &BTreeMap<u32, String>) -> String {
     let count = 16 + last.map_or(0, |last| last + 1);
     STARTUP
         .replace("/* PROTOTYPES */\n", &format!("{prototypes}\n"))
+        .replace("/* BOOT2 */", &boot2::in_c(board))
         .replace("/* COUNT */", &count.to_string())
         .replace("/* VECTORS */", &vectors)
 }
@@ -126,6 +127,10 @@ fn main(image: &Image) -> String {
     let (note, declared) = match edges(image) {
         Some(Edges::InTick) => (NOTE_EDGES, "static void note_edges(void);\n\n"),
         _ => ("", ""),
+    };
+    let (lines, lines_declared) = match serial::waits_in_tick(image) {
+        true => ("    tick_lines();\n", "static void tick_lines(void);\n\n"),
+        false => ("", ""),
     };
     let timers = match (sends, timer) {
         (true, true) => PULSES.to_string(),
@@ -168,8 +173,11 @@ fn main(image: &Image) -> String {
         .replace("/* TICK */", &board.tick_us.to_string())
         .replace("/* SCAN */", &board.scan_us.to_string())
         .replace("/* PROTOTYPES */", &prototypes(image))
-        .replace("/* DUE */", &format!("{note}{due}"))
-        .replace("/* NOW */", &format!("{declared}{now}{timers}"))
+        .replace("/* DUE */", &format!("{note}{due}{lines}"))
+        .replace(
+            "/* NOW */",
+            &format!("{declared}{lines_declared}{now}{timers}"),
+        )
         .replace("/* PINS */", &pins(image))
         .replace("/* SETUP */", &setup(image.board))
         .replace("/* MODULES */", &modules::drivers(image))
@@ -443,9 +451,7 @@ fn hal(image: &Image, timer: bool) -> String {
             "hold_pulses" | "wake_in" if timer => Some(field.to_string()),
             "next_edge" if edges(image).is_some() => Some(field.to_string()),
             "analog" if board.analog.channels().next().is_some() => Some(field.to_string()),
-            _ if modules::FIELDS.contains(&field) && modules::are_there(image) => {
-                Some(field.to_string())
-            }
+            _ if modules::fills(image, field) => Some(field.to_string()),
             _ if serial::FIELDS.contains(&field) && !image.serial().is_empty() => {
                 Some(field.to_string())
             }

@@ -5,6 +5,7 @@ use crate::board::AnalogPin;
 use rungc_ir::Module;
 use rungc_ir::node::Stmt;
 use rungc_ir::walk;
+use rungc_rt::RtFn;
 use rungc_rt::modules::Kind;
 
 /// A module in an image.
@@ -37,7 +38,28 @@ fn asks_hardware(module: &Module) -> bool {
     asks
 }
 
+/// Whether a program gives values to analog outputs of the board itself.
+fn puts_out(module: &Module) -> bool {
+    let mut does = false;
+    for function in &module.functions {
+        walk::statements(&function.body, &mut |stmt| {
+            does |= matches!(stmt, Stmt::Call(call) if call.function == RtFn::Wr3aBoard);
+        });
+    }
+    does
+}
+
 impl Image<'_> {
+    /// The board's own analog outputs by their channels (WR3A K0 of compatible boards), if the program uses any. They are
+    /// the buffer memory of unit 0, the board.
+    pub(super) fn own_outputs(&self) -> Vec<(u8, AnalogPin)> {
+        let outputs = self.board.analog.output_channels();
+        match puts_out(self.module) {
+            true => outputs.map(|(channel, pin)| (channel, *pin)).collect(),
+            false => Vec::new(),
+        }
+    }
+
     /// The modules whose channels are pins, if the program reaches any.
     pub(super) fn modules(&self) -> Vec<Fitted> {
         if !asks_hardware(self.module) {

@@ -5,7 +5,7 @@ mod modules;
 mod retain;
 mod serial;
 
-use super::{Image, comment, linker_script, terminals};
+use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{OutputPin, Setup, Uart};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
@@ -88,7 +88,8 @@ pub fn project(image: &Image) -> Vec<OutFile> {
             "src/startup.s",
             STARTUP
                 .replace("/* FPU */", fpu)
-                .replace("/* VECTORS */", &serial::vectors(image)),
+                .replace("/* VECTORS */", &serial::vectors(image))
+                + &boot2::in_assembler(image.board),
         ),
         ("src/main.rs", main(image)),
     ];
@@ -156,6 +157,7 @@ fn main(image: &Image) -> String {
             },
         )
         .replace("/* USE PROGRAM */", &traits(image))
+        .replace("/* LINES */", serial::in_tick(image))
         .replace("/* HZ */", &board.clock_hz.to_string())
         .replace("/* TICK */", &board.tick_us.to_string())
         .replace("/* SCAN */", &board.scan_us.to_string())
@@ -209,7 +211,9 @@ fn traits(image: &Image) -> String {
 fn serial_uses(image: &Image) -> String {
     let uses = serial::uses(image);
     match image.serial().first().map(|serial| serial.uart) {
-        Some(Uart::Stm32 | Uart::Stm32f7) => format!("{uses}use rungc_rt::comm::Parity;\n"),
+        Some(Uart::Stm32 | Uart::Stm32f7 | Uart::Pl011) => {
+            format!("{uses}use rungc_rt::comm::Parity;\n")
+        }
         Some(Uart::Cmsdk) => uses,
         None => String::new(),
     }

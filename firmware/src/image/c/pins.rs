@@ -65,6 +65,19 @@ fn polled(uart: Uart) -> Polled {
             receive: 0x24,
             send: 0x28,
         },
+        Uart::Pl011 => Polled {
+            begin: &[
+                (0x24, "RATE / 16u"),
+                (0x28, "RATE % 16u * 4u"),
+                (0x2C, "0x60u"),
+                (0x30, "0x301u"),
+            ],
+            state: 0x18,
+            room: (1 << 5, 0),
+            come: (1 << 4, 0),
+            receive: 0x00,
+            send: 0x00,
+        },
         Uart::Cmsdk => Polled {
             begin: &[(0x10, "RATE"), (0x08, "3u")],
             state: 0x04,
@@ -111,7 +124,7 @@ pub fn project(board: &Board) -> Result<Vec<OutFile>, NoPins> {
         .replace("/* BOARD */", &title)
         .replace("/* CC */", board.target.cc)
         .replace("/* FLAGS */", board.target.flags);
-    let startup = startup_text(&BTreeMap::new());
+    let startup = startup_text(board, &BTreeMap::new());
     Ok(vec![
         OutFile::new(
             "pins.c",
@@ -223,7 +236,15 @@ fn analog(board: &Board) -> (String, &'static str) {
         return (String::new(), "");
     }
     let row = |(name, pin): (&String, &crate::board::AnalogPin)| {
-        format!("    {{{}, 0x{:08X}u}},\n", literal(name), pin.at)
+        let start = pin
+            .start
+            .map_or([0; 3], |start| [start.at, start.write, start.wait]);
+        let [start, word, ready] = start.map(|word| format!("0x{word:X}u"));
+        format!(
+            "    {{{}, 0x{:08X}u, {start}, {word}, {ready}}},\n",
+            literal(name),
+            pin.at
+        )
     };
     let rows: String = board.analog.inputs.iter().map(row).collect();
     let asked = "        if (key == 'a') {\n            report_analog();\n        }\n";

@@ -7,6 +7,7 @@ use std::fmt::Write;
 
 const RAM: &str = include_str!("../../../templates/retain_ram.c");
 const STM32: &str = include_str!("../../../templates/retain_stm32.c");
+const RP2040: &str = include_str!("../../../templates/retain_rp2040.c");
 const ERASE_F1: &str = include_str!("../../../templates/retain_erase_f1.c");
 const ERASE_F4: &str = include_str!("../../../templates/retain_erase_f4.c");
 
@@ -56,6 +57,7 @@ pub(super) fn driver(retain: &Retain) -> String {
                 "1u",
             )
         }
+        RetainMemory::Rp2040 => RP2040.to_string(),
         RetainMemory::Stm32f4 => {
             let sectors = retain.slots.map(|slot| {
                 let sectors = f4_sectors(&(slot.origin..slot.origin + slot.length));

@@ -7,6 +7,7 @@ use std::fmt::Write;
 const SERIAL: &str = include_str!("../../../templates/serial.c");
 const FINE_US: &str = include_str!("../../../templates/fine_us.c");
 const STM32: &str = include_str!("../../../templates/uart_stm32.c");
+const PL011: &str = include_str!("../../../templates/uart_pl011.c");
 const CMSDK: &str = include_str!("../../../templates/uart_cmsdk.c");
 
 /// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
@@ -23,6 +24,25 @@ const LISTEN: &str = "        q->received.first = 0;
         q->received.end = 0;
         q->received.lost = false;
 ";
+
+/// What the tick does where no interrupt says that the last bit is out.
+const TICKS: &str = "\
+static void tick_lines(void)
+{
+    for (size_t i = 0; i < sizeof uarts / sizeof uarts[0]; i++) {
+        if (uarts[i].waiting->sends) {
+            pump(&uarts[i]);
+        }
+    }
+}
+
+";
+
+/// Whether the tick has to look whether the last bit is out.
+pub(super) fn waits_in_tick(image: &Image) -> bool {
+    let mut ports = image.serial().into_iter();
+    ports.any(|serial| serial.uart == Uart::Pl011)
+}
 
 /// Fields of `rungc_hal` that serial ports fill.
 pub(super) const FIELDS: [&str; 4] = ["set_line", "receive", "send", "unsent"];
@@ -67,6 +87,7 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
+        Uart::Pl011 => PL011.to_string(),
         Uart::Cmsdk => CMSDK.to_string(),
     };
     // A function of the board's own has the finest resolution.
@@ -94,8 +115,9 @@ pub(super) fn drivers(image: &Image) -> String {
             .replace("/* LISTEN */", "")
             .replace("/* LISTENS */", "(void)q;\n    return true;"),
     };
+    let ticks = if waits_in_tick(image) { TICKS } else { "" };
     format!(
-        "/* How many characters wait to be sent, plus one. */\n#define SEND {}u\n\n{text}",
+        "/* How many characters wait to be sent, plus one. */\n#define SEND {}u\n\n{text}{ticks}",
         room.unwrap_or(first.send)
     )
 }

@@ -16,6 +16,27 @@ fn count(address: usize, full: u32) -> u32 {
 
 ";
 
+/// What starts a converter, and reads it.
+const CONVERTED: &str = "/// Starts a converter, waits and reads it.
+fn converted(start: usize, word: u32, ready: u32, address: usize, full: u32) -> u32 {
+    write(start, word);
+    while read(start) & ready == 0 {}
+    count(address, full)
+}
+
+";
+
+/// Whether a converter has to be started.
+fn starts(image: &Image) -> bool {
+    let analog = &image.board.analog;
+    let modules = image.modules();
+    let inputs = modules.iter().flat_map(|module| &module.inputs);
+    let mut pins = inputs
+        .map(|(_, pin)| pin)
+        .chain(analog.channels().map(|(_, pin)| pin));
+    pins.any(|pin| pin.start.is_some())
+}
+
 /// Whether converters are read.
 fn counts(image: &Image) -> bool {
     let modules = image.modules();
@@ -25,10 +46,16 @@ fn counts(image: &Image) -> bool {
 
 /// The modules, and what goes between them and the pins.
 pub(super) fn drivers(image: &Image) -> String {
-    let count = if counts(image) { COUNT } else { "" };
+    let mut count = String::new();
+    if counts(image) {
+        count.push_str(COUNT);
+    }
+    if starts(image) {
+        count.push_str(CONVERTED);
+    }
     let modules = image.modules();
     if modules.is_empty() {
-        return count.to_string();
+        return count;
     }
     let (mut take, mut give) = (String::new(), String::new());
     for (n, module) in modules.iter().enumerate() {
@@ -59,10 +86,49 @@ pub(super) fn drivers(image: &Image) -> String {
 
 /// The signal at a pin.
 fn measured(pin: &AnalogPin) -> String {
-    let (at, full) = (pin.at, pin.full);
     let [low, high] = pin.signal;
-    format!("signal_of(count(0x{at:08X}, {full}), [{low}, {high}], {full})")
+    format!("signal_of({}, [{low}, {high}], {})", counted(pin), pin.full)
 }
+
+/// The count of a pin.
+fn counted(pin: &AnalogPin) -> String {
+    let (at, full) = (pin.at, pin.full);
+    match pin.start {
+        Some(start) => format!(
+            "converted(0x{:08X}, 0x{:X}, 0x{:X}, 0x{at:08X}, {full})",
+            start.at, start.write, start.wait
+        ),
+        None => format!("count(0x{at:08X}, {full})"),
+    }
+}
+
+/// What gives values to the board's own outputs, by their counts.
+fn own_outputs(image: &Image) -> String {
+    let outputs = image.own_outputs();
+    let mut text = String::new();
+    for (channel, pin) in &outputs {
+        // Writing to a String does not fail.
+        let _ = writeln!(
+            text,
+            "                {channel} => write(0x{:08X}, i32::from(value).clamp(0, {}) as u32),",
+            pin.at, pin.full
+        );
+    }
+    match outputs.is_empty() {
+        true => text,
+        false => format!(
+            "        if unit == 0 {{\n            match address {{\n{text}                _ => return None,\n            }}\n            return Some(());\n        }}\n"
+        ),
+    }
+}
+
+/// How buffer memory is written where there are no modules but the board.
+const WRITE: &str =
+    "    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+/* BOARD */        None
+    }
+
+";
 
 fn put_out(n: usize, channel: u8, pin: &AnalogPin) -> String {
     let (at, full) = (pin.at, pin.full);
@@ -76,9 +142,13 @@ fn put_out(n: usize, channel: u8, pin: &AnalogPin) -> String {
 /// What the hardware does for FROM and TO and for built-in analog inputs.
 pub(super) fn hal(image: &Image) -> String {
     let mut text = String::new();
-    if !image.modules().is_empty() {
-        text.push_str(BUFFER);
-    }
+    let outputs = own_outputs(image);
+    let buffer = match (image.modules().is_empty(), outputs.is_empty()) {
+        (false, _) => BUFFER,
+        (true, false) => WRITE,
+        (true, true) => "",
+    };
+    text.push_str(&buffer.replace("/* BOARD */", &outputs));
     if image.board.analog.channels().next().is_some() {
         text.push_str(
             "    fn analog(&mut self, channel: u8) -> Option<i16> {\n        match channel {\n",
@@ -86,8 +156,8 @@ pub(super) fn hal(image: &Image) -> String {
         for (channel, pin) in image.board.analog.channels() {
             let _ = writeln!(
                 text,
-                "            {channel} => Some(count(0x{:08X}, {}) as i16),",
-                pin.at, pin.full
+                "            {channel} => Some({} as i16),",
+                counted(pin)
             );
         }
         text.push_str("            _ => None,\n        }\n    }\n");

@@ -4,6 +4,8 @@ use super::super::Image;
 use crate::board::{InputPin, Retain, RetainMemory};
 use std::fmt::Write;
 
+const RP2040: &str = include_str!("../../../templates/retain_rp2040.rs");
+
 /// How the drivers of the runtime reach memory.
 const BUS: &str = "/// Memory that holds latched devices, and its controller.
 struct Bus;
@@ -31,15 +33,23 @@ fn name(memory: RetainMemory) -> &'static str {
         RetainMemory::Ram => "Ram",
         RetainMemory::Stm32f1 => "Stm32f1",
         RetainMemory::Stm32f4 => "Stm32f4",
+        RetainMemory::Rp2040 => "Rp2040",
     }
 }
 
 /// What the image uses for it.
 pub(super) fn uses(image: &Image) -> String {
-    image.retain().map_or(String::new(), |retain| {
-        let name = name(retain.memory);
-        format!("use rungc_rt::retain::{{{name}, Registers, Slots}};\n")
-    })
+    match image.retain().map(|retain| retain.memory) {
+        None => String::new(),
+        Some(RetainMemory::Rp2040) => {
+            "use core::ops::Range;\nuse rungc_rt::retain::{Flash, FlashFailed, Slots};\n"
+                .to_string()
+        }
+        Some(memory) => {
+            let name = name(memory);
+            format!("use rungc_rt::retain::{{{name}, Registers, Slots}};\n")
+        }
+    }
 }
 
 /// What the image has of it, in front of `main`.
@@ -54,8 +64,14 @@ pub(super) fn drivers(image: &Image) -> String {
     });
     let page = match retain.memory {
         RetainMemory::Stm32f1 => format!(", page: {}", retain.page),
-        RetainMemory::Ram | RetainMemory::Stm32f4 => String::new(),
+        RetainMemory::Ram | RetainMemory::Stm32f4 | RetainMemory::Rp2040 => String::new(),
     };
+    if retain.memory == RetainMemory::Rp2040 {
+        let slots = slots.join(", ");
+        return format!(
+            "{supply}{RP2040}/// The memory that holds latched devices.\nconst fn kept() -> Rp2040 {{\n    Rp2040 {{ slots: [{slots}] }}\n}}\n\n"
+        );
+    }
     let (name, slots) = (name(retain.memory), slots.join(", "));
     format!(
         "{supply}{BUS}/// The memory that holds latched devices.\nconst fn kept() -> {name}<Bus> {{\n    {name} {{ registers: Bus, slots: [{slots}]{page} }}\n}}\n\n"

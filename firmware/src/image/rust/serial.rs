@@ -7,6 +7,7 @@ use std::fmt::Write;
 
 const SERIAL: &str = include_str!("../../../templates/serial.rs");
 const STM32: &str = include_str!("../../../templates/uart_stm32.rs");
+const PL011: &str = include_str!("../../../templates/uart_pl011.rs");
 const CMSDK: &str = include_str!("../../../templates/uart_cmsdk.rs");
 
 /// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
@@ -105,6 +106,7 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
+        Uart::Pl011 => PL011.to_string(),
         Uart::Cmsdk => CMSDK.to_string(),
     };
     let most = |room: fn(&Serial) -> u16| ports.iter().map(|serial| room(serial)).max();
@@ -158,6 +160,15 @@ fn table(ports: &[&Serial]) -> String {
         "{text}static LINES: [Line; {count}] = [Line::EMPTY; {count}];\n\nstatic UARTS: [Uart; {count}] = [\n{rows}];\n\n{handlers}",
         count = ports.len()
     )
+}
+
+/// What the tick does where no interrupt says that the last bit is out.
+pub(super) fn in_tick(image: &Image) -> &'static str {
+    let mut ports = image.serial().into_iter();
+    match ports.any(|serial| serial.uart == Uart::Pl011) {
+        true => "    UARTS.iter().for_each(Uart::pump);\n",
+        false => "",
+    }
 }
 
 /// What lets the interrupts of the UARTs come.
