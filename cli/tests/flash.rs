@@ -5,6 +5,8 @@ mod common;
 #[path = "flash/part.rs"]
 mod part;
 mod tools;
+#[path = "flash/volume.rs"]
+mod volume;
 
 use common::{folder, rungc, text};
 use part::{Bench, Fault, Part};

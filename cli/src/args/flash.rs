@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 /// Arguments of `flash`.
 #[derive(Args, Debug)]
-#[command(group(ArgGroup::new("way").required(true).args(["port", "probe"])))]
+#[command(group(ArgGroup::new("way").required(true).args(["port", "probe", "volume"])))]
 pub struct FlashArgs {
-    /// Image to write: an ELF file of `rungc build --emit elf`, or bytes as they are in flash.
+    /// Image to write: an ELF file of `rungc build --emit elf`, UF2 for `--volume`, or bytes as they are in flash.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// The serial port that the boot loader's UART is connected to (`/dev/ttyUSB0`, `COM3`), or a serial device
@@ -19,10 +19,13 @@ pub struct FlashArgs {
     /// Use a debug probe through probe-rs, which must be installed, for this part: `STM32F103VC`.
     #[arg(long, value_name = "CHIP")]
     pub probe: Option<String>,
+    /// The folder of the volume that the boot ROM of an RP2040 (Raspberry Pi Pico) shows over USB; `auto` looks for it.
+    #[arg(long, value_name = "FOLDER")]
+    pub volume: Option<PathBuf>,
     /// Bit rate; the boot loader measures it.
     #[arg(long, default_value_t = 115_200, value_parser = bit_rate, value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board.
+    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board, or for a volume to vanish.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
     pub wait: u64,
     /// Address of the first byte, for files that are not ELF.

@@ -2,6 +2,7 @@
 
 mod port;
 mod probe;
+mod volume;
 
 use super::{Context, Failure, Outcome, Result, interruption, spare, tell, write_file};
 use crate::args::FlashArgs;
@@ -10,6 +11,7 @@ use indicatif::ProgressBar;
 use port::Port;
 use rungc_firmware::flash::chips::{self, Chip, Pages};
 use rungc_firmware::flash::loader::{BLOCK, Loader, LoaderError};
+use rungc_firmware::flash::uf2;
 use rungc_firmware::flash::{FlashError, Payload, Plan, Step, Writer};
 use rungc_project::serve::LineEnd;
 use rungc_syntax::codes::{self, Code};
@@ -28,11 +30,22 @@ pub fn run(args: &FlashArgs, cx: Context) -> Result {
     }
     let wrong = |why: String| Failure::Because(format!("{}: {why}", args.file.display()));
     let file = fs::read(&args.file).map_err(|error| wrong(error.to_string()))?;
-    let payload = Payload::read(&file, args.at).map_err(|error| wrong(error.to_string()))?;
-    match (&args.probe, &args.port) {
-        (Some(chip), _) => probe::flash(args, chip, &payload, cx),
-        (None, Some(port)) => over(port, args, &payload, cx),
-        (None, None) => Err(Failure::Because("--port or --probe is missing".to_string())),
+    let is_uf2 = uf2::is_uf2(&file);
+    let payload = match is_uf2 {
+        true => uf2::read(&file).map_err(|error| wrong(error.to_string()))?,
+        false => Payload::read(&file, args.at).map_err(|error| wrong(error.to_string()))?,
+    };
+    if is_uf2 && args.volume.is_none() {
+        return Err(wrong("UF2 is for --volume; use the ELF file".to_string()));
+    }
+    match (&args.volume, &args.probe, &args.port) {
+        (Some(folder), ..) => volume::flash(args, folder, &payload, cx),
+        (None, Some(chip), _) => probe::flash(args, chip, &payload, cx),
+        (None, None, Some(port)) => over(port, args, &payload, cx),
+        (None, None, None) => {
+            let why = "--port, --volume or --probe is missing";
+            Err(Failure::Because(why.to_string()))
+        }
     }
 }
 

@@ -1,5 +1,5 @@
-// Runs an image for an RP2040 (UF2) in rp2040js, the emulator of Wokwi, from the second stage of the boot ROM on, and reports what
-// its pins and UARTs do. Arguments: the UF2 file, and a JSON list of steps: "low", pins that are connected to ground; "adc", the
+// Runs an image for an RP2040 (UF2 or ELF) in rp2040js, the emulator of Wokwi, from the second stage of the boot ROM on, and reports what
+// its pins and UARTs do. Arguments: the file, and a JSON list of steps: "low", pins that are connected to ground; "adc", the
 // counts of the converter's channels; "feed", bytes for UART0 in hexadecimal; "uart1", bytes for UART1; "ms", how long.
 // Prints a JSON list, with for each step: "high", the pins that are driven high at its end; "sent" and "uart1", what the UARTs have
 // sent; "driver", how GP3 was at the first byte of UART1; "duty" of the PWM pins; "baud" of the UARTs; "resets" by the watchdog.
@@ -13,6 +13,14 @@ const HIGH = 1;
 
 function load(mcu, file) {
   const view = new DataView(file.buffer, file.byteOffset, file.length);
+  if (file.toString('latin1', 1, 4) === 'ELF') {
+    const [headers, size, count] = [view.getUint32(28, true), view.getUint16(42, true), view.getUint16(44, true)];
+    for (let n = 0; n < count; n++) {
+      const [type, offset, , address, length] = [0, 4, 8, 12, 16].map((at) => view.getUint32(headers + n * size + at, true));
+      if (type === 1 && length > 0) mcu.flash.set(file.subarray(offset, offset + length), address - FLASH);
+    }
+    return;
+  }
   for (let at = 0; at < file.length; at += 512) {
     const [address, size] = [view.getUint32(at + 12, true), view.getUint32(at + 16, true)];
     mcu.flash.set(file.subarray(at + 32, at + 32 + size), address - FLASH);
@@ -41,6 +49,28 @@ if (checksum(stage.subarray(0, 252)) !== new DataView(stage.buffer).getUint32(25
 mcu.sram.set(stage, SECOND_STAGE - 0x20000000);
 mcu.core.PC = SECOND_STAGE;
 mcu.core.LR = 0;
+
+// The emulator comes without a boot ROM. Its functions for flash are done here: each writes to a register that is nowhere else.
+const [TABLE, STUBS, TRAPS] = [0x40, 0x80, 0x40068000];
+const FUNCTIONS = ['lookup', 'IF', 'EX', 'RE', 'RP', 'FC'];
+let result = 0;
+mcu.bootrom[0x14 / 4] = TABLE;
+mcu.bootrom[0x18 / 4] = STUBS | 1;
+FUNCTIONS.forEach((_, n) => {
+  // ldr r3, =TRAPS; str r0, [r3, 4n]; ldr r0, [r3, 40h]; bx lr
+  mcu.bootrom.set([((0x6018 | (n << 6)) << 16) | 0x4b01, 0x47706c18, TRAPS], (STUBS + 16 * n) / 4);
+});
+mcu.peripherals[TRAPS >>> 12] = {
+  readUint32: () => result,
+  writeUint32Atomic: (offset) => {
+    const [first, second, third] = mcu.core.registers;
+    const name = FUNCTIONS[offset / 4];
+    const letters = String.fromCharCode(second & 0xff, second >>> 8);
+    if (name === 'lookup') result = (STUBS + 16 * FUNCTIONS.indexOf(letters)) | 1;
+    if (name === 'RE') mcu.flash.fill(0xff, first, first + second);
+    if (name === 'RP') for (let n = 0; n < third; n++) mcu.flash[first + n] &= mcu.readUint8(second + n);
+  },
+};
 
 let resets = 0;
 mcu.peripherals[0x40058].onWatchdogTrigger = () => resets++;

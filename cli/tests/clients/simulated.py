@@ -114,6 +114,7 @@ class Simulated:
     def exchange(self, at, data, enough=lambda sent: False):
         """Bytes to a UART, and what it answers."""
         line = self.lines[at]
+        self.pass_ms(2)  # until the last bit of the answer before is out
         line.sent.clear()
         line.received.extend(data)
         for _ in range(200):

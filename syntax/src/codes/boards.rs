@@ -31,6 +31,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    NO_BOOT_VOLUME = "E0855" "no-boot-volume" Error None,
+    "no volume of a boot loader is there",
+    "The boot ROM of an RP2040 shows a volume called RPI-RP2 over USB while BOOTSEL is held when the board gets its supply, or when flash is empty. It has a file INFO_UF2.TXT that says whose it is, and `rungc flash --volume auto` looks for that file on all mounted volumes. On a system without a desktop nothing mounts it: `udisksctl mount -b /dev/sda1`, or mount it as root, and name the folder with `--volume`. A cable that only charges shows nothing. Nothing has been erased.",
+    wrong: "",
+    right: "";
+
     UNCERTAIN_PIN = "W0850" "uncertain-pin" Warning None,
     "a terminal of the program is at a pin that is not certain",
     "The description of the board marks this pin as uncertain: it comes from one published source, or its polarity or range is not published, and boards of the same name are sold with other pins. Write the pins-only image first (`rungc boards BOARD --pins-only`), which reads inputs and switches one output at a time, and compare the terminals. `rungc boards BOARD --toml` writes the description, in which you correct the pin or remove `uncertain`.",
