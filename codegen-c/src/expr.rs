@@ -423,7 +423,7 @@ impl Writer<'_, '_> {
         matches!(self.module.expr(e), Expr::Not(_)) && !self.named.contains_key(&e)
     }
 
-    fn is_compound(&self, e: ExprId) -> bool {
+    pub(crate) fn is_compound(&self, e: ExprId) -> bool {
         matches!(self.module.expr(e), Expr::And(..) | Expr::Or(..)) && !self.named.contains_key(&e)
     }
 

@@ -38,6 +38,7 @@ impl Part {
             module,
             options.main && (options.servers || options.io),
             options.lanes,
+            options.misra,
         );
         let name = &module.name;
         let retain = (options.retain || options.main) && cycle::keeps_any(module);
@@ -414,7 +415,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             name: format!("case{i}"),
             ..module.clone()
         };
-        let unit = unit::unit(&module, true, false);
+        let unit = unit::unit(&module, true, false, false);
         batch_entry(i, &module, &mut functions, &mut entries);
         let _ = writeln!(memory, "    case{i}_plc case{i};");
         let size = parts.last().map_or(usize::MAX, |part| part.source.len());

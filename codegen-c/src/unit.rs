@@ -33,8 +33,8 @@ pub struct Unit {
 }
 
 /// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs
-/// it.
-pub fn unit(module: &Module, by_number: bool, in_lanes: bool) -> Unit {
+/// it. `misra`: conditions are Boolean expressions as MISRA C:2012 understands them (rule 14.4).
+pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Unit {
     let fields = Storage::new(module);
     let plan = Plan::new(module);
     let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
@@ -42,6 +42,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool) -> Unit {
     let storage = if single { "static " } else { "" };
     let runtime = by_number || uses_runtime(module);
     let mut writer = Writer::new(module, &plan, &fields);
+    writer.boolean_conditions = misra;
 
     let mut groups = vec![String::new()];
     let mut weight = 0;

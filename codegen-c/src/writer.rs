@@ -51,6 +51,8 @@ pub struct Writer<'a, 'm> {
     pub(crate) calls: u64,
     /// What timers have to remember.
     pub(crate) coils: Coils,
+    /// Whether a condition that joins contacts is compared with 0: `&` makes an `int` of them.
+    pub(crate) boolean_conditions: bool,
     /// The current function.
     function: usize,
     /// Loops around the current statement.
@@ -84,6 +86,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             named: FxHashMap::default(),
             calls: 0,
             coils: Coils::of(module, plan, fields),
+            boolean_conditions: false,
             function: 0,
             loops: 0,
             numbers: false,
@@ -266,6 +269,9 @@ impl<'a, 'm> Writer<'a, 'm> {
         if then.is_empty() {
             code.push_str("!");
             self.expr(&mut code, cond, Around::Unary);
+        } else if self.boolean_conditions && self.is_compound(cond) {
+            self.expr(&mut code, cond, Around::Operand("!="));
+            code.push_str(" != 0");
         } else {
             self.expr(&mut code, cond, Around::Loose);
         }

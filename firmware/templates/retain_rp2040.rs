@@ -1,5 +1,5 @@
-/// Memory that holds latched devices: flash of an RP2040. Functions of its boot ROM erase and write it, and it cannot be read
-/// meanwhile. So what runs then is in RAM, and no interrupt comes.
+/// Memory that holds latched devices: flash of an RP2040. Functions of its boot ROM erase and write it, and it cannot
+/// be read meanwhile. So what runs then is in RAM, and no interrupt comes.
 struct Rp2040 {
     slots: [Range<u32>; 2],
 }
@@ -31,7 +31,8 @@ fn rom_half(address: usize) -> usize {
 
 /// A function of the boot ROM, by its two letters.
 fn rom_function(name: &[u8; 2]) -> usize {
-    // SAFETY: the boot ROM has at 18h the address of the function that looks in the table at 14h (RP2040 data sheet §2.8.3).
+    // SAFETY: the boot ROM has at 18h the address of the function that looks in the table at 14h (RP2040 data sheet
+    // §2.8.3).
     let find: extern "C" fn(usize, u32) -> usize = unsafe { core::mem::transmute(rom_half(0x18)) };
     find(rom_half(0x14), u16::from_le_bytes(*name).into())
 }
@@ -56,7 +57,8 @@ fn rom_changes(address: u32, page: Option<&[u8; PAGE]>) {
         *word = read(at);
     }
     let entry = &raw const second_stage as usize | 1;
-    // SAFETY: these are functions of the boot ROM (RP2040 data sheet §2.8.3.1.3), and a copy of what it has started itself.
+    // SAFETY: these are functions of the boot ROM (RP2040 data sheet §2.8.3.1.3), and a copy of what it has started
+    // itself.
     let rom = unsafe {
         Rom {
             connect: core::mem::transmute(rom_function(b"IF")),

@@ -25,7 +25,8 @@ pub struct FlashArgs {
     /// Bit rate; the boot loader measures it.
     #[arg(long, default_value_t = 115_200, value_parser = bit_rate, value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board, or for a volume to vanish.
+    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board, or for a volume to
+    /// vanish.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
     pub wait: u64,
     /// Address of the first byte, for files that are not ELF.

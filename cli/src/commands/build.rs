@@ -147,8 +147,7 @@ impl Plan {
             return Ok(plan);
         };
         let path = match (&plan.output, emit) {
-            (Some(folder), Emit::Elf) => folder.join(format!("{name}.elf")),
-            (Some(folder), Emit::Uf2) => folder.join(format!("{name}.uf2")),
+            (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(default_output(emit, name)),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),
@@ -211,12 +210,8 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
                 "--board only applies to --emit elf and --emit uf2 (an image), --emit c and --emit rust (its sources)",
             )
         }
-        Emit::Elf if args.board.is_none() => {
-            wrong("--emit elf needs --board, a description of the board (docs/src/boards.md)")
-        }
-        Emit::Uf2 if args.board.is_none() => {
-            wrong("--emit uf2 needs --board, a description of the board (docs/src/boards.md)")
-        }
+        Emit::Elf if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "elf")),
+        Emit::Uf2 if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "uf2")),
         Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.device_access => wrong(
             "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
         ),
@@ -258,6 +253,10 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
     }
 }
 
+/// What an image lacks.
+const NO_BOARD: &str =
+    "--emit IMAGE needs --board, a description of the board (docs/src/boards.md)";
+
 /// Why `--servers` does not apply.
 const NO_SERVERS: &str =
     "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
@@ -282,6 +281,12 @@ impl ForImage {
                 target.triple,
                 path.display(),
                 board.target.triple
+            )));
+        }
+        if args.emit == Some(Emit::Uf2) && board.chip != Some(Chip::Rp2040) {
+            return Err(Failure::Because(format!(
+                "--emit uf2 is for boards with an RP2040 (`chip = \"rp2040\"`), which {} is not; use --emit elf",
+                board.name
             )));
         }
         let settings = args.set.iter().map(|text| setting(text));
@@ -598,11 +603,9 @@ impl Job<'_> {
     }
 
     fn elf(&self) -> Built<Vec<u8>> {
-        let image = self
-            .image
-            .ok_or_else(|| because("an image needs a board"))?;
+        let image = self.image.ok_or_else(|| because("an image needs a board"));
         let backend = self.plan.backend.unwrap_or(Backend::C);
-        let files = image.sources(self.module, backend)?;
+        let files = image?.sources(self.module, backend)?;
         let file = format!("{}.elf", self.module.name);
         let built = progress::spin("building", || match backend {
             Backend::C => self.tools().c_program(&files, &file),
@@ -613,17 +616,8 @@ impl Job<'_> {
 
     /// The image as the volume of an RP2040 takes it.
     fn uf2(&self) -> Built<Vec<u8>> {
-        let image = self
-            .image
-            .ok_or_else(|| because("an image needs a board"))?;
-        if image.board.chip != Some(Chip::Rp2040) {
-            return Err(Failure::Because(format!(
-                "--emit uf2 is for boards with an RP2040 (`chip = \"rp2040\"`), which {} is not; use --emit elf",
-                image.board.name
-            )));
-        }
-        let payload = Payload::read(&self.elf()?, 0).map_err(because)?;
-        Ok(uf2::write(&payload))
+        let payload = Payload::read(&self.elf()?, 0);
+        payload.map(|payload| uf2::write(&payload)).map_err(because)
     }
 
     /// What the program takes. An image that was written is measured as it is.

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tools::{cargo, leave_out, no_rust, tools, with_cargo};
 
-/// A board's terminals by the published tables, which are not those that the descriptions are read from. Those of the Pico,
-/// which has none, are written a second time.
+/// A board's terminals by the published tables, which are not those that the descriptions are read from. Those of the
+/// Pico, which has none, are written a second time.
 struct Published {
     name: &'static str,
     chip: &'static str,
@@ -184,9 +184,9 @@ fn answer(mut script: Command) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// A program that uses all of a board: each output follows one or two inputs; the last input counts in D200 and D201, which are
-/// latched; analog inputs are copied to D100 and following and from there to outputs. At the second count `ABC` is sent over
-/// RS-485, from the third on there is an error.
+/// A program that uses all of a board: each output follows one or two inputs; the last input counts in D200 and D201,
+/// which are latched; analog inputs are copied to D100 and following and from there to outputs. At the second count
+/// `ABC` is sent over RS-485, from the third on there is an error.
 struct Trial {
     list: String,
     /// Inputs and the outputs that follow them.
@@ -295,8 +295,8 @@ impl Published {
         Some(())
     }
 
-    /// Each output follows its inputs, and nothing else is driven but the lamps; converters, the programming port and the line of
-    /// RS-485 do what the program wants.
+    /// Each output follows its inputs, and nothing else is driven but the lamps; converters, the programming port and
+    /// the line of RS-485 do what the program wants.
     fn check_pins(&self, image: &Path, backend: &str) -> Option<()> {
         let about = format!("{} ({backend})", self.name);
         let inputs = pins(self.inputs);
@@ -416,8 +416,8 @@ impl Published {
         assert_eq!(found["outputs"], json!([[], on]), "{about}");
     }
 
-    /// The supply is cut after each operation of flash around the change to another slot: latched devices have their old
-    /// values or the new ones, and each value was there.
+    /// The supply is cut after each operation of flash around the change to another slot: latched devices have their
+    /// old values or the new ones, and each value was there.
     fn check_saves(&self, image: &Path, backend: &str) {
         let about = format!("{} ({backend})", self.name);
         let request = json!({

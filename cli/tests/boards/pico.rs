@@ -1,4 +1,5 @@
-//! The image of a Raspberry Pi Pico in an emulator that others wrote (rp2040js), and its file read by others (uf2utils).
+//! The image of a Raspberry Pi Pico in an emulator that others wrote (rp2040js), and its file read by others
+//! (uf2utils).
 
 use super::{PUBLISHED, Published, answer, client, folder, leave_out, pins, python};
 use serde_json::{Value, json};

@@ -1,4 +1,5 @@
-//! `rungc flash --volume`, with a folder that does what the volume of an RP2040 does: it vanishes when it has the last block.
+//! `rungc flash --volume`, with a folder that does what the volume of an RP2040 does: it vanishes when it has the last
+//! block.
 
 use super::code;
 use crate::common::{folder, normal, rungc, text};

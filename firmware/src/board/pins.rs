@@ -11,8 +11,8 @@ pub enum Chip {
     Stm32f1,
     /// STM32F0, and parts with the same registers (RM0360 §8).
     Stm32f0,
-    /// RP2040 (data sheet §2.3.1 SIO, §2.19 GPIO). Its flash begins with a second stage of the boot ROM, which an image for it
-    /// has, too.
+    /// RP2040 (data sheet §2.3.1 SIO, §2.19 GPIO). Its flash begins with a second stage of the boot ROM, which an image
+    /// for it has, too.
     Rp2040,
 }
 
@@ -123,7 +123,8 @@ impl Chip {
     }
 }
 
-/// Registers of an RP2040: pins as the cores see them, what a pin is used for, its driver and pulls, and which parts are reset.
+/// Registers of an RP2040: pins as the cores see them, what a pin is used for, its driver and pulls, and which parts
+/// are reset.
 const SIO: u32 = 0xD000_0000;
 const IO_BANK0: u32 = 0x4001_4000;
 const PADS_BANK0: u32 = 0x4001_C000;

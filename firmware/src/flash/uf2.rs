@@ -1,5 +1,5 @@
-//! UF2, the files that boot loaders with a mass-storage volume take (microsoft/uf2, "USB Flashing Format"): blocks of 512 bytes,
-//! each with the address of 256 bytes of flash.
+//! UF2, the files that boot loaders with a mass-storage volume take (microsoft/uf2, "USB Flashing Format"): blocks of
+//! 512 bytes, each with the address of 256 bytes of flash.
 
 use super::{ERASED, LARGEST, Payload};
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! The second stage of the boot ROM of an RP2040, with which its flash begins: `templates/boot2.s` in machine code. The boot
-//! ROM starts nothing if its checksum is wrong (RP2040 data sheet §2.8.1.3.1).
+//! The second stage of the boot ROM of an RP2040, with which its flash begins: `templates/boot2.s` in machine code.
+//! The boot ROM starts nothing if its checksum is wrong (RP2040 data sheet §2.8.1.3.1).
 
 use crate::board::{Board, Chip};
 use std::fmt::Write;
@@ -83,7 +83,8 @@ pub(super) fn in_c(board: &Board) -> String {
         return String::new();
     }
     format!(
-        "/* What the boot ROM starts: it lets flash be read at its addresses, and starts the image. The last word is its checksum. */\n\
+        "/* What the boot ROM starts: it lets flash be read at its addresses, and starts the image. The last word is \
+         its checksum. */\n\
          __attribute__((section(\".boot2\"), used)) static const uint32_t boot2[{WORDS}] = {{\n{}}};\n\n",
         table("    ", "u, ", "u,")
     )
@@ -95,7 +96,8 @@ pub(super) fn in_assembler(board: &Board) -> String {
         return String::new();
     }
     format!(
-        "\n@ What the boot ROM starts: it lets flash be read at its addresses, and starts the image. The last word is its checksum.\n\
+        "\n@ What the boot ROM starts: it lets flash be read at its addresses, and starts the image. The last word is \
+         its checksum.\n\
          .section .boot2, \"a\", %progbits\n{}",
         table("    .word ", ", ", "")
     )

@@ -50,8 +50,8 @@ fn puts_out(module: &Module) -> bool {
 }
 
 impl Image<'_> {
-    /// The board's own analog outputs by their channels (WR3A K0 of compatible boards), if the program uses any. They are
-    /// the buffer memory of unit 0, the board.
+    /// The board's own analog outputs by their channels (WR3A K0 of compatible boards), if the program uses any. They
+    /// are the buffer memory of unit 0, the board.
     pub(super) fn own_outputs(&self) -> Vec<(u8, AnalogPin)> {
         let outputs = self.board.analog.output_channels();
         match puts_out(self.module) {

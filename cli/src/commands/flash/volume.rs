@@ -26,7 +26,8 @@ const PERIOD: Duration = Duration::from_millis(100);
 /// Copies an image to a volume.
 pub fn flash(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Result {
     if args.backup.is_some() || args.unprotect {
-        let why = "--backup and --unprotect do not apply: a volume shows nothing of flash, and an RP2040 has no protection";
+        let why = "--backup and --unprotect do not apply: a volume shows nothing of flash, and \
+                   an RP2040 has no protection";
         return Err(Failure::Because(why.to_string()));
     }
     match copy(args, volume, payload, cx) {
@@ -84,8 +85,8 @@ fn loss(payload: &Payload) -> String {
     let first = payload.origin - payload.origin % SECTOR;
     let last = payload.end().next_multiple_of(SECTOR.into()) - 1;
     format!(
-        "Erases 0x{first:08X} to 0x{last:08X} of flash: the program in it is lost for ever, and cannot be read from the volume before \
-         (`picotool save` can). The board then starts the new one at once; its outputs switch."
+        "Erases 0x{first:08X} to 0x{last:08X} of flash: the program in it is lost for ever, and cannot be read from \
+         the volume before (`picotool save` can). The board then starts the new one at once; its outputs switch."
     )
 }
 
@@ -138,7 +139,9 @@ fn find() -> Done<PathBuf> {
         .collect();
     let why = match (found.pop(), found.pop()) {
         (Some(only), None) => return Ok(only),
-        (None, _) => "no volume RPI-RP2 is mounted: hold BOOTSEL while you plug USB in, mount it, or name its folder with --volume".to_string(),
+        (None, _) => "no volume RPI-RP2 is mounted: hold BOOTSEL while you plug USB in, mount it, or name its \
+                      folder with --volume"
+            .to_string(),
         (Some(a), Some(b)) => format!(
             "{} and {} are both volumes of an RP2040: name one with --volume",
             a.display(),
