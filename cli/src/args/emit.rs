@@ -51,6 +51,22 @@ impl Emit {
         }
     }
 
+    /// Where an output is written by default.
+    pub fn default_output(self, name: &str) -> String {
+        match self {
+            Emit::C => format!("{name}-c"),
+            Emit::Rust => format!("{name}-rust"),
+            Emit::Lib => format!("{name}-lib"),
+            Emit::Elf => format!("{name}.elf"),
+            Emit::Uf2 => format!("{name}.uf2"),
+            Emit::Bin | Emit::Ir => name.to_string(),
+            Emit::Arduino => format!("{name}-arduino"),
+            Emit::Platformio => format!("{name}-platformio"),
+            Emit::Zephyr => format!("{name}-zephyr"),
+            Emit::EspIdf => format!("{name}-esp-idf"),
+        }
+    }
+
     /// Whether it is an image for a board.
     pub fn is_image(self) -> bool {
         matches!(self, Emit::Elf | Emit::Uf2)

@@ -147,30 +147,14 @@ impl Plan {
             return Ok(plan);
         };
         let path = match (&plan.output, emit) {
-            (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(default_output(emit, name)),
+            (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(emit.default_output(name)),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),
-            (None, _) => PathBuf::from(default_output(emit, name)),
+            (None, _) => PathBuf::from(emit.default_output(name)),
         };
         plan.output = Some(outputs.claim(path, subject)?);
         Ok(plan)
-    }
-}
-
-/// Where an output is written by default.
-fn default_output(emit: Emit, name: &str) -> String {
-    match emit {
-        Emit::C => format!("{name}-c"),
-        Emit::Rust => format!("{name}-rust"),
-        Emit::Lib => format!("{name}-lib"),
-        Emit::Elf => format!("{name}.elf"),
-        Emit::Uf2 => format!("{name}.uf2"),
-        Emit::Bin | Emit::Ir => name.to_string(),
-        Emit::Arduino => format!("{name}-arduino"),
-        Emit::Platformio => format!("{name}-platformio"),
-        Emit::Zephyr => format!("{name}-zephyr"),
-        Emit::EspIdf => format!("{name}-esp-idf"),
     }
 }
 
@@ -477,7 +461,7 @@ impl Job<'_> {
     /// Where to write.
     fn output(&self, emit: Emit) -> PathBuf {
         let given = self.plan.output.clone();
-        given.unwrap_or_else(|| default_output(emit, self.name).into())
+        given.unwrap_or_else(|| emit.default_output(self.name).into())
     }
 
     /// Says what keeps the program from running in lanes, if that is asked for.
