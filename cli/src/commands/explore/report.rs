@@ -59,8 +59,8 @@ impl Searched<'_> {
             tell(&mut text, self.module, &shown.story);
         }
         for (number, asked) in self.asked.iter().enumerate() {
-            let is_open = |shown: &&Shown| shown.found.what == What::Property(number);
-            if shown.iter().find(is_open).is_none() {
+            let is_it = |shown: &Shown| shown.found.what == What::Property(number);
+            if !shown.iter().any(is_it) {
                 let _ = writeln!(text, "{:<11} {}", "not found", asked.text);
             }
         }
