@@ -78,7 +78,8 @@ impl Encoder<'_> {
 
     /// Executes a statement; under which condition the next one is reached.
     fn step(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
-        self.clears = self.is_clearing(stmt);
+        // What is off in every scan cannot be set to something else.
+        self.clears = guard != Lit::TRUE && self.is_clearing(stmt);
         if let Stmt::Network(network) = stmt {
             self.network = Some(*network);
         }

@@ -10,7 +10,7 @@ use crate::commands::{Context, Failure, Outcome, Result, counted, read, say};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::Read;
 use rungc_sim::Target;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same::{Compared, Output, compare};
@@ -131,7 +131,7 @@ fn publish(
             .iter()
             .filter(|instr| writes(instr, name));
         let span = written.next().map(|instr| instr.span);
-        let mut diagnostic = code.at(span.unwrap_or(Span::default()), text);
+        let mut diagnostic = code.at(span.unwrap_or_default(), text);
         if span.is_some() {
             diagnostic.label = format!("`{name}` is written here").into();
         }
