@@ -191,6 +191,10 @@ fn a_live_page_works_in_a_browser() {
         "again": 0,
         "light": [],
         "dark": [],
+        "slower": "RUN, 10 × slower",
+        "paused_wider_than_screen": false,
+        "network": ["n1"],
+        "reason": "RUN, paused: power reaches an output of network 1",
         "stopped": 0,
         "narrow": [],
         "wider_than_screen": false,
@@ -202,6 +206,13 @@ fn a_live_page_works_in_a_browser() {
             "breakpoint: Y000 = 1",
             "back at scan",
             "breakpoint: Y000 = 1",
+            "X001 forced to 1",
+            "X001 released",
+            "X001 set to 0",
+            "breakpoint: power reaches an output of network 1",
+            "X000 forced to 1",
+            "X000 released",
+            "X000 set to 0",
             "STOP",
             "RUN",
         ],
@@ -428,6 +439,18 @@ fn a_page_that_is_read_only_takes_no_commands() {
     let page = Page::open(&["--read-only"]);
     assert_eq!(page.command(PAUSE, JSON), 403);
     assert_eq!(page.get("", &page.host()), 200);
+}
+
+#[test]
+fn a_page_that_is_read_only_offers_no_commands() {
+    let page = Page::open(&["--read-only"]);
+    let Some(report) = chromium::report(&page.url, "read_only.js") else {
+        return;
+    };
+    assert_eq!(report["buttons"], json!(["Light or dark"]));
+    assert_eq!(report["inputs"], 0);
+    assert_eq!(report["light"], json!([]));
+    assert_eq!(report["errors"], json!([]));
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Timers that wait: while the same instances count and none of them can time out, a scan only adds up the time that has
-//! passed. It reaches the values of the timers when an instance starts, stops or times out.
+//! Timers that wait: while the same instances count and none of them can time out, a scan only adds up the time that
+//! has passed. It reaches the values of the timers when an instance starts, stops or times out.
 //!
 //! That is possible for timers whose value the program does not look at and only their coil changes, and which one coil
 //! with a constant preset runs in every scan of all instances.
@@ -76,7 +76,8 @@ fn always(classes: &Classes, nodes: &[Node], found: &mut BTreeMap<u32, TimerCoil
     }
 }
 
-/// The timers whose value something reads, or changes other than by their only coil; `None` if all are cleared at times.
+/// The timers whose value something reads, or changes other than by their only coil; `None` if all are cleared at
+/// times.
 fn seen(classes: &Classes) -> Option<BTreeSet<u32>> {
     let module = classes.module;
     let (mut seen, mut coils) = (BTreeSet::new(), BTreeSet::new());
