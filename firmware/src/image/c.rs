@@ -128,10 +128,7 @@ fn main(image: &Image) -> String {
         Some(Edges::InTick) => (NOTE_EDGES, "static void note_edges(void);\n\n"),
         _ => ("", ""),
     };
-    let (lines, lines_declared) = match serial::waits_in_tick(image) {
-        true => ("    tick_lines();\n", "static void tick_lines(void);\n\n"),
-        false => ("", ""),
-    };
+    let (lines, lines_declared) = serial::in_tick(image);
     let timers = match (sends, timer) {
         (true, true) => PULSES.to_string(),
         (true, false) => ON_TIMER.replace("/* CALL */", "    PROGRAM_on_timer(&plc, &board);\n"),

@@ -39,9 +39,17 @@ static void tick_lines(void)
 ";
 
 /// Whether the tick has to look whether the last bit is out.
-pub(super) fn waits_in_tick(image: &Image) -> bool {
+fn waits_in_tick(image: &Image) -> bool {
     let mut ports = image.serial().into_iter();
     ports.any(|serial| serial.uart == Uart::Pl011)
+}
+
+/// The call in the tick that does, and what declares it.
+pub(super) fn in_tick(image: &Image) -> (&'static str, &'static str) {
+    match waits_in_tick(image) {
+        true => ("    tick_lines();\n", "static void tick_lines(void);\n\n"),
+        false => ("", ""),
+    }
 }
 
 /// Fields of `rungc_hal` that serial ports fill.
