@@ -181,7 +181,8 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
     let [header, retain, load, save, end] = retaining(keeps);
-    include("main.c")
+    outside
+        .into_main(include("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", header)
@@ -189,18 +190,8 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("        /* SAVE */\n", save)
         .replace("    /* END */\n", end)
         .replace("    /* ASK */\n", begin_clients)
-        .replace(
-            "        /* SERVE */\n",
-            &[serve, ask, outside.take].concat(),
-        )
-        .replace(
-            "    /* CONNECTIONS */\n",
-            &[connections, asked, outside.end].concat(),
-        )
-        .replace("        /* GIVE */\n", outside.give)
-        .replace("    /* BEGIN */\n", outside.begin)
-        .replace("    /* NOTE */\n", outside.note)
-        .replace("    /* COMMANDS */\n", outside.commands)
+        .replace("        /* SERVE */\n", &[serve, ask].concat())
+        .replace("    /* CONNECTIONS */\n", &[connections, asked].concat())
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)
@@ -212,7 +203,6 @@ pub fn main_file(module: &Module, options: &Options) -> String {
                 retain,
                 &hardware,
                 &server_code(module, servers),
-                &outside.code,
             ]
             .concat(),
         )

@@ -125,16 +125,12 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         true => (REPORT, ON_ERROR),
         false => ("", ""),
     };
-    let mut code = HOST
+    let mut code = outside(io)
         .replace("USES;\n", &uses(generator, crate_name, options))
         .replace("    REPORT;\n", report)
         .replace("ON_ERROR;\n", on_error);
     // There is something to do at the end.
     let in_order = servers || keeps || io;
-    let [commands, take, give, leave, report_line, show_line] = match io {
-        true => CONNECTED,
-        false => ALONE,
-    };
     let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
     let parts = [
         (module.has_ports(), LINES),
@@ -152,12 +148,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("    CLOCK;\n", set)
         .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
-        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}{take}"))
-        .replace("        GIVE;\n", give)
-        .replace("COMMANDS;", commands)
-        .replace("    REPORT_LINE;\n", report_line)
-        .replace("    SHOW_LINE;\n", show_line)
-        .replace("    CONNECTIONS;\n", &[connections, asked, leave].concat())
+        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}"))
+        .replace("    CONNECTIONS;\n", &[connections, asked].concat())
         .replace("        SAVE;\n", save)
         .replace("    END;\n", end)
         .replace("OPTION_NAMES", &names.join(", "))
@@ -170,6 +162,20 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("USAGE_TEXT", &format!("{text:?}"))
         .replace("INSTRUCTION_TABLE", &instructions(module))
         .replace("OUTPUT_TABLE", &outputs(generator))
+}
+
+/// The program around a PLC, with what it does for connections.
+fn outside(io: bool) -> String {
+    let [commands, take, give, leave, report_line, show_line] = match io {
+        true => CONNECTED,
+        false => ALONE,
+    };
+    HOST.replace("        SERVE;\n", &format!("        SERVE;\n{take}"))
+        .replace("        GIVE;\n", give)
+        .replace("COMMANDS;", commands)
+        .replace("    REPORT_LINE;\n", report_line)
+        .replace("    SHOW_LINE;\n", show_line)
+        .replace("    CONNECTIONS;\n", &format!("    CONNECTIONS;\n{leave}"))
 }
 
 /// The rows of the outputs that a run shows.

@@ -22,6 +22,26 @@ pub struct Parts {
     pub commands: &'static str,
 }
 
+impl Parts {
+    /// Puts them into a main program.
+    pub fn into_main(&self, main: &str) -> String {
+        let after = |mark: &str, part: &str| format!("{mark}{part}");
+        main.replace("/* CLOCK */\n", &after("/* CLOCK */\n", &self.code))
+            .replace(
+                "        /* SERVE */\n",
+                &after("        /* SERVE */\n", self.take),
+            )
+            .replace(
+                "    /* CONNECTIONS */\n",
+                &after("    /* CONNECTIONS */\n", self.end),
+            )
+            .replace("        /* GIVE */\n", self.give)
+            .replace("    /* BEGIN */\n", self.begin)
+            .replace("    /* NOTE */\n", self.note)
+            .replace("    /* COMMANDS */\n", self.commands)
+    }
+}
+
 /// The parts of a main program with connections; nothing of one without.
 pub fn parts(module: &Module, io: bool) -> Parts {
     if !io {
