@@ -102,7 +102,7 @@ pub fn written(
             image.unwrap_or_default()
         }
         ConvertTo::Autoshop if program.is_complete() => print::to_autoshop(program)
-            .map_err(|refused| diagnostics.push(refused))
+            .map_err(|refused| diagnostics.push(*refused))
             .unwrap_or_default()
             .into_bytes(),
         ConvertTo::Plcopen if program.is_complete() => {

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const END: u32 = 63;
 
 /// The program as the list of each window after its heading. What the windows cannot hold is an error.
-pub fn to_autoshop(program: &Program) -> Result<String, Diagnostic> {
+pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
     let windows = divide(program)?;
     let labels = windows.iter().filter_map(|window| window.label);
     let names = names(program, &labels.collect::<Vec<_>>());
@@ -50,7 +50,7 @@ fn label(instr: &Instr) -> Option<Device> {
 }
 
 /// Divides a program at FEND, SRET and IRET.
-fn divide(program: &Program) -> Result<Vec<Window<'_>>, Diagnostic> {
+fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
     let instrs = program.instrs.as_slice();
     let is = |mnemonic: &'static str| move |instr: &Instr| instr.mnemonic == mnemonic;
     let end = instrs.iter().position(is("END")).unwrap_or(instrs.len());
@@ -150,7 +150,7 @@ fn write(
     out: &mut String,
     instr: &Instr,
     names: &BTreeMap<Device, String>,
-) -> Result<(), Diagnostic> {
+) -> Result<(), Box<Diagnostic>> {
     let mut line = |words: &[&str]| write_words(out, instr, words);
     if let Some(pointer) = label(instr) {
         if pointer.class != DeviceClass::P {
@@ -207,9 +207,7 @@ fn write_words(out: &mut String, instr: &Instr, words: &[&str]) {
     out.push('\n');
 }
 
-fn refused(instr: &Instr, what: String, label: &'static str) -> Diagnostic {
-    codes::NO_WINDOWS
-        .at(instr.span, what)
-        .label(label)
-        .help("`--to il` and `--to csv` write such programs")
+fn refused(instr: &Instr, what: String, label: &'static str) -> Box<Diagnostic> {
+    let refused = codes::NO_WINDOWS.at(instr.span, what).label(label);
+    Box::new(refused.help("`--to il` and `--to csv` write such programs"))
 }

@@ -138,6 +138,12 @@ pub struct Io {
     said: Vec<String>,
 }
 
+/// What [`Io::take_rows`] calls with the places of a connection and of its row, the row, and the values of its devices.
+pub type Taker<'a> = dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>) + 'a;
+
+/// What [`Io::give_rows`] calls with the places of a connection and of its row, the row, and the values to fill in.
+pub type Giver<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
+
 impl Io {
     /// Starts a thread for each connection; `opener` knows the drivers of this program.
     ///
@@ -197,10 +203,7 @@ impl Io {
 
     /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its
     /// connection and of the row in it, and the values of its devices; `None` of one that stays as it is.
-    pub fn take_rows(
-        &mut self,
-        set: &mut dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>),
-    ) -> Vec<String> {
+    pub fn take_rows(&mut self, set: &mut Taker<'_>) -> Vec<String> {
         for (n, running) in self.running.iter_mut().enumerate() {
             running.refresh(&mut self.said);
             let rows = running.connection.rows.iter().enumerate();
@@ -222,7 +225,7 @@ impl Io {
 
     /// As [`Io::give`], for a host of several PLCs: calls `get` with each row that is written, as [`Io::take_rows`]
     /// does; it fills in the values.
-    pub fn give_rows(&mut self, get: &mut dyn FnMut(usize, usize, &Row, &mut [i16])) {
+    pub fn give_rows(&mut self, get: &mut Giver<'_>) {
         for (n, running) in self.running.iter_mut().enumerate() {
             let rows = running.connection.rows.iter().enumerate();
             for (place, row) in rows.filter(|(_, row)| !row.reads) {
