@@ -121,14 +121,11 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                 "add what is printed to this file, with the time (UTC)",
             ),
             Takes::Address(speaks) | Takes::AddressOrLine(speaks, _) => {
-                let or_line = match takes {
-                    Takes::AddressOrLine(_, port) => {
-                        format!(
-                            "; or connect COM{port}: {name} {}",
-                            host.lines.join(&format!(", {name} "))
-                        )
-                    }
-                    _ => String::new(),
+                let or_line = if let Takes::AddressOrLine(_, port) = takes {
+                    let lines = host.lines.join(&format!(", {name} "));
+                    format!("; or connect COM{port}: {name} {lines}")
+                } else {
+                    String::new()
                 };
                 option(
                     &format!("{name} ADDRESS"),

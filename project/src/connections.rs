@@ -62,7 +62,7 @@ impl Project {
                 first: range.first,
                 count: range.last - range.first + 1,
             };
-            read.push(served.clone());
+            read.push(served);
             written.push(served);
         }
         written.extend(self.retain_fault.iter().map(|fault| DeviceRun {
