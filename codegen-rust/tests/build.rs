@@ -13,6 +13,7 @@ fn a_program_builds_without_warnings() {
     let options = Options {
         main: true,
         servers: false,
+        io: false,
         runtime: Runtime::At(runtime_path()),
     };
     write(folder.path(), &emit(&common::motor(), &options));
@@ -54,6 +55,7 @@ fn a_program_keeps_its_last_error() {
     let options = Options {
         main: true,
         servers: false,
+        io: false,
         runtime: Runtime::At(runtime_path()),
     };
     let list = "LD X0\nMOV K30000 Z0\nMOV K1 D500Z0\nLD X1\nDIV D0 D1 D2\nP0\nLD X2\nCJ P0\nEND\n";

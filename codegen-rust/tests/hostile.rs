@@ -36,6 +36,7 @@ fn options() -> Options {
     Options {
         main: true,
         servers: false,
+        io: false,
         runtime: Runtime::At(common::runtime_path()),
     }
 }

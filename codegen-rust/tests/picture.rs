@@ -8,6 +8,7 @@ fn emitted(path: &str) -> String {
     let options = Options {
         main: true,
         servers: false,
+        io: false,
         runtime: Runtime::At("../runtime-rt".to_string()),
     };
     let files = emit(&common::motor(), &options);

@@ -50,6 +50,7 @@ fn options() -> Options {
     Options {
         main: false,
         servers: false,
+        io: false,
         runtime: Runtime::At(common::runtime_path()),
     }
 }

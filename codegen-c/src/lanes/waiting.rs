@@ -84,14 +84,16 @@ fn seen(classes: &Classes) -> Option<BTreeSet<u32>> {
     let mut footprints: Vec<Footprint> = Vec::new();
     let mut clears = false;
     for function in &module.functions {
-        statements(&function.body, &mut |stmt| match stmt {
-            Stmt::Timer(coil) => {
+        statements(&function.body, &mut |stmt| {
+            if let Stmt::Timer(coil) = stmt {
                 if !coils.insert(coil.number) {
                     seen.insert(coil.number);
                 }
+            } else if matches!(stmt, Stmt::Clear { .. }) {
+                clears = true;
+            } else {
+                of_stmt(module.model, stmt, &mut |used| footprints.push(used));
             }
-            Stmt::Clear { .. } => clears = true,
-            stmt => of_stmt(module.model, stmt, &mut |used| footprints.push(used)),
         });
     }
     for expr in module.exprs.iter().filter(|expr| expr.as_bit().is_none()) {
