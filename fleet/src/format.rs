@@ -211,7 +211,7 @@ impl Plcs {
     ///
     /// # Errors
     /// One that the model does not have.
-    pub fn observed(&self, model: &Model) -> Result<Vec<(DeviceClass, u32)>, Diagnostic> {
+    pub fn observed(&self, model: &Model) -> Result<Vec<(DeviceClass, u32)>, Box<Diagnostic>> {
         let topics = self.topics.rows.iter().zip(&self.topics.spans);
         let topics = topics.map(|(row, span)| {
             let last = row.first + row.count - 1;
@@ -224,7 +224,7 @@ impl Plcs {
                 if !model.has(class, number) {
                     let device = class.number(number);
                     let message = format!("{device} does not exist on {}", model.title);
-                    return Err(FLEET_FILE.at(span, message));
+                    return Err(FLEET_FILE.at(span, message).into());
                 }
                 all.push((class, number));
             }

@@ -42,7 +42,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             Err(outcome) => return Ok(outcome),
         }
     }
-    let refuse = |why| subject::refuse(fleet.mistake(why), reporting, cx);
+    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.mistake(*why), reporting, cx);
     memory::allow_files(&fleet);
     let folder = tempfile::tempdir()?;
     let mut groups = Vec::new();
@@ -52,7 +52,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
         let (engine, why) = match engine(plcs, &compiled.module, &folder)? {
             Ok(lanes) => (lanes, None),
             Err(why) if plcs.engine == Choice::Lanes => {
-                return Err(refuse(FLEET_ENGINE.at(plcs.engine_span, why)));
+                return Err(refuse(FLEET_ENGINE.at(plcs.engine_span, why).into()));
             }
             Err(why) => {
                 let machines = Machines::new(&compiled.module, plcs.count, &hal);
@@ -73,7 +73,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             let opened = group.serve(first, plcs.units, service);
             opened.map_err(|(address, error)| {
                 let why = format!("cannot serve Modbus TCP at {address}: {error}");
-                refuse(FLEET_PORT.at(plcs.modbus_span, why))
+                refuse(FLEET_PORT.at(plcs.modbus_span, why).into())
             })?;
             tell_ports(&group, plcs, cx);
         }
@@ -91,7 +91,7 @@ fn compile(
     cx: Context,
 ) -> std::result::Result<std::result::Result<Compiled, super::Outcome>, Failure> {
     let reporting = &args.reading.reporting;
-    let refuse = |why| subject::refuse(fleet.mistake(why), reporting, cx);
+    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.mistake(*why), reporting, cx);
     let input = Input {
         file: Some(subject::near(fleet.program(plcs))),
         reading: args.reading.clone(),
@@ -144,13 +144,13 @@ fn compile(
 /// What the file sets, and the devices of that.
 type Settings = (Vec<Setting>, Vec<(DeviceClass, u32)>);
 
-fn settings(plcs: &Plcs) -> std::result::Result<Settings, Diagnostic> {
+fn settings(plcs: &Plcs) -> std::result::Result<Settings, Box<Diagnostic>> {
     let (mut settings, mut devices) = (Vec::new(), Vec::new());
     for Written { text, span } in &plcs.set {
-        let read = setting::parse(text).map_err(|why| FLEET_DEVICE.at(*span, why))?;
+        let read = setting::parse(text).map_err(|why| Box::new(FLEET_DEVICE.at(*span, why)))?;
         let parts = At::parts(read.target, read.value).ok_or_else(|| {
             let why = format!("`{}` cannot be set in a fleet", read.target);
-            FLEET_DEVICE.at(*span, why)
+            Box::new(FLEET_DEVICE.at(*span, why))
         })?;
         let (class, first, count) = read.target.devices(0);
         devices.extend((first..first + count).map(|number| (class, number)));
@@ -167,7 +167,7 @@ fn check_settings(
     group: &mut Group<'_>,
     plcs: &Plcs,
     compiled: &Compiled,
-) -> std::result::Result<(), Diagnostic> {
+) -> std::result::Result<(), Box<Diagnostic>> {
     for (written, setting) in plcs.set.iter().zip(&compiled.settings) {
         if setting.parts.iter().any(|&(at, _)| !group.has(at)) {
             let title = compiled.module.model.title;
@@ -175,7 +175,7 @@ fn check_settings(
                 "`{}` sets a device that {title} does not have",
                 written.text
             );
-            return Err(FLEET_DEVICE.at(written.span, why));
+            return Err(FLEET_DEVICE.at(written.span, why).into());
         }
     }
     Ok(())

@@ -19,6 +19,12 @@ const RETRY: Duration = Duration::from_secs(1);
 /// How long the end of a run waits for the threads to leave their outputs off.
 const GRACE: Duration = Duration::from_secs(2);
 
+/// What takes the values of a row: the places of its connection and of the row in it, the row, and its values.
+pub type TakeRow<'a> = dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>) + 'a;
+
+/// What fills in the values of a row, as for [`TakeRow`].
+pub type GiveRow<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
+
 /// Why an exchange has failed.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Trouble {
@@ -138,12 +144,6 @@ pub struct Io {
     said: Vec<String>,
 }
 
-/// What [`Io::take_rows`] calls with the places of a connection and of its row, the row, and the values of its devices.
-pub type Taker<'a> = dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>) + 'a;
-
-/// What [`Io::give_rows`] calls with the places of a connection and of its row, the row, and the values to fill in.
-pub type Giver<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
-
 impl Io {
     /// Starts a thread for each connection; `opener` knows the drivers of this program.
     ///
@@ -203,7 +203,7 @@ impl Io {
 
     /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its
     /// connection and of the row in it, and the values of its devices; `None` of one that stays as it is.
-    pub fn take_rows(&mut self, set: &mut Taker<'_>) -> Vec<String> {
+    pub fn take_rows(&mut self, set: &mut TakeRow) -> Vec<String> {
         for (n, running) in self.running.iter_mut().enumerate() {
             running.refresh(&mut self.said);
             let rows = running.connection.rows.iter().enumerate();
@@ -225,7 +225,7 @@ impl Io {
 
     /// As [`Io::give`], for a host of several PLCs: calls `get` with each row that is written, as [`Io::take_rows`]
     /// does; it fills in the values.
-    pub fn give_rows(&mut self, get: &mut Giver<'_>) {
+    pub fn give_rows(&mut self, get: &mut GiveRow) {
         for (n, running) in self.running.iter_mut().enumerate() {
             let rows = running.connection.rows.iter().enumerate();
             for (place, row) in rows.filter(|(_, row)| !row.reads) {

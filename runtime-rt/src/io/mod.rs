@@ -39,7 +39,7 @@ mod tests;
 mod text;
 mod topics;
 
-pub use cycle::{Driver, Io, Of, Opener, Terminals, Trouble};
+pub use cycle::{Driver, GiveRow, Io, Of, Opener, TakeRow, Terminals, Trouble};
 pub use host::Outside;
 pub use modbus::{Remote, Wire};
 pub use rtu::{Rtu, SerialLine};
