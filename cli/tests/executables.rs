@@ -464,7 +464,7 @@ fn connects(folder: &Path, program: &Path) {
     command.stdin(Stdio::piped()).stdout(full()).stderr(full());
     let mut running = Running(command.current_dir(folder).spawn().unwrap());
     let mut typed = running.0.stdin.take().unwrap();
-    let rubbish: Vec<u8> = (0..20_000u32).map(|n| (n * n >> 3) as u8).collect();
+    let rubbish: Vec<u8> = (0..20_000u32).map(|n| ((n * n) >> 3) as u8).collect();
     let typing = std::thread::spawn(move || typed.write_all(&rubbish));
     for _ in 0..2 {
         shows(folder, "plant/lamp", "1");

@@ -182,7 +182,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let keeps = rungc_emit::cycle::keeps_any(module);
     let [header, retain, load, save, end] = retaining(keeps);
     outside
-        .into_main(include("main.c"))
+        .in_main(include("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", header)

@@ -81,7 +81,8 @@ impl Seen {
     /// Whether it is new.
     pub fn lacks(&self, feature: Feature) -> bool {
         let is_state = feature >> 56 == Kind::State as u64;
-        !(is_state && self.states >= STATES) && !self.known.contains(&feature)
+        let is_full = is_state && self.states >= STATES;
+        !is_full && !self.known.contains(&feature)
     }
 
     /// How many there are.

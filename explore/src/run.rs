@@ -72,7 +72,7 @@ impl<'t> Runner<'t> {
         if let Some(plant) = &mut plant {
             let mut wired = Wired {
                 machine: &mut machine,
-                hal: &mut *hal,
+                hal: &mut hal,
                 changed: &mut |_| Ok::<_, String>(()),
             };
             wired.connect(plant)?;
@@ -163,7 +163,7 @@ impl<'t> Runner<'t> {
             let before = std::mem::replace(&mut self.inputs[input], value);
             let target = self.task.inputs[input].target;
             // Each input exists: it was taken from the program's devices.
-            let _ = rungc_sim::set(&mut self.machine, &mut *self.hal, target, value.into());
+            let _ = rungc_sim::set(&mut self.machine, &mut self.hal, target, value.into());
             if let Target::Bit(DeviceClass::X, number) = target
                 && self.takes_events
                 && self.last_ms.is_some()
@@ -282,7 +282,7 @@ impl<'t> Runner<'t> {
             if let Some(plant) = &mut self.plant {
                 let mut wired = Wired {
                     machine: &mut self.machine,
-                    hal: &mut *self.hal,
+                    hal: &mut self.hal,
                     changed: &mut |_| Ok::<_, String>(()),
                 };
                 // Nothing can go wrong: all sensors were connected at power-on.

@@ -115,14 +115,14 @@ fn build() -> Result<PathBuf, Problem> {
     let lines = text
         .lines()
         .filter_map(|line| serde_json::from_str(line).ok());
-    let paths = lines.filter_map(|line: Value| {
+    let mut paths = lines.filter_map(|line: Value| {
         let is_it = line["target"]["name"] == "differential";
         line["executable"]
             .as_str()
             .filter(|_| is_it)
             .map(PathBuf::from)
     });
-    let path = paths.last();
+    let path = paths.next_back();
     path.ok_or_else(|| "cargo names no executable of the differential test".into())
 }
 

@@ -4,6 +4,8 @@ use crate::{Problem, root};
 use rungc_benches::figures;
 use std::env;
 use std::fs;
+use std::io::Read;
+use std::path::Path;
 use std::process::Command;
 
 /// Cargo with these arguments, in the repository's root.
@@ -53,8 +55,8 @@ pub fn snapshots() -> Result<(), Problem> {
 /// How a PNG begins: its signature, and a header with width and height.
 const PNG_HEAD: usize = 24;
 
-/// Takes a picture of the live page, and puts it into the book; if it is only checked, it has to be one of the same
-/// size. What it shows differs from time to time.
+/// Takes the book's pictures of pages from tests in a browser, and puts them into the book. If they are only checked,
+/// those that stand there have to be of the same size: what they show differs from time to time.
 pub fn screens(check: bool) -> Result<(), Problem> {
     let taken = root().join("target/screens");
     if taken.exists() {
@@ -67,10 +69,28 @@ pub fn screens(check: bool) -> Result<(), Problem> {
     ] {
         let args = ["test", "-p", "rungc", "--test", test, filter];
         run(cargo(&args).env("RUNGC_PICTURES", &taken))?;
-        let copied = fs::copy(taken.join(picture), root().join("docs/src").join(page));
-        copied.map_err(|error| format!("{error}: is RUNGC_BROWSER set?"))?;
+        let (taken, stored) = (taken.join(picture), root().join("docs/src").join(page));
+        let unseen = |error| format!("{}: {error}: is RUNGC_BROWSER set?", taken.display());
+        if !check {
+            fs::copy(&taken, stored).map_err(unseen)?;
+        } else if !fs::read(&taken)
+            .map_err(unseen)?
+            .starts_with(&head(&stored)?)
+        {
+            return Err(format!(
+                "{page} has another size than the page: cargo xtask generate screens"
+            )
+            .into());
+        }
     }
     Ok(())
+}
+
+/// The signature of a PNG with its width and height.
+fn head(picture: &Path) -> Result<[u8; PNG_HEAD], Problem> {
+    let mut head = [0; PNG_HEAD];
+    fs::File::open(picture)?.read_exact(&mut head)?;
+    Ok(head)
 }
 
 /// The crates of the workspace that are not published.

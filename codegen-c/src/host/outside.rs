@@ -24,7 +24,7 @@ pub struct Parts {
 
 impl Parts {
     /// Puts them into a main program.
-    pub fn into_main(&self, main: &str) -> String {
+    pub fn in_main(&self, main: &str) -> String {
         let after = |mark: &str, part: &str| format!("{mark}{part}");
         main.replace("/* CLOCK */\n", &after("/* CLOCK */\n", &self.code))
             .replace(
