@@ -112,8 +112,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Search runs of a program for violated properties, operation errors and outputs that coils drive differently.
     ///
-    /// Tries sequences of inputs, and continues from those that show something new. Shows the shortest run that it finds
-    /// of each thing. Exit codes: 0: nothing found, which proves nothing; 1: found; 2: incorrect usage.
+    /// Tries sequences of inputs, and continues from those that show something new. Shows the shortest run that it
+    /// finds of each thing. Exit codes: 0: nothing found, which proves nothing; 1: found; 2: incorrect usage.
     Explore(ExploreArgs),
     /// Draw a program as ladder.
     View(ViewArgs),
@@ -265,8 +265,8 @@ pub struct CheckArgs {
     #[arg(long)]
     pub draw: bool,
     /// Also look for what can never happen, each with its proof: coils that are never on, rungs that never do anything,
-    /// steps that are never reached or left, comparisons with one result, timers that never expire; and for outputs that
-    /// change in every scan. At most 20 seconds a program. Draws.
+    /// steps that are never reached or left, comparisons with one result, timers that never expire; and for outputs
+    /// that change in every scan. At most 20 seconds a program. Draws.
     #[arg(long)]
     pub deep: bool,
 }
@@ -324,8 +324,8 @@ pub struct Plan {
     /// the model. They need the runtime library (docs/src/serve.md).
     #[arg(long)]
     pub servers: bool,
-    /// Executables and main programs take --io FILE, which connects terminals and registers to remote I/O, brokers, pins
-    /// and files as `rungc run` does, and --log FILE. They need the runtime library (docs/src/linux.md).
+    /// Executables and main programs take --io FILE, which connects terminals and registers to remote I/O, brokers,
+    /// pins and files as `rungc run` does, and --log FILE. They need the runtime library (docs/src/linux.md).
     #[arg(long)]
     pub io: bool,
     /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).

@@ -181,6 +181,8 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
     let [header, retain, load, save, end] = retaining(keeps);
+    let (lines, serving) = (lines(module), server_code(module, servers));
+    let parts = [clock, &lines, retain, &hardware, &serving];
     outside
         .in_main(include("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
@@ -195,17 +197,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)
-        .replace(
-            "/* CLOCK */\n",
-            &[
-                clock,
-                &lines(module),
-                retain,
-                &hardware,
-                &server_code(module, servers),
-            ]
-            .concat(),
-        )
+        .replace("/* CLOCK */\n", &parts.concat())
         .replace("    /* HAL */\n", hal)
         .replace("/* PERIOD */", period)
         .replace("/* OVERRUN */\n", overrun)

@@ -6,7 +6,7 @@ use rungc_emit::cycle;
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_ir::node::Origin;
-use rungc_models::plc_errors;
+use rungc_models::plc_errors::{self, PlcError};
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
 use rungc_syntax::order;
@@ -92,10 +92,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         true => plc_errors::PLC_ERRORS,
         false => &[],
     };
-    let rows = errors.iter();
-    let errors: String = rows
-        .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
-        .collect();
+    let row = |error: &PlcError| format!("\n    ({}, {:?}),", error.code, error.title);
+    let errors: String = errors.iter().map(row).collect();
     let (period, overrun) = match cycle::constant_scan(module, &generator.storage) {
         Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
         None => (PERIOD, ""),

@@ -35,8 +35,8 @@ impl At {
         }
     }
 
-    /// The devices that a target consists of, with the part of the value for each; `None` of what is not a device of the
-    /// PLC itself: channels of modules, pulses, texts.
+    /// The devices that a target consists of, with the part of the value for each; `None` of what is not a device of
+    /// the PLC itself: channels of modules, pulses, texts.
     pub fn parts(target: Target, value: f64) -> Option<Vec<(At, i32)>> {
         let integer = value as i64;
         let pair = |class: DeviceClass, number: u32, bits: i32| {

@@ -1,5 +1,5 @@
-//! Drivers of connections that need a library: brokers (MQTT, at least once and by TLS) and serial lines of systems other
-//! than Linux. The others are the runtime's ([`rungc_rt::io`]), because emitted programs use them, too.
+//! Drivers of connections that need a library: brokers (MQTT, at least once and by TLS) and serial lines of systems
+//! other than Linux. The others are the runtime's ([`rungc_rt::io`]), because emitted programs use them, too.
 //!
 //! The crate must not know source formats or the IR. Start reading at [`opener`].
 #![deny(missing_docs)]

@@ -7,7 +7,8 @@
 mod simulate;
 
 use crate::aig::Lit;
-use crate::model::{Encoder, Key, World};
+
+use crate::model::{Encoder, Key, Probes, World};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
 use crate::replay::{Run, plain};
@@ -94,6 +95,26 @@ struct Candidate {
     began: bool,
 }
 
+impl Candidate {
+    fn new(
+        kind: Kind,
+        device: Option<(DeviceClass, u32)>,
+        network: u32,
+        happens: Lit,
+        before: Lit,
+    ) -> Self {
+        Self {
+            kind,
+            device,
+            network,
+            happens,
+            before,
+            happened: false,
+            began: before == Lit::TRUE,
+        }
+    }
+}
+
 /// How often runs by chance begin anew, and how many scans each has.
 const RUNS: usize = 24;
 /// Scans with changing inputs, and then with the same.
@@ -153,20 +174,37 @@ fn candidates(encoder: &Encoder) -> Vec<Candidate> {
         return Vec::new();
     };
     let reached = |network: u32| {
-        probes
-            .rungs
-            .get(&network)
-            .map_or(Lit::TRUE, |rung| rung.reached)
+        let rung = probes.rungs.get(&network);
+        rung.map_or(Lit::TRUE, |rung| rung.reached)
     };
-    let candidate = |kind, device, network, happens, before| Candidate {
-        kind,
-        device,
-        network,
-        happens,
-        before,
-        happened: false,
-        began: before == Lit::TRUE,
-    };
+    let mut found = bits(encoder, probes, &reached);
+    found.extend(probes.timers.iter().map(|(&number, timer)| {
+        let device = Some((DeviceClass::T, number));
+        let (expires, driven) = (timer.expires, timer.driven);
+        Candidate::new(Kind::NeverExpires, device, timer.network, expires, driven)
+    }));
+    found.extend(probes.rungs.iter().filter_map(|(&network, rung)| {
+        let acts = rung.acts.filter(|acts| *acts != rung.reached)?;
+        let kind = Kind::NeverActs;
+        Some(Candidate::new(kind, None, network, acts, rung.reached))
+    }));
+    for compared in &probes.comparisons {
+        // That constants always compare the same is no surprise.
+        if compared.holds.constant().is_some() {
+            continue;
+        }
+        let (op, sides, network) = (compared.op, compared.sides, compared.network);
+        found.extend([true, false].map(|result| {
+            let kind = Kind::Constant { op, sides, result };
+            let otherwise = compared.holds.invert_if(result);
+            Candidate::new(kind, None, network, otherwise, reached(network))
+        }));
+    }
+    found
+}
+
+/// Relays and outputs that may never be on, states that may never be reached or left.
+fn bits(encoder: &Encoder, probes: &Probes, reached: &impl Fn(u32) -> Lit) -> Vec<Candidate> {
     let mut found = Vec::new();
     for (&(class, number), written) in &probes.bits {
         let key = Key::Bit(class, number);
@@ -174,68 +212,16 @@ fn candidates(encoder: &Encoder) -> Vec<Candidate> {
         if !begins_off || rungc_models::runs::is_special(class, number) {
             continue;
         }
-        let device = Some((class, number));
         let kind = match class {
             DeviceClass::S => Kind::NeverReached,
             _ => Kind::NeverOn,
         };
-        found.push(candidate(
-            kind,
-            device,
-            written.network,
-            written.on,
-            reached(written.network),
-        ));
+        let (device, network) = (Some((class, number)), written.network);
+        let (on, before) = (written.on, reached(network));
+        found.push(Candidate::new(kind, device, network, on, before));
         if class == DeviceClass::S {
-            found.push(candidate(
-                Kind::NeverLeft,
-                device,
-                written.network,
-                written.off,
-                written.on,
-            ));
-        }
-    }
-    for (&number, timer) in &probes.timers {
-        let device = Some((DeviceClass::T, number));
-        found.push(candidate(
-            Kind::NeverExpires,
-            device,
-            timer.network,
-            timer.expires,
-            timer.driven,
-        ));
-    }
-    for (&network, rung) in &probes.rungs {
-        if let Some(acts) = rung.acts.filter(|acts| *acts != rung.reached) {
-            found.push(candidate(
-                Kind::NeverActs,
-                None,
-                network,
-                acts,
-                rung.reached,
-            ));
-        }
-    }
-    for compared in &probes.comparisons {
-        // That constants always compare the same is no surprise.
-        if compared.holds.constant().is_some() {
-            continue;
-        }
-        for result in [true, false] {
-            let kind = Kind::Constant {
-                op: compared.op,
-                sides: compared.sides,
-                result,
-            };
-            let otherwise = compared.holds.invert_if(result);
-            found.push(candidate(
-                kind,
-                None,
-                compared.network,
-                otherwise,
-                reached(compared.network),
-            ));
+            let off = written.off;
+            found.push(Candidate::new(Kind::NeverLeft, device, network, off, on));
         }
     }
     found

@@ -3,6 +3,10 @@
 //! Each rule is a function of its own (`custom`), which is compiled once. A rule that contained the combinators of all
 //! rules below it would be compiled anew at each place it is used from.
 
+mod fields;
+
+pub(super) use fields::{device_field, mnemonic_field, operand_field, text_field};
+
 use super::fault::{Fault, Faults, Kind, mistyped_digit};
 use chumsky::error::EmptyErr;
 use chumsky::input::{InputRef, MapExtra};
@@ -634,69 +638,6 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
     })
 }
 
-/// An operand that fills a whole field of a table.
-pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    custom(|input| {
-        let stray = any()
-            .map_with(|_, e| {
-                report(e, Kind::Line);
-                span(e.span())
-            })
-            .then_ignore(any().repeated());
-        input.parse(
-            space()
-                .ignore_then(operand().or_not())
-                .then_ignore(space())
-                .then(stray.or_not())
-                .filter(|(operand, stray)| operand.is_some() || stray.is_some())
-                .map(|(operand, stray)| match (operand, stray) {
-                    (Some(operand), None) => operand,
-                    (_, stray) => Operand {
-                        span: stray.unwrap_or_default(),
-                        kind: OperandKind::Unreadable(None),
-                    },
-                }),
-        )
-    })
-}
-
-/// The characters that ASC takes, filling a whole field of a table.
-pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    custom(|input| {
-        let bare = any()
-            .repeated()
-            .to_slice()
-            .map(|text: &str| OperandKind::Text(text.trim().into()));
-        input.parse(choice((
-            placed(text_operand()).then_ignore(end()),
-            bare.map_with(|kind, e| Operand {
-                span: span(e.span()),
-                kind,
-            }),
-        )))
-    })
-}
-
-/// A mnemonic or label that fills a whole field of a table.
-pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy {
-    custom(|input| {
-        let pointer = label().map(|(device, _)| device.to_smolstr());
-        let readable = choice((
-            pointer,
-            mnemonic().map(|(mnemonic, _)| SmolStr::from(mnemonic)),
-        ))
-        .map(Some);
-        let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
-            report(e, Kind::Line);
-            None
-        });
-        input.parse(choice((
-            readable.then_ignore(space()).then_ignore(end()),
-            unreadable,
-        )))
-    })
-}
-
 /// What a parser makes of a text; its faults come after `faults`. A text that lacks something gives nothing.
 pub(super) fn parse<'s, T>(
     parser: &impl Parser<'s, &'s str, T, Extra>,
@@ -715,9 +656,4 @@ pub(super) fn parse<'s, T>(
 fn meant_device(word: &str) -> Option<Device> {
     let meant = mistyped_digit(&word.to_ascii_uppercase())?;
     parse(&device_field(), &meant, &mut Faults::default())
-}
-
-/// A device by itself.
-pub(super) fn device_field<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
-    custom(|input| input.parse(device().padded().then_ignore(end())))
 }

@@ -95,7 +95,8 @@ fn write(path: &Path, lines: &Receiver<String>) {
     }
 }
 
-/// Adds a text to a file, which may have been moved away since the last time. What a full disk has taken of it is cut off.
+/// Adds a text to a file, which may have been moved away since the last time. What a full disk has taken of it
+/// is cut off.
 fn append(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::options().append(true).create(true).open(path)?;
     let size = file.metadata()?.len();

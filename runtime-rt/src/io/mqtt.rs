@@ -75,8 +75,8 @@ fn text(text: &str) -> Vec<u8> {
     bytes
 }
 
-/// The packet at the start of what has come: its first byte, where its content is, and where it ends; `None` while it is
-/// not whole.
+/// The packet at the start of what has come: its first byte, where its content is, and where it ends; `None` while it
+/// is not whole.
 fn cut(came: &[u8]) -> io::Result<Option<(u8, usize, usize)>> {
     let Some((&head, rest)) = came.split_first() else {
         return Ok(None);

@@ -153,8 +153,8 @@ impl RetainFile {
         Ok(true)
     }
 
-    /// To be called between scans, `now_ms` is the program's time: begins to save once in `every_ms` if a latched device
-    /// has changed, in another thread. Returns whether an earlier save is done by now.
+    /// To be called between scans, `now_ms` is the program's time: begins to save once in `every_ms` if a latched
+    /// device has changed, in another thread. Returns whether an earlier save is done by now.
     ///
     /// # Errors
     /// An earlier save has failed: the file is the old one. It is tried again.

@@ -14,6 +14,7 @@ use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same::{Compared, Output, compare};
+use rungc_verify::search::Trace;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -176,22 +177,7 @@ fn text(
             Verdict::Proved => continue,
             Verdict::Found(trace) => {
                 let _ = writeln!(text, "differs     {name} ({seconds:.2} s)");
-                let property =
-                    Target::parse(&name.to_string()).map(|t| Property::Never(Condition::On(t)));
-                if let Ok(property) = property {
-                    let story = rungc_verify::replay::story(module, &property, trace);
-                    let on = story
-                        .last()
-                        .is_some_and(|last| last.after.iter().any(|(.., value)| *value != 0));
-                    report::tell(&mut text, module, &story);
-                    let (old, new) = (names[0].as_str(), names[1].as_str());
-                    let _ = writeln!(
-                        text,
-                        "            {:<26}  in {new}; {} in {old}",
-                        "",
-                        i32::from(!on)
-                    );
-                }
+                difference(&mut text, &name.to_string(), trace, names, module);
             }
             Verdict::Undecided(why) => {
                 let _ = writeln!(text, "not decided {name} ({seconds:.2} s)");
@@ -228,4 +214,25 @@ fn text(
         }
     }
     text
+}
+
+/// The run in which an output differs, and what it is then in either program.
+fn difference(
+    text: &mut String,
+    name: &str,
+    trace: &Trace,
+    [old, new]: &[String; 2],
+    module: &rungc_ir::Module,
+) {
+    let Ok(target) = Target::parse(name) else {
+        return;
+    };
+    let property = Property::Never(Condition::On(target));
+    let story = rungc_verify::replay::story(module, &property, trace);
+    let on = story
+        .last()
+        .is_some_and(|last| last.after.iter().any(|(.., value)| *value != 0));
+    report::tell(text, module, &story);
+    let other = i32::from(!on);
+    let _ = writeln!(text, "            {:<26}  in {new}; {other} in {old}", "");
 }
