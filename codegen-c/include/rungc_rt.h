@@ -1160,7 +1160,7 @@ typedef struct rungc_module {
 } rungc_module;
 
 /**
- * What a host does for connections: `input_edge` is told of inputs that change, `output` has the state of an output
+ * What a host does for connections: `input_edge` hears of inputs that change, `output` has the state of an output
  * terminal. Both are given `context`; `input_edge` may be NULL.
  */
 typedef struct rungc_terminal {

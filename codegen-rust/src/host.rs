@@ -88,12 +88,6 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         (true, false) => WAIT_WITH_EVENTS,
         (true, true) => WAIT_WITH_LINES,
     };
-    let errors = match module.may_fail() {
-        true => plc_errors::PLC_ERRORS,
-        false => &[],
-    };
-    let row = |error: &PlcError| format!("\n    ({}, {:?}),", error.code, error.title);
-    let errors: String = errors.iter().map(row).collect();
     let (period, overrun) = match cycle::constant_scan(module, &generator.storage) {
         Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
         None => (PERIOD, ""),
@@ -105,9 +99,10 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let exchange = if module.has_ports() { EXCHANGE } else { "" };
     let keeps = cycle::keeps_any(module);
     let [save, end] = if keeps { SAVE } else { [""; 2] };
-    let (poll, connections) = match servers {
-        true => (POLL, CONNECTIONS),
-        false => ("", ""),
+    let [poll, connections] = if servers {
+        [POLL, CONNECTIONS]
+    } else {
+        [""; 2]
     };
     let asks = servers && !module.requests.is_empty();
     let [ask, asked] = if asks { [ASK, ASKED] } else { [""; 2] };
@@ -156,10 +151,20 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("TYPE_CODE", &module.model.type_code().to_string())
         .replace("TYPE", &generator.type_name.to_string())
         // Texts of the program come last: they may contain any word.
-        .replace("ERROR_TABLE", &errors)
+        .replace("ERROR_TABLE", &errors(module))
         .replace("USAGE_TEXT", &format!("{text:?}"))
         .replace("INSTRUCTION_TABLE", &instructions(module))
         .replace("OUTPUT_TABLE", &outputs(generator))
+}
+
+/// The codes of the operation errors that the program can have, with their titles.
+fn errors(module: &Module) -> String {
+    let errors = match module.may_fail() {
+        true => plc_errors::PLC_ERRORS,
+        false => &[],
+    };
+    let row = |error: &PlcError| format!("\n    ({}, {:?}),", error.code, error.title);
+    errors.iter().map(row).collect()
 }
 
 /// The program around a PLC, with what it does for connections.

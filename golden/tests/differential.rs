@@ -77,7 +77,7 @@ fn compiled(text: &str, seed: u64, model: ModelId, optimise: bool) -> Result<Mod
 
 fn samples(seed: u64, count: u64) -> Vec<Sample> {
     let pools: Vec<_> = ModelId::ALL.map(|model| (model, candidates(model))).into();
-    let mut refused = Vec::new();
+    let mut rejected = Vec::new();
     let mut samples = Vec::new();
     for i in 0..count {
         // All of a program follows from its seed, so that one program can be run again alone.
@@ -96,14 +96,14 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
                 optimised,
                 plain,
             }),
-            Err(why) => refused.push(why),
+            Err(why) => rejected.push(why),
         }
     }
     assert!(
-        refused.len() as u64 * 10 <= count,
+        rejected.len() as u64 * 10 <= count,
         "{} of {count} random programs do not compile, e.g. {}",
-        refused.len(),
-        refused[0]
+        rejected.len(),
+        rejected[0]
     );
     samples
 }
@@ -322,7 +322,7 @@ fn spoilt(rng: &mut Rng, instruction: &str) -> String {
 #[test]
 fn hostile_operands_are_refused_or_run() {
     let mut rng = Rng::new(setting("SEED", 1));
-    let (mut refused, mut ran) = (0, 0);
+    let (mut rejected, mut ran) = (0, 0);
     for model in ModelId::ALL {
         for candidate in candidates(model) {
             let Some(instruction) = candidate.draw(&mut rng, model) else {
@@ -331,7 +331,7 @@ fn hostile_operands_are_refused_or_run() {
             for _ in 0..setting("HOSTILE", 2) {
                 let text = format!("LD M8000\n{}\nEND\n", spoilt(&mut rng, &instruction));
                 let Ok(module) = compiled(&text, 1, model, false) else {
-                    refused += 1;
+                    rejected += 1;
                     continue;
                 };
                 let modules = [module];
@@ -348,7 +348,7 @@ fn hostile_operands_are_refused_or_run() {
             }
         }
     }
-    assert!(refused > 100 && ran > 100, "{refused} refused, {ran} ran");
+    assert!(rejected > 100 && ran > 100, "{ran} ran");
 }
 
 /// The engines, or the way that the environment names.

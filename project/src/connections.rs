@@ -40,7 +40,7 @@ impl Project {
         connected.collect()
     }
 
-    /// Tells a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
+    /// Shows a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
     /// device of `[retain]`.
     pub(crate) fn add_outside(&self, program: &mut Program) {
         let mut read = Vec::new();

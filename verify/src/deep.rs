@@ -189,7 +189,7 @@ fn candidates(encoder: &Encoder) -> Vec<Candidate> {
         Some(Candidate::new(kind, None, network, acts, rung.reached))
     }));
     for compared in &probes.comparisons {
-        // That constants always compare the same is no surprise.
+        // Constants always compare the same.
         if compared.holds.constant().is_some() {
             continue;
         }

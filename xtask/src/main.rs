@@ -1,6 +1,7 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published, `cargo xtask size` measures the executable, `cargo xtask campaign` compares
-//! engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated files.
+//! package` the packages that are published, `cargo xtask size` measures the executable, `cargo xtask campaign`
+//! compares engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
+//! files.
 
 mod book;
 mod campaign;

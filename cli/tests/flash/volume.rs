@@ -71,7 +71,7 @@ fn is_untouched(folder: &Path) -> bool {
 #[test]
 fn an_image_is_copied_to_the_volume() {
     let rig = rig(INFO);
-    // Without a terminal nobody can agree.
+    // Without a terminal no one can agree.
     let asked = flash_to_board(&rig, &[]);
     assert_eq!(code(&asked), 2);
     assert!(is_untouched(rig.path()));

@@ -20,7 +20,7 @@ pub struct AnalogPin {
     /// Which built-in analog input (D8030 of L01S, RD3A of boards) or output (WR3A of boards) of the PLC it is, by its
     /// raw counts.
     pub channel: Option<u8>,
-    /// What an input's converter is told before its register is read; `None` if it converts by itself.
+    /// What is written to an input's converter before its register is read; `None` if it converts by itself.
     pub start: Option<Start>,
 }
 

@@ -1,6 +1,6 @@
 //! The grammar of one line. It reads half-width text; places are byte offsets within the line.
 //!
-//! Each rule is a function of its own (`custom`), which is compiled once. A rule that contained the combinators of all
+//! Each rule is a separate function (`custom`), which is compiled once. A rule that contained the combinators of all
 //! rules below it would be compiled anew at each place it is used from.
 
 mod fields;

@@ -73,7 +73,7 @@ pub extern "C" fn rungc_outside_begin(program: *const c_char, map: &Map) -> bool
     begun.is_ok()
 }
 
-/// What a host does for connections: `input_edge` is told of inputs that change, `output` has the state of an output
+/// What a host does for connections: `input_edge` hears of inputs that change, `output` has the state of an output
 /// terminal. Both are given `context`; `input_edge` may be NULL.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]

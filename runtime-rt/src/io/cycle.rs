@@ -192,7 +192,7 @@ impl Io {
         self.take_into(&mut Of(plc, hal))
     }
 
-    /// The same for what is no [`Program`].
+    /// The same without a [`Program`].
     pub fn take_into(&mut self, plc: &mut dyn Terminals) -> Vec<String> {
         for running in &mut self.running {
             running.refresh(&mut self.said);
@@ -240,7 +240,7 @@ impl Io {
         self.give_from(&mut Of(plc, &mut NoHal));
     }
 
-    /// The same for what is no [`Program`].
+    /// The same without a [`Program`].
     pub fn give_from(&mut self, plc: &mut dyn Terminals) {
         for running in &mut self.running {
             for row in running.connection.directed(false) {

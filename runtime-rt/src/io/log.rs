@@ -122,7 +122,7 @@ fn time(now: SystemTime) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z").to_string()
 }
 
-/// Year, month and day so many days after 1 January 1970: counted in years from March on, in eras of 400.
+/// Year, month and day of a number of days after 1 January 1970: counted in years from March on, in eras of 400.
 fn date(days: u64) -> (u64, u64, u64) {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);

@@ -314,7 +314,7 @@ impl Driver for Broker {
 
     fn end(&mut self) {
         if let Some(topic) = self.status.clone() {
-            // The broker is told or has gone.
+            // The broker hears of it, or has gone.
             let _ = self.publish(topic, OFFLINE.to_string());
         }
         let _ = self.send(&packet(DISCONNECT, &[]));
