@@ -1,7 +1,9 @@
-//! The shape of the sources: lines of at most 120 columns, functions of at most 80 lines, files of at most 700.
+//! The shape of the sources: lines of at most 120 columns, functions of at most 80 lines, files of at most 700; and
+//! that nothing large is kept in the repository.
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use walkdir::WalkDir;
 
 /// Columns of a line of code or of a comment. What string literals hold does not count: a text is broken where its
@@ -10,6 +12,9 @@ const COLUMNS: usize = 120;
 
 /// Lines of a function, from the one that names it to its closing brace.
 const FUNCTION_LINES: usize = 80;
+
+/// Bytes of any file in the repository: what is larger is output of a build or a recording, which a script makes again.
+const FILE_BYTES: u64 = 128 * 1024;
 
 /// Lines of a file.
 const FILE_LINES: usize = 700;
@@ -149,6 +154,27 @@ fn nothing_is_too_long() {
     }
     assert!(files > 500, "only {files} files were read");
     assert!(found.is_empty(), "{}:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn no_file_is_large() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    if !root.join(".git").exists() {
+        eprintln!("not a repository: which files belong to it is not known");
+        return;
+    }
+    let listed = Command::new("git")
+        .args(["ls-files", "-z"])
+        .current_dir(&root)
+        .output();
+    let listed = String::from_utf8(listed.unwrap().stdout).unwrap();
+    let files: Vec<&str> = listed.split_terminator('\0').collect();
+    assert!(files.len() > 1000, "only {} files are listed", files.len());
+    let large = files.iter().filter(|file| {
+        // A file that has just been removed is still listed.
+        fs::metadata(root.join(file)).is_ok_and(|file| file.len() > FILE_BYTES)
+    });
+    assert_eq!(large.collect::<Vec<_>>(), [&""; 0]);
 }
 
 #[test]
