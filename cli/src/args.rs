@@ -552,6 +552,10 @@ pub enum Format {
     Json,
     /// SARIF 2.1.0.
     Sarif,
+    /// JUnit XML: errors as cases that failed; of `verify`, a case for each property or output.
+    Junit,
+    /// Workflow commands of GitHub Actions, which mark findings at their lines.
+    Github,
 }
 
 impl Default for Reporting {

@@ -266,8 +266,8 @@ fn the_commands_of_the_example_run() {
     }
 }
 
-/// A SARIF log and a JUnit file of failed cases, as tools read them that others wrote: check-jsonschema with the schema
-/// of SARIF, and junitparser.
+/// SARIF logs and JUnit files of failed cases and violated properties, as tools read them that others wrote:
+/// check-jsonschema with the schema of SARIF, and junitparser.
 #[test]
 fn results_are_read_by_others() {
     let folder = desk();
@@ -278,15 +278,32 @@ fn results_are_read_by_others() {
         let output = rungc(path, &["test", ".", "--format", format, "-o", file]);
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     }
+    fs::write(path.join("v.il"), "LD X000\nOUT Y000\nEND\n").unwrap();
+    let asked = [
+        "verify",
+        "v.il",
+        "--never",
+        "Y000",
+        "--always",
+        "Y000 | !X000",
+    ];
+    for (format, file) in [("sarif", "v.sarif"), ("junit", "v.xml")] {
+        let how = ["--replay", "interp", "--format", format, "-o", file];
+        let output = rungc(path, &[&asked[..], &how].concat());
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    }
     let python = std::env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
-    let script = "import junitparser, sys\nx = junitparser.JUnitXml.fromfile('t.xml')\nprint(x.tests, x.failures, x.errors, [c.name for s in x for c in s if c.result])";
+    let script = "import junitparser\nfor file in ['t.xml', 'v.xml']:\n    x = junitparser.JUnitXml.fromfile(file)\n    print(x.tests, x.failures, x.errors, [c.name for s in x for c in s if c.result])";
     let read = Command::new(&python)
         .args(["-c", script])
         .current_dir(path)
         .output();
     match read {
         Ok(read) if read.status.success() => {
-            assert_eq!(text(&read.stdout), "4 1 0 ['stops']\n");
+            assert_eq!(
+                text(&read.stdout),
+                "4 1 0 ['stops']\n2 1 0 ['never Y000']\n"
+            );
         }
         _ => missing("junitparser"),
     }
@@ -298,6 +315,7 @@ fn results_are_read_by_others() {
             "--schemafile",
             SARIF_SCHEMA,
             "t.sarif",
+            "v.sarif",
         ])
         .current_dir(path)
         .output();

@@ -35,6 +35,9 @@ pub struct VerifyArgs {
     /// Write the runs that were found as a test file, which shows them again: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,
+    /// File to write the verdicts to, in the format of --format, overwriting an existing one. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,

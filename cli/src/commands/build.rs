@@ -161,8 +161,8 @@ impl Plan {
 /// The target, if the options go together.
 fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static Target, Failure> {
     let wrong = |why: &str| Err(Failure::Because(why.to_string()));
-    if args.report && reporting.format == Format::Sarif {
-        return wrong("--report is not available in SARIF; use --format json");
+    if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
+        return wrong("--report is only available as text and as JSON; use --format json");
     }
     let target = args.target.unwrap_or(target::host());
     let Some(emit) = args.emit else {

@@ -199,6 +199,24 @@ pub fn say(text: &str) -> io::Result<()> {
     out.flush()
 }
 
+/// Prints a report, or writes it to the file that was asked for; `summary` says what is in it.
+pub fn put(
+    path: Option<&Path>,
+    text: &str,
+    summary: &str,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let Some(path) = path else {
+        return say(text).map_err(Failure::from);
+    };
+    let file = AtomicFile::create(path)?;
+    let written = file.writer()?.write_all(text.as_bytes());
+    written.map_err(|error| file.failed(error))?;
+    file.persist()?;
+    cx.note(&format!("       Wrote {}: {summary}", path.display()));
+    Ok(())
+}
+
 /// Prints a line to standard error; a closed standard error does not stop the command.
 pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));

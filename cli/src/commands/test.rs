@@ -10,9 +10,7 @@ mod sarif;
 mod verdicts;
 mod watch;
 
-use super::{
-    AtomicFile, Context, Failure, Outcome, Result, counted, defaults, interruption, say, subject,
-};
+use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
 use crate::args::{EngineChoice, TestArgs, TestFormat};
 use crate::progress;
 use crate::report::visible_json;
@@ -21,7 +19,6 @@ use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
-use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -166,29 +163,11 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     };
     let (passed, failed) = (results.report.passed(), results.report.failures().count());
     put(
-        args,
+        args.output.as_deref(),
         &text,
         &format!("{passed} passed, {failed} failed"),
         cx,
     )
-}
-
-/// Prints a report, or writes it to the file that was asked for.
-fn put(
-    args: &TestArgs,
-    text: &str,
-    summary: &str,
-    cx: Context,
-) -> std::result::Result<(), Failure> {
-    let Some(path) = &args.output else {
-        return say(text).map_err(Failure::from);
-    };
-    let file = AtomicFile::create(path)?;
-    let written = file.writer()?.write_all(text.as_bytes());
-    written.map_err(|error| file.failed(error))?;
-    file.persist()?;
-    cx.note(&format!("       Wrote {}: {summary}", path.display()));
-    Ok(())
 }
 
 /// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a

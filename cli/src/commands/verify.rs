@@ -8,7 +8,7 @@ pub(super) mod test_file;
 use super::check::draw;
 use super::properties::{Asked, Reader, at_writes, module};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, read, say, write_file};
+use super::{Context, Failure, Outcome, Result, counted, put, read, write_file};
 use crate::args::VerifyArgs;
 use crate::report::Reporter;
 use rungc_frontend::Read;
@@ -31,7 +31,10 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
-    let read = read(&subject, &mut reporter)?;
+    let read = match read(&subject, &mut reporter) {
+        Ok(read) => read,
+        Err(failure) => return unread(args, failure, reporter, cx),
+    };
     let reader = Reader {
         args: &args.asked,
         subject: &subject,
@@ -48,7 +51,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
     let conditions = conditions.chain(&options.assumed);
     let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
-        reporter.finish()?;
+        deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
     export(args, &module, &asked, &options, cx)?;
@@ -71,11 +74,9 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             time: *time,
         })
         .collect();
-    let for_people = reporter.is_for_people();
-    publish(&subject, &read, &results, reporter)?;
-    if for_people {
-        say(&report::human(&results, &module, &options, &assumed))?;
-    }
+    publish(&subject, &read, &module, &results, &mut reporter)?;
+    let text = || report::human(&results, &module, &options, &assumed);
+    deliver(args, reporter, text, &report::summary(&results), cx)?;
     if let Some(path) = &args.write_test {
         let text = test_file::text(&subject.file, path, &module, &results);
         match text {
@@ -166,8 +167,9 @@ fn options(
 fn publish(
     subject: &Subject,
     read: &Read,
+    module: &Module,
     results: &[report::Result],
-    mut reporter: Reporter,
+    reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
     let model = rungc_lower::compile::model(&read.program, &subject.options());
     let mut diagnostics = Diagnostics::new();
@@ -193,8 +195,38 @@ fn publish(
     if reporter.is_for_people() {
         findings.drawn = draw::networks(&read.program, model, &findings.diagnostics);
     }
-    reporter.add(&findings)?;
-    Ok(reporter.finish()?)
+    let file = subject.file.display().to_string();
+    let cases = results.iter().map(|result| result.case(&file, module));
+    Ok(reporter.add_verdicts(&findings, cases.collect())?)
+}
+
+/// What a report holds without verdicts.
+const UNUSABLE: &str = "why the program cannot be used";
+
+/// Reports that a program cannot be read, to tools too.
+fn unread(args: &VerifyArgs, failure: Failure, reporter: Reporter, cx: Context) -> Result {
+    deliver(args, reporter, String::new, UNUSABLE, cx)?;
+    Err(failure)
+}
+
+/// Prints the verdicts, or writes them to the file that was asked for: the document for tools, what people read as
+/// `text`, or annotations and then that.
+fn deliver(
+    args: &VerifyArgs,
+    reporter: Reporter,
+    text: impl FnOnce() -> String,
+    summary: &str,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let in_words = reporter.has_text();
+    let mut document = reporter.document()?.unwrap_or_default();
+    if in_words {
+        document.push_str(&text());
+    }
+    match document.is_empty() {
+        true => Ok(()),
+        false => put(args.output.as_deref(), &document, summary, cx),
+    }
 }
 
 /// A diagnostic at the outputs of which a property speaks.

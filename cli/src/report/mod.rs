@@ -1,7 +1,9 @@
-//! Printing diagnostics: human-readable, as JSON, as SARIF.
+//! Printing diagnostics: human-readable, and for tools.
 
+pub mod github;
 mod human;
 mod json;
+pub mod junit;
 mod location;
 pub mod sarif;
 mod visible;
@@ -202,6 +204,8 @@ pub struct Reporter<'a> {
     totals: Totals,
     json: Vec<json::File>,
     sarif: sarif::Log,
+    junit: Vec<junit::Suite>,
+    github: String,
 }
 
 /// How much was found about programs.
@@ -227,6 +231,8 @@ impl<'a> Reporter<'a> {
             totals: Totals::default(),
             json: Vec::new(),
             sarif: sarif::Log::default(),
+            junit: Vec::new(),
+            github: String::new(),
         }
     }
 
@@ -243,6 +249,11 @@ impl<'a> Reporter<'a> {
     /// Whether the report is human-readable.
     pub fn is_for_people(&self) -> bool {
         self.reporting.format == Format::Human
+    }
+
+    /// Whether what people read follows the report in the same place.
+    pub fn has_text(&self) -> bool {
+        matches!(self.reporting.format, Format::Human | Format::Github)
     }
 
     /// How much was found so far.
@@ -268,24 +279,50 @@ impl<'a> Reporter<'a> {
             }
             Format::Json => self.json.push(json::file(findings)),
             Format::Sarif => self.sarif.add(findings, self.many),
+            Format::Junit => self.junit.push(junit::of_errors(findings)),
+            Format::Github => self.github.push_str(&github::findings(findings)),
         }
+        Ok(())
+    }
+
+    /// Takes verdicts about a program: the findings that they led to, and in JUnit all of them as `cases`.
+    pub fn add_verdicts(&mut self, findings: &Findings, cases: Vec<junit::Case>) -> io::Result<()> {
+        if self.reporting.format != Format::Junit {
+            return self.add(findings);
+        }
+        self.totals.add(findings.totals());
+        self.junit.push(junit::Suite {
+            name: findings.path.display().to_string(),
+            cases,
+        });
         Ok(())
     }
 
     /// Prints the document for tools, if there is anything to report.
     pub fn finish(self) -> io::Result<()> {
-        let document = match self.reporting.format {
-            Format::Human => return Ok(()),
-            Format::Json if self.json.is_empty() => return Ok(()),
-            Format::Json => json::render(self.json, self.many)?,
-            Format::Sarif if self.sarif.is_empty() => return Ok(()),
-            Format::Sarif => self.sarif.render()?,
+        let stdout_in_use = self.stdout_in_use;
+        let Some(document) = self.document()? else {
+            return Ok(());
         };
-        let document = visible_json(&document);
-        if self.stdout_in_use {
-            writeln!(io::stderr(), "{document}")
+        if stdout_in_use {
+            write!(io::stderr(), "{document}")
         } else {
-            writeln!(io::stdout(), "{document}")
+            write!(io::stdout(), "{document}")
         }
+    }
+
+    /// The document for tools, if there is anything to report; it ends with a line break.
+    pub fn document(self) -> io::Result<Option<String>> {
+        let document = match self.reporting.format {
+            Format::Human => return Ok(None),
+            Format::Json if self.json.is_empty() => return Ok(None),
+            Format::Json => json::render(self.json, self.many)?,
+            Format::Sarif if self.sarif.is_empty() => return Ok(None),
+            Format::Sarif => self.sarif.render()?,
+            Format::Junit if self.junit.is_empty() => return Ok(None),
+            Format::Junit => return junit::render("rungc", &self.junit).map(Some),
+            Format::Github => return Ok(Some(self.github)),
+        };
+        Ok(Some(format!("{}\n", visible_json(&document))))
     }
 }

@@ -1,8 +1,8 @@
 //! `rungc test --coverage` and `--mutants`.
 
-use super::super::{Context, Failure, Outcome, Result, counted, interruption, say, tell};
+use super::super::{Context, Failure, Outcome, Result, counted, interruption, put, say, tell};
+use super::Chosen;
 use super::report::{Results, human};
-use super::{Chosen, put};
 use crate::args::{CoverageFormat, EngineChoice, TestArgs};
 use crate::progress;
 use rungc_coverage::mutants::{self, Fate};
@@ -65,7 +65,12 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
     };
     let reached = programs.iter().map(Covered::reached).sum();
     let all = programs.iter().map(|program| program.goals.len()).sum();
-    put(args, &shown, &text::share(reached, all), cx)?;
+    put(
+        args.output.as_deref(),
+        &shown,
+        &text::share(reached, all),
+        cx,
+    )?;
     Ok(match report.is_success() {
         true => Outcome::Success,
         false => Outcome::Failed,
@@ -102,7 +107,7 @@ fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> R
         shown += &mutants::text(program, &all, &fates);
     }
     let summary = format!("{noticed} of {} mutants noticed", noticed + gaps);
-    put(args, &shown, &summary, cx)?;
+    put(args.output.as_deref(), &shown, &summary, cx)?;
     Ok(match gaps {
         0 => Outcome::Success,
         _ => Outcome::Failed,

@@ -1,8 +1,9 @@
 //! Verdicts as text.
 
 use crate::commands::{Outcome, counted};
+use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, codes};
 use rungc_verify::model::{Gap, Key, device_of};
 use rungc_verify::property::Property;
 use rungc_verify::prove::{Decision, Options, Verdict, Why};
@@ -41,6 +42,47 @@ impl Result<'_> {
         }
     }
 
+    /// The verdict as a case of a test report.
+    pub fn case(&self, file: &str, module: &Module) -> Case {
+        let outcome = self.outcome();
+        let problem = (outcome != Outcome::Success).then(|| {
+            let mut text = self.sentence();
+            text.push('\n');
+            self.describe(&mut text, module);
+            Problem {
+                is_error: outcome == Outcome::Undecided,
+                kind: match outcome {
+                    Outcome::Undecided => codes::PROPERTY_UNDECIDED.name,
+                    _ => codes::PROPERTY_VIOLATED.name,
+                },
+                message: self.sentence(),
+                text: text.trim_end().to_string(),
+            }
+        });
+        Case {
+            name: self.asked.to_string(),
+            class: file.to_string(),
+            time: self.time,
+            problem,
+        }
+    }
+
+    /// What led to the verdict, and what it depends on.
+    fn describe(&self, text: &mut String, module: &Module) {
+        if let Verdict::Found(trace) = &self.decision.verdict {
+            tell(text, module, &story(module, self.property, trace));
+        }
+        gaps(text, &self.decision.gaps);
+        let unwritten = &self.decision.unwritten;
+        if !unwritten.is_empty() {
+            let names = list(unwritten);
+            let _ = writeln!(
+                text,
+                "            nothing in the program writes {names}: taken as inputs"
+            );
+        }
+    }
+
     /// The verdict as a diagnostic says it.
     pub fn sentence(&self) -> String {
         let asked = self.asked;
@@ -73,6 +115,13 @@ pub fn reason(why: &Why) -> String {
     }
 }
 
+/// How many properties hold, or are reached: `2 of 3 hold`.
+pub fn summary(results: &[Result]) -> String {
+    let good = results.iter().map(Result::outcome);
+    let good = good.filter(|outcome| *outcome == Outcome::Success).count();
+    format!("{good} of {} hold", results.len())
+}
+
 /// All verdicts as readable text.
 pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[String]) -> String {
     let mut text = String::new();
@@ -84,24 +133,10 @@ pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[
             result.word(),
             result.asked
         );
-        match &result.decision.verdict {
-            Verdict::Found(trace) => {
-                tell(&mut text, module, &story(module, result.property, trace))
-            }
-            Verdict::Undecided(why) => {
-                let _ = writeln!(text, "            {}", reason(why));
-            }
-            Verdict::Proved => {}
+        if let Verdict::Undecided(why) = &result.decision.verdict {
+            let _ = writeln!(text, "            {}", reason(why));
         }
-        gaps(&mut text, &result.decision.gaps);
-        let unwritten = &result.decision.unwritten;
-        if !unwritten.is_empty() {
-            let names = list(unwritten);
-            let _ = writeln!(
-                text,
-                "            nothing in the program writes {names}: taken as inputs"
-            );
-        }
+        result.describe(&mut text, module);
     }
     if results
         .iter()

@@ -6,11 +6,14 @@ use crate::args::{Input, VerifyArgs};
 use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
 use crate::commands::subject::{self, Subject};
-use crate::commands::{Context, Failure, Outcome, Result, counted, read, say};
+use crate::commands::{Context, Failure, Outcome, Result, counted, read};
+use crate::report::junit::{Case, Problem};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::Read;
+use rungc_ir::Module;
 use rungc_sim::Target;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::codes::{self, Code};
+use rungc_syntax::{Device, DeviceClass, Diagnostics};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same::{Compared, Output, compare};
@@ -29,10 +32,12 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         cx,
     )?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
-    let (read_old, read_new) = (
-        read(&before, &mut reporter)?,
-        read(&subject, &mut reporter)?,
-    );
+    let both = read(&before, &mut reporter)
+        .and_then(|old| read(&subject, &mut reporter).map(|new| (old, new)));
+    let (read_old, read_new) = match both {
+        Ok(both) => both,
+        Err(failure) => return super::unread(args, failure, reporter, cx),
+    };
     let reader = Reader {
         args: &args.asked,
         subject: &subject,
@@ -45,7 +50,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let old_module = module(&before, &read_old, looked(), &mut reporter)?;
     let new_module = module(&subject, &read_new, looked(), &mut reporter)?;
     let (Some(old_module), Some(new_module)) = (old_module, new_module) else {
-        reporter.finish()?;
+        super::deliver(args, reporter, String::new, super::UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
     if old_module.model.name != new_module.model.name {
@@ -71,16 +76,28 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         }
     }
     engines::replay(args.replay, &modules, &shown, cx)?;
-    let for_people = reporter.is_for_people();
-    publish(&subject, &read_new, &compared, reporter)?;
-    if for_people {
-        let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-        say(&text(&compared, &names, &modules[1], &options, &assumed))?;
-    }
-    let outcomes = compared
-        .outputs
-        .iter()
-        .map(|output| outcome(&output.verdict));
+    let outputs = compared.outputs.iter();
+    let file = subject.file.display().to_string();
+    let cases = outputs
+        .clone()
+        .map(|output| case(output, &file, &names, &modules[1]));
+    publish(
+        &subject,
+        &read_new,
+        &compared,
+        cases.collect(),
+        &mut reporter,
+    )?;
+    let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
+    let text = || text(&compared, &names, &modules[1], &options, &assumed);
+    let outcomes = outputs.map(|output| outcome(&output.verdict));
+    let same = outcomes.clone().filter(|one| *one == Outcome::Success);
+    let summary = format!(
+        "{} of {} outputs are the same",
+        same.count(),
+        compared.outputs.len()
+    );
+    super::deliver(args, reporter, text, &summary, cx)?;
     Ok(outcomes.max().unwrap_or(Outcome::Success))
 }
 
@@ -104,27 +121,14 @@ fn publish(
     subject: &Subject,
     read: &Read,
     compared: &Compared,
-    mut reporter: Reporter,
+    cases: Vec<Case>,
+    reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
     let mut diagnostics = Diagnostics::new();
     for output in &compared.outputs {
         let name = named(output);
-        let (code, text) = match &output.verdict {
-            Verdict::Proved => continue,
-            Verdict::Found(trace) => {
-                let scans = counted(trace.scans.len(), "scan");
-                (
-                    &codes::OUTPUTS_DIFFER,
-                    format!("`{name}` can differ from the older program, after {scans}"),
-                )
-            }
-            Verdict::Undecided(why) => {
-                let reason = report::reason(why);
-                (
-                    &codes::SAMENESS_UNDECIDED,
-                    format!("`{name}` may differ from the older program: {reason}"),
-                )
-            }
+        let Some((code, text)) = finding(output) else {
+            continue;
         };
         let mut written = read
             .program
@@ -138,20 +142,62 @@ fn publish(
         }
         diagnostics.push(diagnostic);
     }
-    reporter.add(&Findings::new(
+    let findings = Findings::new(
         &subject.file,
         &read.program,
         diagnostics,
         &subject.reporting,
-    ))?;
-    Ok(reporter.finish()?)
+    );
+    Ok(reporter.add_verdicts(&findings, cases)?)
+}
+
+/// What a verdict means as a diagnostic.
+fn finding(output: &Output) -> Option<(&'static Code, String)> {
+    let name = named(output);
+    match &output.verdict {
+        Verdict::Proved => None,
+        Verdict::Found(trace) => {
+            let scans = counted(trace.scans.len(), "scan");
+            let text = format!("`{name}` can differ from the older program, after {scans}");
+            Some((&codes::OUTPUTS_DIFFER, text))
+        }
+        Verdict::Undecided(why) => {
+            let reason = report::reason(why);
+            let text = format!("`{name}` may differ from the older program: {reason}");
+            Some((&codes::SAMENESS_UNDECIDED, text))
+        }
+    }
+}
+
+/// An output as a case of a test report.
+fn case(output: &Output, file: &str, names: &[String; 2], module: &Module) -> Case {
+    let name = named(output).to_string();
+    let problem = finding(output).map(|(code, message)| {
+        let mut text = format!("{message}\n");
+        if let Verdict::Found(trace) = &output.verdict {
+            difference(&mut text, &name, trace, names, module);
+        }
+        report::gaps(&mut text, &output.gaps);
+        Problem {
+            is_error: matches!(output.verdict, Verdict::Undecided(_)),
+            kind: code.name,
+            text: text.trim_end().to_string(),
+            message,
+        }
+    });
+    Case {
+        name: format!("{name} is the same"),
+        class: file.to_string(),
+        time: output.time,
+        problem,
+    }
 }
 
 /// The answer in words.
 fn text(
     compared: &Compared,
     names: &[String; 2],
-    module: &rungc_ir::Module,
+    module: &Module,
     options: &Options,
     assumed: &[String],
 ) -> String {
@@ -222,7 +268,7 @@ fn difference(
     name: &str,
     trace: &Trace,
     [old, new]: &[String; 2],
-    module: &rungc_ir::Module,
+    module: &Module,
 ) {
     let Ok(target) = Target::parse(name) else {
         return;

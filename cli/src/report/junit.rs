@@ -1,0 +1,192 @@
+//! JUnit XML: suites of cases that passed, failed or could not be decided.
+
+use super::Findings;
+use super::location::Location;
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesText, Event};
+use rungc_syntax::Severity;
+use std::io;
+use std::time::Duration;
+
+type Xml = Writer<Vec<u8>>;
+
+/// The cases of one file.
+pub struct Suite {
+    /// The file.
+    pub name: String,
+    pub cases: Vec<Case>,
+}
+
+/// One case.
+pub struct Case {
+    pub name: String,
+    /// What it belongs to, beside the file: servers group cases by it.
+    pub class: String,
+    /// How long it took.
+    pub time: Duration,
+    /// Why it did not pass.
+    pub problem: Option<Problem>,
+}
+
+/// Why a case did not pass.
+pub struct Problem {
+    /// Whether there is no verdict, as opposed to a bad one.
+    pub is_error: bool,
+    /// The kind of problem, in a word.
+    pub kind: &'static str,
+    /// One line.
+    pub message: String,
+    /// All of it.
+    pub text: String,
+}
+
+/// The errors of a program as cases that failed; without errors, one case that passed.
+pub fn of_errors(findings: &Findings) -> Suite {
+    let path = findings.path.display().to_string();
+    let errors = findings.diagnostics.iter();
+    let errors = errors.filter(|d| d.severity == Severity::Error);
+    let case = |name: String, problem| Case {
+        name,
+        class: path.clone(),
+        time: Duration::ZERO,
+        problem,
+    };
+    let mut cases: Vec<Case> = errors
+        .map(|d| {
+            let place = Location::of(findings, d.span).unwrap_or_default();
+            let problem = Problem {
+                is_error: false,
+                kind: d.code,
+                message: d.message.clone(),
+                text: format!("{}: {}", place.headed(&path), d.message),
+            };
+            case(format!("{} {}", place.headed(&path), d.code), Some(problem))
+        })
+        .collect();
+    if cases.is_empty() {
+        cases.push(case("no errors".to_string(), None));
+    }
+    Suite { name: path, cases }
+}
+
+/// The XML of what `name` has run.
+pub fn render(name: &str, suites: &[Suite]) -> io::Result<String> {
+    let cases = suites.iter().flat_map(|suite| &suite.cases);
+    render_timed(name, suites, cases.map(|case| case.time).sum())
+}
+
+/// The XML of a run that took this long.
+pub fn render_timed(name: &str, suites: &[Suite], elapsed: Duration) -> io::Result<String> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 4);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let counts = Counts::of(suites.iter().flat_map(|suite| &suite.cases));
+    xml.create_element("testsuites")
+        .with_attributes([
+            ("name", name),
+            ("tests", &counts.tests),
+            ("skipped", "0"),
+            ("failures", &counts.failures),
+            ("errors", &counts.errors),
+            ("time", &seconds(elapsed)),
+        ])
+        .write_inner_content(|xml| suites.iter().try_for_each(|one| suite(xml, one)))?;
+    xml.write_indent()?;
+    String::from_utf8(xml.into_inner()).map_err(io::Error::other)
+}
+
+/// How many cases there are and what became of them, as attributes.
+struct Counts {
+    tests: String,
+    failures: String,
+    errors: String,
+}
+
+impl Counts {
+    fn of<'a>(cases: impl Iterator<Item = &'a Case>) -> Self {
+        let (mut tests, mut failures, mut errors) = (0, 0, 0);
+        for case in cases {
+            tests += 1;
+            match &case.problem {
+                Some(problem) if problem.is_error => errors += 1,
+                Some(_) => failures += 1,
+                None => {}
+            }
+        }
+        Counts {
+            tests: tests.to_string(),
+            failures: failures.to_string(),
+            errors: errors.to_string(),
+        }
+    }
+}
+
+fn suite(xml: &mut Xml, suite: &Suite) -> io::Result<()> {
+    let counts = Counts::of(suite.cases.iter());
+    let time: Duration = suite.cases.iter().map(|case| case.time).sum();
+    let element = xml.create_element("testsuite").with_attributes([
+        ("name", &*clean(&suite.name)),
+        ("tests", &counts.tests),
+        ("skipped", "0"),
+        ("errors", &counts.errors),
+        ("failures", &counts.failures),
+        ("time", &seconds(time)),
+    ]);
+    if suite.cases.is_empty() {
+        element.write_empty()?;
+    } else {
+        element.write_inner_content(|xml| suite.cases.iter().try_for_each(|one| case(xml, one)))?;
+    }
+    Ok(())
+}
+
+fn case(xml: &mut Xml, case: &Case) -> io::Result<()> {
+    let element = xml.create_element("testcase").with_attributes([
+        ("name", &*clean(&case.name)),
+        ("classname", &clean(&case.class)),
+        ("time", &seconds(case.time)),
+    ]);
+    let Some(problem) = &case.problem else {
+        element.write_empty()?;
+        return Ok(());
+    };
+    let tag = match problem.is_error {
+        true => "error",
+        false => "failure",
+    };
+    element.write_inner_content(|xml| {
+        xml.create_element(tag)
+            .with_attributes([
+                ("message", &*clean(&problem.message)),
+                ("type", problem.kind),
+            ])
+            .write_text_content(BytesText::new(&clean(&problem.text)))?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.3}", time.as_secs_f64())
+}
+
+/// A text without escape sequences and the characters that XML 1.0 cannot represent.
+fn clean(text: &str) -> String {
+    let text = anstream::adapter::strip_str(text).to_string();
+    text.replace(
+        |c| matches!(c, '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}'),
+        "",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clean;
+
+    #[test]
+    fn what_xml_cannot_hold_is_left_out() {
+        assert_eq!(
+            clean("\x1b[1mred\x1b[0m\tlamp\0\x08 <1>\n"),
+            "red\tlamp <1>\n"
+        );
+    }
+}
