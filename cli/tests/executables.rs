@@ -459,7 +459,9 @@ fn connects(folder: &Path, program: &Path) {
             .open("/dev/full")
             .unwrap()
     };
-    let mut command = Command::new(program);
+    // Tests may run under nohup; a program that it started would stay.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=HUP").arg(program);
     command.args(["--io", "rungc.toml", "--log", "log"]);
     command.stdin(Stdio::piped()).stdout(full()).stderr(full());
     let mut running = Running(command.current_dir(folder).spawn().unwrap());
