@@ -99,6 +99,11 @@ impl Aig {
         lit
     }
 
+    /// A node as it is.
+    pub fn literal(&self, node: usize) -> Lit {
+        Lit((node as u32) << 1)
+    }
+
     /// A new free bit; its number is that of the inputs before.
     pub fn input(&mut self) -> Lit {
         let number = self.inputs;

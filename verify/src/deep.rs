@@ -1,13 +1,11 @@
 //! What can never happen in a program, though it is written as if it could: found without being asked.
 //!
-//! Runs by chance ([`simulate`]) show most of what can happen. What they have not shown is tried to be proved
+//! Runs by chance show most of what can happen. What they have not shown is tried to be proved
 //! impossible, each by itself; only what is proved is reported. An output that changes in every scan is shown by
 //! a run that the interpreter has confirmed.
 
-mod simulate;
-
 use crate::aig::Lit;
-
+use crate::chance::{Chance, Lanes};
 use crate::model::{Encoder, Key, Probes, World};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
@@ -19,7 +17,6 @@ use rungc_ir::node::{Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
-use simulate::{Chance, Lanes};
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 

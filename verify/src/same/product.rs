@@ -146,14 +146,25 @@ impl<'m> Product<'m> {
 
     /// The system with the question whether a memory of both can differ while both are in RUN, or one of them stop.
     pub fn system(&self, key: Key, names: &Names) -> System {
+        let (system, questions) = self.whole(&[key], names);
+        questions
+            .first()
+            .map_or(system.clone(), |&bad| system.about(bad))
+    }
+
+    /// All of both programs, and that question of each of some memories.
+    pub fn whole(&self, keys: &[Key], names: &Names) -> (System, Vec<Lit>) {
         let mut aig = self.new.aig.clone();
-        let [old, new] =
-            [&self.old, &self.new].map(|encoder| encoder.after(key).cloned().unwrap_or_default());
-        let equal = aig.equal(&old, &new);
         let stops = aig.xor(self.old.running(), self.new.running());
         let run = aig.and(self.old.running(), self.new.running());
-        let differs = aig.and(run, !equal);
-        let bad = aig.or(differs, stops);
+        let questions = keys.iter().map(|&key| {
+            let both = [&self.old, &self.new];
+            let [old, new] = both.map(|encoder| encoder.after(key).cloned().unwrap_or_default());
+            let equal = aig.equal(&old, &new);
+            let differs = aig.and(run, !equal);
+            aig.or(differs, stops)
+        });
+        let questions = questions.collect();
         let mut system = System {
             aig,
             latches: Vec::new(),
@@ -161,7 +172,7 @@ impl<'m> Product<'m> {
             constraints: Vec::new(),
             wishes: Vec::new(),
             first_wishes: Vec::new(),
-            bad,
+            bad: Lit::FALSE,
         };
         let in_old = |name: Key| self.old.after(name).is_some();
         self.old
@@ -181,7 +192,7 @@ impl<'m> Product<'m> {
             let mut seen = FxHashSet::default();
             conditions.retain(|lit| seen.insert(*lit));
         }
-        system.sliced()
+        (system, questions)
     }
 
     /// What begins with any value begins with the same in both.

@@ -7,7 +7,7 @@ use crate::system::System;
 use rustc_hash::FxHashMap;
 
 /// Random numbers, the same in every run of the program.
-pub(super) struct Chance(u64);
+pub(crate) struct Chance(u64);
 
 impl Chance {
     pub fn new() -> Self {
@@ -29,7 +29,7 @@ impl Chance {
 }
 
 /// Runs of a system, a bit of each in one word.
-pub(super) struct Lanes<'s> {
+pub(crate) struct Lanes<'s> {
     system: &'s System,
     /// The value of each node in the scan.
     values: Vec<u64>,
@@ -113,6 +113,11 @@ impl<'s> Lanes<'s> {
             .iter()
             .map(|latch| self.of(latch.next))
             .collect();
+    }
+
+    /// What each latch holds after the last scan, in each run.
+    pub fn latches(&self) -> &[u64] {
+        &self.latches
     }
 
     fn of(&self, lit: Lit) -> u64 {
