@@ -365,6 +365,7 @@ impl RustSubject {
             main: false,
             servers: false,
             io: false,
+            defmt: false,
             runtime: rungc_codegen_rust::Runtime::At(RUNTIME.to_string()),
         };
         for file in rungc_codegen_rust::emit(&module, &options) {

@@ -342,6 +342,10 @@ pub struct Plan {
     /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (docs/src/builds.md).
     #[arg(long)]
     pub misra: bool,
+    /// Add the feature `defmt` to emitted Rust: with it, defmt prints the program's state and errors
+    /// (docs/src/builds.md).
+    #[arg(long)]
+    pub defmt: bool,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,

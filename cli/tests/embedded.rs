@@ -11,7 +11,11 @@ use tools::{cargo, leave_out, no_rust, tools};
 const TARGET: &str = "thumbv7em-none-eabihf";
 
 fn examples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/firmware/stm32f405")
+    firmware().join("stm32f405")
+}
+
+fn firmware() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/firmware")
 }
 
 /// `make`, in the folder of the C example, with another folder for what it makes.
@@ -170,5 +174,79 @@ fn stepper_in_rust() {
         let log = build.path().join("log");
         let output = simulate(&image, &["-d", "unimp", "-D", &log.display().to_string()]);
         check_stepper(&output, &log);
+    }
+}
+
+const TASK_TARGET: &str = "thumbv7m-none-eabi";
+
+/// Builds an example for an LM3S6965, with all folders beside each other in `build`, and prints its log by defmt.
+fn task_image(example: &str, mut cargo: Command, build: &Path) -> PathBuf {
+    let folder = build.join(example);
+    let own = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml", "src"];
+    let shared = ["board.rs", "crossing.rs"].map(str::to_string);
+    for file in own
+        .map(|file| format!("{example}/{file}"))
+        .iter()
+        .chain(&shared)
+    {
+        let (from, to) = (firmware().join("lm3s6965").join(file), build.join(file));
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        if from.is_file() {
+            std::fs::copy(from, to).unwrap();
+            continue;
+        }
+        std::fs::create_dir_all(&to).unwrap();
+        for source in std::fs::read_dir(from).unwrap() {
+            let source = source.unwrap();
+            std::fs::copy(source.path(), to.join(source.file_name())).unwrap();
+        }
+    }
+    let emitted = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["build", "--emit", "rust", "--defmt", "-o"])
+        .arg(folder.join("plc"))
+        .arg(firmware().join("../programs/traffic_light.il"))
+        .output();
+    assert!(emitted.unwrap().status.success());
+    let built = cargo
+        .args(["build", "--release", "--locked", "--features", "demo"])
+        .env("CARGO_TARGET_DIR", build.join("target"))
+        .env("DEFMT_LOG", "info")
+        // As small as it can be does not matter here, and takes longer.
+        .env("CARGO_PROFILE_RELEASE_LTO", "off")
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&built.stderr);
+    assert!(
+        built.status.success() && !said.contains("warning: unused"),
+        "{said}"
+    );
+    let release = build.join("target").join(TASK_TARGET).join("release");
+    release.join(format!("traffic-light-{example}"))
+}
+
+/// The program is a task of RTIC and of Embassy, whose state defmt can print.
+#[test]
+fn traffic_light_as_a_task() {
+    if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
+        return;
+    }
+    let build = tempfile::tempdir().unwrap();
+    for example in ["rtic", "embassy"] {
+        let Some(cargo) = cargo(TASK_TARGET) else {
+            return leave_out(&no_rust(TASK_TARGET));
+        };
+        let image = task_image(example, cargo, build.path());
+        let format = b"traffic_light: {=istr}";
+        let bytes = std::fs::read(&image).unwrap();
+        assert!(bytes.windows(format.len()).any(|part| part == format));
+        let machine = "-M lm3s6965evb -nographic -icount shift=7,sleep=off -semihosting-config enable=on,target=native";
+        let output = Command::new("qemu-system-arm")
+            .args(machine.split(' '))
+            .arg("-kernel")
+            .arg(&image)
+            .output();
+        insta::assert_snapshot!("traffic_light", lamps(&output.unwrap()));
     }
 }

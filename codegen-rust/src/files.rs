@@ -2,7 +2,7 @@
 
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
-use crate::{Options, OutFile, Runtime, host};
+use crate::{Options, OutFile, Runtime, defmt, host};
 use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
@@ -23,14 +23,17 @@ const CASES_PER_FILE: usize = 25;
 /// Folder of the runtime inside an emitted crate.
 const RUNTIME_FOLDER: &str = "rungc-rt";
 
-/// The runtime's sources, for a path dependency, and the lock file of a crate that depends on nothing else.
-fn runtime(crate_name: &str) -> Vec<OutFile> {
-    let lock = rungc_runtime_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
+/// The runtime's sources, for a path dependency.
+fn runtime() -> impl Iterator<Item = OutFile> {
     rungc_runtime_sources::files()
         .into_iter()
         .map(|(path, text)| OutFile::new(format!("{RUNTIME_FOLDER}/{path}"), text))
-        .chain([OutFile::new("Cargo.lock", lock)])
-        .collect()
+}
+
+/// The lock file of a crate that depends on nothing but the runtime's sources.
+fn lock_file(crate_name: &str) -> OutFile {
+    let lock = rungc_runtime_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
+    OutFile::new("Cargo.lock", lock)
 }
 
 /// A string of TOML, whose escapes are not those of Rust.
@@ -38,16 +41,16 @@ fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
-/// Where a crate finds the runtime.
-fn at(path: &str) -> String {
-    format!("path = {}", quoted(path))
+/// The dependency on the runtime.
+fn runtime_at(path: &str, features: &str) -> String {
+    format!("rungc-rt = {{ path = {}{features} }}\n", quoted(path))
 }
 
-fn manifest(name: &str, description: &str, runtime: &str, profile: &str) -> String {
+fn manifest(name: &str, description: &str, dependencies: &str, profile: &str) -> String {
     let (name, description) = (quoted(name), quoted(&one_line(description)));
     format!(
         "[package]\nname = {name}\ndescription = {description}\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n\
-         [dependencies]\nrungc-rt = {{ {runtime} }}\n\n\
+         [dependencies]\n{dependencies}\n\
          # A separate workspace. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
     )
 }
@@ -58,24 +61,40 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     generator.functions();
     let functions = std::mem::take(&mut generator.items);
     let crate_name = crate_name(&module.name);
-    let (runtime_path, runtime) = match &options.runtime {
-        Runtime::Included => (RUNTIME_FOLDER, runtime(&crate_name)),
+    let (runtime_path, runtime): (_, Vec<_>) = match &options.runtime {
+        // What else is locked with defmt, the registry knows.
+        Runtime::Included if options.defmt => (RUNTIME_FOLDER, runtime().collect()),
+        Runtime::Included => (
+            RUNTIME_FOLDER,
+            runtime().chain([lock_file(&crate_name)]).collect(),
+        ),
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
-    let mut runtime_at = at(runtime_path);
-    if options.main && (options.servers || options.io || cycle::keeps_any(module)) {
-        runtime_at.push_str(", features = [\"std\"]");
+    let needs_std = options.main && (options.servers || options.io || cycle::keeps_any(module));
+    let runtime_features = if needs_std {
+        ", features = [\"std\"]"
+    } else {
+        ""
+    };
+    let mut dependencies = runtime_at(runtime_path, runtime_features);
+    let mut features = "";
+    if options.defmt {
+        dependencies.push_str(defmt::DEPENDENCY);
+        features = defmt::FEATURE;
     }
     let description = format!("PLC program {}", module.source_name);
     let mut files = vec![
         OutFile::new(
             "Cargo.toml",
-            manifest(&crate_name, &description, &runtime_at, ""),
+            manifest(&crate_name, &description, &dependencies, features),
         ),
-        OutFile::new("src/lib.rs", library(&mut generator, &functions)),
+        OutFile::new("src/lib.rs", library(&mut generator, &functions, options)),
         OutFile::new("src/devices.rs", devices(&mut generator)),
     ];
     files.extend(program_files(&generator, functions));
+    if options.defmt {
+        files.push(defmt::file(&generator.type_name, &crate_name));
+    }
     if options.main {
         files.push(OutFile::new(
             "src/main.rs",
@@ -102,6 +121,7 @@ fn crate_name(name: &str) -> String {
         "" | "rungc_rt"
             | "libm"
             | "core"
+            | "defmt"
             | "std"
             | "alloc"
             | "test"
@@ -223,7 +243,7 @@ const EVENTS_DOC: &str = "\
 //! ([`Program::tick`]); its routines run in the next scan in front of each network, or at once in [`Program::take_interrupts`].
 ";
 
-fn library(generator: &mut Generator, functions: &[Item]) -> String {
+fn library(generator: &mut Generator, functions: &[Item], options: &Options) -> String {
     let module = generator.module;
     let machine = generator.machine_struct();
     let implementation = generator.machine_impl();
@@ -264,6 +284,9 @@ fn library(generator: &mut Generator, functions: &[Item]) -> String {
         },
     );
     out.push_str("\nmod devices;\n");
+    if options.defmt {
+        out.push_str(defmt::MODULE);
+    }
     if !functions.is_empty() {
         out.push_str("mod program;\n");
     }
@@ -396,7 +419,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             manifest(
                 "batch",
                 "PLC programs for tests",
-                &at(RUNTIME_FOLDER),
+                &runtime_at(RUNTIME_FOLDER, ""),
                 profile,
             ),
         ),
@@ -445,7 +468,8 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         tables.push_str(&table.replace("const DEVICES", &format!("const {}", table_name(name))));
     }
     files.push(OutFile::new("src/models.rs", tables));
-    files.extend(runtime("batch"));
+    files.extend(runtime());
+    files.push(lock_file("batch"));
     files
 }
 

@@ -14,6 +14,7 @@
 
 mod call;
 mod coils;
+mod defmt;
 mod events;
 mod expr;
 mod files;
@@ -43,6 +44,8 @@ pub struct Options {
     pub servers: bool,
     /// It takes options that connect terminals and keep a log.
     pub io: bool,
+    /// A feature `defmt`, with which [defmt](https://defmt.ferrous-systems.com) prints the program's state.
+    pub defmt: bool,
     /// Where the emitted crate finds `rungc-rt`.
     pub runtime: Runtime,
 }

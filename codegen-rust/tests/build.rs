@@ -14,6 +14,7 @@ fn a_program_builds_without_warnings() {
         main: true,
         servers: false,
         io: false,
+        defmt: false,
         runtime: Runtime::At(runtime_path()),
     };
     write(folder.path(), &emit(&common::motor(), &options));
@@ -56,6 +57,7 @@ fn a_program_keeps_its_last_error() {
         main: true,
         servers: false,
         io: false,
+        defmt: false,
         runtime: Runtime::At(runtime_path()),
     };
     let list = "LD X0\nMOV K30000 Z0\nMOV K1 D500Z0\nLD X1\nDIV D0 D1 D2\nP0\nLD X2\nCJ P0\nEND\n";

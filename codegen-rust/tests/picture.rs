@@ -9,6 +9,7 @@ fn emitted(path: &str) -> String {
         main: true,
         servers: false,
         io: false,
+        defmt: false,
         runtime: Runtime::At("../runtime-rt".to_string()),
     };
     let files = emit(&common::motor(), &options);

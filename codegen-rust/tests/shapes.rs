@@ -51,6 +51,7 @@ fn options() -> Options {
         main: false,
         servers: false,
         io: false,
+        defmt: false,
         runtime: Runtime::At(common::runtime_path()),
     }
 }
@@ -161,4 +162,38 @@ fn very_many_timer_coils_share_the_code_of_timers() {
     };
     assert!(!shared(1000));
     assert!(shared(1001));
+}
+
+/// With defmt a crate has a feature, which adds a file; nothing else of it changes, and nothing is locked.
+#[test]
+fn defmt() {
+    let module = module(LADDER);
+    let emitted = |defmt| {
+        let options = Options {
+            defmt,
+            runtime: Runtime::Included,
+            ..options()
+        };
+        emit(&module, &options)
+    };
+    let (plain, with) = (emitted(false), emitted(true));
+    let text = |path: &str| {
+        let file = with.iter().find(|file| file.path == path);
+        file.unwrap().contents.as_str()
+    };
+    let (manifest, format) = (text("Cargo.toml"), text("src/format.rs"));
+    insta::assert_snapshot!(format!("{manifest}---\n{format}"));
+    for file in plain.iter().filter(|file| file.path != "Cargo.toml") {
+        let other = with.iter().find(|other| other.path == file.path);
+        let module = "#[cfg(feature = \"defmt\")]\nmod format;\n";
+        let other = other.map(|other| other.contents.replace(module, ""));
+        assert_eq!(
+            other.as_deref(),
+            (file.path != "Cargo.lock").then_some(file.contents.as_str()),
+            "{}",
+            file.path
+        );
+    }
+    assert_eq!(with.len(), plain.len());
+    assert!(text("src/lib.rs").contains("mod format;\n"));
 }

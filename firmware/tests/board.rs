@@ -153,6 +153,19 @@ fn mistakes_are_named() {
         ),
         ("[outputs]\nY0 = { at = 4, on = 1 }", "an output has either"),
         (
+            "[analog.inputs]\nAD0 = { at = 8, full = 4095, unit = \"V\", signal = [0.0, 10.0], function = 2 }",
+            "board.toml:12:7: `function` is that of an output (PWM); an input has none",
+        ),
+        (
+            "[analog.outputs]\nDA0 = { at = 8, full = 4095, unit = \"V\", signal = [0.0, 10.0], start = { at = 4, write = 1, wait = 1 } }",
+            "board.toml:12:7: `start` starts the conversion of an input; an output has none",
+        ),
+        (
+            "[analog.inputs]\nAD0 = { at = 8, full = 4095, unit = \"V\", signal = [0.0, 10.0], channel = 3 }\n\
+             AD1 = { at = 8, full = 4095, unit = \"V\", signal = [0.0, 10.0], channel = 3 }",
+            "board.toml:13:1: channel 3 is listed twice",
+        ),
+        (
             "[functions]\nblink = \"f\"",
             "unknown function; available: init",
         ),

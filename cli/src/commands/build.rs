@@ -1,5 +1,7 @@
 //! `rungc build`.
 
+mod fitting;
+
 use super::setting::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
@@ -7,9 +9,10 @@ use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
     interruption, parent_dir, plain, ports, read, say, stem, tell, write_executable, write_file,
 };
-use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
+use crate::args::{Backend, BuildArgs, Emit, Plan};
 use crate::progress;
 use crate::report::Reporter;
+use fitting::fitting;
 use rungc_codegen_c::lanes;
 use rungc_emit::OutFile;
 use rungc_firmware::board::{Board, Chip, Retain, RetainMemory};
@@ -20,7 +23,7 @@ use rungc_firmware::image::{self, Image, Script};
 use rungc_firmware::package::Package;
 use rungc_firmware::report::{self as firmware, Report};
 use rungc_firmware::sources;
-use rungc_firmware::target::{self, Target};
+use rungc_firmware::target::Target;
 use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
@@ -157,96 +160,6 @@ impl Plan {
         Ok(plan)
     }
 }
-
-/// The target, if the options go together.
-fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static Target, Failure> {
-    let wrong = |why: &str| Err(Failure::Because(why.to_string()));
-    if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
-        return wrong("--report is only available as text and as JSON; use --format json");
-    }
-    let target = args.target.unwrap_or(target::host());
-    let Some(emit) = args.emit else {
-        return Ok(target);
-    };
-    match emit {
-        _ if args.backend.is_some() && !emit.is_image() => {
-            wrong("--backend only applies to --emit elf and --emit uf2")
-        }
-        Emit::Elf | Emit::Uf2 if args.report && args.backend == Some(Backend::Rust) => {
-            wrong("--report measures C; it does not apply here")
-        }
-        Emit::Ir | Emit::Rust if args.report => {
-            wrong("--report measures C; it does not apply here")
-        }
-        Emit::Ir if args.target.is_some() => {
-            wrong("--target does not apply: the IR is the same for all targets")
-        }
-        Emit::Ir
-        | Emit::Bin
-        | Emit::Lib
-        | Emit::Arduino
-        | Emit::Platformio
-        | Emit::Zephyr
-        | Emit::EspIdf
-            if args.board.is_some() =>
-        {
-            wrong(
-                "--board only applies to --emit elf and --emit uf2 (an image), --emit c and --emit rust (its sources)",
-            )
-        }
-        Emit::Elf if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "elf")),
-        Emit::Uf2 if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "uf2")),
-        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.device_access => wrong(
-            "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
-        ),
-        Emit::C if args.device_access && args.board.is_some() => wrong(
-            "--device-access does not apply to the sources of an image; emit the program without --board",
-        ),
-        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.retain => {
-            wrong("--retain only applies to --emit c and --emit lib (docs/src/retain.md)")
-        }
-        Emit::C if args.retain && args.board.is_some() => wrong(
-            "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
-        ),
-        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust
-            if args.lanes.is_some() =>
-        {
-            wrong("--lanes only applies to --emit c (docs/src/lanes.md)")
-        }
-        Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
-            "--lanes does not apply to the sources of an image; emit the program without --board",
-        ),
-        _ if args.misra && (args.board.is_some() || !emit.has_headers() || emit == Emit::Lib) => {
-            wrong("--misra only applies to emitted C without --board (docs/src/builds.md)")
-        }
-        _ if args.servers && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_SERVERS),
-        Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
-        _ if args.io && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_IO),
-        Emit::C | Emit::Rust if args.io && !args.main => wrong(NO_IO),
-        Emit::Bin if target.is_bare() => {
-            wrong("--emit bin: the target has no operating system; use --emit elf for an image")
-        }
-        _ if args.main && args.board.is_some() => wrong(
-            "--main does not apply: an image has its own main program, generated from the board's description",
-        ),
-        Emit::Lib if args.main => wrong("--main does not apply: a library has no main program"),
-        _ if args.main && emit.package().is_some() => {
-            wrong("--main does not apply: the folder has an example that runs the program")
-        }
-        _ => Ok(target),
-    }
-}
-
-/// What an image lacks.
-const NO_BOARD: &str =
-    "--emit IMAGE needs --board, a description of the board (docs/src/boards.md)";
-
-/// Why `--servers` does not apply.
-const NO_SERVERS: &str =
-    "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
-
-/// Why `--io` does not apply.
-const NO_IO: &str = "--io only applies to --emit bin, and to --emit c and --emit rust with --main";
 
 /// What an image needs in addition to its program.
 struct ForImage {
@@ -442,6 +355,7 @@ impl Job<'_> {
             main: self.plan.main,
             servers: self.plan.servers,
             io: self.plan.io,
+            defmt: self.plan.defmt,
             ..Default::default()
         }
     }

@@ -145,3 +145,17 @@ fn cmake_knows_the_target_that_a_folder_is_emitted_for() {
         "{lists}"
     );
 }
+
+#[test]
+fn defmt_is_for_emitted_rust() {
+    let folder = folder(&[("light.il", LIGHT)]);
+    let built = rungc(
+        folder.path(),
+        &["build", "light.il", "--emit", "c", "--defmt"],
+    );
+    assert_eq!(built.status.code(), Some(2));
+    insta::assert_snapshot!(
+        text(&built.stderr).trim_end(),
+        @"rungc: --defmt only applies to --emit rust without --board (docs/src/builds.md)"
+    );
+}

@@ -1,0 +1,113 @@
+//! Which options of `rungc build` go together.
+
+use super::Failure;
+use crate::args::{Backend, Emit, Format, Plan, Reporting};
+use rungc_firmware::target::{self, Target};
+
+/// The target, if the options go together.
+pub(super) fn fitting(
+    args: &Plan,
+    reporting: &Reporting,
+) -> std::result::Result<&'static Target, Failure> {
+    let wrong = |why: &str| Err(Failure::Because(why.to_string()));
+    if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
+        return wrong("--report is only available as text and as JSON; use --format json");
+    }
+    let target = args.target.unwrap_or(target::host());
+    let Some(emit) = args.emit else {
+        return Ok(target);
+    };
+    match emit {
+        _ if args.backend.is_some() && !emit.is_image() => {
+            wrong("--backend only applies to --emit elf and --emit uf2")
+        }
+        Emit::Elf | Emit::Uf2 if args.report && args.backend == Some(Backend::Rust) => {
+            wrong("--report measures C; it does not apply here")
+        }
+        Emit::Ir | Emit::Rust if args.report => {
+            wrong("--report measures C; it does not apply here")
+        }
+        Emit::Ir if args.target.is_some() => {
+            wrong("--target does not apply: the IR is the same for all targets")
+        }
+        Emit::Ir
+        | Emit::Bin
+        | Emit::Lib
+        | Emit::Arduino
+        | Emit::Platformio
+        | Emit::Zephyr
+        | Emit::EspIdf
+            if args.board.is_some() =>
+        {
+            wrong(
+                "--board only applies to --emit elf and --emit uf2 (an image), --emit c and --emit rust (its sources)",
+            )
+        }
+        Emit::Elf if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "elf")),
+        Emit::Uf2 if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "uf2")),
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.device_access => wrong(
+            "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
+        ),
+        Emit::C if args.device_access && args.board.is_some() => wrong(
+            "--device-access does not apply to the sources of an image; emit the program without --board",
+        ),
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.retain => {
+            wrong("--retain only applies to --emit c and --emit lib (docs/src/retain.md)")
+        }
+        Emit::C if args.retain && args.board.is_some() => wrong(
+            "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
+        ),
+        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust
+            if args.lanes.is_some() =>
+        {
+            wrong("--lanes only applies to --emit c (docs/src/lanes.md)")
+        }
+        Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
+            "--lanes does not apply to the sources of an image; emit the program without --board",
+        ),
+        _ if args.misra && (args.board.is_some() || !emit.has_headers() || emit == Emit::Lib) => {
+            wrong("--misra only applies to emitted C without --board (docs/src/builds.md)")
+        }
+        _ if args.defmt && (emit != Emit::Rust || args.board.is_some()) => {
+            wrong("--defmt only applies to --emit rust without --board (docs/src/builds.md)")
+        }
+        _ => main_fits(emit, args, target),
+    }
+}
+
+/// The target, if options of main programs go with what is emitted.
+fn main_fits(
+    emit: Emit,
+    args: &Plan,
+    target: &'static Target,
+) -> std::result::Result<&'static Target, Failure> {
+    let wrong = |why: &str| Err(Failure::Because(why.to_string()));
+    match emit {
+        _ if args.servers && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_SERVERS),
+        Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
+        _ if args.io && !matches!(emit, Emit::C | Emit::Rust | Emit::Bin) => wrong(NO_IO),
+        Emit::C | Emit::Rust if args.io && !args.main => wrong(NO_IO),
+        Emit::Bin if target.is_bare() => {
+            wrong("--emit bin: the target has no operating system; use --emit elf for an image")
+        }
+        _ if args.main && args.board.is_some() => wrong(
+            "--main does not apply: an image has its own main program, generated from the board's description",
+        ),
+        Emit::Lib if args.main => wrong("--main does not apply: a library has no main program"),
+        _ if args.main && emit.package().is_some() => {
+            wrong("--main does not apply: the folder has an example that runs the program")
+        }
+        _ => Ok(target),
+    }
+}
+
+/// What an image lacks.
+const NO_BOARD: &str =
+    "--emit IMAGE needs --board, a description of the board (docs/src/boards.md)";
+
+/// Why `--servers` does not apply.
+const NO_SERVERS: &str =
+    "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
+
+/// Why `--io` does not apply.
+const NO_IO: &str = "--io only applies to --emit bin, and to --emit c and --emit rust with --main";
