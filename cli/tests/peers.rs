@@ -149,18 +149,19 @@ fn pymodbus_reads_and_writes_over_tcp() {
     );
 }
 
-#[test]
-fn remote_io_of_pymodbus_is_lost_and_comes_back() {
+/// A station over TCP is killed while `rungc serve` or an executable runs (`how`).
+fn remote_io(how: &str) {
     let Some(mut client) = python("pymodbus", "modbus_io.py") else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    client.arg(env!("CARGO_BIN_EXE_rungc")).arg(folder.path());
+    client.arg(how).arg(env!("CARGO_BIN_EXE_rungc"));
+    client.arg(folder.path());
     succeeds(client);
 }
 
-#[test]
-fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
+/// The same on a line.
+fn remote_io_on_a_line(how: &str) {
     let Some(mut client) = python("pymodbus", "modbus_io.py") else {
         return;
     };
@@ -178,10 +179,8 @@ fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
     while !ends.iter().all(|end| end.exists()) {
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
-    client
-        .arg(env!("CARGO_BIN_EXE_rungc"))
-        .arg(folder.path())
-        .args(&ends);
+    client.arg(how).arg(env!("CARGO_BIN_EXE_rungc"));
+    client.arg(folder.path()).args(&ends);
     let output = client.output().unwrap();
     line.kill().unwrap();
     line.wait().unwrap();
@@ -191,6 +190,27 @@ fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
         text(&output.stdout),
         text(&output.stderr)
     );
+}
+
+#[test]
+fn remote_io_of_pymodbus_is_lost_and_comes_back() {
+    remote_io("serve");
+}
+
+#[test]
+fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
+    remote_io_on_a_line("serve");
+}
+
+/// The same of executables, with the connections of the runtime.
+#[test]
+fn remote_io_of_an_executable_is_lost_and_comes_back() {
+    remote_io("bin");
+}
+
+#[test]
+fn remote_io_of_an_executable_on_a_line_is_lost_and_comes_back() {
+    remote_io_on_a_line("bin");
 }
 
 #[test]

@@ -107,6 +107,40 @@ fn mistakes_are_drawn() {
     }
 }
 
+/// A relay with one half in the program has its other half outside: at a connection, in what is served, as a fault.
+#[test]
+fn halves_outside_the_program() {
+    let program =
+        "LD M11\nAND M12\nAND M13\nOUT Y000\nLD M14\nOUT M10\nOUT M15\nLD M21\nOUT M20\nEND\n";
+    let project = "[project]\nprogram = 'p.il'\nmodel = 'fx3u'\n";
+    let outside = "\
+[retain]
+file = 'latched'
+fault = 'M13'
+
+[serve]
+modbus-tcp = 0
+M = 'M14-M15'
+
+[io.panel]
+files = '.'
+fault = 'M12'
+M10 = 'write lamp'
+M11 = 'read switch'
+";
+    let folder = folder(&[("p.il", program.as_bytes())]);
+    let path = folder.path();
+    let check = |settings: &str| {
+        fs::write(path.join("rungc.toml"), settings).unwrap();
+        shown(path, &["check"])
+    };
+    insta::assert_snapshot!("project_halves", check(project));
+    insta::assert_snapshot!(
+        "project_halves_outside",
+        check(&format!("{project}{outside}"))
+    );
+}
+
 #[test]
 fn what_is_latched() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);

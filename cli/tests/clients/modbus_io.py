@@ -1,6 +1,6 @@
-"""Remote I/O by a server of pymodbus, which is killed and comes back while `rungc serve` runs: python3 modbus_io.py RUNGC FOLDER [LINE LINE].
+"""Remote I/O by a server of pymodbus, which is killed and comes back while a program runs: python3 modbus_io.py HOW RUNGC FOLDER [LINE LINE].
 
-It is reached over TCP, or over the two ends of a serial line, the first its own. With --server and its place, this is that server: a port, or the
+HOW is `serve` (`rungc serve`) or `bin` (an executable). The server is reached over TCP, or over the two ends of a serial line, the first its own. With --server and its place, this is that server: a port, or the
 end of a line. It takes lines from standard input: `set 2 0 1 0 1` (function, address, values) and `get 1 8 2` (count).
 """
 
@@ -50,7 +50,7 @@ if sys.argv[1] == "--server":
     asyncio.run(serve(sys.argv[2]))
     sys.exit()
 
-rungc, folder, *line = sys.argv[1:]
+how, rungc, folder, *line = sys.argv[1:]
 
 PROGRAM = """\
 LD X000
@@ -129,8 +129,15 @@ with open(os.path.join(folder, "p.il"), "w") as file:
 with open(os.path.join(folder, "rungc.toml"), "w") as file:
     file.write(SETTINGS % connection)
 
+if how == "bin":
+    build = [rungc, "build", "p.il", "--emit", "bin", "--io", "--servers", "-o", "p"]
+    subprocess.run(build, cwd=folder, check=True, capture_output=True)
+    command, code = ["./p", "--io", "rungc.toml", "--modbus-tcp", "0"], 0
+else:
+    command, code = [rungc, "serve"], 130
 # The station is not there yet.
-run = subprocess.Popen([rungc, "serve"], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+run = subprocess.Popen(command, cwd=folder, text=True, **pipes)
 said = []
 while not (said and "Modbus TCP at" in said[-1]):
     said.append(run.stderr.readline())
@@ -201,7 +208,7 @@ try:
     # The end of a run leaves the outputs off.
     plc.close()
     run.send_signal(signal.SIGINT)
-    assert run.wait(20) == 130
+    assert run.wait(20) == code
     assert server.coils() == [0] * 8
     assert server.registers() == [500, 0]
     server.kill()
