@@ -235,6 +235,48 @@ fn what_programs_do_is_compared() {
 }
 
 #[test]
+fn instructions_that_keep_a_comparison_from_saying_more_are_named() {
+    let old = "\
+LD X0
+MOV K5 D0
+LD X1
+PID D0 D10 D100 D20
+LD X2
+RCR D50 K1
+LD X3
+FROM K0 K1 D60 K1
+END
+";
+    let new = old
+        .replace("K5", "K6")
+        .replace("LD X3\n", "LD X4\nRAMP D70 D71 D72 K9\nLD X3\n")
+        .replace("K0 K1 D60", "K0 K2 D60");
+    let folder = folder(&[("old.il", old.as_bytes()), ("new.il", new.as_bytes())]);
+    let diff = |format: &str| {
+        let args = ["diff", "old.il", "new.il", "--semantic", "--format", format];
+        let out = rungc(folder.path(), &args);
+        assert_eq!(out.status.code(), Some(1));
+        text(&out.stdout)
+    };
+    let human = diff("human");
+    let named = human.lines().find(|line| line.starts_with("Instructions "));
+    insta::assert_snapshot!("vague", named.unwrap_or(&human));
+    for format in ["md", "html"] {
+        assert!(diff(format).contains(named.unwrap_or(&human)), "{format}");
+    }
+    let object: serde_json::Value = serde_json::from_str(&diff("json")).unwrap();
+    insta::assert_snapshot!("vague_json", object["behaviour"]["vague"]);
+    // None where none is reached.
+    let ramp = "LD X0\nOUT Y0\nLD X1\nRAMP D0 D1 D2 K9\nEND\n";
+    let (words, _) = behaviour(ramp, &ramp.replace("LD X0", "LDI X0"));
+    assert!(
+        words.starts_with("Outputs that can differ: Y000."),
+        "{words}"
+    );
+    assert!(!words.contains("RAMP"), "{words}");
+}
+
+#[test]
 fn a_page_shows_hostile_texts_as_texts() {
     let old = OLD.replace("start button", "<script>alert(1)</script>");
     let folder = folder(&[("old.il", old.as_bytes()), ("new.il", NEW.as_bytes())]);

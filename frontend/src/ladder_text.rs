@@ -5,8 +5,9 @@
 //! |--[ M0 ]----+                     |
 //! ```
 //!
-//! [`grid`] finds wires and symbols, [`circuit`] what they connect, and this module turns that into instructions. Lines
-//! without a rail are lines of an instruction list: comments, properties, labels, and networks that have no picture.
+//! [`grid`] finds wires and symbols, [`circuit`] what they connect, and this module turns that into instructions. The
+//! rails may be left out: `--[ X000 ]--( M0 )--`. Lines without a rail or wire at their start are lines of an
+//! instruction list: comments, properties, labels, and networks that have no picture.
 
 mod circuit;
 mod grid;
@@ -24,8 +25,8 @@ use smol_str::SmolStr;
 /// How many lines are looked at to find out what a text is.
 const HEAD: usize = 500;
 
-/// Whether a text is drawn ladder: one of its first lines, comments apart, begins with a rail, after a number and a
-/// label perhaps.
+/// Whether a text is drawn ladder: one of its first lines, comments apart, begins with a rail or with a wire to a
+/// symbol, after a number and a label perhaps.
 pub(crate) fn detect(text: &str) -> bool {
     let lines = text
         .lines()

@@ -50,8 +50,49 @@ fn contacts_are_written_in_many_ways() {
         "│   X000    X001          │\n├───┤ ├─────┤/├───(Y000)──┤\n",
         "    X0   X1\n|---||---|/|--(Y0)\n",
         "  12 |--[ X000 ]--[/ X001]--( Y000 )--|\n",
+        "--| X0 |--|/X1|--( Y0 )--\n",
+        "--[ X0 ]--[/X1]--( Y0 )--\n",
+        "  -[X0]-[/X1]-(Y0)-\n",
+        "12 -- [ X0 ] -- [/ X1 ] -- ( Y0 )\n",
+        "   X0    X1     Y0\n--| |---|/|---( )--\n",
+        "    X0    X1\n---] [---]/[---(Y0)\n",
+        "  X0   X1\n──┤ ├──┤/├──( Y0 )──\n",
+        "  X0  X1\n--||--|/|--(Y0)--\n",
     ] {
         assert_eq!(list(drawing), expected, "{drawing}");
+    }
+}
+
+#[test]
+fn branches_need_no_rails() {
+    let drawing = "\
+; start
+--[ X0 ]--+--[/X1]--+--( Y0 )--
+--[ M0 ]--+         |
+                    +--| X2 |--( Y1 )--
+0 --[ X3 ]--[MOV K10 D0]--
+LD X4
+OUT Y2
+";
+    let expected = "LD X000, OR M0, ANI X001, OUT Y000, AND X002, OUT Y001, LD X003, MOV K10 D0";
+    assert_eq!(list(drawing), format!("{expected}, LD X004, OUT Y002"));
+    assert_eq!(mistakes("--[ X0 ]--[/X1]--\n"), [("E0050", 1, 17)]);
+    assert_eq!(mistakes("--[ X0 --( Y0 )--\n"), [("E0051", 1, 3)]);
+}
+
+#[test]
+fn lists_with_dashes_are_no_drawings() {
+    for text in [
+        "- [ ] test the motor\nLD X0\n",
+        "- (start) - X0\n",
+        "--- Motor (main) ---\n",
+        "---|---|---\n",
+        "-- LD X0 --\n",
+        "-----\n",
+        "- [link](page)\n",
+    ] {
+        let read = read_bytes("list.txt", text.as_bytes()).unwrap();
+        assert_eq!(read.program.kind, SourceKind::Il, "{text}");
     }
 }
 

@@ -33,6 +33,10 @@ pub enum Behaviour {
         devices: Vec<DeviceRun>,
         /// Whether modules, pulse outputs or serial ports can be used differently, too.
         hardware: bool,
+        /// Steps of instructions that are taken to use all special devices, as nothing says which ones they use, and
+        /// that read what can differ or are not the same. Others read and write less, so that more devices may be the
+        /// same. First those that only the old module has, then those of the new one, both in order.
+        vague: [Vec<u32>; 2],
     },
     /// Not compared, as the end of "not decided: …".
     Undecided(&'static str),
@@ -90,7 +94,21 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
     let hardware = taint.all || taint.names.contains(&names.hardware());
     match devices.is_empty() && !hardware {
         true => Behaviour::Same,
-        false => Behaviour::CanDiffer { devices, hardware },
+        false => Behaviour::CanDiffer {
+            devices,
+            hardware,
+            vague: [0, 1].map(|side| {
+                let atoms = sequences[side].atoms.iter().enumerate();
+                let steps = atoms.filter(|(at, atom)| {
+                    let alone = !kept[side].contains(at);
+                    alone || side == 1 && taint.reaches(atom)
+                });
+                let mut steps: Vec<u32> = steps.filter_map(|(_, atom)| atom.vague).collect();
+                sorting::sort(&mut steps);
+                steps.dedup();
+                steps
+            }),
+        },
     }
 }
 

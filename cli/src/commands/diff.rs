@@ -120,7 +120,9 @@ fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, 
     let compared = compared(old, new, [(&a, &ladder_a), (&b, &ladder_b)], args.semantic);
     let differs = match &compared.behaviour {
         Some(Behaviour::Same) => false,
-        Some(Behaviour::CanDiffer { devices, hardware }) => !devices.is_empty() || *hardware,
+        Some(Behaviour::CanDiffer {
+            devices, hardware, ..
+        }) => !devices.is_empty() || *hardware,
         Some(Behaviour::Undecided(_)) => true,
         None => !compared.comparison.is_empty(),
     };
@@ -195,6 +197,58 @@ fn list(runs: &[&DeviceRun]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
+/// How many instructions are named that keep a comparison from saying more.
+const MOST_NAMED: usize = 12;
+
+impl Compared<'_> {
+    /// The instructions that are taken to use all special devices, where that matters: whether each is in the new
+    /// program, its mnemonic and its step.
+    fn vague(&self) -> Vec<(bool, &str, u32)> {
+        let Some(Behaviour::CanDiffer { vague, .. }) = &self.behaviour else {
+            return Vec::new();
+        };
+        let sides = [self.old, self.new]
+            .into_iter()
+            .zip(vague)
+            .zip([false, true]);
+        let named = sides.flat_map(|((side, steps), is_new)| {
+            steps.iter().map(move |step| {
+                let instrs = &side.resolved.instrs;
+                let at = instrs.partition_point(|instr| instr.step < *step);
+                let instr = side.resolved.program.instrs.get(at);
+                (is_new, instr.map_or("", |instr| &*instr.mnemonic), *step)
+            })
+        });
+        named.collect()
+    }
+
+    /// What a comparison of behaviour says, in sentences.
+    fn in_words(&self) -> Vec<String> {
+        let mut words = match &self.behaviour {
+            Some(behaviour) => in_words(behaviour, &self.proved),
+            None => return Vec::new(),
+        };
+        let vague = self.vague();
+        if !vague.is_empty() {
+            let named = vague.iter().take(MOST_NAMED);
+            let mut named: Vec<String> = named
+                .map(|(is_new, mnemonic, step)| match is_new {
+                    true => format!("{mnemonic} (step {step})"),
+                    false => format!("{mnemonic} (step {step} before)"),
+                })
+                .collect();
+            if let Some(more @ 1..) = vague.len().checked_sub(MOST_NAMED) {
+                named.push(format!("{more} more"));
+            }
+            let named = named.join(", ");
+            words.push(format!(
+                "Instructions that are taken to use all special devices, which can make these lists longer: {named}."
+            ));
+        }
+        words
+    }
+}
+
 /// What a comparison of behaviour says, in sentences.
 fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
     match behaviour {
@@ -202,7 +256,9 @@ fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
             "Same behaviour: with the same inputs, all devices have the same values.".to_string(),
         ],
         Behaviour::Undecided(why) => vec![format!("Behaviour not decided: {why}.")],
-        Behaviour::CanDiffer { devices, hardware } => {
+        Behaviour::CanDiffer {
+            devices, hardware, ..
+        } => {
             let (outputs, others): (Vec<&DeviceRun>, Vec<_>) =
                 devices.iter().partition(|run| run.class == DeviceClass::Y);
             let mut words = vec![match outputs.is_empty() {

@@ -62,19 +62,48 @@ pub(super) struct Drawn {
 const RAILS: &str = "|│┃║├┣+";
 const LINES: &str = "-─━═";
 
-/// Whether a line is drawn: a rail comes first, after a number and a label perhaps.
+/// Whether a line is drawn: a rail comes first, or a wire that leads to a symbol, after a number and a label perhaps.
 pub(super) fn is_drawn(line: &str) -> bool {
     let after = line.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c.is_whitespace());
-    let Some(rail) = after.chars().next().filter(|c| RAILS.contains(*c)) else {
-        return false;
-    };
     let margin = &line[..line.len() - after.len()];
-    let rest = &after[rail.len_utf8()..];
     let is_margin = margin.split_whitespace().all(|word| {
         let digits = word.trim_start_matches(['P', 'I', 'p', 'i']);
         digits.bytes().all(|b| b.is_ascii_digit()) && word.len() <= digits.len() + 1
     });
-    is_margin && (rail != '+' || rest.starts_with(|c| LINES.contains(c)))
+    let Some(first) = after.chars().next().filter(|_| is_margin) else {
+        return false;
+    };
+    let leads_on = after[first.len_utf8()..].starts_with(|c| LINES.contains(c));
+    match first {
+        '+' => leads_on,
+        c if RAILS.contains(c) => true,
+        c if LINES.contains(c) => is_open(after),
+        _ => false,
+    }
+}
+
+/// Whether a line that begins with a wire is drawn without a rail: the wire leads to a contact in brackets or bars, or
+/// to an output, and a wire or an output comes after it.
+fn is_open(line: &str) -> bool {
+    let symbols = line.trim_start_matches(|c| LINES.contains(c));
+    // One dash and a space begin an item of a list.
+    let is_long = line.chars().nth(1).is_some_and(|c| LINES.contains(c));
+    let symbols = symbols
+        .strip_prefix(' ')
+        .filter(|_| is_long)
+        .unwrap_or(symbols);
+    let mut inside = symbols.chars();
+    let opens = match inside.next() {
+        // A line of a table has dashes between its bars.
+        Some('|') => inside.next().is_some_and(|c| !LINES.contains(c)),
+        first => first.is_some_and(|c| "[(]┤".contains(c)),
+    };
+    let ends = |(at, close): (usize, char)| {
+        let rest = &symbols[at + close.len_utf8()..];
+        let rest = rest.strip_prefix(' ').unwrap_or(rest);
+        "])|[├".contains(close) && rest.starts_with(|c| LINES.contains(c) || "+┬(".contains(c))
+    };
+    opens && symbols.char_indices().skip(1).any(ends)
 }
 
 /// Whether a line without a rail names the contacts of the drawn line below it: it consists of devices alone.
@@ -83,12 +112,17 @@ pub(super) fn is_names(line: &str) -> bool {
     words.peek().is_some() && words.all(is_device)
 }
 
-/// Where the first rail of a row is, after a number and a label perhaps.
+/// Where the first rail of a row is, or the first wire of one without rails, after a number and a label perhaps.
 fn rail_of(row: &[(char, u32)]) -> Option<usize> {
     let at = row
         .iter()
         .position(|(c, _)| !c.is_ascii_alphanumeric() && *c != ' ')?;
-    RAILS.contains(row[at].0).then_some(at)
+    let is_rail = RAILS.contains(row[at].0)
+        || LINES.contains(row[at].0) && {
+            let rest: String = row[at..].iter().map(|cell| cell.0).collect();
+            is_open(&rest)
+        };
+    is_rail.then_some(at)
 }
 
 /// Which neighbours a character of a wire reaches: left, right, up, down.

@@ -67,6 +67,8 @@ pub(super) struct Atom {
     pub writes: Uses,
     /// The function that it calls, by its position.
     pub calls: Option<usize>,
+    /// Its step, if it is taken to use all special devices.
+    pub vague: Option<u32>,
     /// Whether it decides what is executed next to it, or uses anything at all, so that nothing moves across it.
     pub fixed: bool,
 }
@@ -120,6 +122,8 @@ struct Reader<'a> {
     around: Vec<(u32, bool)>,
     /// The labels before the statement at hand.
     passed: FxHashSet<u32>,
+    /// The step of the statement at hand, if it is taken to use all special devices.
+    vague: Option<u32>,
 }
 
 impl<'a> Reader<'a> {
@@ -138,6 +142,7 @@ impl<'a> Reader<'a> {
             network: 0,
             around: Vec::new(),
             passed: FxHashSet::default(),
+            vague: None,
         }
     }
 
@@ -197,6 +202,7 @@ impl<'a> Reader<'a> {
             reads,
             writes,
             calls: None,
+            vague: self.vague.take(),
         });
     }
 
@@ -501,15 +507,15 @@ impl<'a> Reader<'a> {
             value, there, step, ..
         }) = plain
         {
-            self.step(step);
+            let at = self.step(step);
             let cell = self.cell(std::mem::replace(value, CellId(0)));
             let there = self.temp(std::mem::replace(there, TempId(0)), &about);
-            self.runtime(true, reads, writes);
+            self.runtime(at, true, reads, writes);
             writes.names.extend([cell, there]);
             names.extend([cell, there]);
         } else if let Stmt::Send(Send { step, .. }) = plain {
-            self.step(step);
-            self.runtime(true, reads, writes);
+            let at = self.step(step);
+            self.runtime(at, true, reads, writes);
         } else if let Stmt::Call(call) = plain {
             names.push(self.call(call, &about, reads, writes));
         }
@@ -518,7 +524,7 @@ impl<'a> Reader<'a> {
 
     /// A call of the runtime reads whatever it may write.
     fn call(&mut self, call: &mut Call, about: &str, reads: &mut Uses, writes: &mut Uses) -> u32 {
-        self.step(&mut call.step);
+        let step = self.step(&mut call.step);
         let slot = std::mem::take(&mut call.slot);
         let mut texts = String::new();
         for arg in &mut call.args {
@@ -563,7 +569,7 @@ impl<'a> Reader<'a> {
             always: needs.always,
             ..Needs::default()
         };
-        self.runtime(needs != at_rest, reads, writes);
+        self.runtime(step, needs != at_rest, reads, writes);
         reads.all = needs.anywhere;
         writes.all = needs.anywhere;
         memory
@@ -571,7 +577,8 @@ impl<'a> Reader<'a> {
 
     /// What calls of the runtime may read and write in addition to their operands, unless the runtime says what they
     /// do.
-    fn runtime(&mut self, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
+    fn runtime(&mut self, step: u32, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
+        self.vague = Some(step);
         reads.runs.extend(SPECIAL);
         writes.runs.extend(SPECIAL);
         if hardware {
@@ -591,9 +598,12 @@ impl<'a> Reader<'a> {
         name
     }
 
-    fn step(&self, step: &mut u32) {
+    /// Takes a step out of a statement, unless steps are a part of what it does.
+    fn step(&self, step: &mut u32) -> u32 {
+        let at = *step;
         if !self.steps {
             *step = 0;
         }
+        at
     }
 }

@@ -27,6 +27,12 @@ pub fn object(compared: &Compared, differs: bool) -> Result<String, Failure> {
         let proved = compared.proved.iter();
         let proved = proved.map(|number| DeviceClass::Y.number(*number).to_string());
         object["behaviour"]["proved"] = proved.collect();
+        let vague = compared.vague().into_iter();
+        let vague = vague.map(|(is_new, mnemonic, step)| {
+            let program = if is_new { "new" } else { "old" };
+            json!({ "program": program, "instruction": mnemonic, "step": step })
+        });
+        object["behaviour"]["vague"] = vague.collect();
     }
     let text = serde_json::to_string_pretty(&object);
     text.map(|text| text + "\n")
@@ -63,7 +69,9 @@ fn behaviour(behaviour: &Behaviour) -> Value {
     match behaviour {
         Behaviour::Same => json!({ "verdict": "same" }),
         Behaviour::Undecided(why) => json!({ "verdict": "not_decided", "why": why }),
-        Behaviour::CanDiffer { devices, hardware } => {
+        Behaviour::CanDiffer {
+            devices, hardware, ..
+        } => {
             let numbers = devices.iter().flat_map(|run| {
                 let numbers = run.first..run.first + run.count;
                 numbers.map(|number| run.class.number(number).to_string())

@@ -1,6 +1,6 @@
 //! A comparison as text: for a terminal, and as Markdown.
 
-use super::{Compared, counted, in_words};
+use super::{Compared, counted};
 use rungc_ladder::compare::{Change, Differing, Drawn};
 use rungc_ladder::text::{Style, draw_alike};
 use rungc_syntax::align::{Line, lines};
@@ -38,8 +38,7 @@ pub fn summary(compared: &Compared) -> String {
         parts.push("no differences".to_string());
     }
     let mut text = parts.join(", ");
-    let found = compared.behaviour.iter();
-    for words in found.flat_map(|behaviour| in_words(behaviour, &compared.proved)) {
+    for words in compared.in_words() {
         let _ = write!(text, "\n{words}");
     }
     text
