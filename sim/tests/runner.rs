@@ -270,7 +270,7 @@ run_ms = 700
 #[test]
 fn cases_that_share_a_program_share_its_module() {
     let text = lamp(
-        "\n[[case]]\nname = \"a\"\nrows = [{ d = 1 }, { d = 2 }, { d = 3 }]\n[[case.step]]\nset = { D9 = \"$d\" }\nexpect = { D9 = \"$d\", D0 = 1000 }\n",
+        "\n[[case]]\nname = \"a\"\nrows = [{ d = 1 }, { d = 2 }, { d = 3 }]\n[[case.step]]\nset = { X000 = 1, D9 = \"$d\" }\nexpect = { D9 = \"$d\", D0 = 1000 }\n",
     );
     let suite = Suite::compile(vec![plctest::parse("t.plctest.toml", &text).unwrap()], &[]);
     assert_eq!((suite.len(), suite.modules().len()), (3, 1));
