@@ -16,8 +16,8 @@ super::codes! {
     DRIVEN_DIFFERENTLY = "E0832" "driven-differently" Error None,
     "two coils drive an output differently in one scan",
     "`rungc explore` has found a scan in which one coil of the output is on and a later one is off: the last coil executed decides, so the output stays off although a rung asks for it. Join the conditions in one rung.",
-    wrong: "LD X000\nOUT Y000\nLD X001\nOUT Y000\nEND",
-    right: "LD X000\nOR X001\nOUT Y000\nEND";
+    wrong: "",
+    right: "";
 
     NEVER_RESTS = "E0833" "never-rests" Error None,
     "an output can change in every scan while no input does",
