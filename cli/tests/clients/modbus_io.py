@@ -137,7 +137,8 @@ else:
     command, code = [rungc, "serve"], 130
 # The station is not there yet.
 pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
-run = subprocess.Popen(command, cwd=folder, text=True, **pipes)
+# A shell's background jobs ignore SIGINT, and executables leave it so.
+run = subprocess.Popen(command, cwd=folder, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), **pipes)
 said = []
 while not (said and "Modbus TCP at" in said[-1]):
     said.append(run.stderr.readline())
