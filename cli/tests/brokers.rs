@@ -4,13 +4,13 @@
 
 mod common;
 
+use common::mosquitto::{self, Ends, broker, is_there, open_to_all, soon};
 use common::{folder, free_port, rungc, text};
 use std::fs;
-use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const PROGRAM: &str = "\
 LD X000
@@ -50,93 +50,17 @@ D0 = 'write scans'
 D20 = 'write recipe'
 ";
 
-/// A process that ends with the test.
-struct Ends(Child);
-
-impl Drop for Ends {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-fn is_there() -> bool {
-    let there = ["mosquitto", "mosquitto_pub"].iter().all(|name| {
-        let mut command = Command::new(name);
-        command
-            .arg("-h")
-            .stdout(Stdio::null())
-            .stderr(Stdio::null());
-        command.status().is_ok()
-    });
-    if !there {
-        let required = std::env::var_os("RUNGC_REQUIRE_PEERS").is_some();
-        assert!(
-            !required,
-            "RUNGC_REQUIRE_PEERS is set, but there is no mosquitto"
-        );
-        eprintln!("skipped: there is no mosquitto (see .ci/run)");
-    }
-    there
-}
-
-/// Waits until something is so.
-fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
-    let until = Instant::now() + Duration::from_secs(90);
-    while !is_so() {
-        assert!(Instant::now() < until, "{what}");
-        thread::sleep(Duration::from_millis(20));
-    }
-}
-
-/// A broker in a folder that has its configuration.
-fn broker(folder: &Path, port: u16) -> Ends {
-    let mut command = Command::new("mosquitto");
-    command.args(["-c", "mosquitto.conf"]).current_dir(folder);
-    command.stdout(Stdio::null()).stderr(Stdio::null());
-    let broker = Ends(command.spawn().unwrap());
-    soon("the broker listens", || {
-        TcpStream::connect(("127.0.0.1", port)).is_ok()
-    });
-    broker
-}
+const USER: Option<(&str, &str)> = Some(("plc", "secret"));
 
 fn publish(port: u16, topic: &str, payload: &str) {
-    let mut command = Command::new("mosquitto_pub");
-    command.args([
-        "-p",
-        &port.to_string(),
-        "-u",
-        "plc",
-        "-P",
-        "secret",
-        "-r",
-        "-t",
-        topic,
-        "-m",
-        payload,
-    ]);
-    assert!(command.status().unwrap().success());
+    mosquitto::publish(port, USER, topic, payload);
 }
 
 /// The value of a topic that is kept by the broker.
 fn topic(port: u16, topic: &str) -> String {
-    let mut command = Command::new("mosquitto_sub");
-    command.args([
-        "-p",
-        &port.to_string(),
-        "-u",
-        "plc",
-        "-P",
-        "secret",
-        "-C",
-        "1",
-        "-W",
-        "5",
-        "-t",
-        topic,
-    ]);
-    text(&command.output().unwrap().stdout).trim().to_string()
+    let options = ["-C", "1", "-W", "5", "-t", topic];
+    let shown = mosquitto::subscribe(port, USER, &options);
+    shown.trim().to_string()
 }
 
 fn shows(port: u16, name: &str, payload: &str) {
@@ -254,15 +178,7 @@ fn lost_and_back(start: impl Fn(&Path) -> Command, code: i32) {
     }
     let _broker = broker(folder, port);
     works(folder, port, 9);
-    let pid = run.0.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &pid])
-            .status()
-            .unwrap()
-            .success()
-    );
-    assert_eq!(run.0.wait().unwrap().code(), Some(code));
+    assert_eq!(run.interrupt(), Some(code));
     shows(port, "plant/status", "offline");
     shows(port, "plant/motor", "0");
 }
@@ -273,13 +189,12 @@ fn the_last_will_says_that_the_plc_is_gone() {
         return;
     }
     let port = free_port();
-    let configuration = format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n");
     let settings = SETTINGS.replace("PORT", &port.to_string());
     let settings = settings.replace("user = 'plc'\npassword-file = 'password'\n", "");
     let folder = folder(&[
         ("p.il", PROGRAM.as_bytes()),
         ("rungc.toml", settings.as_bytes()),
-        ("mosquitto.conf", configuration.as_bytes()),
+        ("mosquitto.conf", open_to_all(port).as_bytes()),
     ]);
     let _broker = broker(folder.path(), port);
     let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));

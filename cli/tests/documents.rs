@@ -9,12 +9,14 @@
 //! is compared, too, except for numbers, which depend on the tools. The line before such a fence may say what it needs,
 //! `<!-- needs: TOOL … -->`, or why it is not run, `<!-- not run: REASON -->`.
 
+mod common;
+
 use std::env;
 use std::ffi::OsString;
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -143,10 +145,12 @@ fn desk(page: &str) -> tempfile::TempDir {
 }
 
 const EXAMPLES: &str = "examples/programs";
+const FLEET: &str = "examples/fleet";
 
 /// What commands of the pages name.
-const DESK: [&str; 8] = [
+const DESK: [&str; 9] = [
     EXAMPLES,
+    FLEET,
     "examples/oven",
     "examples/kiln",
     "examples/tank",
@@ -223,23 +227,55 @@ fn script(text: &str) -> (Vec<&str>, &str) {
 }
 
 /// Runs commands in a folder one after the other, as far as they succeed; what the last one prints, and whether all
-/// succeed.
+/// succeed. What they leave in the background ends with them.
 fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
     let mut printed = String::new();
     for command in commands {
-        let output = Command::new("sh")
+        // Not a pipe, which those in the background would keep open.
+        let mut said = tempfile::tempfile().unwrap();
+        let mut shell = Command::new("sh");
+        shell
             .args(["-e", "-c", &format!("exec 2>&1\n{command}")])
             .current_dir(folder)
             .env("PATH", path_with_rungc())
             .env("HOME", folder)
-            .output()
-            .unwrap();
-        printed = String::from_utf8_lossy(&output.stdout).into_owned();
-        if !output.status.success() {
+            .stdin(Stdio::null())
+            .stdout(said.try_clone().unwrap());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut shell, 0);
+        let mut shell = shell.spawn().unwrap();
+        let ended = shell.wait().unwrap();
+        #[cfg(unix)]
+        if let Some(group) = rustix::process::Pid::from_raw(shell.id() as i32) {
+            // Mostly there is nothing left.
+            let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+        }
+        let mut bytes = Vec::new();
+        said.seek(SeekFrom::Start(0)).unwrap();
+        said.read_to_end(&mut bytes).unwrap();
+        printed = String::from_utf8_lossy(&bytes).into_owned();
+        if !ended.success() {
             return (printed, false);
         }
     }
     (printed, true)
+}
+
+/// The usual port of brokers.
+const BROKER: &str = "1883";
+
+/// Lets a block that has a broker use a port that is free: in the block, and in the files of fleets that it runs.
+fn with_free_port(text: &str, folder: &Path) -> String {
+    if !text.contains("mosquitto") {
+        return text.to_string();
+    }
+    let port = common::free_port().to_string();
+    for entry in fs::read_dir(folder.join(FLEET)).unwrap() {
+        let path = entry.unwrap().path();
+        let written = fs::read_to_string(&path).unwrap();
+        fs::write(&path, written.replace(BROKER, &port)).unwrap();
+    }
+    text.replace(BROKER, &port)
 }
 
 /// Lines without their numbers and the spaces that align them.
@@ -282,7 +318,8 @@ fn shell_commands_of_the_pages_run() {
                 eprintln!("skipped a block of {page_name}: {missing:?} are not installed");
                 continue;
             }
-            let (commands, expected) = script(&block.text);
+            let text = with_free_port(&block.text, folder.path());
+            let (commands, expected) = script(&text);
             let (printed, succeeded) = shell(folder.path(), &commands);
             assert!(succeeded, "{page_name}: {commands:?}\n{printed}");
             let fits =
@@ -292,7 +329,7 @@ fn shell_commands_of_the_pages_run() {
         }
     }
     assert!(
-        run >= 1 && left_out <= 9,
+        run >= 1 && left_out <= 8,
         "{run} blocks were run, {left_out} are left out"
     );
 }

@@ -4,31 +4,17 @@
 
 mod common;
 
-use common::{folder, free_port, shown, text};
+use common::mosquitto::Ends;
+use common::{folder, shown, text};
 use std::env;
 use std::io::{BufRead, BufReader, Read};
-use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::process::{ChildStderr, Command, Stdio};
 
 const ADDS: &str = "LD M8000\nADD D0 K1 D1\nLD M0\nOUT M1\nEND\n";
 
 /// Calls the runtime library, which does not run in lanes.
 const CALLS: &str = "LD M8000\nADD D0 K1 D1\nDSIN D10 D20\nLD M0\nOUT M1\nEND\n";
-
-const PRESS: &str = include_str!("../../examples/fleet/press.il");
-
-/// A fleet, or a broker, that ends with the test.
-struct Ends(Child);
-
-impl Drop for Ends {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
 
 /// A fleet at work, and what it reports.
 fn start(folder: &Path, file: &str) -> (Ends, BufReader<ChildStderr>) {
@@ -45,28 +31,11 @@ fn start(folder: &Path, file: &str) -> (Ends, BufReader<ChildStderr>) {
 
 /// Interrupts a fleet; what it prints at its end.
 fn interrupt(fleet: &mut Ends) -> String {
-    let pid = fleet.0.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &pid])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let mut summary = String::new();
     let mut out = fleet.0.stdout.take().unwrap();
+    assert_eq!(fleet.interrupt(), Some(130));
+    let mut summary = String::new();
     out.read_to_string(&mut summary).unwrap();
-    assert_eq!(fleet.0.wait().unwrap().code(), Some(130));
     summary
-}
-
-/// Waits until something is so.
-fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
-    let until = Instant::now() + Duration::from_secs(60);
-    while !is_so() {
-        assert!(Instant::now() < until, "{what}");
-        thread::sleep(Duration::from_millis(50));
-    }
 }
 
 /// What `rungc fleet` says of a file.
@@ -74,6 +43,7 @@ fn said(fleet: &str) -> String {
     let folder = folder(&[
         ("p.il", ADDS.as_bytes()),
         ("calls.il", CALLS.as_bytes()),
+        ("clock.il", b"LD M8000\nTRD D0\nEND\n"),
         ("wrong.il", b"LD Q0\nOUT M0\nEND\n"),
         ("fleet.toml", fleet.as_bytes()),
     ]);
@@ -101,6 +71,7 @@ fn mistakes_have_their_place() {
         "[plc.a]\nprogram = 'p.il'\nstore = ['D9000']\n",
         "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = '127.0.0.1:65535'\ncount = 2\nengine = 'interp'\n",
         "[plc.a]\nprogram = 'calls.il'\nengine = 'lanes'\n",
+        "[plc.a]\nprogram = 'clock.il'\nengine = 'c'\n",
         "[plc.a]\nprogram = 'wrong.il'\n",
         "[plc.a]\nprogram = 'none.il'\n",
     ];
@@ -138,6 +109,59 @@ engine = 'ENGINE'
         };
         assert!(out.contains(what), "{out}{err}");
     }
+}
+
+/// Divides by zero in each PLC later than in the one before it: only PLCs 5 to 24 have come to it at the end.
+const DIVIDES: &str = "LD X000\nDIV D0 D1 D2\nLD X000\nINC D5\nEND\n";
+
+/// The same, and the runtime library is asked for the root of a negative number; then the program stops itself.
+const ROOTS: &str = "\
+LD X000
+DIV D0 D1 D2
+LDP X000
+MOV K-5 D10
+SQR D10 D20
+LD X001
+OUT M8037
+END
+";
+
+/// What the summary says of a fleet of 100 PLCs on an engine, with what it says of the engine cut.
+fn summary(program: &str, engine: &str) -> String {
+    let fleet = format!(
+        "[plc.a]\nprogram = 'p.il'\ncount = 100\nfirst = 5\nset = ['X000=1@20ms', 'X001=1@150ms']\nspread = '10ms'\nengine = '{engine}'\n"
+    );
+    let program = ("p.il", program.as_bytes());
+    let folder = folder(&[program, ("fleet.toml", fleet.as_bytes())]);
+    let args = ["fleet", "fleet.toml", "--virtual", "--for", "210ms"];
+    let out = common::rungc(folder.path(), &args);
+    let (printed, err) = (text(&out.stdout), text(&out.stderr));
+    assert!(out.status.success(), "{printed}{err}");
+    let begins = match engine {
+        "lanes" => "a: 100 PLCs, 64 at once in ",
+        "c" => "a: 100 PLCs, in C in ",
+        _ => "a: 100 PLCs, on the interpreter\n",
+    };
+    assert!(printed.contains(begins), "{printed}{err}");
+    let mut lines = printed.lines().filter(|line| line.starts_with("a: "));
+    lines.next();
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn operation_errors_are_in_the_summary() {
+    let lanes = summary(DIVIDES, "lanes");
+    insta::assert_snapshot!(lanes);
+    for engine in ["c", "interp"] {
+        assert_eq!(summary(DIVIDES, engine), lanes, "{engine}");
+    }
+}
+
+#[test]
+fn a_program_that_calls_the_runtime_runs_in_c() {
+    let called = summary(ROOTS, "c");
+    insta::assert_snapshot!(called);
+    assert_eq!(summary(ROOTS, "interp"), called);
 }
 
 #[test]
@@ -203,7 +227,7 @@ modbus-tcp = '0'
     for line in [
         "ports: 200 PLCs, 64 at once in ",
         "units: 100 PLCs, 64 at once in ",
-        "calls: 20 PLCs, on the interpreter: the program calls the runtime library; ",
+        "calls: 20 PLCs, on the interpreter: the program calls the runtime library, and fewer than 64 PLCs are ",
     ] {
         assert!(summary.contains(line), "{summary}");
     }
@@ -212,42 +236,23 @@ modbus-tcp = '0'
 #[cfg(feature = "mqtt")]
 mod brokers {
     use super::*;
+    use common::free_port;
+    use common::mosquitto::{self, broker, is_there, open_to_all, soon};
+    use std::thread;
+    use std::time::Duration;
 
-    fn broker(folder: &Path, port: u16) -> Ends {
-        let mut command = Command::new("mosquitto");
-        command.args(["-c", "mosquitto.conf"]).current_dir(folder);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        let broker = Ends(command.spawn().unwrap());
-        soon("the broker listens", || {
-            TcpStream::connect(("127.0.0.1", port)).is_ok()
-        });
-        broker
-    }
-
-    fn client(name: &str, port: u16) -> Command {
-        let mut command = Command::new(name);
-        command.args(["-p", &port.to_string()]);
-        command
-    }
+    const PRESS: &str = include_str!("../../examples/fleet/press.il");
 
     /// How many of the presses show a value of a topic.
     fn count(port: u16, topic: &str, payload: &str) -> usize {
-        let mut command = client("mosquitto_sub", port);
-        command.args(["-W", "1", "-t", &format!("hall/press/+/{topic}")]);
-        let shown = text(&command.output().unwrap().stdout);
+        let topic = format!("hall/press/+/{topic}");
+        let shown = mosquitto::subscribe(port, None, &["-W", "1", "-t", &topic]);
         shown.lines().filter(|line| *line == payload).count()
     }
 
     fn publish(port: u16, press: u32, topic: &str, payload: &str) {
-        let mut command = client("mosquitto_pub", port);
-        command.args([
-            "-r",
-            "-t",
-            &format!("hall/press/{press}/{topic}"),
-            "-m",
-            payload,
-        ]);
-        assert!(command.status().unwrap().success());
+        let topic = format!("hall/press/{press}/{topic}");
+        mosquitto::publish(port, None, &topic, payload);
     }
 
     /// Presses of both processes are started and stopped.
@@ -267,16 +272,10 @@ mod brokers {
 
     #[test]
     fn two_processes_share_a_broker_that_is_killed() {
-        if Command::new("mosquitto").arg("-h").output().is_err() {
-            assert!(
-                env::var_os("RUNGC_REQUIRE_PEERS").is_none(),
-                "there is no mosquitto"
-            );
-            eprintln!("skipped: there is no mosquitto (see .ci/run)");
+        if !is_there() {
             return;
         }
         let port = free_port();
-        let configuration = format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n");
         let halls = [
             include_str!("../../examples/fleet/hall-1.toml"),
             include_str!("../../examples/fleet/hall-2.toml"),
@@ -292,7 +291,7 @@ mod brokers {
             ("press.il", PRESS.as_bytes()),
             ("hall-1.toml", halls[0].as_bytes()),
             ("hall-2.toml", halls[1].as_bytes()),
-            ("mosquitto.conf", configuration.as_bytes()),
+            ("mosquitto.conf", open_to_all(port).as_bytes()),
         ]);
         let folder = folder.path();
         let first = broker(folder, port);
@@ -314,9 +313,8 @@ mod brokers {
             );
         }
         soon("both say that they are gone", || {
-            let mut command = client("mosquitto_sub", port);
-            command.args(["-W", "1", "-t", "hall/process-1", "-t", "hall/process-2"]);
-            text(&command.output().unwrap().stdout) == "offline\noffline\n"
+            let topics = ["-W", "1", "-t", "hall/process-1", "-t", "hall/process-2"];
+            mosquitto::subscribe(port, None, &topics) == "offline\noffline\n"
         });
     }
 }

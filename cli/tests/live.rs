@@ -242,17 +242,28 @@ fn the_axes_of_a_machine_move_on_a_page() {
     insta::assert_snapshot!(serde_json::to_string_pretty(&report).unwrap());
 }
 
-#[test]
-fn a_live_page_works_in_firefox() {
-    if std::env::var_os("RUNGC_FIREFOX").is_none() {
-        eprintln!("skipped: RUNGC_FIREFOX names no Firefox (see .ci/run)");
+/// What a page shows in a browser that a variable names, if it does: the same as in any other.
+fn shows_in(browser: &str, variable: &str) {
+    if std::env::var_os(variable).is_none() {
+        eprintln!("skipped: {variable} names no browser (see .ci/run)");
         return;
     }
     let page = slide();
-    let Some(report) = chromium::report(&page.url, "firefox.js") else {
+    let Some(report) = chromium::report(&page.url, &format!("{browser}.js")) else {
         return;
     };
-    insta::assert_snapshot!(serde_json::to_string_pretty(&report).unwrap());
+    assert_eq!(report["browser"], browser);
+    insta::assert_snapshot!(browser, serde_json::to_string_pretty(&report).unwrap());
+}
+
+#[test]
+fn a_live_page_works_in_firefox() {
+    shows_in("firefox", "RUNGC_FIREFOX");
+}
+
+#[test]
+fn a_live_page_works_in_webkit() {
+    shows_in("webkit", "RUNGC_WEBKIT");
 }
 
 /// Counts, times, remembers edges, and shifts what an input gives.

@@ -151,8 +151,12 @@ impl Tools {
         )))
     }
 
-    /// The runtime as a static library, which is built once for each target and toolchain.
-    fn runtime(&self, folder: &Path) -> Result<PathBuf, BuildError> {
+    /// The runtime as a static library, which is built once for each target and toolchain. Where there is no cache, it
+    /// is built in `folder`.
+    ///
+    /// # Errors
+    /// The toolchain is missing or fails, or files cannot be written.
+    pub fn runtime(&self, folder: &Path) -> Result<PathBuf, BuildError> {
         self.check_rust()?;
         // Without a cache it is built each time.
         let cache = cache::folder().unwrap_or_else(|_| folder.join("cache"));

@@ -94,6 +94,21 @@ pub enum Trouble {
     Ended(String, String),
 }
 
+/// What has gone wrong in a PLC at an instruction.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Failed {
+    /// Which PLC, from 0.
+    pub plc: u32,
+    /// The PLC's code: 6706, or that of the watchdog.
+    pub code: u16,
+    /// Step of the instruction.
+    pub step: u32,
+    /// How often.
+    pub times: u64,
+    /// When it happened first, in milliseconds since power-on; `None` of what stopped the PLC.
+    pub first_ms: Option<u32>,
+}
+
 /// The PLCs of a group, from 0. All scan at the same time.
 pub trait Engine {
     /// Begins a scan of all PLCs. `now_ms`: milliseconds since power-on, wrapping; `scan_us`: how long the last scan
@@ -119,10 +134,18 @@ pub trait Engine {
     fn write(&mut self, plc: u32, at: At, value: i32) -> Option<()>;
 
     /// Whether a PLC is in RUN.
-    fn is_running(&self, plc: u32) -> bool;
+    fn is_running(&mut self, plc: u32) -> bool;
+
+    /// How many of `count` PLCs are in STOP.
+    fn stopped(&mut self, count: u32) -> u32 {
+        (0..count).filter(|&plc| !self.is_running(plc)).count() as u32
+    }
 
     /// Changes between RUN and STOP; false if this engine has no STOP.
     fn set_running(&mut self, plc: u32, running: bool) -> bool;
+
+    /// The operation errors since power-on, and what stopped PLCs: one for each PLC, instruction and code.
+    fn failures(&mut self) -> Vec<Failed>;
 
     /// What it is, for the summary: `64 at once in 2 processes, 607 bytes a PLC`.
     fn what(&self) -> String;

@@ -54,10 +54,12 @@ pub struct Written {
 /// The engine of a group.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Choice {
-    /// 64 at once if the program allows it and there are enough PLCs, else the interpreter.
+    /// 64 at once if the program allows it and there are enough PLCs, else emitted C, else the interpreter.
     Auto,
     /// 64 at once.
     Lanes,
+    /// Emitted C, one PLC after the other.
+    C,
     /// The interpreter.
     Interp,
 }
@@ -430,9 +432,10 @@ impl Reader {
                 match text.as_deref() {
                     Some("auto") | None => {}
                     Some("lanes") => plcs.engine = Choice::Lanes,
+                    Some("c") => plcs.engine = Choice::C,
                     Some("interp") => plcs.engine = Choice::Interp,
                     Some(other) => {
-                        self.unknown(place, "engine", other, &["auto", "lanes", "interp"])
+                        self.unknown(place, "engine", other, &["auto", "lanes", "c", "interp"])
                     }
                 }
             }

@@ -1,6 +1,6 @@
 //! One program and its PLCs.
 
-use crate::engine::{At, Engine, Trouble};
+use crate::engine::{At, Engine, Failed, Trouble};
 use crate::schedule::Schedule;
 use crate::served::Served;
 use rungc_rt::comm::service::Service;
@@ -96,7 +96,7 @@ impl<'m> Group<'m> {
             if !done && !std::mem::replace(&mut self.refused_stop, true) {
                 let name = &self.name;
                 report = Some(format!(
-                    "{name}: a client asks for STOP, but PLCs that run 64 at once stay in RUN; write engine = \"interp\" to stop them"
+                    "{name}: a client asks for STOP, but PLCs that run 64 at once stay in RUN; write engine = \"c\" or \"interp\" to stop them"
                 ));
             }
         }
@@ -128,9 +128,13 @@ impl<'m> Group<'m> {
     }
 
     /// How many of its PLCs are in STOP.
-    pub fn stopped(&self) -> u32 {
-        let stopped = (0..self.count).filter(|&plc| !self.engine.is_running(plc));
-        stopped.count() as u32
+    pub fn stopped(&mut self) -> u32 {
+        self.engine.stopped(self.count)
+    }
+
+    /// The operation errors of its PLCs, and what stopped them.
+    pub fn failures(&mut self) -> Vec<Failed> {
+        self.engine.failures()
     }
 
     /// The processes that it consists of beside this one.

@@ -1,28 +1,5 @@
-/*
- * Runs PLCs of one program, PLC_LANES at once, as requests on standard input say. The argument is how many there are.
- *
- * A request is 16 bytes in the order of this machine: what is asked, a class of devices, how many devices, which PLC, number of the
- * first device, value. A scan is answered with one byte; a reading with eight bytes for each device: whether the program stores it,
- * and its value; what a PLC takes in bytes with eight bytes. Nothing else is answered. Answers are sent when a scan ends or F says so.
- */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#ifdef _WIN32
-#include <fcntl.h>
-#include <io.h>
-#endif
-#include "NAME_access.h"
+/* PLC_LANES PLCs run at once. */
 #include "NAME_lanes.h"
-
-typedef struct request {
-    uint8_t asks;
-    uint8_t device;
-    uint16_t count;
-    uint32_t plc;
-    uint32_t number;
-    int32_t value;
-} request;
 
 static NAME_lanes *blocks;
 static uint32_t block_count;
@@ -42,110 +19,105 @@ BITS
     return found;
 }
 
-static bool is_bit(unsigned device)
+static bool switch_on(void)
 {
-    return device <= (unsigned)PLC_CLASS_S;
-}
-
-static void scan(const request *asked)
-{
-    for (uint32_t block = 0; block < block_count; block++) {
-        NAME_lanes_scan(&blocks[block], asked->number, (uint32_t)asked->value);
-    }
-    (void)putchar('.');
-    (void)fflush(stdout);
-}
-
-static void read_devices(const request *asked)
-{
-    NAME_lanes *const all = &blocks[asked->plc / PLC_LANES];
-    const unsigned lane = asked->plc % PLC_LANES;
-
-    if (asked->device == (uint8_t)PLC_CLASS_T) {
-        NAME_lanes_settle(all);
-    }
-    for (uint32_t n = 0; n < asked->count; n++) {
-        const uint32_t number = asked->number + n;
-        int32_t answer[2] = {0, 0};
-
-        if (is_bit(asked->device)) {
-            const plc_lanes *const bit = find_bit(all, asked->device, number);
-            answer[0] = (bit != NULL) ? 1 : 0;
-            answer[1] = ((bit != NULL) && plc_in_lane(*bit, lane)) ? 1 : 0;
-        } else {
-            /* Words, timers and counters are in the struct of the PLC. */
-            answer[0] = NAME_read(&all->lane[lane], (plc_class)asked->device, number, &answer[1]) ? 1 : 0;
-        }
-        (void)fwrite(answer, sizeof answer, 1, stdout);
-    }
-}
-
-static void write_device(const request *asked)
-{
-    NAME_lanes *const all = &blocks[asked->plc / PLC_LANES];
-    const unsigned lane = asked->plc % PLC_LANES;
-    const plc_class device = (plc_class)asked->device;
-
-    if (is_bit(asked->device)) {
-        plc_lanes *const bit = find_bit(all, asked->device, asked->number);
-        if (bit != NULL) {
-            plc_put_lane(bit, lane, asked->value != 0);
-        }
-    } else if ((device == PLC_CLASS_TS) || (device == PLC_CLASS_CS)) {
-        /* Contacts are in lanes, too. */
-        static NAME_plc plc;
-        NAME_lanes_store(all, lane, &plc);
-        (void)NAME_write(&plc, device, asked->number, asked->value);
-        NAME_lanes_load(all, lane, &plc);
-    } else {
-        if (device == PLC_CLASS_T) {
-            NAME_lanes_settle(all);
-        }
-        (void)NAME_write(&all->lane[lane], device, asked->number, asked->value);
-    }
-}
-
-static void say_size(void)
-{
-    const uint64_t size = sizeof(NAME_lanes) / PLC_LANES;
-    (void)fwrite(&size, sizeof size, 1, stdout);
-    (void)fflush(stdout);
-}
-
-int main(int count, char **arguments)
-{
-    request asked;
-    const uint32_t plcs = (count > 1) ? (uint32_t)strtoul(arguments[1], NULL, 10) : 1u;
-
-#ifdef _WIN32
-    (void)_setmode(_fileno(stdin), _O_BINARY);
-    (void)_setmode(_fileno(stdout), _O_BINARY);
-#endif
-    block_count = (plcs + PLC_LANES - 1u) / PLC_LANES;
+    block_count = (plc_count + PLC_LANES - 1u) / PLC_LANES;
     blocks = calloc(block_count, sizeof *blocks);
     if (blocks == NULL) {
-        (void)fprintf(stderr, "no memory for %lu PLCs\n", (unsigned long)plcs);
-        return 1;
+        return false;
     }
     for (uint32_t block = 0; block < block_count; block++) {
         NAME_lanes_init(&blocks[block]);
-    }
-    while (fread(&asked, sizeof asked, 1, stdin) == 1) {
-        const bool there = asked.plc < (block_count * PLC_LANES);
-
-        if (asked.asks == (uint8_t)'S') {
-            scan(&asked);
-        } else if ((asked.asks == (uint8_t)'R') && there) {
-            read_devices(&asked);
-        } else if ((asked.asks == (uint8_t)'W') && there) {
-            write_device(&asked);
-        } else if (asked.asks == (uint8_t)'F') {
-            (void)fflush(stdout);
-        } else if (asked.asks == (uint8_t)'M') {
-            say_size();
-        } else {
-            return 2;
+#ifdef PLC_ON_ERROR
+        for (unsigned lane = 0; lane < PLC_LANES; lane++) {
+            blocks[block].lane[lane].on_error = note_error;
         }
+#endif
     }
-    return 0;
+    return true;
 }
+
+static void scan_all(uint32_t moment_ms, uint32_t scan_us)
+{
+    for (uint32_t block = 0; block < block_count; block++) {
+        NAME_lanes_scan(&blocks[block], moment_ms, scan_us);
+    }
+}
+
+/* Before devices of a PLC are read. */
+static void prepare(uint32_t plc, unsigned device)
+{
+    if (device == (unsigned)PLC_CLASS_T) {
+        NAME_lanes_settle(&blocks[plc / PLC_LANES]);
+    }
+}
+
+static bool read_one(uint32_t plc, unsigned device, uint32_t number, int32_t *value)
+{
+    NAME_lanes *const all = &blocks[plc / PLC_LANES];
+    const unsigned lane = plc % PLC_LANES;
+
+    if (device <= (unsigned)PLC_CLASS_S) {
+        const plc_lanes *const bit = find_bit(all, device, number);
+        *value = ((bit != NULL) && plc_in_lane(*bit, lane)) ? 1 : 0;
+        return bit != NULL;
+    }
+    /* Words, timers and counters are in the struct of the PLC. */
+    return NAME_read(&all->lane[lane], (plc_class)device, number, value);
+}
+
+static void write_one(uint32_t plc, unsigned device, uint32_t number, int32_t value)
+{
+    NAME_lanes *const all = &blocks[plc / PLC_LANES];
+    const unsigned lane = plc % PLC_LANES;
+
+    if (device <= (unsigned)PLC_CLASS_S) {
+        plc_lanes *const bit = find_bit(all, device, number);
+        if (bit != NULL) {
+            plc_put_lane(bit, lane, value != 0);
+        }
+    } else if ((device == (unsigned)PLC_CLASS_TS) || (device == (unsigned)PLC_CLASS_CS)) {
+        /* Contacts are in lanes, too. */
+        static NAME_plc single;
+        NAME_lanes_store(all, lane, &single);
+        (void)NAME_write(&single, (plc_class)device, number, value);
+        NAME_lanes_load(all, lane, &single);
+    } else {
+        prepare(plc, device);
+        (void)NAME_write(&all->lane[lane], (plc_class)device, number, value);
+    }
+}
+
+/* They are always in RUN. */
+static bool is_running(uint32_t plc)
+{
+    (void)plc;
+    return true;
+}
+
+static void set_running(uint32_t plc, bool running)
+{
+    (void)plc;
+    (void)running;
+}
+
+static uint64_t plc_size(void)
+{
+    return sizeof(NAME_lanes) / PLC_LANES;
+}
+
+#ifdef PLC_ON_ERROR
+/* Which PLC a struct belongs to. */
+static uint32_t number_of(const void *plc)
+{
+    const size_t offset = (size_t)((const unsigned char *)plc - (const unsigned char *)blocks);
+    const size_t lane = ((offset % sizeof *blocks) - offsetof(NAME_lanes, lane)) / sizeof(NAME_plc);
+
+    return (uint32_t)(((offset / sizeof *blocks) * PLC_LANES) + lane);
+}
+
+static plc_error error_of(uint32_t plc)
+{
+    return NAME_error(&blocks[plc / PLC_LANES].lane[plc % PLC_LANES]);
+}
+#endif

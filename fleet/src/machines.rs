@@ -1,9 +1,9 @@
 //! Interpreters, for programs that do not run in lanes.
 
-use crate::engine::{At, Engine, Trouble};
+use crate::engine::{At, Engine, Failed, Trouble};
 use rungc_interp::Machine;
 use rungc_ir::Module;
-use rungc_rt::{Class, FIRST_COUNTER32, Plc, Program, VirtualHal};
+use rungc_rt::{Class, FIRST_COUNTER32, Plc, Program, Stop, VirtualHal};
 use std::thread;
 
 /// From how many PLCs on they are divided among threads.
@@ -106,7 +106,7 @@ impl Engine for Machines<'_> {
         }
     }
 
-    fn is_running(&self, plc: u32) -> bool {
+    fn is_running(&mut self, plc: u32) -> bool {
         self.one(plc).is_some_and(|one| one.machine.sys().running)
     }
 
@@ -116,6 +116,29 @@ impl Engine for Machines<'_> {
             one.machine.set_running(running);
             true
         })
+    }
+
+    fn failures(&mut self) -> Vec<Failed> {
+        let of = |(plc, one): (usize, &One)| {
+            let plc = plc as u32;
+            let errors = one.machine.errors().iter().map(move |error| Failed {
+                plc,
+                code: error.code,
+                step: error.step,
+                times: error.times,
+                first_ms: Some(error.first_ms),
+            });
+            let last = one.machine.last_error();
+            let stopped = (last.stop == Stop::Watchdog).then(|| Failed {
+                plc,
+                code: last.stop as u16,
+                step: last.stop_step.into(),
+                times: 1,
+                first_ms: None,
+            });
+            errors.chain(stopped).collect::<Vec<_>>()
+        };
+        self.plcs.iter().enumerate().flat_map(of).collect()
     }
 
     fn what(&self) -> String {

@@ -187,7 +187,7 @@ impl Map for Reached<'_> {
     }
 
     fn running(&self) -> bool {
-        self.engine.borrow().is_running(self.plc.get())
+        self.engine.borrow_mut().is_running(self.plc.get())
     }
 
     fn request_running(&mut self, running: bool) {

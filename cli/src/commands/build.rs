@@ -362,14 +362,7 @@ impl Job<'_> {
 
     fn tools(&self) -> Tools {
         let tools = Tools::new(self.target(), &self.plan.cargo_arg).with_std(self.plan.io);
-        if self.cx.verbosity == Verbosity::Quiet {
-            return tools;
-        }
-        tools.announcing(|what| {
-            tell(&format!(
-                "    Building {what}; it is cached for the next time"
-            ))
-        })
+        announced(tools, self.cx)
     }
 
     /// Where to write.
@@ -542,6 +535,18 @@ impl Job<'_> {
             .ok_or_else(|| because("no library was built"))?;
         firmware::of_library(module, target, &built.contents).map_err(because)
     }
+}
+
+/// Compilers that say what takes long, unless nothing is to be said.
+pub(super) fn announced(tools: Tools, cx: Context) -> Tools {
+    if cx.verbosity == Verbosity::Quiet {
+        return tools;
+    }
+    tools.announcing(|what| {
+        tell(&format!(
+            "    Building {what}; it is cached for the next time"
+        ))
+    })
 }
 
 fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {

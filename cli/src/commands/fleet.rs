@@ -1,5 +1,7 @@
 //! `rungc fleet`: many PLCs in lock step.
 
+mod engine;
+mod failures;
 mod memory;
 mod running;
 
@@ -9,20 +11,15 @@ use super::subject::{self, Subject};
 use super::{Context, Failure, Result, conclude, findings, read, stem, tell};
 use crate::args::{FleetArgs, Input};
 use crate::report::Reporter;
-use rungc_codegen_c::lanes;
-use rungc_fleet::{
-    At, Choice, Engine, Fleet, Group, Lanes, Machines, Plcs, Schedule, Setting, Trouble, Written,
-};
+use engine::Chosen;
+use failures::About;
+use rungc_fleet::{At, Choice, Engine, Fleet, Group, Machines, Plcs, Schedule, Setting, Written};
 use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_rt::comm::service::{Service, Speaks};
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
 use rungc_syntax::{DeviceClass, Diagnostic, FittedModule};
 use running::Fleets;
-use std::path::Path;
-
-/// From how many PLCs on a program is worth the C compiler.
-const WORTH_COMPILING: u32 = 8;
 
 /// A program of the fleet, compiled.
 struct Compiled {
@@ -49,16 +46,14 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
     for (plcs, compiled) in fleet.plcs.iter().zip(&compiled) {
         let folder = folder.path().join(groups.len().to_string());
         let hal = hardware::of(!args.in_virtual_time, &compiled.fitted);
-        let (engine, why) = match engine(plcs, &compiled.module, &folder)? {
-            Ok(lanes) => (lanes, None),
-            Err(why) if plcs.engine == Choice::Lanes => {
-                return Err(refuse(FLEET_ENGINE.at(plcs.engine_span, why).into()));
+        let Chosen { engine, why } = engine::choose(plcs, &compiled.module, &folder, cx)?;
+        let engine: Box<dyn Engine> = match (engine, &why) {
+            (Some(engine), _) => engine,
+            (None, Some(why)) if matches!(plcs.engine, Choice::Lanes | Choice::C) => {
+                let at = plcs.engine_span;
+                return Err(refuse(FLEET_ENGINE.at(at, why.as_str()).into()));
             }
-            Err(why) => {
-                let machines = Machines::new(&compiled.module, plcs.count, &hal);
-                let engine: Box<dyn Engine> = Box::new(machines);
-                (engine, Some(why))
-            }
+            (None, _) => Box::new(Machines::new(&compiled.module, plcs.count, &hal)),
         };
         let schedule = Schedule {
             settings: compiled.settings.clone(),
@@ -77,7 +72,12 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             })?;
             tell_ports(&group, plcs, cx);
         }
-        groups.push((group, why.filter(|why| !why.is_empty())));
+        let about = About {
+            module: &compiled.module,
+            first: plcs.first,
+            why,
+        };
+        groups.push((group, about));
     }
     let broker = fleet.connect().map_err(Failure::Because)?;
     Fleets::new(groups, broker, fleet.cycle_ms).run(args)
@@ -179,28 +179,6 @@ fn check_settings(
         }
     }
     Ok(())
-}
-
-/// The engine of a group in lanes, or why it cannot run there; an empty text if it was not asked to.
-fn engine<'m>(
-    plcs: &Plcs,
-    module: &'m Module,
-    folder: &Path,
-) -> std::result::Result<std::result::Result<Box<dyn Engine + 'm>, String>, Failure> {
-    let is_worth = plcs.count >= WORTH_COMPILING || plcs.engine == Choice::Lanes;
-    if plcs.engine == Choice::Interp || !is_worth {
-        return Ok(Err(String::new()));
-    }
-    if let Some(reason) = lanes::refusal(module) {
-        return Ok(Err(format!("the program {reason}")));
-    }
-    match Lanes::start(module, plcs.count, folder) {
-        Ok(lanes) => Ok(Ok(Box::new(lanes))),
-        Err(Trouble::Io { what, error }) if what == "cc" => {
-            Ok(Err(format!("the C compiler `cc` does not start: {error}")))
-        }
-        Err(error) => Err(Failure::Because(error.to_string())),
-    }
 }
 
 /// Says where clients reach the PLCs of a group.

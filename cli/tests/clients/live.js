@@ -5,7 +5,8 @@ open(async (page) => {
   const press = (name) => page.getByRole("button", { name, exact: true }).click();
   const text = (selector) => page.locator(selector).innerText();
   const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 20_000 });
-  const mode = (wanted) => settle((wanted) => document.getElementById("mode").textContent.startsWith(wanted), wanted);
+  // The whole text: "RUN" is also how that of a pause begins.
+  const mode = (wanted) => settle((wanted) => document.getElementById("mode").textContent === wanted, wanted);
   const lit = (network) => page.locator(`#n${network} [data-net].on`).count();
   const value = (device) => settle((device) => document.querySelector(`#watch tr[data-name="${device}"] td`)?.textContent, device);
   const enter = async (device, value, button) => {
@@ -34,7 +35,7 @@ open(async (page) => {
   report.problem = await text("#problem");
 
   await press("Pause");
-  await mode("RUN, paused");
+  await mode("RUN, paused: by hand");
   const scan = async () => Number((await text("#clock")).match(/scan (\d+)/)[1]);
   const paused = await scan();
   await press("Single scan");
@@ -52,6 +53,7 @@ open(async (page) => {
   await settle((old) => document.getElementById("clock").textContent.endsWith(`scan ${old - 1}`), broken);
   report.back = await text("#watch tr[data-name='Y000'] td >> nth=0");
   await press("Single scan");
+  await settle((old) => document.getElementById("clock").textContent.endsWith(`scan ${old}`), broken);
   await mode("RUN, paused: Y000 = 1");
   report.again = (await scan()) - broken;
   report.light = await look(page, "live-light");
@@ -63,7 +65,7 @@ open(async (page) => {
   await mode("RUN, 10 × slower");
   report.slower = await text("#mode");
   await page.getByLabel("Slower").selectOption("1");
-  await settle(() => document.getElementById("mode").textContent === "RUN");
+  await mode("RUN");
   await page.getByRole("textbox", { name: "Network" }).fill("1");
   await press("Break when power reaches an output");
   await enter("X001", "1", "Force");
@@ -71,7 +73,7 @@ open(async (page) => {
   await press("Release X001");
   await enter("X001", "0", "Set");
   await enter("X000", "1", "Force");
-  await mode("RUN, paused");
+  await settle(() => document.getElementById("mode").textContent.startsWith("RUN, paused: "));
   await page.setViewportSize({ width: 420, height: 800 });
   report.paused_wider_than_screen = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   await page.setViewportSize({ width: 1280, height: 800 });
@@ -80,7 +82,7 @@ open(async (page) => {
   await press("Release X000");
   await enter("X000", "0", "Set");
   await press("Continue");
-  await settle(() => document.getElementById("mode").textContent === "RUN");
+  await mode("RUN");
   await press("STOP");
   await mode("STOP");
   await settle(() => document.querySelectorAll("main [data-net].on").length === 0);

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 pub mod chromium;
+pub mod mosquitto;
 pub mod running;
 
 use std::fs;

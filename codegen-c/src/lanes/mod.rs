@@ -23,6 +23,20 @@ use rungc_ir::walk::{calls_runtime, statements};
 /// How many instances a `plc_lanes` of `rungc_lanes.h` has.
 pub const LANES: u32 = 64;
 
+/// What a program does that takes more than scans, as the end of "the program …"; `None` if there is nothing.
+pub fn reaches_out(module: &Module) -> Option<&'static str> {
+    let reasons = [
+        (module.has_ports(), "uses serial ports"),
+        (module.sends_pulses(), "sends pulses"),
+        (
+            module.takes_events(),
+            "takes interrupts or high-speed counts",
+        ),
+    ];
+    let found = reasons.into_iter().find(|(there, _)| *there);
+    found.map(|(_, reason)| reason)
+}
+
 /// What keeps a program from running in lanes, as the end of "the program …"; `None` if nothing does.
 pub fn refusal(module: &Module) -> Option<&'static str> {
     let (mut calls, mut stops) = (false, false);
@@ -34,12 +48,6 @@ pub fn refusal(module: &Module) -> Option<&'static str> {
     }
     let commanded = cycle::run_command(module, &Storage::new(module)).is_some();
     let reasons = [
-        (module.has_ports(), "uses serial ports"),
-        (module.sends_pulses(), "sends pulses"),
-        (
-            module.takes_events(),
-            "takes interrupts or high-speed counts",
-        ),
         (
             module.has_watchdog(),
             "has a loop or a jump back that only the watchdog may end",
@@ -47,6 +55,8 @@ pub fn refusal(module: &Module) -> Option<&'static str> {
         (calls, "calls the runtime library"),
         (stops || commanded, "changes between RUN and STOP by itself"),
     ];
-    let found = reasons.into_iter().find(|(there, _)| *there);
-    found.map(|(_, reason)| reason)
+    reaches_out(module).or_else(|| {
+        let found = reasons.into_iter().find(|(there, _)| *there);
+        found.map(|(_, reason)| reason)
+    })
 }

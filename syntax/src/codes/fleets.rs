@@ -9,7 +9,7 @@ super::codes! {
 
     FLEET_ENGINE = "E0871" "fleet-engine" Error None,
     "the PLCs of a fleet cannot run on this engine",
-    "`engine = \"lanes\"` runs 64 PLCs at once in emitted C, which the C compiler `cc` of this machine builds. A program that takes interrupts, sends pulses, uses serial ports, calls the runtime library, stops itself or has a loop that only the watchdog may end does not run so; the message says which of these it is. Write `engine = \"interp\"`, or leave the key out: then the PLCs run on the interpreter where they have to.",
+    "`engine = \"lanes\"` runs 64 PLCs at once in emitted C, which the C compiler `cc` of this machine builds. A program that takes interrupts, sends pulses, uses serial ports, calls the runtime library, stops itself or has a loop that only the watchdog may end does not run so; the message says which of these it is. `engine = \"c\"` runs the PLCs of a program in emitted C one after the other; there it may call the runtime library, which needs Rust, if it asks no hardware, and may stop. Write `engine = \"interp\"`, or leave the key out: then the PLCs run on the fastest engine that runs the program.",
     wrong: "",
     right: "";
 

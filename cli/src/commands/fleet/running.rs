@@ -1,5 +1,6 @@
 //! The cycle of a fleet, and what is said of it at the end.
 
+use super::failures::{self, About};
 use super::memory;
 use crate::args::FleetArgs;
 use crate::commands::run::pace::{self, Pace};
@@ -16,8 +17,8 @@ const STEPS: usize = 100_000;
 /// A fleet at work.
 pub struct Fleets<'m> {
     groups: Vec<Group<'m>>,
-    /// Why the PLCs of each group run on the interpreter, where they could not be run otherwise.
-    reasons: Vec<Option<String>>,
+    /// What is known of each group.
+    about: Vec<About<'m>>,
     broker: Option<Broker>,
     cycle_ms: u64,
     now_ms: u64,
@@ -36,16 +37,12 @@ struct Times {
 }
 
 impl<'m> Fleets<'m> {
-    /// PLCs that have just been switched on, each group with the reason why it runs on the interpreter.
-    pub fn new(
-        groups: Vec<(Group<'m>, Option<String>)>,
-        broker: Option<Broker>,
-        cycle_ms: u64,
-    ) -> Self {
-        let (groups, reasons) = groups.into_iter().unzip();
+    /// PLCs that have just been switched on.
+    pub fn new(groups: Vec<(Group<'m>, About<'m>)>, broker: Option<Broker>, cycle_ms: u64) -> Self {
+        let (groups, about) = groups.into_iter().unzip();
         Fleets {
             groups,
-            reasons,
+            about,
             broker,
             cycle_ms,
             now_ms: 0,
@@ -141,7 +138,7 @@ impl<'m> Fleets<'m> {
         Ok(())
     }
 
-    fn summary(&self, args: &FleetArgs, pace: &Pace) -> std::result::Result<(), Failure> {
+    fn summary(&mut self, args: &FleetArgs, pace: &Pace) -> std::result::Result<(), Failure> {
         let Times {
             scans,
             sum_us,
@@ -164,22 +161,8 @@ impl<'m> Fleets<'m> {
             text.push_str(&format!("{late}\n"));
         }
         let mut plcs = 0;
-        for (group, reason) in self.groups.iter().zip(&self.reasons) {
-            let (name, what) = (&group.name, group.what());
-            let count = counted(group.count as usize, "PLC");
-            let reason = reason.iter().map(|why| format!(": {why}"));
-            let reason: String = reason.collect();
-            let requests = group.requests().map(|[requests, rejected]| {
-                let requests = counted(requests as usize, "request");
-                format!("; {requests}, {rejected} rejected")
-            });
-            let requests = requests.unwrap_or_default();
-            text.push_str(&format!("{name}: {count}, {what}{reason}{requests}\n"));
-            let stopped = group.stopped();
-            if stopped > 0 {
-                let stopped = counted(stopped as usize, "PLC");
-                text.push_str(&format!("{name}: {stopped} in STOP at the end\n"));
-            }
+        for (group, about) in self.groups.iter_mut().zip(&self.about) {
+            text.push_str(&of_group(group, about));
             plcs += u64::from(group.count);
         }
         let children: Vec<u32> = self.groups.iter().flat_map(Group::children).collect();
@@ -192,6 +175,30 @@ impl<'m> Fleets<'m> {
         }
         Ok(say(&text)?)
     }
+}
+
+/// The lines about a group.
+fn of_group(group: &mut Group<'_>, about: &About<'_>) -> String {
+    let what = group.what();
+    let count = counted(group.count as usize, "PLC");
+    let why = about.why.as_ref().map(|why| format!(": {why}"));
+    let why = why.unwrap_or_default();
+    let requests = group.requests().map(|[requests, rejected]| {
+        let requests = counted(requests as usize, "request");
+        format!("; {requests}, {rejected} rejected")
+    });
+    let requests = requests.unwrap_or_default();
+    let name = group.name.clone();
+    let mut text = format!("{name}: {count}, {what}{why}{requests}\n");
+    for line in failures::lines(&group.failures(), about) {
+        text.push_str(&format!("{name}: {line}\n"));
+    }
+    let stopped = group.stopped();
+    if stopped > 0 {
+        let stopped = counted(stopped as usize, "PLC");
+        text.push_str(&format!("{name}: {stopped} in STOP at the end\n"));
+    }
+    text
 }
 
 impl Times {

@@ -1,36 +1,34 @@
-//! Emitted C that runs 64 PLCs at once, in child processes.
+//! Emitted C that runs PLCs in child processes: 64 at once, or one after the other.
 
-use crate::engine::{At, Engine, Trouble};
+use crate::build::{CHUNK, Form, build};
+use crate::engine::{At, Engine, Failed, Trouble};
+use rungc_codegen_c::Members;
 use rungc_codegen_c::lanes::LANES;
-use rungc_codegen_c::{Members, Options, emit};
 use rungc_ir::Module;
 use rungc_models::runs::name_class;
 use rungc_rt::Class;
-use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use std::io::{self, BufReader, BufWriter, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread;
-
-/// What runs them: `main`, with the name of the program as `NAME`.
-const MAIN: &str = include_str!("lanes.c");
-
-/// How many devices are read together.
-const CHUNK: u32 = 64;
 
 /// How many readings are on their way at most. Their answers have to fit into a pipe, since this end writes while the
 /// child waits for it to read: 32 · 64 · 8 bytes.
 const ON_THEIR_WAY: usize = 32;
 
-/// Lines of the compiler's output that an error quotes.
-const QUOTED_LINES: usize = 20;
+/// Stands for whether a PLC is in RUN, as device 0 of a class.
+const RUNNING: u8 = Class::ER as u8 + 3;
+
+/// Bytes of a record of what has gone wrong.
+const RECORD: usize = 24;
 
 /// What is asked, and the devices of a reading: PLC, class as in C, number of the first.
 type Chunk = (u32, u8, u32);
 
 /// PLCs in children.
-pub struct Lanes<'m> {
+pub struct Children<'m> {
+    form: Form,
     members: Members<'m>,
     children: Vec<Running>,
     /// How many PLCs each child has but the last, which may have fewer.
@@ -50,98 +48,33 @@ struct Running {
     answers: BufReader<ChildStdout>,
 }
 
-/// Builds the executable of a program in a folder.
-///
-/// # Errors
-/// A file that cannot be written, a C compiler (`cc`) that is not there or rejects what was emitted.
-pub fn build(module: &Module, folder: &Path) -> Result<PathBuf, Trouble> {
-    let at = |what: &Path| {
-        let what = what.display().to_string();
-        move |error| Trouble::Io { what, error }
-    };
-    std::fs::create_dir_all(folder).map_err(at(folder))?;
-    let options = Options {
-        access: true,
-        lanes: true,
-        ..Options::default()
-    };
-    let main = MAIN
-        .replace("BITS\n", &bits(module))
-        .replace("NAME", &module.name);
-    let mut command = Command::new("cc");
-    command.args(["-std=c99", "-O2", "-o", "plcs", "plcs.c"]);
-    let written = folder.join("plcs.c");
-    std::fs::write(&written, main).map_err(at(&written))?;
-    for file in emit(module, &options) {
-        let path = folder.join(&file.path);
-        std::fs::write(&path, &file.contents).map_err(at(&path))?;
-        if file.path.ends_with(".c") {
-            command.arg(&file.path);
-        }
-    }
-    let output = command
-        .current_dir(folder)
-        .output()
-        .map_err(at(Path::new("cc")))?;
-    if output.status.success() {
-        return Ok(folder.join("plcs"));
-    }
-    let text = String::from_utf8_lossy(&output.stderr);
-    let quoted: Vec<&str> = text.lines().take(QUOTED_LINES).collect();
-    Err(Trouble::Compiler {
-        command: format!("cc in {}", folder.display()),
-        output: quoted.join("\n"),
-    })
-}
-
-/// The cases that find the lanes of each bit.
-fn bits(module: &Module) -> String {
-    let members = Members::new(module);
-    let mut cases = String::new();
-    for class in [
-        DeviceClass::X,
-        DeviceClass::Y,
-        DeviceClass::M,
-        DeviceClass::S,
-    ] {
-        let areas = module
-            .layout
-            .areas
-            .iter()
-            .filter(|area| area.class == class);
-        let numbers = areas.flat_map(|area| area.first..area.first + area.count);
-        let stored = numbers.filter_map(|number| Some((number, members.of(class, number)?)));
-        let lines: Vec<String> = stored
-            .map(|(number, member)| {
-                format!("        case {number}: found = &all->{member}; break;\n")
-            })
-            .collect();
-        if !lines.is_empty() {
-            let (name, lines) = (class.prefix(), lines.concat());
-            cases.push_str(&format!(
-                "    case PLC_CLASS_{name}:\n        switch (number) {{\n{lines}        default: break;\n        }}\n        break;\n"
-            ));
-        }
-    }
-    cases
-}
-
-impl<'m> Lanes<'m> {
+impl<'m> Children<'m> {
     /// Builds and starts `count` PLCs, in at most as many processes as this machine runs at once.
     ///
     /// # Errors
-    /// As [`build`], or a process that cannot be started.
-    pub fn start(module: &'m Module, count: u32, folder: &Path) -> Result<Self, Trouble> {
-        let executable = build(module, folder)?;
-        let blocks = count.div_ceil(LANES).max(1);
+    /// A file that cannot be written, a C compiler (`cc`) that is not there or rejects what was emitted, or a process
+    /// that cannot be started.
+    pub fn start(
+        module: &'m Module,
+        count: u32,
+        folder: &Path,
+        form: Form,
+    ) -> Result<Self, Trouble> {
+        let executable = build(module, folder, &form)?;
+        let together = match form {
+            Form::Lanes => LANES,
+            Form::Singles { .. } => 1,
+        };
+        let blocks = count.div_ceil(together).max(1);
         let jobs = thread::available_parallelism().map_or(1, |jobs| jobs.get() as u32);
-        let each = blocks.div_ceil(jobs.min(blocks)) * LANES;
+        let each = blocks.div_ceil(jobs.min(blocks)) * together;
         let mut children = Vec::new();
         for first in (0..count.max(1)).step_by(each as usize) {
             let part = each.min(count.max(1) - first);
             children.push(Running::start(&executable, &module.name, part)?);
         }
-        let mut lanes = Lanes {
+        let mut started = Children {
+            form,
             members: Members::new(module),
             children,
             each,
@@ -150,16 +83,16 @@ impl<'m> Lanes<'m> {
             failed: None,
         };
         let mut size = [0; 8];
-        let first = &mut lanes.children[0];
+        let first = &mut started.children[0];
         let asked = first
             .ask(b'M', (0, 0, 0), 0, 0)
             .and_then(|()| first.requests.flush())
             .and_then(|()| first.answers.read_exact(&mut size));
         match asked {
-            Ok(()) => lanes.size = u64::from_ne_bytes(size),
+            Ok(()) => started.size = u64::from_ne_bytes(size),
             Err(error) => return Err(first.ended(&error)),
         }
-        Ok(lanes)
+        Ok(started)
     }
 
     /// The child that has a PLC, and its number there.
@@ -184,6 +117,15 @@ impl<'m> Lanes<'m> {
                 None
             }
         }
+    }
+
+    /// A value of a chunk, which is read if it is not known.
+    fn value(&mut self, chunk: Chunk, place: u32) -> Option<i32> {
+        if !self.known.contains_key(&chunk) {
+            self.load(&[chunk]);
+        }
+        let values = self.known.get(&chunk)?;
+        *values.get(place as usize)?
     }
 
     /// Reads chunks, some of each child at a time.
@@ -266,6 +208,31 @@ impl Running {
         Ok(pairs.chunks(2).map(value).collect())
     }
 
+    /// What has gone wrong in its PLCs, the first of which has this number.
+    fn failures(&mut self, first: u32) -> io::Result<Vec<Failed>> {
+        self.ask(b'E', (0, 0, 0), 0, 0)?;
+        self.requests.flush()?;
+        let mut count = [0; 4];
+        self.answers.read_exact(&mut count)?;
+        let records = (0..u32::from_ne_bytes(count)).map(|_| {
+            let mut bytes = [0; RECORD];
+            self.answers.read_exact(&mut bytes)?;
+            let (words, _) = bytes.as_chunks::<4>();
+            let word = |n: usize| u32::from_ne_bytes(words[n]);
+            let (halves, _) = bytes.as_chunks::<2>();
+            let half = |n: usize| u16::from_ne_bytes(halves[n]);
+            let (eights, _) = bytes.as_chunks::<8>();
+            Ok(Failed {
+                plc: first + word(2),
+                code: half(8),
+                step: half(9).into(),
+                times: u64::from_ne_bytes(eights[0]),
+                first_ms: (word(5) == 0).then(|| word(3)),
+            })
+        });
+        records.collect()
+    }
+
     /// That it has ended.
     fn ended(&mut self, error: &io::Error) -> Trouble {
         // It has, or it does not answer as it should.
@@ -291,7 +258,7 @@ fn chunk(plc: u32, at: At) -> Chunk {
     (plc, device(at), at.number / CHUNK * CHUNK)
 }
 
-impl Engine for Lanes<'_> {
+impl Engine for Children<'_> {
     fn begin_scan(&mut self, now_ms: u32, scan_us: u32) {
         self.known.clear();
         for child in 0..self.children.len() {
@@ -318,11 +285,7 @@ impl Engine for Lanes<'_> {
 
     fn read(&mut self, plc: u32, at: At) -> Option<i32> {
         let chunk = chunk(plc, at);
-        if !self.known.contains_key(&chunk) {
-            self.load(&[chunk]);
-        }
-        let values = self.known.get(&chunk)?;
-        *values.get((at.number - chunk.2) as usize)?
+        self.value(chunk, at.number - chunk.2)
     }
 
     fn write(&mut self, plc: u32, at: At, value: i32) -> Option<()> {
@@ -334,12 +297,39 @@ impl Engine for Lanes<'_> {
         })
     }
 
-    fn is_running(&self, _: u32) -> bool {
-        true
+    fn is_running(&mut self, plc: u32) -> bool {
+        self.form == Form::Lanes || self.value((plc, RUNNING, 0), 0) == Some(1)
     }
 
-    fn set_running(&mut self, _: u32, running: bool) -> bool {
-        running
+    fn stopped(&mut self, count: u32) -> u32 {
+        if self.form == Form::Lanes {
+            return 0;
+        }
+        let chunks: Vec<Chunk> = (0..count).map(|plc| (plc, RUNNING, 0)).collect();
+        self.load(&chunks);
+        (0..count).filter(|&plc| !self.is_running(plc)).count() as u32
+    }
+
+    fn set_running(&mut self, plc: u32, running: bool) -> bool {
+        if self.form == Form::Lanes {
+            return running;
+        }
+        self.known.remove(&(plc, RUNNING, 0));
+        let (child, plc) = self.place(plc);
+        let asked = self.with(child, |child| {
+            child.ask(b'T', (plc, 0, 0), 0, running.into())
+        });
+        asked.is_some()
+    }
+
+    fn failures(&mut self) -> Vec<Failed> {
+        let mut failures = Vec::new();
+        for child in 0..self.children.len() {
+            let first = self.each * child as u32;
+            let of = self.with(child, |child| child.failures(first));
+            failures.extend(of.unwrap_or_default());
+        }
+        failures
     }
 
     fn what(&self) -> String {
@@ -348,7 +338,10 @@ impl Engine for Lanes<'_> {
             count => format!("{count} processes"),
         };
         let size = self.size;
-        format!("{LANES} at once in {processes}, {size} bytes each")
+        match self.form {
+            Form::Lanes => format!("{LANES} at once in {processes}, {size} bytes each"),
+            Form::Singles { .. } => format!("in C in {processes}, {size} bytes each"),
+        }
     }
 
     fn children(&self) -> Vec<u32> {

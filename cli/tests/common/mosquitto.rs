@@ -1,0 +1,99 @@
+//! The broker mosquitto and its clients, which `.ci/run` installs; where they are not, the tests say so and do not run,
+//! unless `RUNGC_REQUIRE_PEERS` is set.
+
+use super::text;
+use std::env;
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// A process that ends with the test.
+pub struct Ends(pub Child);
+
+impl Ends {
+    /// Interrupts it as Ctrl-C does; its exit code.
+    pub fn interrupt(&mut self) -> Option<i32> {
+        let pid = self.0.id().to_string();
+        let killed = Command::new("kill").args(["-INT", &pid]).status().unwrap();
+        assert!(killed.success());
+        self.0.wait().unwrap().code()
+    }
+}
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Whether there is a broker.
+pub fn is_there() -> bool {
+    let there = ["mosquitto", "mosquitto_pub"].iter().all(|name| {
+        let mut command = Command::new(name);
+        command
+            .arg("-h")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        command.status().is_ok()
+    });
+    if !there {
+        assert!(
+            env::var_os("RUNGC_REQUIRE_PEERS").is_none(),
+            "RUNGC_REQUIRE_PEERS is set, but there is no mosquitto"
+        );
+        eprintln!("skipped: there is no mosquitto (see .ci/run)");
+    }
+    there
+}
+
+/// Waits until something is so.
+pub fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
+    let until = Instant::now() + Duration::from_secs(90);
+    while !is_so() {
+        assert!(Instant::now() < until, "{what}");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// The configuration of a broker without users.
+pub fn open_to_all(port: u16) -> String {
+    format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n")
+}
+
+/// A broker in a folder that has its configuration.
+pub fn broker(folder: &Path, port: u16) -> Ends {
+    let mut command = Command::new("mosquitto");
+    command.args(["-c", "mosquitto.conf"]).current_dir(folder);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let broker = Ends(command.spawn().unwrap());
+    soon("the broker listens", || {
+        TcpStream::connect(("127.0.0.1", port)).is_ok()
+    });
+    broker
+}
+
+/// A client of the broker, with a user and his password.
+fn client(name: &str, port: u16, user: Option<(&str, &str)>) -> Command {
+    let mut command = Command::new(name);
+    command.args(["-p", &port.to_string()]);
+    if let Some((user, password)) = user {
+        command.args(["-u", user, "-P", password]);
+    }
+    command
+}
+
+/// Publishes a value that the broker keeps.
+pub fn publish(port: u16, user: Option<(&str, &str)>, topic: &str, payload: &str) {
+    let mut command = client("mosquitto_pub", port, user);
+    command.args(["-r", "-t", topic, "-m", payload]);
+    assert!(command.status().unwrap().success());
+}
+
+/// What a client prints of topics, with these options.
+pub fn subscribe(port: u16, user: Option<(&str, &str)>, options: &[&str]) -> String {
+    let mut command = client("mosquitto_sub", port, user);
+    text(&command.args(options).output().unwrap().stdout)
+}
