@@ -126,6 +126,9 @@ OUT M8037
 END
 ";
 
+/// Jumps back for as long as an input is on, which is until the watchdog stops it.
+const LOOPS: &str = "P0\nLD X001\nCJ P0\nLD X000\nOUT Y000\nEND\n";
+
 /// What the summary says of a fleet of 100 PLCs on an engine, with what it says of the engine cut.
 fn summary(program: &str, engine: &str) -> String {
     let fleet = format!(
@@ -139,7 +142,7 @@ fn summary(program: &str, engine: &str) -> String {
     assert!(out.status.success(), "{printed}{err}");
     let begins = match engine {
         "lanes" => "a: 100 PLCs, 64 at once in ",
-        "c" => "a: 100 PLCs, in C in ",
+        "c" | "auto" => "a: 100 PLCs, in C in ",
         _ => "a: 100 PLCs, on the interpreter\n",
     };
     assert!(printed.contains(begins), "{printed}{err}");
@@ -161,7 +164,16 @@ fn operation_errors_are_in_the_summary() {
 fn a_program_that_calls_the_runtime_runs_in_c() {
     let called = summary(ROOTS, "c");
     insta::assert_snapshot!(called);
-    assert_eq!(summary(ROOTS, "interp"), called);
+    for engine in ["auto", "interp"] {
+        assert_eq!(summary(ROOTS, engine), called, "{engine}");
+    }
+}
+
+#[test]
+fn the_watchdog_is_in_the_summary() {
+    let stopped = summary(LOOPS, "auto");
+    insta::assert_snapshot!(stopped);
+    assert_eq!(summary(LOOPS, "interp"), stopped);
 }
 
 #[test]

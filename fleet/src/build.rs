@@ -21,6 +21,12 @@ const SINGLES: &str = include_str!("singles.c");
 /// How many devices are read together.
 pub(crate) const CHUNK: u32 = 64;
 
+/// Leaves out what the program does not call of the runtime library, with what that would need in turn.
+const UNUSED: &str = match cfg!(target_os = "macos") {
+    true => "-Wl,-dead_strip",
+    false => "-Wl,--gc-sections",
+};
+
 /// Lines of the compiler's output that an error quotes.
 const QUOTED_LINES: usize = 20;
 
@@ -105,10 +111,9 @@ pub(crate) fn build(module: &Module, folder: &Path, form: &Form) -> Result<PathB
         runtime: Some(library),
     } = form
     {
-        command.arg(library);
+        command.arg(library).arg(UNUSED);
     }
     let output = command
-        .arg("-Wl,--gc-sections")
         .current_dir(folder)
         .output()
         .map_err(at(Path::new("cc")))?;
