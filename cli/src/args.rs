@@ -16,7 +16,7 @@ mod verify;
 pub use boards::BoardsArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use emit::{Backend, Emit};
-pub use explore::ExploreArgs;
+pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};

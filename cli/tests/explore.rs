@@ -2,42 +2,12 @@
 
 mod common;
 
-use common::{code, folder, rungc, shown, text};
+use common::{code, folder, reverser, rungc, shown, text};
 use std::fs;
-
-/// Both contactors close with both buttons: the second rung lacks `ANI Y000`.
-const REVERSER: &str = "\
-;! Y000 = forward contactor
-;! Y001 = reverse contactor
-LD X000
-OR Y000
-ANI X002
-ANI Y001
-OUT Y000
-LD X001
-OR Y001
-ANI X002
-OUT Y001
-END
-";
-
-const INTERLOCKED: &str = "\
-LD X000
-OR Y000
-ANI X002
-ANI Y001
-OUT Y000
-LD X001
-OR Y001
-ANI X002
-ANI Y000
-OUT Y001
-END
-";
 
 #[test]
 fn a_violation_is_found_and_its_test_fails_until_it_is_repaired() {
-    let folder = folder(&[("reverser.il", REVERSER.as_bytes())]);
+    let folder = folder(&[("reverser.il", reverser("").as_bytes())]);
     let args = [
         "explore",
         "reverser.il",
@@ -46,7 +16,7 @@ fn a_violation_is_found_and_its_test_fails_until_it_is_repaired() {
         "--scans",
         "3000",
         "--replay",
-        "c",
+        "all",
         "--write-test",
         "found.plctest.toml",
         "--vcd",
@@ -58,14 +28,20 @@ fn a_violation_is_found_and_its_test_fails_until_it_is_repaired() {
     let vcd = fs::read_to_string(folder.path().join("found.vcd")).unwrap();
     assert!(vcd.contains("Y001"), "{vcd}");
     assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 1);
+    for (engine, name) in [("rust", "emitted Rust"), ("c", "emitted C")] {
+        let asked = [&args[..6], &["--replay", engine]].concat();
+        let output = text(&rungc(folder.path(), &asked).stdout);
+        let said = format!("Each run was replayed on {name}.");
+        assert!(output.contains(&said), "{output}");
+    }
     let kept: Vec<&str> = args
         .iter()
         .copied()
-        .filter(|arg| !["--replay", "c"].contains(arg))
+        .filter(|arg| !["--replay", "all"].contains(arg))
         .collect();
     let again = shown(folder.path(), &kept);
     assert!(again.contains("exists"), "an existing test stays: {again}");
-    fs::write(folder.path().join("reverser.il"), INTERLOCKED).unwrap();
+    fs::write(folder.path().join("reverser.il"), reverser("ANI Y000")).unwrap();
     assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 0);
     let nothing = shown(folder.path(), &args[..6]);
     assert!(nothing.contains("Nothing was found."), "{nothing}");
@@ -202,7 +178,10 @@ forward_limit_at = 90
 
 #[test]
 fn what_cannot_be_searched_is_said() {
-    let folder = folder(&[("reverser.il", REVERSER.as_bytes()), ("bad.il", b"LD Q0\n")]);
+    let folder = folder(&[
+        ("reverser.il", reverser("").as_bytes()),
+        ("bad.il", b"LD Q0\n"),
+    ]);
     for args in [
         &["explore", "reverser.il", "--never", "Y000 &"][..],
         &["explore", "reverser.il", "--machine", "none.toml"],
@@ -211,4 +190,108 @@ fn what_cannot_be_searched_is_said() {
     ] {
         assert_eq!(code(folder.path(), args), 2, "{args:?}");
     }
+}
+
+#[test]
+fn lanes_print_what_the_interpreter_prints() {
+    let sends = "LD X000\nPLSY K100 K50 Y000\nLD X001\nOUT Y001\nEND\n";
+    let list = reverser("ANI X003");
+    let folder = folder(&[
+        ("reverser.il", list.as_bytes()),
+        ("sends.il", sends.as_bytes()),
+    ]);
+    let searched = |engine: &str, threads: &str| {
+        let args = [
+            "explore",
+            "reverser.il",
+            "--never",
+            "Y000 & Y001",
+            "--scans",
+            "70000",
+            "--engine",
+            engine,
+            "--threads",
+            threads,
+        ];
+        shown(folder.path(), &args).replacen(engine, "ENGINE", 1)
+    };
+    let interpreted = searched("interp", "1").replace("--threads 1", "");
+    assert_eq!(
+        interpreted,
+        searched("lanes", "2").replace("--threads 2", "")
+    );
+    let args = ["explore", "sends.il", "--engine", "lanes"];
+    let refused = shown(folder.path(), &args);
+    assert!(
+        refused.contains("`--engine lanes`: the program sends pulses"),
+        "{refused}"
+    );
+    assert!(refused.ends_with("exit code 2"), "{refused}");
+}
+
+/// A latched counter of cycles, a relay that only a power failure clears.
+const COUNTED: &str = "\
+LD M8002
+SET M0
+LDP X000
+INC D200
+RST M0
+LD>= D200 K2
+AND M0
+OUT Y000
+END
+";
+
+#[test]
+fn latched_devices_begin_with_what_was_saved() {
+    let folder = folder(&[("counted.il", COUNTED.as_bytes())]);
+    let args = |latched| {
+        let asked = [
+            "explore",
+            "counted.il",
+            "--model",
+            "fx3u",
+            "--never",
+            "Y000",
+        ];
+        let rest = ["--scans", "6000", "--latched", latched, "--replay", "c"];
+        [&asked[..], &rest[..], &["--write-test", "p.plctest.toml"]].concat()
+    };
+    let begins_new = shown(folder.path(), &args("zero"));
+    assert!(begins_new.contains("Nothing was found."), "{begins_new}");
+    insta::assert_snapshot!("saved", shown(folder.path(), &args("saved")));
+    let test = fs::read_to_string(folder.path().join("p.plctest.toml")).unwrap();
+    assert!(test.contains("power_cycle = true"), "{test}");
+    assert_eq!(code(folder.path(), &["test", "p.plctest.toml"]), 1);
+    // Sweeps continue from moments after the power has come back, too.
+    let searched = |engine| {
+        let args = [
+            "explore",
+            "counted.il",
+            "--scans",
+            "70000",
+            "--latched",
+            "saved",
+        ];
+        let output = rungc(folder.path(), &[&args[..], &["--engine", engine]].concat());
+        text(&output.stdout)
+    };
+    assert_eq!(searched("interp"), searched("lanes"));
+}
+
+#[test]
+fn what_is_not_varied_is_said() {
+    let list = "\
+LD M8000
+OUT C235 K100
+RS D0 K4 D10 K4
+PLSY K100 K50 Y000
+FROM K0 K0 D20 K1
+LD C235
+OUT Y001
+END
+";
+    let folder = folder(&[("around.il", list.as_bytes())]);
+    let args = ["explore", "around.il", "--model", "fx3u", "--scans", "2000"];
+    insta::assert_snapshot!("not_tried", shown(folder.path(), &args));
 }

@@ -2,28 +2,7 @@
 
 mod common;
 
-use common::{folder, rungc, shown, text};
-
-/// A motor that runs forward and backward; `lock` is the contact before the second coil.
-fn reverser(lock: &str) -> String {
-    format!(
-        "\
-;! Y000 = forward contactor
-;! Y001 = reverse contactor
-LD X000
-OR Y000
-ANI X002
-ANI Y001
-OUT Y000
-LD X001
-OR Y001
-ANI X002
-{lock}
-OUT Y001
-END
-"
-    )
-}
+use common::{folder, reverser, rungc, shown, text};
 
 /// Lines without the time that each verdict took.
 fn timeless(text: &str) -> String {

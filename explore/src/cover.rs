@@ -2,17 +2,16 @@
 
 use crate::run::Runner;
 use crate::task::Task;
-use rungc_interp::rt_class;
+use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, CellId, Expr, ExprId, Stmt};
+use rungc_ir::node::{AccessKind, Expr, ExprId, FlagId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_models::runs::{is_counter32, is_special};
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::{Condition, Number};
-use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
-use std::hash::Hasher;
+use rungc_verify::property::{Condition, Devices, Number};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Something that a scan has shown.
 pub type Feature = u64;
@@ -42,9 +41,14 @@ fn feature(kind: Kind, index: usize, value: u32) -> Feature {
 
 /// What is looked at after a scan.
 pub struct View<'t> {
-    branches: &'t [CellId],
-    bits: Vec<(Class, u32)>,
-    words: Vec<(Class, u32)>,
+    /// Flags of branches.
+    pub branches: &'t [FlagId],
+    /// Bits.
+    pub bits: Vec<(Class, u32)>,
+    /// Registers, and the values of timers and counters.
+    pub words: Vec<(Class, u32)>,
+    /// Which of the bits are outputs and states.
+    outputs: Vec<usize>,
     /// By word: numbers that the program compares it with.
     near: Vec<Vec<i32>>,
     /// The parts of each property's conditions that are true or false by themselves.
@@ -52,11 +56,19 @@ pub struct View<'t> {
 }
 
 /// The last scan, to see what has changed.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub struct Last {
     branches: Vec<bool>,
-    bits: Vec<bool>,
-    words: Vec<i32>,
+    /// Each of [`View::bits`].
+    pub bits: Vec<bool>,
+    /// Each of [`View::words`].
+    pub words: Vec<i32>,
+    /// All bits together.
+    state: u64,
+    /// Whether a bit has changed in this scan, or there was none before.
+    changed: bool,
+    /// Whether an output or a state has.
+    moved: bool,
 }
 
 /// The features that are known.
@@ -129,8 +141,10 @@ impl<'t> View<'t> {
             found.truncate(24);
             found
         });
+        let is_output = |i: &usize| matches!(bits[*i], (Class::Y | Class::S, _));
         View {
             branches: &task.notes.branches,
+            outputs: (0..bits.len()).filter(is_output).collect(),
             leaves: leaves.collect(),
             bits,
             words,
@@ -146,52 +160,73 @@ impl<'t> View<'t> {
             .count()
     }
 
+    /// Before anything was looked at.
+    pub fn nothing(&self) -> Last {
+        Last {
+            branches: vec![false; self.branches.len()],
+            bits: vec![false; self.bits.len()],
+            words: vec![0; self.words.len()],
+            state: 0,
+            changed: true,
+            moved: true,
+        }
+    }
+
     /// Calls `f` with the features of the scan that has just ended.
     pub fn look(&self, runner: &Runner, last: &mut Last, f: &mut impl FnMut(Feature)) {
         let machine = runner.machine();
-        let fresh = last.bits.len() != self.bits.len() || last.words.len() != self.words.len();
-        if fresh {
-            last.branches = vec![false; self.branches.len()];
-            last.bits = vec![false; self.bits.len()];
-            last.words = vec![0; self.words.len()];
-        }
-        for (i, &cell) in self.branches.iter().enumerate() {
-            if !last.branches[i] && machine.cell(cell) != 0 {
-                last.branches[i] = true;
-                f(feature(Kind::Branch, i, 0));
+        for (i, &flag) in self.branches.iter().enumerate() {
+            if machine.flag(flag) {
+                self.branch(i, last, f);
             }
         }
-        let mut changed = false;
-        let mut state = FxHasher::default();
         for (i, &(class, n)) in self.bits.iter().enumerate() {
-            let on = machine.bit(class, n) == Some(true);
-            if std::mem::replace(&mut last.bits[i], on) != on {
-                changed = true;
-                f(feature(Kind::Bit, i, on.into()));
-            }
-            if on {
-                state.write_usize(i);
+            self.bit(i, machine.bit(class, n) == Some(true), last, f);
+        }
+        for (i, &device) in self.words.iter().enumerate() {
+            self.word(i, value(machine, device), last, f);
+        }
+        self.end(machine, last, f);
+    }
+
+    /// A branch has been taken.
+    pub fn branch(&self, i: usize, last: &mut Last, f: &mut impl FnMut(Feature)) {
+        if !std::mem::replace(&mut last.branches[i], true) {
+            f(feature(Kind::Branch, i, 0));
+        }
+    }
+
+    /// What a bit is now.
+    pub fn bit(&self, i: usize, on: bool, last: &mut Last, f: &mut impl FnMut(Feature)) {
+        if std::mem::replace(&mut last.bits[i], on) != on {
+            last.state ^= mixed(i as u64);
+            last.changed = true;
+            last.moved |= matches!(self.bits[i].0, Class::Y | Class::S);
+            f(feature(Kind::Bit, i, on.into()));
+        }
+    }
+
+    /// What a word is now.
+    pub fn word(&self, i: usize, value: i32, last: &mut Last, f: &mut impl FnMut(Feature)) {
+        if std::mem::replace(&mut last.words[i], value) != value {
+            f(feature(Kind::Word, i, magnitude(value)));
+            for (j, &number) in self.near[i].iter().enumerate() {
+                let distance = magnitude(value.wrapping_sub(number));
+                f(feature(Kind::Near, i << 6 | j, distance));
             }
         }
-        if changed || fresh {
-            f((Kind::State as u64) << 56 | state.finish() >> 8);
+    }
+
+    /// All has been looked at.
+    pub fn end(&self, devices: &impl Devices, last: &mut Last, f: &mut impl FnMut(Feature)) {
+        if std::mem::take(&mut last.changed) {
+            f((Kind::State as u64) << 56 | last.state >> 8);
+        }
+        if std::mem::take(&mut last.moved) {
             self.pairs(last, f);
         }
-        for (i, &(class, n)) in self.words.iter().enumerate() {
-            let value = match class {
-                Class::C if is_counter32(DeviceClass::C, n) => machine.counter32(n).unwrap_or(0),
-                _ => machine.word(class, n).unwrap_or(0).into(),
-            };
-            if std::mem::replace(&mut last.words[i], value) != value {
-                f(feature(Kind::Word, i, magnitude(value)));
-                for (j, &number) in self.near[i].iter().enumerate() {
-                    let distance = magnitude(value.wrapping_sub(number));
-                    f(feature(Kind::Near, i << 6 | j, distance));
-                }
-            }
-        }
         for (property, leaves) in self.leaves.iter().enumerate() {
-            let held = leaves.iter().map(|leaf| leaf.holds(machine));
+            let held = leaves.iter().map(|leaf| leaf.holds(devices));
             let held = held.fold(0, |all, on| all << 1 | u32::from(on));
             f(feature(Kind::Leaves, property, held));
         }
@@ -200,9 +235,8 @@ impl<'t> View<'t> {
     /// Outputs that are on together, and what they follow.
     fn pairs(&self, last: &Last, f: &mut impl FnMut(Feature)) {
         const MOST_ON: usize = 24;
-        let on = self.bits.iter().enumerate();
-        let on = on.filter(|(i, (class, _))| last.bits[*i] && matches!(class, Class::Y | Class::S));
-        let on: Vec<usize> = on.map(|(i, _)| i).take(MOST_ON).collect();
+        let on = self.outputs.iter().copied().filter(|&i| last.bits[i]);
+        let on: Vec<usize> = on.take(MOST_ON).collect();
         for (at, &a) in on.iter().enumerate() {
             f(feature(Kind::Change, a, on.len() as u32));
             for &b in &on[at + 1..] {
@@ -210,6 +244,22 @@ impl<'t> View<'t> {
             }
         }
     }
+}
+
+/// A word of a machine.
+pub fn value(machine: &Machine, (class, n): (Class, u32)) -> i32 {
+    match class {
+        Class::C if is_counter32(DeviceClass::C, n) => machine.counter32(n).unwrap_or(0),
+        _ => machine.word(class, n).unwrap_or(0).into(),
+    }
+}
+
+/// A number for a bit, whose sums differ for different bits: the finaliser of MurmurHash3.
+fn mixed(i: u64) -> u64 {
+    let mut mixed = i.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    mixed = (mixed ^ mixed >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    mixed = (mixed ^ mixed >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    mixed ^ mixed >> 33
 }
 
 /// A number up to 32 as it is, others by their length.

@@ -10,12 +10,15 @@
 #![deny(missing_docs)]
 
 pub mod cover;
+pub mod lanes;
 pub mod notes;
 pub mod run;
 pub mod search;
 pub mod shrink;
 pub mod task;
+pub mod untried;
 pub mod vary;
+pub mod wide;
 
 pub use search::{Limits, Report, search};
 pub use shrink::shrink;

@@ -1,44 +1,53 @@
-//! A copy of a program that notes in private cells which branches a scan takes and what the coils of an output say.
+//! A copy of a program that notes in private flags which branches a scan takes, what the coils of an output say, and
+//! which operation errors the program itself reports.
 
 use rungc_ir::Module;
 use rungc_ir::node::{
-    AccessKind, Body, Branch, Cell, CellId, Expr, ExprId, FunctionKind, Place, Stmt,
+    AccessKind, Body, Branch, Expr, ExprId, Flag, FlagId, FunctionKind, Place, Stmt,
 };
 use rungc_ir::walk::bodies_mut;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
-/// What the cell of a coil holds in a scan that has not executed it; else 0 or 1.
-pub const NOT_EXECUTED: i32 = 2;
+/// What is noted of a coil.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Coil {
+    /// On if the last scan has executed it.
+    pub executed: FlagId,
+    /// What it said when it was executed last.
+    pub on: FlagId,
+}
 
 /// What the copy of a program notes.
 #[derive(Clone, Debug, Default)]
 pub struct Notes {
-    /// A cell for each branch, 1 once it has been taken.
-    pub branches: Vec<CellId>,
-    /// The outputs Y with several coils, and a cell for what each coil says in a scan, in the program's order.
-    pub coils: Vec<(u32, Vec<CellId>)>,
+    /// A flag for each branch, on once it has been taken.
+    pub branches: Vec<FlagId>,
+    /// The outputs Y with several coils, in the program's order.
+    pub coils: Vec<(u32, Vec<Coil>)>,
+    /// A flag for each operation error that the program reports without the runtime, on once it has: code and step.
+    pub faults: Vec<(FlagId, (u16, u32))>,
 }
 
 /// Makes the copy.
 struct Noting {
     module: Module,
-    one: ExprId,
+    on: ExprId,
     notes: Notes,
     /// By output: its coils so far.
-    coils: BTreeMap<u32, Vec<CellId>>,
+    coils: BTreeMap<u32, Vec<Coil>>,
 }
 
 impl Notes {
     /// The copy, and what it notes. It does the same as the program.
     pub fn of(module: &Module) -> (Module, Notes) {
         let mut module = module.clone();
-        let one = module.add(Expr::I32(1));
-        let unexecuted = module.add(Expr::I32(NOT_EXECUTED));
+        let on = module.add(Expr::Bit(true));
+        let off = module.add(Expr::Bit(false));
         let mut functions = std::mem::take(&mut module.functions);
         let mut noting = Noting {
             module,
-            one,
+            on,
             notes: Notes::default(),
             coils: BTreeMap::new(),
         };
@@ -60,8 +69,8 @@ impl Notes {
             .iter_mut()
             .find(|function| function.kind == FunctionKind::Main);
         if let Some(main) = main {
-            let cells = notes.coils.iter().flat_map(|(_, cells)| cells);
-            let begin = cells.map(|&cell| Stmt::SetCell(cell, unexecuted));
+            let coils = notes.coils.iter().flat_map(|(_, coils)| coils);
+            let begin = coils.map(|coil| Stmt::SetFlag(coil.executed, off));
             main.body.splice(0..0, begin.collect::<Vec<_>>());
         }
         module.functions = functions;
@@ -70,12 +79,13 @@ impl Notes {
 }
 
 impl Noting {
-    fn cell(&mut self) -> CellId {
-        let name = format!("noted{}", self.module.cells.len());
-        self.module.cells.push_and_get_key(Cell {
+    fn flag(&mut self) -> FlagId {
+        let name = format!("noted{}", self.module.flags.len());
+        self.module.flags.push_and_get_key(Flag {
             name,
             meaning: "what a search notes",
-            follows_time: false,
+            period_ms: None,
+            pulses_end: None,
         })
     }
 
@@ -90,15 +100,23 @@ impl Noting {
             }) = &mut body[at]
             {
                 for branch in [then, otherwise] {
-                    let cell = self.cell();
-                    self.notes.branches.push(cell);
-                    branch.insert(0, Stmt::SetCell(cell, self.one));
+                    let flag = self.flag();
+                    self.notes.branches.push(flag);
+                    branch.insert(0, Stmt::SetFlag(flag, self.on));
                 }
             }
             if let Some((output, value)) = self.coil(&body[at]).filter(|_| of_program) {
-                let cell = self.cell();
-                self.coils.entry(output).or_default().push(cell);
-                body.insert(at, Stmt::SetCell(cell, value));
+                let (executed, on) = (self.flag(), self.flag());
+                let coil = Coil { executed, on };
+                self.coils.entry(output).or_default().push(coil);
+                let notes = [Stmt::SetFlag(executed, self.on), Stmt::SetFlag(on, value)];
+                body.splice(at..at, notes);
+                at += 2;
+            }
+            if let Stmt::Fault { code, step } = body[at] {
+                let flag = self.flag();
+                self.notes.faults.push((flag, (code, step)));
+                body.insert(at, Stmt::SetFlag(flag, self.on));
                 at += 1;
             }
             at += 1;

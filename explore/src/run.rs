@@ -1,16 +1,19 @@
 //! Runs of a program, step by step, as test files run it.
 
-use crate::notes::NOT_EXECUTED;
 use crate::task::{Kind, Step, Task, What};
 use rungc_interp::{Machine, Saved};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::{Plant, Wired};
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::Watcher;
+use rungc_verify::property::{Watcher, read};
 
 /// How many scans in a row an output changes before it counts as one that never comes to rest.
 pub const RESTLESS: u32 = 20;
+
+/// In [`Step::set`] in place of an input: before all else, the power supply goes off and comes back. The value is how
+/// often it has done so.
+pub const POWER: usize = usize::MAX;
 
 /// A program that runs.
 pub struct Runner<'t> {
@@ -21,7 +24,10 @@ pub struct Runner<'t> {
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
     inputs: Vec<i32>,
+    /// Milliseconds since power-on.
     now_ms: u64,
+    /// Milliseconds of the run until then, and how often the power supply has gone off.
+    before: (u64, i32),
     /// How long the last scan took; `None` before the first.
     last_ms: Option<u32>,
     takes_events: bool,
@@ -46,6 +52,7 @@ pub struct Moment<'t> {
     watchers: Vec<Watcher<'t>>,
     inputs: Vec<i32>,
     now_ms: u64,
+    before: (u64, i32),
     last_ms: Option<u32>,
     constant_ms: u32,
     errors: usize,
@@ -90,6 +97,7 @@ impl<'t> Runner<'t> {
             watchers: task.properties.iter().map(Watcher::new).collect(),
             inputs: vec![0; task.inputs.len()],
             now_ms: 0,
+            before: (0, 0),
             last_ms: None,
             takes_events: module.takes_events(),
             uses_hal: task.uses_hal(),
@@ -115,9 +123,24 @@ impl<'t> Runner<'t> {
         self.plant.as_ref()
     }
 
-    /// Milliseconds since power-on.
+    /// Milliseconds since the run began.
     pub fn now_ms(&self) -> u64 {
-        self.now_ms
+        self.before.0 + self.now_ms
+    }
+
+    /// How often the power supply has gone off.
+    pub fn power_cycles(&self) -> i32 {
+        self.before.1
+    }
+
+    /// The properties, as far as the run has followed them.
+    pub fn watchers(&self) -> &[Watcher<'t>] {
+        &self.watchers
+    }
+
+    /// How long the last scan took, in milliseconds; `None` before the first.
+    pub fn last_ms(&self) -> Option<u32> {
+        self.last_ms
     }
 
     /// What each input is now.
@@ -134,6 +157,7 @@ impl<'t> Runner<'t> {
             watchers: self.watchers.clone(),
             inputs: self.inputs.clone(),
             now_ms: self.now_ms,
+            before: self.before,
             last_ms: self.last_ms,
             constant_ms: self.constant_ms,
             errors: self.errors,
@@ -151,6 +175,7 @@ impl<'t> Runner<'t> {
         self.watchers.clone_from(&moment.watchers);
         self.inputs.clone_from(&moment.inputs);
         self.now_ms = moment.now_ms;
+        self.before = moment.before;
         self.last_ms = moment.last_ms;
         self.constant_ms = moment.constant_ms;
         self.errors = moment.errors;
@@ -159,7 +184,10 @@ impl<'t> Runner<'t> {
 
     /// Changes inputs, as a step of a run says.
     pub fn set(&mut self, set: &[(usize, i32)]) {
-        for &(input, value) in set {
+        if let Some(&(_, times)) = set.iter().find(|(input, _)| *input == POWER) {
+            self.cycle_power(times);
+        }
+        for &(input, value) in set.iter().filter(|(input, _)| *input != POWER) {
             let before = std::mem::replace(&mut self.inputs[input], value);
             let target = self.task.inputs[input].target;
             // Each input exists: it was taken from the program's devices.
@@ -173,6 +201,31 @@ impl<'t> Runner<'t> {
             }
             if before != value {
                 self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
+            }
+        }
+    }
+
+    /// Power off and on, as test files have it: latched devices and input terminals stay as they are.
+    fn cycle_power(&mut self, times: i32) {
+        self.before = (self.now_ms(), times);
+        self.now_ms = 0;
+        self.last_ms = None;
+        self.constant_ms = 0;
+        self.errors = 0;
+        self.watchers = self.task.properties.iter().map(Watcher::new).collect();
+        self.outputs
+            .iter_mut()
+            .for_each(|(_, on, times)| (*on, *times) = (false, 0));
+        self.hal.restart();
+        self.machine.power_cycle();
+        self.plant.iter_mut().for_each(Plant::power_cycle);
+        for (input, value) in self.task.inputs.iter().zip(&mut self.inputs) {
+            match input.target {
+                Target::Bit(DeviceClass::X, number) => {
+                    // It exists: it was taken from the program's devices.
+                    let _ = self.machine.set_bit(Class::X, number, *value != 0);
+                }
+                target => *value = read(&self.machine, target),
             }
         }
     }
@@ -226,13 +279,12 @@ impl<'t> Runner<'t> {
             let step = machine.last_error().stop_step.into();
             found.push(What::Watchdog { step });
         }
-        for (output, cells) in &self.task.notes.coils {
-            let said = cells.iter().map(|&cell| machine.cell(cell));
-            let mut said = said.filter(|&value| value != NOT_EXECUTED).rev();
-            if said.next() == Some(0) && said.any(|value| value == 1) {
-                found.push(What::Doubled(*output));
-            }
-        }
+        let outputs = self.task.notes.coils.iter();
+        let doubled = outputs.filter(|(_, coils)| {
+            let said = coils.iter().filter(|coil| machine.flag(coil.executed));
+            differ(said.map(|coil| machine.flag(coil.on)))
+        });
+        found.extend(doubled.map(|(output, _)| What::Doubled(*output)));
         for (output, was, times) in &mut self.outputs {
             let is = machine.bit(Class::Y, *output) == Some(true);
             *times = match std::mem::replace(was, is) != is {
@@ -294,6 +346,12 @@ impl<'t> Runner<'t> {
             }
         }
     }
+}
+
+/// Whether the last of the coils of an output that a scan has executed is off, and one before it is on.
+pub fn differ(said: impl DoubleEndedIterator<Item = bool>) -> bool {
+    let mut said = said.rev();
+    said.next() == Some(false) && said.any(|on| on)
 }
 
 /// Runs these steps from power-on; the run until what is searched for has happened, if it does.

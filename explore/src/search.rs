@@ -5,12 +5,15 @@
 //! finds the same, however many processors there are.
 
 use crate::cover::{Feature, Last, Seen, View};
+use crate::lanes::Lanes;
 use crate::run::{Moment, RESTLESS, Runner, Scanned};
 use crate::task::{Found, Kind, Step, Task, What};
 use crate::vary::Choices;
+use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
 use rungc_syntax::order;
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// How many parts a round has.
@@ -25,9 +28,15 @@ const BROUGHT: usize = 24;
 const ENDLESS: u64 = 2_000;
 /// Longer runs are not continued.
 const LONGEST: usize = 3_000;
+/// After this many scans there are sweeps, if the program permits them: what is near has been found then.
+const NEAR: u64 = 32_000;
+/// How many scans a part of a round with sweeps executes in each lane, about.
+const SWEEP_SCANS: u32 = 64;
+/// Of so many rounds, all but one have sweeps.
+const TURNS: u64 = 4;
 
 /// How far a search goes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Limits {
     /// How many scans, about: a search ends with the round in which it passes this.
     pub scans: u64,
@@ -37,10 +46,12 @@ pub struct Limits {
     pub seed: u64,
     /// In how many threads, at least 1.
     pub threads: usize,
+    /// What [`crate::lanes::build`] has made of the program, to execute sweeps; `None`: the interpreter does.
+    pub lanes: Option<PathBuf>,
 }
 
 /// What a search has found.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Report {
     /// Everything that was found, in the order in which it was, once each.
     pub found: Vec<Found>,
@@ -67,10 +78,19 @@ struct Brought<'t> {
     scans: u64,
     /// Scans, those that do not end as many.
     spent: u64,
+    /// Why the search cannot go on.
+    failed: Option<String>,
+}
+
+/// What executes a part of a round.
+struct Worker<'t> {
+    runner: Runner<'t>,
+    lanes: Option<Lanes>,
 }
 
 /// Searches until the limits; stops earlier once all properties are decided and nothing else is searched for, or when
-/// `is_over` says so after a round. Fails if the machine does not fit the PLC.
+/// `is_over` says so after a round. Fails if the machine does not fit the PLC, or with lanes if their process ends or
+/// does otherwise than the interpreter.
 pub fn search(
     task: &Task,
     limits: &Limits,
@@ -88,8 +108,11 @@ pub fn search(
     let mut spent = 0;
     let mut known: BTreeSet<What> = BTreeSet::new();
     let mut rng = Rng::with_seed(limits.seed);
-    let runners = (0..limits.threads.max(1)).map(|_| Runner::new(task));
-    let mut runners: Vec<Runner> = runners.collect::<Result<_, _>>()?;
+    let items = Items::new(task, &view);
+    let may_sweep = refusal(task).is_none();
+    let workers = (0..limits.threads.max(1)).map(|_| Worker::new(task, &items, limits));
+    let mut workers: Vec<Worker> = workers.collect::<Result<_, _>>()?;
+    let mut rounds = 0;
     loop {
         let parts: Vec<(u64, usize)> = (0..PARTS)
             .map(|_| (rng.u64(..), choose(&mut kept, &mut rng)))
@@ -98,8 +121,12 @@ pub fn search(
         let scans = u32::try_from(left).map_or(PART_SCANS, |left| {
             PART_SCANS.min(left.div_ceil(PARTS as u32))
         });
+        rounds += 1;
+        let all = PARTS as u64 * LANES as u64 * u64::from(SWEEP_SCANS);
+        let sweeps = may_sweep && spent >= NEAR && left >= all && rounds % TURNS != 0;
         let round = Round {
             task,
+            items: sweeps.then_some(&items),
             view: &view,
             choices: &choices,
             seen: &seen,
@@ -107,8 +134,9 @@ pub fn search(
             kept: &kept,
             scans,
         };
-        let brought = round.all(&parts, &mut runners)?;
+        let brought = round.all(&parts, &mut workers)?;
         for part in brought {
+            part.failed.map_or(Ok(()), Err)?;
             report.scans += part.scans;
             spent += part.spent;
             for found in part.found {
@@ -166,6 +194,19 @@ struct Round<'r, 't> {
     kept: &'r [Kept<'t>],
     /// Of each part.
     scans: u32,
+    /// Of a round with sweeps: what they look at.
+    items: Option<&'r Items>,
+}
+
+impl<'t> Worker<'t> {
+    fn new(task: &'t Task<'t>, items: &Items, limits: &Limits) -> Result<Self, String> {
+        let start =
+            |path: &PathBuf| Lanes::start(path, task, items).map_err(|error| error.to_string());
+        Ok(Worker {
+            runner: Runner::new(task)?,
+            lanes: limits.lanes.as_ref().map(start).transpose()?,
+        })
+    }
 }
 
 impl<'t> Round<'_, 't> {
@@ -174,22 +215,25 @@ impl<'t> Round<'_, 't> {
     fn all(
         &self,
         parts: &[(u64, usize)],
-        runners: &mut [Runner<'t>],
+        workers: &mut [Worker<'t>],
     ) -> Result<Vec<Brought<'t>>, String> {
-        let threads = runners.len();
-        let of_thread = |thread: usize, runner: &mut Runner<'t>| {
+        let threads = workers.len();
+        let of_thread = |thread: usize, worker: &mut Worker<'t>| {
             let own = parts.iter().enumerate().skip(thread).step_by(threads);
-            let brought = own.map(|(i, &part)| (i, self.part(runner, part)));
+            let brought = own.map(|(i, &part)| match self.items {
+                Some(items) => (i, self.sweeps(worker, items, part)),
+                None => (i, self.part(&mut worker.runner, part)),
+            });
             brought.collect::<Vec<_>>()
         };
         let mut all: Vec<(usize, Brought)> = Vec::new();
-        if let [only] = runners {
+        if let [only] = workers {
             all = of_thread(0, only);
         } else {
             let of_thread = &of_thread;
             std::thread::scope(|scope| {
-                let runners = runners.iter_mut().enumerate();
-                let running = runners.map(|(i, runner)| scope.spawn(move || of_thread(i, runner)));
+                let workers = workers.iter_mut().enumerate();
+                let running = workers.map(|(i, worker)| scope.spawn(move || of_thread(i, worker)));
                 for thread in running.collect::<Vec<_>>() {
                     let brought = thread.join();
                     all.extend(brought.map_err(|_| "a thread of the search has failed")?);
@@ -211,7 +255,7 @@ impl<'t> Round<'_, 't> {
             runner.restore(&start.moment);
             let mut way = Way {
                 run: start.run.clone(),
-                last: Last::default(),
+                last: self.view.nothing(),
             };
             // What the moment itself shows is nothing new.
             self.view.look(runner, &mut way.last, &mut |_| {});
@@ -228,6 +272,81 @@ impl<'t> Round<'_, 't> {
             }
         }
         brought
+    }
+
+    /// Sweeps that continue from a moment.
+    fn sweeps(
+        &self,
+        worker: &mut Worker<'t>,
+        items: &Items,
+        (seed, start): (u64, usize),
+    ) -> Brought<'t> {
+        let mut rng = Rng::with_seed(seed);
+        let mut brought = Brought::default();
+        let mut own = Seen::default();
+        let start = &self.kept[start];
+        let mut scans = 0;
+        while scans < SWEEP_SCANS && brought.failed.is_none() {
+            worker.runner.restore(&start.moment);
+            let strides = self.choices.sweep(&worker.runner, &mut rng, SWEEP_SCANS);
+            scans += strides.iter().map(|stride| stride.time.0).sum::<u32>();
+            if start.run.len() + strides.len() > LONGEST {
+                continue;
+            }
+            let sweep = Sweep {
+                task: self.task,
+                view: self.view,
+                items,
+                start: &start.moment,
+                run: &start.run,
+                strides,
+            };
+            let done = self.sweep(&sweep, worker, (&mut brought, &mut own));
+            brought.failed = done.err();
+        }
+        brought.scans = u64::from(scans) * LANES as u64;
+        brought.spent = brought.scans;
+        brought
+    }
+
+    fn sweep(
+        &self,
+        sweep: &Sweep<'_, 't>,
+        worker: &mut Worker<'t>,
+        (brought, own): (&mut Brought<'t>, &mut Seen),
+    ) -> Result<(), String> {
+        let mut judge = sweep.judge(&mut worker.runner);
+        let mut is_new = |feature| self.seen.lacks(feature) && own.add(feature);
+        let mut met = BTreeSet::new();
+        let mut is_searched = |what: &What| !self.known.contains(what) && met.insert(what.clone());
+        let mut row = |changes: &[_]| judge.scan(changes, &mut is_new, &mut is_searched);
+        match &mut worker.lanes {
+            Some(lanes) => lanes.sweep(sweep.run, &sweep.strides, &mut row)?,
+            None => sweep.interpret(&mut worker.runner, &mut row),
+        }
+        for shown in judge.shown {
+            let is_moment = matches!(shown.event, Event::Moment(_));
+            if is_moment && brought.moments.len() >= BROUGHT {
+                continue;
+            }
+            let run = sweep.confirm(&mut worker.runner, &shown)?;
+            match shown.event {
+                Event::Happened(what) if self.is_new(brought, &what) => {
+                    brought.found.push(Found { what, run });
+                }
+                Event::Happened(_) => {}
+                Event::Moment(features) => {
+                    let moment = worker.runner.save();
+                    let kept = Kept {
+                        moment,
+                        run,
+                        chosen: 0,
+                    };
+                    brought.moments.push((features, kept));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// A step; whether the run can continue.

@@ -1,7 +1,7 @@
 //! Runs made as short as they can be, in scans, in changes of inputs, and in time.
 
 use crate::run::{Moment, Runner, follow};
-use crate::task::{Found, Step, Task, What};
+use crate::task::{Found, Input, Step, Task, What};
 
 /// How many scans may be executed to shrink a run.
 const BUDGET: u64 = 400_000;
@@ -185,7 +185,7 @@ impl Shrinking<'_> {
                 else {
                     continue;
                 };
-                if self.task.inputs[input].is_bit() {
+                if self.task.inputs.get(input).is_none_or(Input::is_bit) {
                     continue;
                 }
                 // The smallest that shows it, if all beyond it do, too.

@@ -80,7 +80,8 @@ impl What {
 /// Scans of a run that are alike, as a step of a test file: inputs change, then the program runs.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Step {
-    /// Inputs that change before the first scan: numbers of [`Task::inputs`] and their values.
+    /// Inputs that change before the first scan: numbers of [`Task::inputs`] or [`crate::run::POWER`], and their
+    /// values.
     pub set: Vec<(usize, i32)>,
     /// How many scans, at least 1.
     pub scans: u32,
@@ -129,6 +130,9 @@ pub struct Task<'a> {
     pub kinds: BTreeSet<Kind>,
     /// What the search changes.
     pub inputs: Vec<Input>,
+    /// Whether the power supply goes off and comes back at times, so that latched devices begin with what a run has
+    /// left in them.
+    pub power_cycles: bool,
     /// The longest time from one scan to the next, in milliseconds.
     pub scan_ms: u32,
     /// The machine around the PLC.
@@ -175,6 +179,7 @@ impl<'a> Task<'a> {
             assumed,
             kinds: Kind::ALL.into(),
             inputs,
+            power_cycles: false,
             scan_ms,
             machine,
             hal,

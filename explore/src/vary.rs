@@ -1,8 +1,9 @@
 //! How a run continues: inputs that change, and how long they stay.
 
 use crate::cover::constant;
-use crate::run::Runner;
+use crate::run::{POWER, Runner};
 use crate::task::{Step, Task};
+use crate::wide::{LANES, Stride};
 use fastrand::Rng;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
@@ -11,6 +12,9 @@ use rungc_syntax::DeviceClass;
 
 /// How many scans a step waits at most.
 const LONGEST: u32 = 2_000;
+
+/// Of so many steps, one begins with power off and on.
+const POWER_STAYS: u32 = 24;
 
 /// A timer of the program.
 struct Timer {
@@ -51,24 +55,53 @@ impl<'t> Choices<'t> {
         Choices { task, timers }
     }
 
+    /// The steps of a sweep, all lanes from the moment of this runner on, at most about this many scans together.
+    pub fn sweep(&self, runner: &Runner, rng: &mut Rng, most_scans: u32) -> Vec<Stride> {
+        let mut inputs = vec![runner.inputs().to_vec(); LANES];
+        let mut strides = Vec::new();
+        let count = 1 + rng.u32(..8) + rng.u32(..8);
+        let mut scans = 0;
+        while strides.len() < count as usize && scans < most_scans {
+            let set = inputs.iter_mut().map(|now| {
+                let set = self.changes(now, rng);
+                set.iter().for_each(|&(input, value)| now[input] = value);
+                set
+            });
+            let set = set.collect();
+            let time = self.time(runner, rng, 4 * most_scans);
+            scans += time.0;
+            strides.push(Stride { set, time });
+        }
+        strides
+    }
+
     /// A step, at most this many scans long.
     pub fn step(&self, runner: &Runner, rng: &mut Rng, most_scans: u32) -> Step {
-        let set = self.changes(runner, rng);
+        let mut set = self.changes(runner.inputs(), rng);
+        if self.task.power_cycles && rng.u32(..POWER_STAYS) == 0 {
+            set.push((POWER, runner.power_cycles() + 1));
+        }
+        let (scans, scan_ms) = self.time(runner, rng, most_scans);
+        Step {
+            set,
+            scans,
+            scan_ms,
+        }
+    }
+
+    /// How many scans a step takes, at most this many, and how long they are.
+    fn time(&self, runner: &Runner, rng: &mut Rng, most_scans: u32) -> (u32, u32) {
         let (scans, scan_ms) = match rng.u32(..100) {
             0..=24 => self.to_a_timer(runner, rng),
             25..=29 => (rng.u32(8..=40), self.scan_ms(rng)),
             30..=54 => (rng.u32(2..=4), self.scan_ms(rng)),
             _ => (1, self.scan_ms(rng)),
         };
-        Step {
-            set,
-            scans: scans.clamp(1, most_scans.clamp(1, LONGEST)),
-            scan_ms,
-        }
+        (scans.clamp(1, most_scans.clamp(1, LONGEST)), scan_ms)
     }
 
     /// Which inputs change.
-    fn changes(&self, runner: &Runner, rng: &mut Rng) -> Vec<(usize, i32)> {
+    fn changes(&self, now: &[i32], rng: &mut Rng) -> Vec<(usize, i32)> {
         let inputs = self.task.inputs.len();
         if inputs == 0 {
             return Vec::new();
@@ -86,7 +119,7 @@ impl<'t> Choices<'t> {
             if set.iter().any(|(other, _)| *other == input) {
                 continue;
             }
-            let before = runner.inputs()[input];
+            let before = now[input];
             set.push((input, self.value(input, before, rng)));
         }
         set.sort_unstable();

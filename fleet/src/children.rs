@@ -7,10 +7,10 @@ use rungc_codegen_c::lanes::LANES;
 use rungc_ir::Module;
 use rungc_models::runs::name_class;
 use rungc_rt::Class;
+use rungc_sim::engines::Piped;
 use rustc_hash::FxHashMap;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread;
 
 /// How many readings are on their way at most. Their answers have to fit into a pipe, since this end writes while the
@@ -42,10 +42,8 @@ pub struct Children<'m> {
 }
 
 struct Running {
-    child: Child,
+    child: Piped,
     name: String,
-    requests: BufWriter<ChildStdin>,
-    answers: BufReader<ChildStdout>,
 }
 
 impl<'m> Children<'m> {
@@ -86,8 +84,8 @@ impl<'m> Children<'m> {
         let first = &mut started.children[0];
         let asked = first
             .ask(b'M', (0, 0, 0), 0, 0)
-            .and_then(|()| first.requests.flush())
-            .and_then(|()| first.answers.read_exact(&mut size));
+            .and_then(|()| first.child.requests.flush())
+            .and_then(|()| first.child.answers.read_exact(&mut size));
         match asked {
             Ok(()) => started.size = u64::from_ne_bytes(size),
             Err(error) => return Err(first.ended(&error)),
@@ -141,7 +139,7 @@ impl<'m> Children<'m> {
                 if some.iter().any(|chunk| self.place(chunk.0).0 == child) {
                     self.with(child, |child| {
                         child.ask(b'F', (0, 0, 0), 0, 0)?;
-                        child.requests.flush()
+                        child.child.requests.flush()
                     });
                 }
             }
@@ -156,27 +154,15 @@ impl<'m> Children<'m> {
 
 impl Running {
     fn start(executable: &Path, name: &str, count: u32) -> Result<Self, Trouble> {
-        let failed = |error| Trouble::Io {
+        let count = count.to_string();
+        let started = Piped::start(executable, &[count.as_ref()]);
+        let child = started.map_err(|error| Trouble::Io {
             what: executable.display().to_string(),
             error,
-        };
-        let mut command = Command::new(executable);
-        command
-            .arg(count.to_string())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped());
-        // An interruption from the keyboard is this process's to act on.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.spawn().map_err(failed)?;
-        let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(failed(io::Error::other("no pipes")));
-        };
+        })?;
         Ok(Running {
             child,
             name: name.to_string(),
-            requests: BufWriter::new(stdin),
-            answers: BufReader::new(stdout),
         })
     }
 
@@ -194,13 +180,13 @@ impl Running {
         request[4..8].copy_from_slice(&plc.to_ne_bytes());
         request[8..12].copy_from_slice(&number.to_ne_bytes());
         request[12..].copy_from_slice(&value.to_ne_bytes());
-        self.requests.write_all(&request)
+        self.child.child.requests.write_all(&request)
     }
 
     /// The answer to a reading.
     fn values(&mut self) -> io::Result<Vec<Option<i32>>> {
         let mut bytes = [0; 8 * CHUNK as usize];
-        self.answers.read_exact(&mut bytes)?;
+        self.child.child.answers.read_exact(&mut bytes)?;
         let (pairs, _) = bytes.as_chunks::<4>();
         let pairs = pairs.iter().map(|&number| i32::from_ne_bytes(number));
         let pairs: Vec<i32> = pairs.collect();
@@ -211,12 +197,12 @@ impl Running {
     /// What has gone wrong in its PLCs, the first of which has this number.
     fn failures(&mut self, first: u32) -> io::Result<Vec<Failed>> {
         self.ask(b'E', (0, 0, 0), 0, 0)?;
-        self.requests.flush()?;
+        self.child.child.requests.flush()?;
         let mut count = [0; 4];
-        self.answers.read_exact(&mut count)?;
+        self.child.child.answers.read_exact(&mut count)?;
         let records = (0..u32::from_ne_bytes(count)).map(|_| {
             let mut bytes = [0; RECORD];
-            self.answers.read_exact(&mut bytes)?;
+            self.child.child.answers.read_exact(&mut bytes)?;
             let (words, _) = bytes.as_chunks::<4>();
             let word = |n: usize| u32::from_ne_bytes(words[n]);
             let (halves, _) = bytes.as_chunks::<2>();
@@ -235,13 +221,7 @@ impl Running {
 
     /// That it has ended.
     fn ended(&mut self, error: &io::Error) -> Trouble {
-        // It has, or it does not answer as it should.
-        let _ = self.child.kill();
-        let how = match self.child.wait() {
-            Ok(status) => format!("{status} ({error})"),
-            Err(error) => error.to_string(),
-        };
-        Trouble::Ended(self.name.clone(), how)
+        Trouble::Ended(self.name.clone(), self.child.ended(error))
     }
 }
 
@@ -264,14 +244,14 @@ impl Engine for Children<'_> {
         for child in 0..self.children.len() {
             self.with(child, |child| {
                 child.ask(b'S', (0, 0, now_ms), 0, scan_us as i32)?;
-                child.requests.flush()
+                child.child.requests.flush()
             });
         }
     }
 
     fn end_scan(&mut self) -> Result<(), Trouble> {
         for child in 0..self.children.len() {
-            self.with(child, |child| child.answers.read_exact(&mut [0]));
+            self.with(child, |child| child.child.answers.read_exact(&mut [0]));
         }
         self.failed.take().map_or(Ok(()), Err)
     }
@@ -346,13 +326,5 @@ impl Engine for Children<'_> {
 
     fn children(&self) -> Vec<u32> {
         self.children.iter().map(|child| child.child.id()).collect()
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        // The end of its input ends it; one that has failed is gone already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }

@@ -188,9 +188,9 @@ impl<'m> Machine<'m> {
         self.axes.get(i)
     }
 
-    /// What a private number of the module holds.
-    pub fn cell(&self, cell: CellId) -> i32 {
-        self.cells[cell]
+    /// Whether a private bit of the module is on.
+    pub fn flag(&self, flag: FlagId) -> bool {
+        self.flags[flag]
     }
 
     /// Whether the watchdog has stopped the program.

@@ -9,6 +9,7 @@ use crate::bits::{Bits, constant, signed};
 use crate::model::Encoder;
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::node::{AccessKind, Place};
+use rungc_models::Model;
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_sim::Target;
@@ -146,18 +147,18 @@ impl Condition {
         }
     }
 
-    /// Whether it holds on a machine now.
-    pub fn holds(&self, machine: &Machine) -> bool {
+    /// Whether it holds of devices now.
+    pub fn holds(&self, devices: &impl Devices) -> bool {
         match self {
             Condition::Constant(on) => *on,
-            Condition::On(target) => read(machine, *target) != 0,
-            Condition::Not(a) => !a.holds(machine),
-            Condition::And(a, b) => a.holds(machine) && b.holds(machine),
-            Condition::Or(a, b) => a.holds(machine) || b.holds(machine),
+            Condition::On(target) => read(devices, *target) != 0,
+            Condition::Not(a) => !a.holds(devices),
+            Condition::And(a, b) => a.holds(devices) && b.holds(devices),
+            Condition::Or(a, b) => a.holds(devices) || b.holds(devices),
             Condition::Compare(op, a, b) => {
                 let [a, b] = [a, b].map(|number| match *number {
                     Number::Constant(value) => value,
-                    Number::Of(target) => read(machine, target),
+                    Number::Of(target) => read(devices, target),
                 });
                 op.holds(a, b)
             }
@@ -194,28 +195,58 @@ fn value(encoder: &mut Encoder, target: Target) -> Bits {
     }
 }
 
-fn read(machine: &Machine, target: Target) -> i32 {
+/// Devices as conditions read them: those of a machine, or of one that is elsewhere.
+pub trait Devices {
+    /// A bit; off if it is not stored.
+    fn bit_at(&self, class: Class, number: u32) -> bool;
+    /// 16 bits; 0 if they are not stored.
+    fn word_at(&self, class: Class, number: u32) -> i16;
+    /// The value of a counter with 32 bits.
+    fn counter32_at(&self, number: u32) -> Option<i32>;
+    /// The PLC's model.
+    fn model(&self) -> &'static Model;
+}
+
+impl Devices for Machine<'_> {
+    fn bit_at(&self, class: Class, number: u32) -> bool {
+        self.bit(class, number).unwrap_or(false)
+    }
+
+    fn word_at(&self, class: Class, number: u32) -> i16 {
+        self.word(class, number).unwrap_or(0)
+    }
+
+    fn counter32_at(&self, number: u32) -> Option<i32> {
+        self.counter32(number)
+    }
+
+    fn model(&self) -> &'static Model {
+        self.module().model
+    }
+}
+
+/// What devices hold; 0 of what conditions cannot ask for.
+pub fn read(devices: &impl Devices, target: Target) -> i32 {
     let Some((kind, class, number)) = access(target) else {
         return 0;
     };
-    let bit = |class, number| machine.bit(class, number).unwrap_or(false);
-    let word = |class, number| machine.word(class, number).unwrap_or(0);
     let Some(of) = rt_class(class) else {
         return 0;
     };
     match kind {
-        AccessKind::Bit | AccessKind::WordBit(_) => bit(of, number).into(),
-        AccessKind::Word => word(of, number).into(),
+        AccessKind::Bit | AccessKind::WordBit(_) => devices.bit_at(of, number).into(),
+        AccessKind::Word => devices.word_at(of, number).into(),
         AccessKind::Pair | AccessKind::Float => {
-            if let (Class::C, Some(value)) = (of, machine.counter32(number)) {
+            if let (Class::C, Some(value)) = (of, devices.counter32_at(number)) {
                 return value;
             }
-            let high = Place::fixed(class, number).high_word(machine.module().model);
-            let high_word = rt_class(high.class).map_or(0, |class| word(class, high.number));
-            i32::from(high_word) << 16 | i32::from(word(of, number) as u16)
+            let high = Place::fixed(class, number).high_word(devices.model());
+            let high_word = rt_class(high.class).map_or(0, |of| devices.word_at(of, high.number));
+            i32::from(high_word) << 16 | i32::from(devices.word_at(of, number) as u16)
         }
-        AccessKind::Nibbles { digits, .. } => (0..4 * u32::from(digits))
-            .fold(0, |value, i| value | i32::from(bit(of, number + i)) << i),
+        AccessKind::Nibbles { digits, .. } => (0..4 * u32::from(digits)).fold(0, |value, i| {
+            value | i32::from(devices.bit_at(of, number + i)) << i
+        }),
     }
 }
 
@@ -315,16 +346,16 @@ impl<'p> Watcher<'p> {
 
     /// Whether what is searched for has happened in the scan that has just ended, which began `elapsed_ms` after the
     /// one before.
-    pub fn happened(&mut self, machine: &Machine, elapsed_ms: u32) -> bool {
+    pub fn happened(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
         match self.property {
-            Property::Never(condition) | Property::Reachable(condition) => condition.holds(machine),
-            Property::Always(condition) => !condition.holds(machine),
+            Property::Never(condition) | Property::Reachable(condition) => condition.holds(devices),
+            Property::Always(condition) => !condition.holds(devices),
             Property::Whenever {
                 when,
                 then,
                 within_ms,
             } => {
-                let (when, then) = (when.holds(machine), then.holds(machine));
+                let (when, then) = (when.holds(devices), then.holds(devices));
                 let begins = when && !std::mem::replace(&mut self.was_on, when);
                 if *within_ms == 0 {
                     return when && !then;
@@ -335,7 +366,7 @@ impl<'p> Watcher<'p> {
                 late
             }
             Property::Stays { holds, until } => {
-                let (holds, until) = (holds.holds(machine), until.holds(machine));
+                let (holds, until) = (holds.holds(devices), until.holds(devices));
                 std::mem::replace(&mut self.was_on, holds && !until) && !holds && !until
             }
         }

@@ -15,6 +15,9 @@ pub struct ExploreArgs {
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
+    /// What latched devices hold when a run begins.
+    #[arg(long, value_enum, default_value_t = Latched::Zero)]
+    pub latched: Latched,
     /// Do not search for this. Repeat it for more.
     #[arg(long, value_enum, value_name = "KIND")]
     pub ignore: Vec<Ignored>,
@@ -33,6 +36,9 @@ pub struct ExploreArgs {
     /// How many threads search. Default: one for each processor. What they find does not depend on it.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub threads: Option<u16>,
+    /// What executes the search. What is found does not depend on it.
+    #[arg(long, value_enum, default_value_t = SearchEngine::Auto)]
+    pub engine: SearchEngine,
     /// Engines on which each run must show the same before it is reported; those of C and Rust are built first.
     #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
     pub replay: EngineChoice,
@@ -45,6 +51,26 @@ pub struct ExploreArgs {
     /// Overwrite an existing test file.
     #[arg(long)]
     pub force: bool,
+}
+
+/// What latched devices hold when a run begins.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Latched {
+    /// 0, as in a new PLC.
+    Zero,
+    /// What an earlier run has saved: the search also switches the power off and on.
+    Saved,
+}
+
+/// What executes a search.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SearchEngine {
+    /// Lanes from 1,000,000 scans on, if the program permits them and `cc` is there.
+    Auto,
+    /// The interpreter.
+    Interp,
+    /// Emitted C that runs 64 sequences of inputs at once.
+    Lanes,
 }
 
 /// What a search leaves out.

@@ -1,6 +1,7 @@
 //! `rungc explore`.
 
 mod expected;
+mod lanes;
 mod replayed;
 mod report;
 mod test_file;
@@ -10,10 +11,11 @@ use super::properties::{Asked, Reader, at_writes, module};
 use super::run::{because, hardware, recording::Recording};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, interruption, read, say, write_file};
-use crate::args::ExploreArgs;
+use crate::args::{ExploreArgs, Latched};
 use crate::progress;
 use crate::report::{Findings, Reporter};
-use rungc_explore::run::Runner;
+use rungc_explore::run::{POWER, Runner};
+use rungc_explore::untried::untried;
 use rungc_explore::{Found, Limits, Task, What, search, shrink};
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -40,6 +42,8 @@ struct Searched<'a> {
 struct Shown {
     found: Found,
     story: Vec<Change>,
+    /// For each change of the story, whether power goes off and on before it.
+    power: Vec<bool>,
 }
 
 /// Searches runs of a program.
@@ -77,6 +81,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         reader.scan_ms()?,
         (machine.as_ref(), hal),
     );
+    task.power_cycles = args.latched == Latched::Saved;
     for ignored in &args.ignore {
         task.kinds.remove(&ignored.kind());
     }
@@ -94,7 +99,9 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
 impl Searched<'_> {
     fn run(&self, reporter: Reporter, cx: Context) -> Result {
         let args = self.args;
+        let lanes = self.lanes(cx)?;
         let limits = Limits {
+            lanes: lanes.as_ref().map(|lanes| lanes.executable.clone()),
             scans: args.scans,
             time: args.duration.map(Duration::from_millis),
             seed: args.seed,
@@ -117,6 +124,9 @@ impl Searched<'_> {
         self.publish(&shown, &differing, reporter)?;
         if for_people {
             say(&self.human(&shown, &report))?;
+        }
+        for what in untried(self.task) {
+            cx.note(&format!("   Not tried: {what}"));
         }
         self.write(&shown, cx)?;
         Ok(
@@ -169,9 +179,12 @@ impl Searched<'_> {
     /// A run as tests and reports have it.
     fn shown(&self, found: Found) -> Shown {
         let (mut first, mut at_ms) = (0, 0);
-        let mut story = Vec::new();
+        let (mut story, mut power) = (Vec::new(), Vec::new());
         for step in &found.run {
-            let set = step.set.iter().map(|&(input, value)| {
+            let cycles = step.set.iter().any(|(input, _)| *input == POWER);
+            power.push(cycles);
+            let set = step.set.iter().filter(|(input, _)| *input != POWER);
+            let set = set.map(|&(input, value)| {
                 let target = self.task.inputs[input].target;
                 let (class, number, _) = target.devices(0);
                 (target.to_string(), (class, number), i64::from(value))
@@ -191,7 +204,11 @@ impl Searched<'_> {
         if let (Some(last), Some(after)) = (story.last_mut(), self.after(&found)) {
             last.after = after;
         }
-        Shown { found, story }
+        Shown {
+            found,
+            story,
+            power,
+        }
     }
 
     /// The run with the PLC after each scan.
@@ -268,7 +285,7 @@ impl Searched<'_> {
             diagnostic.label = "in the network that begins here".into();
         }
         diagnostic = at_writes(diagnostic, &devices, self.read, self.module.model);
-        diagnostic.help = Some("the run is below; `--write-test FILE` writes it as a test".into());
+        diagnostic.help = Some("`--write-test FILE` writes the run that shows it as a test".into());
         diagnostic
     }
 }

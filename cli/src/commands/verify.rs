@@ -244,7 +244,7 @@ fn located(
         .collect();
     diagnostic = at_writes(diagnostic, &devices, read, model);
     if let Verdict::Found(_) = result.decision.verdict {
-        diagnostic.help = Some("the run is below; `--write-test FILE` writes it as a test".into());
+        diagnostic.help = Some("`--write-test FILE` writes the run that shows it as a test".into());
     }
     diagnostic
 }

@@ -33,6 +33,27 @@ OUT Y001
 END
 ";
 
+/// A motor that runs forward and backward; `lock` is the contact before the second coil.
+pub fn reverser(lock: &str) -> String {
+    format!(
+        "\
+;! Y000 = forward contactor
+;! Y001 = reverse contactor
+LD X000
+OR Y000
+ANI X002
+ANI Y001
+OUT Y000
+LD X001
+OR Y001
+ANI X002
+{lock}
+OUT Y001
+END
+"
+    )
+}
+
 /// The number of the CPU type FX3U/FX3UC.
 pub const FX3U: u16 = 0x0208;
 

@@ -149,6 +149,29 @@ fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
     make_batch(&mut Command::new("make"), "", modules, folder)
 }
 
+/// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`.
+///
+/// # Errors
+/// A file that cannot be written, a C compiler that is not there or rejects what was emitted.
+pub fn build_with_main(
+    module: &Module,
+    options: &rungc_codegen_c::Options,
+    main: &str,
+    folder: &Path,
+) -> Result<PathBuf, BuildError> {
+    let mut command = Command::new("cc");
+    command.args(["-std=c99", "-O2", "-o", "executable", "with_main.c"]);
+    write(&folder.join("with_main.c"), main)?;
+    for file in rungc_codegen_c::emit(module, options) {
+        write(&folder.join(&file.path), &file.contents)?;
+        if file.path.ends_with(".c") {
+            command.arg(&file.path);
+        }
+    }
+    run(command.current_dir(folder))?;
+    Ok(folder.join("executable"))
+}
+
 /// Emitted C, built by this compiler with these flags in addition to those that it must compile with; where they let
 /// the compiler see more, its warnings are none of the code's. Otherwise as [`build`].
 pub fn build_c_with<'m>(

@@ -4,10 +4,12 @@ mod build;
 #[cfg(feature = "cortex-m")]
 pub mod cortex_m;
 mod interpreter;
+mod piped;
 mod process;
 
-pub use build::{BuildError, EngineKind, build, build_c_with};
+pub use build::{BuildError, EngineKind, build, build_c_with, build_with_main};
 pub use interpreter::{Interpreter, Observers};
+pub use piped::Piped;
 pub use process::Process;
 
 use crate::protocol::{Answer, Request};

@@ -56,7 +56,12 @@ impl Searched<'_> {
                 what => self.sentence(what),
             };
             let _ = writeln!(text, "{:<11} {title}", self.word(what));
-            tell(&mut text, self.module, &shown.story);
+            for (change, cycles) in shown.story.iter().zip(&shown.power) {
+                if *cycles {
+                    text.push_str("            power off and on\n");
+                }
+                tell(&mut text, self.module, std::slice::from_ref(change));
+            }
         }
         for (number, asked) in self.asked.iter().enumerate() {
             let is_it = |shown: &Shown| shown.found.what == What::Property(number);

@@ -53,6 +53,9 @@ impl Searched<'_> {
                 .map(|(name, value)| (name.clone(), (class, 0), *value))
                 .collect();
             step(text, change);
+            if shown.power.get(i) == Some(&true) {
+                text.push_str("power_cycle = true\n");
+            }
         }
     }
 
