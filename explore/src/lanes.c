@@ -1,5 +1,5 @@
 /*
- * Sweeps of a search: PLC_LANES runs of one program, which continue from one moment with inputs of their own.
+ * Sweeps of a search: PLC_LANES runs of one program, which continue from one moment with different inputs.
  *
  * A request is the number of 32-bit words that follow, then two lists of steps: the run to that moment, from power-on, and the sweep. A
  * list is its length and the steps: scans, milliseconds of each scan, how many inputs change before the first, and of each its lane

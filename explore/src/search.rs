@@ -32,7 +32,7 @@ const LONGEST: usize = 3_000;
 const NEAR: u64 = 32_000;
 /// How many scans a part of a round with sweeps executes in each lane, about.
 const SWEEP_SCANS: u32 = 64;
-/// Of so many rounds, all but one have sweeps.
+/// One round in this many has no sweeps.
 const TURNS: u64 = 4;
 
 /// How far a search goes.
@@ -78,7 +78,7 @@ struct Brought<'t> {
     scans: u64,
     /// Scans, those that do not end as many.
     spent: u64,
-    /// Why the search cannot go on.
+    /// Why the search cannot continue.
     failed: Option<String>,
 }
 

@@ -7,7 +7,7 @@ use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
-/// What the program of a search depends on and the search does not vary, in words for people; nothing if that is all.
+/// What the program of a search depends on and the search does not vary, a sentence each; nothing if that is all.
 pub fn untried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();

@@ -13,7 +13,7 @@ use rungc_syntax::DeviceClass;
 /// How many scans a step waits at most.
 const LONGEST: u32 = 2_000;
 
-/// Of so many steps, one begins with power off and on.
+/// One step in this many begins with power off and on.
 const POWER_STAYS: u32 = 24;
 
 /// A timer of the program.

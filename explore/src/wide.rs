@@ -1,4 +1,4 @@
-//! Sweeps: [`LANES`] runs at once, which continue from one moment with inputs of their own, but scan at the same times.
+//! Sweeps: [`LANES`] runs at once, which continue from one moment with different inputs, but scan at the same times.
 //!
 //! The lanes of emitted C execute a sweep ([`crate::lanes`]), or the interpreter does, one run after another. What is
 //! made of it is the same: both say only which devices have changed in which scan, and everything is judged here. What
@@ -308,7 +308,7 @@ impl<'t> Sweep<'_, 't> {
 }
 
 /// What is an error of rungc.
-const DIFFER: &str = "lanes and interpreter do not do the same, which is an error of rungc: please report it; \
+const DIFFER: &str = "lanes and interpreter disagree, which is an error of rungc: please report it; \
                       `--engine interp` searches without lanes";
 
 /// Follows the lanes of a sweep.
