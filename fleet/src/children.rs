@@ -180,13 +180,13 @@ impl Running {
         request[4..8].copy_from_slice(&plc.to_ne_bytes());
         request[8..12].copy_from_slice(&number.to_ne_bytes());
         request[12..].copy_from_slice(&value.to_ne_bytes());
-        self.child.child.requests.write_all(&request)
+        self.child.requests.write_all(&request)
     }
 
     /// The answer to a reading.
     fn values(&mut self) -> io::Result<Vec<Option<i32>>> {
         let mut bytes = [0; 8 * CHUNK as usize];
-        self.child.child.answers.read_exact(&mut bytes)?;
+        self.child.answers.read_exact(&mut bytes)?;
         let (pairs, _) = bytes.as_chunks::<4>();
         let pairs = pairs.iter().map(|&number| i32::from_ne_bytes(number));
         let pairs: Vec<i32> = pairs.collect();
@@ -197,12 +197,12 @@ impl Running {
     /// What has gone wrong in its PLCs, the first of which has this number.
     fn failures(&mut self, first: u32) -> io::Result<Vec<Failed>> {
         self.ask(b'E', (0, 0, 0), 0, 0)?;
-        self.child.child.requests.flush()?;
+        self.child.requests.flush()?;
         let mut count = [0; 4];
-        self.child.child.answers.read_exact(&mut count)?;
+        self.child.answers.read_exact(&mut count)?;
         let records = (0..u32::from_ne_bytes(count)).map(|_| {
             let mut bytes = [0; RECORD];
-            self.child.child.answers.read_exact(&mut bytes)?;
+            self.child.answers.read_exact(&mut bytes)?;
             let (words, _) = bytes.as_chunks::<4>();
             let word = |n: usize| u32::from_ne_bytes(words[n]);
             let (halves, _) = bytes.as_chunks::<2>();
