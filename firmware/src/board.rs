@@ -120,7 +120,7 @@ impl Setup {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SetupFormat {
-    at: toml::Spanned<u32>,
+    at: rungc_tables::Spanned<u32>,
     clear: Option<u32>,
     set: Option<u32>,
     write: Option<u32>,
@@ -195,7 +195,7 @@ struct Format {
     name: String,
     #[serde(default)]
     notes: String,
-    target: toml::Spanned<String>,
+    target: rungc_tables::Spanned<String>,
     chip: Option<Chip>,
     uncertain: Option<String>,
     #[serde(default)]
@@ -205,9 +205,9 @@ struct Format {
     #[serde(default)]
     setup: Vec<SetupFormat>,
     #[serde(default)]
-    inputs: BTreeMap<toml::Spanned<String>, InputFormat>,
+    inputs: BTreeMap<rungc_tables::Spanned<String>, InputFormat>,
     #[serde(default)]
-    outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
+    outputs: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<Output>>,
     #[serde(default)]
     run: control::Run,
     watchdog: Option<control::Watchdog>,
@@ -217,11 +217,11 @@ struct Format {
     serial: Vec<serial::Format>,
     retain: Option<retain::Format>,
     #[serde(default)]
-    functions: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
+    functions: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
     #[serde(default)]
-    sources: Vec<toml::Spanned<String>>,
+    sources: Vec<rungc_tables::Spanned<String>>,
     #[serde(default)]
-    interrupts: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
+    interrupts: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -243,7 +243,7 @@ struct Memory {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Clock {
-    hz: toml::Spanned<u32>,
+    hz: rungc_tables::Spanned<u32>,
     #[serde(default = "default_tick_us")]
     tick_us: u32,
     #[serde(default = "default_scan_us")]
@@ -400,7 +400,7 @@ struct Reader<'s> {
     wiring: RefCell<Wiring>,
 }
 
-type Spanned = toml::Spanned<String>;
+type Spanned = rungc_tables::Spanned<String>;
 
 impl Reader<'_> {
     fn wrong(&self, at: usize, message: String) -> BoardError {
@@ -411,7 +411,7 @@ impl Reader<'_> {
         }
     }
 
-    fn at<T>(&self, item: &toml::Spanned<T>, message: String) -> BoardError {
+    fn at<T>(&self, item: &rungc_tables::Spanned<T>, message: String) -> BoardError {
         self.wrong(item.span().start, message)
     }
 

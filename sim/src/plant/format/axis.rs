@@ -6,7 +6,7 @@ use super::switches::Scale;
 use super::values::FASTEST;
 use crate::plant::axis::{Axis, Back, Drive};
 use rungc_syntax::DeviceClass;
-use toml::Spanned;
+use rungc_tables::Spanned;
 
 /// How many cycles of an encoder a pulse may make at most.
 const CYCLES_PER_PULSE: f64 = 10.0;

@@ -15,8 +15,8 @@ use raw::{RawCylinder, RawDelay, RawEnd, RawMachine};
 use rungc_models::Model;
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Source};
+use rungc_tables::Spanned;
 use std::path::Path;
-use toml::Spanned;
 
 /// A machine as a file describes it.
 #[derive(Clone, Debug)]

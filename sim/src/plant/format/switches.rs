@@ -4,7 +4,7 @@ use super::Reader;
 use super::raw::{RawAxis, RawEncoder, RawSwitch};
 use super::values::TOO_OFTEN;
 use crate::plant::marks::{Marks, Switch};
-use toml::Spanned;
+use rungc_tables::Spanned;
 
 /// How lengths of an axis are given.
 #[derive(Clone, Copy)]
