@@ -2,18 +2,24 @@
 //! is made.
 //!
 //! From the character after ASCII on, the text has for each what it is, and a mark after that: U+0001 if it is known,
-//! U+0002 otherwise. Those that the text does not reach are not known.
+//! U+0002 otherwise. Those that the text does not reach are not known. Syllables of Hangul have U+0002 too: the library
+//! composes them.
 
 use deunicode::deunicode_char;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::{env, fs, io};
+
+/// The syllables of Hangul.
+const HANGUL: RangeInclusive<char> = '가'..='힣';
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let mut text = String::new();
     for number in 0x80..=u32::from(char::MAX) {
-        match char::from_u32(number).and_then(deunicode_char) {
+        let character = char::from_u32(number).filter(|character| !HANGUL.contains(character));
+        match character.and_then(deunicode_char) {
             Some(ascii) => {
                 text.push_str(ascii);
                 text.push('\u{1}');

@@ -14,12 +14,51 @@ static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/as
 /// `None` if the character is not known, or is in ASCII.
 pub fn of(character: char) -> Option<&'static str> {
     static ENTRIES: OnceLock<Vec<&'static str>> = OnceLock::new();
+    static SYLLABLES: OnceLock<Vec<String>> = OnceLock::new();
+    if let Some(number) = (character as usize).checked_sub(FIRST_SYLLABLE) {
+        let syllables = SYLLABLES.get_or_init(syllables);
+        if let Some(syllable) = syllables.get(number) {
+            return Some(syllable);
+        }
+    }
     let entries = ENTRIES.get_or_init(|| {
         let marks = ['\u{1}', '\u{2}'];
         PACKED.text("ascii").split_inclusive(marks).collect()
     });
     let place = (character as usize).checked_sub(0x80)?;
     entries.get(place)?.strip_suffix('\u{1}')
+}
+
+/// The first syllable of Hangul.
+const FIRST_SYLLABLE: usize = '가' as usize;
+
+/// What syllables of Hangul begin with, in the order of Unicode (The Unicode Standard §3.12).
+const INITIALS: [&str; 19] = [
+    "g", "gg", "n", "d", "dd", "r", "m", "b", "bb", "s", "ss", "", "j", "jj", "c", "k", "t", "p",
+    "h",
+];
+
+/// Their vowels.
+const VOWELS: [&str; 21] = [
+    "a", "ae", "ya", "yae", "eo", "e", "yeo", "ye", "o", "wa", "wae", "oe", "yo", "u", "weo", "we",
+    "wi", "yu", "eu", "yi", "i",
+];
+
+/// What they end with.
+const FINALS: [&str; 28] = [
+    "", "g", "gg", "gs", "n", "nj", "nh", "d", "l", "lg", "lm", "lb", "ls", "lt", "lp", "lh", "m",
+    "b", "bs", "s", "ss", "ng", "j", "c", "k", "t", "p", "h",
+];
+
+/// All syllables of Hangul, in the order of Unicode.
+fn syllables() -> Vec<String> {
+    let mut syllables = Vec::new();
+    for initial in INITIALS {
+        for vowel in VOWELS {
+            syllables.extend(FINALS.map(|end| format!("{initial}{vowel}{end}")));
+        }
+    }
+    syllables
 }
 
 #[cfg(test)]
