@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin")));
 
 /// What a character after ASCII is in it, as `deunicode` has it: `e` for `é`, `Wang ` for `往`, nothing for a mark that
-/// has no width. Those that stand for a syllable or a word end with a space.
+/// has no width. Those that stand for a word end with a space.
 ///
 /// `None` if the character is not known, or is in ASCII.
 pub fn of(character: char) -> Option<&'static str> {
