@@ -18,5 +18,6 @@ pub mod pulse_counts;
 pub mod pulses;
 pub mod random;
 pub mod subject;
+pub mod suites;
 pub mod table;
 pub mod tools;

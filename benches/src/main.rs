@@ -7,7 +7,7 @@ use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
-use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, tools};
+use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, suites, tools};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -60,6 +60,8 @@ enum Section {
     Interp,
     /// How fast pulse outputs are simulated.
     Pulses,
+    /// How long test suites take, and mutants.
+    Tests,
 }
 
 impl Section {
@@ -89,6 +91,10 @@ impl Section {
             Section::Checks => Ok(vec![checks::table(if quick { 500 } else { 20_000 })]),
             Section::Interp => Ok(vec![interp::table(10_000, effort(quick))?]),
             Section::Pulses => Ok(vec![pulses::table(if quick { 2 } else { 10 })?]),
+            Section::Tests => Ok(vec![match quick {
+                true => suites::table(1000, 100, 1000)?,
+                false => suites::table(1000, 1000, 10_000)?,
+            }]),
         }
     }
 }

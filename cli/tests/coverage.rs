@@ -3,8 +3,9 @@
 mod common;
 
 use common::{MOTOR, folder, rungc, shown, text};
+use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const TESTS: &str = r#"model = "fx3u"
@@ -137,6 +138,52 @@ fn gaps_are_found_by_changing_the_program() {
     );
 }
 
+/// Cases beside other PLCs judge, too.
+#[test]
+fn cases_with_several_plcs_notice_mutants() {
+    let two = "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"one.il\"\n[[case]]\nname = \"two\"\n\
+        [[case.plc]]\nname = \"B\"\nprogram = \"LD X000\\nOUT Y000\\nEND\"\n\
+        [[case.step]]\nset = { X000 = 1, \"B:X000\" = 1 }\nexpect = { Y000 = 1, \"B:Y000\" = 1 }\n\
+        [[case.step]]\nset = { X001 = 1 }\nexpect = { Y000 = 0, \"B:Y000\" = 1 }\n\
+        [[case.step]]\nset = { X001 = 0, X000 = 0 }\nexpect = { Y000 = 0 }\n";
+    let folder = folder(&[
+        ("one.il", b"LD X000\nANI X001\nOUT Y000\nEND\n"),
+        ("two.plctest.toml", two.as_bytes()),
+    ]);
+    let run = |options: &[&str]| {
+        let args = [&["test", ".", "--mutants"], options].concat();
+        text(&rungc(folder.path(), &args).stdout)
+    };
+    let said = run(&[]);
+    assert!(said.contains("one.il: 6 of 6 mutants noticed"), "{said}");
+    // Two machines share the mutants.
+    let noticed = |part: &str| -> usize {
+        let said = run(&["--shard", part]);
+        let line = said.lines().find_map(|line| line.strip_prefix("one.il: "));
+        let count = line.and_then(|line| line.split(' ').next()?.parse().ok());
+        count.unwrap_or_else(|| panic!("{said}"))
+    };
+    assert_eq!(noticed("1/2") + noticed("2/2"), 6);
+}
+
+/// A contact that alone drives what acts on a change decides.
+#[test]
+fn single_contacts_of_pulses_decide() {
+    let tests = "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"pulses.il\"\n[[case]]\nname = \"all\"\n\
+        [[case.step]]\nset = { X000 = 1, X001 = 1 }\nexpect = { D0 = 1 }\n\
+        [[case.step]]\nset = { X000 = 0, X001 = 0 }\n";
+    let folder = folder(&[
+        (
+            "pulses.il",
+            b"LD X000\nMOVP K1 D0\nLD X001\nPLS M0\nLD M0\nOUT Y000\nEND\n",
+        ),
+        ("pulses.plctest.toml", tests.as_bytes()),
+    ]);
+    let output = rungc(folder.path(), &["test", ".", "--coverage", "text"]);
+    let said = text(&output.stdout);
+    assert!(!said.contains("never"), "{said}");
+}
+
 #[test]
 fn what_cannot_be_done_is_said() {
     let folder = desk();
@@ -266,20 +313,20 @@ fn the_commands_of_the_example_run() {
     }
 }
 
-/// SARIF logs and JUnit files of failed cases and violated properties, as tools read them that others wrote:
-/// check-jsonschema with the schema of SARIF, and junitparser.
+/// JUnit files of failed cases and violated properties, as junitparser reads them, and SARIF logs of these and of
+/// findings of `check`, as the validator of SARIF's makers judges them.
 #[test]
 fn results_are_read_by_others() {
     let folder = desk();
     let path = folder.path();
     let failing = TESTS.replace("Y000 = 0", "Y000 = 1") + "never = [{ Y000 = 0, M0 = 0 }]\n";
     fs::write(path.join("motor.plctest.toml"), failing).unwrap();
-    for (format, file) in [("sarif", "t.sarif"), ("junit", "t.xml")] {
-        let output = rungc(path, &["test", ".", "--format", format, "-o", file]);
-        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
-    }
     fs::write(path.join("v.il"), "LD X000\nOUT Y000\nEND\n").unwrap();
-    let asked = [
+    // A wrong operand, an unknown instruction, a relay that nothing reads, and what is never on.
+    let wrong = "LD X009\nFOO\nMOV K1 X0\nLD M8001\nOUT M5\nEND\n";
+    fs::write(path.join("wrong 电.il"), wrong).unwrap();
+    fs::write(path.join("never.il"), "LD X000\nANI X000\nOUT Y000\nEND\n").unwrap();
+    let verify = [
         "verify",
         "v.il",
         "--never",
@@ -287,14 +334,25 @@ fn results_are_read_by_others() {
         "--always",
         "Y000 | !X000",
     ];
-    for (format, file) in [("sarif", "v.sarif"), ("junit", "v.xml")] {
-        let how = ["--replay", "interp", "--format", format, "-o", file];
-        let output = rungc(path, &[&asked[..], &how].concat());
+    let verify = [&verify[..], &["--replay", "interp"]].concat();
+    for (args, format, file) in [
+        (&["test", "."][..], "sarif", "t.sarif"),
+        (&["test", "."], "junit", "t.xml"),
+        (&verify, "sarif", "v.sarif"),
+        (&verify, "junit", "v.xml"),
+    ] {
+        let output = rungc(path, &[args, &["--format", format, "-o", file]].concat());
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     }
-    let python = std::env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
+    for (args, file) in [
+        (&["check", "wrong 电.il", "never.il", "v.il"][..], "c.sarif"),
+        (&["check", "--deep", "never.il"], "d.sarif"),
+    ] {
+        let output = rungc(path, &[args, &["--format", "sarif"]].concat());
+        fs::write(path.join(file), output.stdout).unwrap();
+    }
     let script = "import junitparser\nfor file in ['t.xml', 'v.xml']:\n    x = junitparser.JUnitXml.fromfile(file)\n    print(x.tests, x.failures, x.errors, [c.name for s in x for c in s if c.result])";
-    let read = Command::new(&python)
+    let read = Command::new(python())
         .args(["-c", script])
         .current_dir(path)
         .output();
@@ -307,29 +365,65 @@ fn results_are_read_by_others() {
         }
         _ => missing("junitparser"),
     }
-    // The schema of SARIF is not in a package: where it cannot be fetched, the test does not fail.
-    let schema = Command::new(&python)
-        .args([
-            "-m",
-            "check_jsonschema",
-            "--schemafile",
-            SARIF_SCHEMA,
-            "t.sarif",
-            "v.sarif",
-        ])
-        .current_dir(path)
-        .output();
-    let Ok(checked) = schema else {
-        return eprintln!("skipped: there is no Python");
+    let logs = ["t.sarif", "v.sarif", "c.sarif", "d.sarif"];
+    let (Some(said), Some(checked)) = (validated(path, &logs), schema(path, &logs)) else {
+        return missing("validator of SARIF");
     };
-    let said = text(&checked.stdout);
-    assert!(!said.contains("Schema validation errors"), "{said}");
-    if !checked.status.success() {
-        eprintln!("skipped: check-jsonschema cannot fetch {SARIF_SCHEMA}");
-    }
+    assert!(
+        !said.contains(": error") && !said.contains(": warning"),
+        "{said}"
+    );
+    assert!(checked.contains("ok -- validation done"), "{checked}");
+    // They notice what is wrong.
+    let log = fs::read_to_string(path.join("t.sarif")).unwrap();
+    let broken = log.replace("\"ruleId\"", "\"rul\"");
+    fs::write(path.join("broken.sarif"), broken).unwrap();
+    let said = validated(path, &["broken.sarif"]).unwrap_or_default();
+    assert!(said.contains(": error"), "{said}");
+    // The one says nothing of a log whose words it does not know; the other does.
+    let broken = log.replace("\"error\"", "\"fatal\"");
+    fs::write(path.join("broken.sarif"), broken).unwrap();
+    let checked = schema(path, &["broken.sarif"]).unwrap_or_default();
+    assert!(checked.contains("'fatal' is not one of"), "{checked}");
 }
 
-const SARIF_SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
+/// Where the validator of SARIF's makers is, with the schema, if it is here.
+fn multitool() -> Option<PathBuf> {
+    let modules = std::env::var_os("RUNGC_SARIF")?;
+    Some(Path::new(&modules).join("@microsoft/sarif-multitool-linux"))
+}
+
+/// What the validator says of logs.
+fn validated(folder: &Path, logs: &[&str]) -> Option<String> {
+    let output = Command::new(multitool()?.join("Sarif.Multitool"))
+        .arg("validate")
+        .args(logs)
+        // It needs no tables of languages.
+        .env("DOTNET_SYSTEM_GLOBALIZATION_INVARIANT", "1")
+        .env("HOME", folder)
+        .current_dir(folder)
+        .output();
+    let output = output.ok()?;
+    let said = text(&output.stdout) + &text(&output.stderr);
+    assert!(said.contains("files scanned"), "{said}");
+    Some(said)
+}
+
+/// What check-jsonschema says of logs by that schema.
+fn schema(folder: &Path, logs: &[&str]) -> Option<String> {
+    let schema = multitool()?.join("sarif-2.1.0.json");
+    let output = Command::new(python())
+        .args(["-m", "check_jsonschema", "--schemafile"])
+        .arg(schema)
+        .args(logs)
+        .current_dir(folder)
+        .output();
+    Some(text(&output.ok()?.stdout))
+}
+
+fn python() -> OsString {
+    std::env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into())
+}
 
 /// A peer is not there.
 fn missing(what: &str) {

@@ -127,7 +127,6 @@ fn parts_make_the_whole() {
                 names(path, &["--shard", &shard]),
                 "the same each time"
             );
-            assert!(some.len() <= all.len().div_ceil(parts), "{shard}");
             for name in some {
                 assert!(
                     seen.insert(name.clone()),
@@ -137,8 +136,14 @@ fn parts_make_the_whole() {
         }
         assert_eq!(seen.len(), all.len());
     }
+    let (part, empty) = (1..=9)
+        .map(|part| format!("{part}/9"))
+        .map(|shard| (names(path, &["--shard", &shard]), shard))
+        .find(|(names, _)| names.is_empty())
+        .expect("nine parts of six cases");
+    assert!(part.is_empty());
     assert_eq!(
-        code(path, &["test", "b.plctest.toml", "--shard", "3/3"]),
+        code(path, &["test", ".", "--shard", &empty]),
         0,
         "nothing to do"
     );
@@ -154,6 +159,33 @@ fn parts_make_the_whole() {
         "results_no_case",
         shown(path, &["test", ".", "--filter", "nobody"])
     );
+}
+
+#[test]
+fn cases_stay_in_their_part_when_others_are_added() {
+    let cases = |numbers: std::ops::Range<u32>| {
+        let names: Vec<String> = numbers.map(|n| format!("case {n}")).collect();
+        file(
+            &names
+                .iter()
+                .map(|name| (name.as_str(), 1))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let folder = folder(&[("a.plctest.toml", cases(20..80).as_bytes())]);
+    let path = folder.path();
+    let parts = || [1, 2, 3, 4].map(|part| names(path, &["--shard", &format!("{part}/4")]));
+    let before = parts();
+    assert!(
+        before.iter().all(|part| (5..30).contains(&part.len())),
+        "{before:?}"
+    );
+    fs::write(path.join("a.plctest.toml"), cases(0..100)).unwrap();
+    let after = parts();
+    assert_eq!(after.iter().map(Vec::len).sum::<usize>(), 100);
+    for (before, after) in before.iter().zip(&after) {
+        assert!(before.iter().all(|name| after.contains(name)));
+    }
 }
 
 #[cfg(unix)]

@@ -59,7 +59,7 @@ impl What {
         }
     }
 
-    const fn flag(self, inverted: bool) -> u16 {
+    const fn flag(self, inverted: bool) -> u8 {
         match self {
             What::Executed => EXECUTED,
             What::DecidedOn if inverted => DECIDED_OFF,
@@ -74,7 +74,7 @@ impl What {
 }
 
 impl Goal {
-    pub(crate) fn is_reached(&self, seen: &[u16]) -> bool {
+    pub(crate) fn is_reached(&self, seen: &[u8]) -> bool {
         seen[self.instr] & self.what.flag(self.inverted) != 0
     }
 }

@@ -14,11 +14,11 @@ pub mod text;
 pub use goals::{Goal, What};
 
 use goals::goals;
-use observe::{EXECUTED, Seen, Watcher};
+use observe::{Seen, Watcher};
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Observer;
 use rungc_ladder::{Ladder, build};
-use rungc_lower::compile::CompileOptions;
+use rungc_lower::marks::Marks;
 use rungc_models::Model;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{self, CaseProgram, Id, Outcome, Report, Suite};
@@ -38,14 +38,12 @@ pub struct Covered {
     pub program: Program,
     /// The PLC.
     pub model: &'static Model,
-    /// How it is compiled for the first of its cases.
-    pub options: CompileOptions,
     /// What a case could reach, in the order of the program.
     pub goals: Vec<Goal>,
-    /// The cases that run it, each with the instructions that it executes: by instruction, whether.
-    pub cases: Vec<(Id, Vec<bool>)>,
-    /// By instruction: what was seen of it.
-    seen: Vec<u16>,
+    /// The cases that run it, each with what was seen of each instruction.
+    cases: Vec<(Id, Vec<u8>)>,
+    /// By instruction: what was seen of it in all of them.
+    seen: Vec<u8>,
 }
 
 impl Covered {
@@ -90,13 +88,14 @@ pub fn cover(
 ) -> (Vec<Covered>, Report) {
     let mut programs = Programs::default();
     let of_module = programs.find(suite);
-    let seen: Vec<Option<Arc<Seen>>> = of_module
-        .iter()
-        .map(|program| program.map(|i| Arc::clone(&programs.seen[i])))
-        .collect();
+    let watched = of_module.iter().enumerate().map(|(module, program)| {
+        let seen = Arc::clone(&programs.seen[(*program)?]);
+        Some((Arc::new(suite.marks(module).clone()), seen))
+    });
+    let watched: Vec<Option<(Arc<Marks>, Arc<Seen>)>> = watched.collect();
     let observers = |module: usize| -> Box<dyn Observer> {
-        match &seen[module] {
-            Some(seen) => Box::new(Watcher::new(suite.marks(module), Arc::clone(seen))),
+        match &watched[module] {
+            Some((marks, seen)) => Box::new(Watcher::new(Arc::clone(marks), Arc::clone(seen))),
             None => Box::new(observe::Nobody),
         }
     };
@@ -141,7 +140,7 @@ impl Programs {
                         Some(path) => path.display().to_string(),
                         None => format!("{}: {}", suite.files()[id.file].name, case.name),
                     };
-                    let (program, options) = suite.source(id);
+                    let (program, _) = suite.source(id);
                     let count = program.instrs.len();
                     self.found.push(Covered {
                         name,
@@ -154,7 +153,6 @@ impl Programs {
                         ),
                         program,
                         model,
-                        options,
                         cases: Vec::new(),
                         seen: vec![0; count],
                     });
@@ -176,8 +174,7 @@ impl Programs {
             for (all, now) in program.seen.iter_mut().zip(&now) {
                 *all |= now;
             }
-            let executed = now.iter().map(|seen| seen & EXECUTED != 0).collect();
-            program.cases.push((id, executed));
+            program.cases.push((id, now));
         }
     }
 }

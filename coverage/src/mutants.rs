@@ -1,16 +1,19 @@
 //! Mutants: small changes of a program, as mistakes are. A test suite that fails with a mutant notices it; one that
 //! passes has a gap at this place.
 //!
-//! Each mutant is lowered by itself and runs on the interpreter, only the cases that execute the changed instruction,
-//! those first that have noticed most mutants so far, and only until one fails.
+//! Each mutant is lowered by itself and runs on the interpreter: only the cases that can notice it, those first that
+//! have noticed most mutants so far, and only until one fails. A case cannot notice another contact where the contact
+//! never decides: no result of logic would be another one.
 
 use crate::Covered;
 use crate::goals::is_contact;
+use crate::observe::{DECIDED_OFF, DECIDED_ON, EXECUTED, OFF, ON};
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_catalogue::{Basic, Drive, Lower};
 use rungc_ir::Module;
 use rungc_ir::layout::Wanted;
 use rungc_ladder::build;
+use rungc_lower::compile::CompileOptions;
 use rungc_lower::{LowerOptions, lower};
 use rungc_rt::special::M_RUNNING;
 use rungc_sim::engines::Interpreter;
@@ -28,6 +31,10 @@ pub struct Mutant {
     pub instr: usize,
     /// The instructions in place of those from `instr` on, as many.
     changed: Vec<Instr>,
+    /// The first instruction of its network.
+    network: usize,
+    /// What a case must show of the instruction to notice it: any of these.
+    needs: u8,
     /// What was done.
     pub change: Change,
 }
@@ -83,6 +90,20 @@ impl Mutant {
     fn range(&self) -> Range<usize> {
         self.instr..self.instr + self.changed.len()
     }
+
+    /// Whether a case executes what is changed.
+    fn is_executed(&self, seen: &[u8]) -> bool {
+        // A contact whose state the compiler knows is not looked at; what it belongs to is.
+        let mut looked_at = self.range().chain([self.network]);
+        looked_at.any(|at| seen[at] & EXECUTED != 0)
+    }
+
+    /// Whether a case that executes it may notice it.
+    fn may_be_noticed(&self, seen: &[u8]) -> bool {
+        let seen = seen[self.instr];
+        let is_seen = seen & (ON | OFF) != 0;
+        !is_seen || seen & self.needs != 0
+    }
 }
 
 /// All mutants of a program, in its order.
@@ -90,21 +111,24 @@ pub fn mutants(covered: &Covered) -> Vec<Mutant> {
     let program = &covered.program;
     let (resolved, _) = resolve(program, covered.model);
     let mut found = Vec::new();
-    for at in 0..program.instrs.len() {
-        of_instr(&resolved, at, &mut found);
-    }
     for network in build::ladder(&resolved).networks {
         let range = network.instrs.start + network.labels..network.instrs.end;
         let plain = range.clone().all(|at| is_plain(&resolved, at));
+        let mut of_network = Vec::new();
         if plain && !range.is_empty() {
-            found.push(Mutant {
+            of_network.push(Mutant {
                 instr: range.start,
                 changed: program.instrs[range.clone()].iter().map(nothing).collect(),
+                network: range.start,
+                needs: EXECUTED,
                 change: Change::Removed,
             });
         }
+        let first = range.start;
+        range.for_each(|at| of_instr(&resolved, at, first, &mut of_network));
+        of_network.sort_by_key(|mutant| (mutant.instr, mutant.change == Change::Removed));
+        found.append(&mut of_network);
     }
-    found.sort_by_key(|mutant| mutant.instr);
     found
 }
 
@@ -143,12 +167,24 @@ fn nothing(like: &Instr) -> Instr {
     }
 }
 
-fn of_instr(resolved: &Resolved, at: usize, found: &mut Vec<Mutant>) {
+fn of_instr(resolved: &Resolved, at: usize, first: usize, found: &mut Vec<Mutant>) {
     let old = &resolved.program.instrs[at];
-    let mut add = |change, new| {
+    let looks = match resolved.instrs[at].lower {
+        Some(Lower::Compare(..)) => true,
+        Some(Lower::Basic(basic)) => is_contact(basic),
+        _ => false,
+    };
+    let usual = match looks {
+        true => DECIDED_ON | DECIDED_OFF,
+        false => EXECUTED,
+    };
+    let mut add = |change, new, needs| {
         found.push(Mutant {
             instr: at,
             changed: vec![new],
+            // Only a contact is executed with its network.
+            network: if looks { first } else { at },
+            needs,
             change,
         });
     };
@@ -159,31 +195,31 @@ fn of_instr(resolved: &Resolved, at: usize, found: &mut Vec<Mutant>) {
     let class = class.map(|device| device.class);
     if let Some(basic) = resolved.instrs[at].basic() {
         if let Some(inverted) = inverted(basic) {
-            add(Change::Inverted, instr(inverted, old));
+            add(Change::Inverted, instr(inverted, old), usual);
         }
         if is_contact(basic) {
             dropped(basic, old, &mut add);
         }
         match (basic, class) {
             (Basic::Set, Some(DeviceClass::Y | DeviceClass::M)) => {
-                add(Change::SetOrOut, instr("OUT", old));
+                add(Change::SetOrOut, instr("OUT", old), usual);
             }
             (Basic::Out, Some(DeviceClass::Y | DeviceClass::M)) => {
-                add(Change::SetOrOut, instr("SET", old));
+                add(Change::SetOrOut, instr("SET", old), usual);
             }
             _ => {}
         }
         if let (Basic::Out, Some(DeviceClass::T)) = (basic, class)
             && let Some(longer) = with_constant(old, 1, |preset| preset.saturating_mul(2))
         {
-            add(Change::TwiceAsLong, longer);
+            add(Change::TwiceAsLong, longer, usual);
         }
     }
     if is_plain(resolved, at) {
         for operand in 0..old.operands.len() {
             for (change, by) in [(Change::OneMore, 1), (Change::OneLess, -1)] {
                 if let Some(new) = with_constant(old, operand, |value| value.saturating_add(by)) {
-                    add(change, new);
+                    add(change, new, usual);
                 }
             }
         }
@@ -209,8 +245,13 @@ fn inverted(basic: Basic) -> Option<&'static str> {
     })
 }
 
-/// A contact in series is bridged, one in parallel left out. M8000 is on in RUN.
-fn dropped(basic: Basic, old: &Instr, add: &mut impl FnMut(Change, Instr)) {
+/// A contact in series is bridged, one in parallel left out, which matters where it does not conduct, or does. M8000 is
+/// on in RUN.
+fn dropped(basic: Basic, old: &Instr, add: &mut impl FnMut(Change, Instr, u8)) {
+    let needs = match basic {
+        Basic::Ldi | Basic::Ani | Basic::Or | Basic::Orp | Basic::Orf => DECIDED_ON,
+        _ => DECIDED_OFF,
+    };
     match basic {
         Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf => {
             let always = Device {
@@ -221,9 +262,9 @@ fn dropped(basic: Basic, old: &Instr, add: &mut impl FnMut(Change, Instr)) {
             if let Some(operand) = bridge.operands.first_mut() {
                 operand.kind = OperandKind::Device(always, None);
             }
-            add(Change::Dropped, bridge);
+            add(Change::Dropped, bridge, needs);
         }
-        _ => add(Change::Dropped, nothing(old)),
+        _ => add(Change::Dropped, nothing(old), needs),
     }
 }
 
@@ -296,16 +337,7 @@ pub fn run(
     mutants: &[Mutant],
     progress: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Fate> {
-    let cases = covered.cases.iter();
-    // Cases with several PLCs would need the programs of the others, too.
-    let cases: Vec<Judge> = cases
-        .map(|(id, executed)| Judge {
-            case: &suite.files()[id.file].cases[id.case],
-            executed,
-            noticed: AtomicU32::new(0),
-        })
-        .filter(|judge| judge.case.others.is_empty())
-        .collect();
+    let court = Court::new(suite, covered);
     let next = AtomicUsize::new(0);
     let work = || {
         let mut program = covered.program.clone();
@@ -316,7 +348,7 @@ pub fn run(
                 return fates;
             };
             program.instrs[mutant.range()].clone_from_slice(&mutant.changed);
-            fates.push((at, fate(covered, mutant, &program, &cases)));
+            fates.push((at, court.fate(mutant, &program)));
             let old = &covered.program.instrs[mutant.range()];
             program.instrs[mutant.range()].clone_from_slice(old);
         }
@@ -336,48 +368,116 @@ pub fn run(
 /// A case, and how many mutants it has noticed.
 struct Judge<'s> {
     case: &'s Case,
-    executed: &'s [bool],
+    /// What was seen of each instruction.
+    seen: &'s [u8],
+    /// Which of the ways to compile the program is that of the case.
+    way: usize,
+    /// The programs of the other PLCs.
+    others: Vec<&'s Module>,
     noticed: AtomicU32,
 }
 
-fn fate(covered: &Covered, mutant: &Mutant, program: &Program, cases: &[Judge]) -> Fate {
-    let mut judges: Vec<&Judge> = cases
-        .iter()
-        .filter(|judge| mutant.range().any(|at| judge.executed[at]))
-        .collect();
-    if judges.is_empty() {
-        return Fate::NotExecuted;
-    }
-    let Some(module) = module(covered, program) else {
-        return Fate::Invalid;
-    };
-    judges.sort_by_key(|judge| std::cmp::Reverse(judge.noticed.load(Ordering::Relaxed)));
-    let modules = std::slice::from_ref(&module);
-    let mut engine = Interpreter::new(modules);
-    for judge in judges {
-        if run_steps(&mut engine, judge.case, &[0], modules).is_err() {
-            judge.noticed.fetch_add(1, Ordering::Relaxed);
-            return Fate::Noticed;
-        }
-    }
-    Fate::Survived
+/// All that judge mutants of a program.
+struct Court<'s> {
+    covered: &'s Covered,
+    judges: Vec<Judge<'s>>,
+    /// Cases may need other serial ports.
+    ways: Vec<LowerOptions>,
 }
 
-/// The module of a changed program. Its structure is that of the program, which was checked.
-fn module(covered: &Covered, program: &Program) -> Option<Module> {
-    let (resolved, diagnostics) = resolve(program, covered.model);
-    if diagnostics.has_errors() {
-        return None;
+impl<'s> Court<'s> {
+    fn new(suite: &'s Suite, covered: &'s Covered) -> Self {
+        let (mut judges, mut ways) = (Vec::new(), Vec::new());
+        let mut known: BTreeMap<usize, usize> = BTreeMap::new();
+        for (id, seen) in &covered.cases {
+            let Some((own, others)) = suite.modules_of(*id).split_first() else {
+                continue;
+            };
+            let way = *known.entry(*own).or_insert_with(|| {
+                ways.push(way(suite.source(*id).1));
+                ways.len() - 1
+            });
+            let others = others.iter().map(|&other| &suite.modules()[other]);
+            judges.push(Judge {
+                case: &suite.files()[id.file].cases[id.case],
+                seen,
+                way,
+                others: others.collect(),
+                noticed: AtomicU32::new(0),
+            });
+        }
+        Court {
+            covered,
+            judges,
+            ways,
+        }
     }
-    let options = LowerOptions {
-        name: covered.options.name.clone(),
+
+    fn fate(&self, mutant: &Mutant, program: &Program) -> Fate {
+        let judges = self.judges.iter();
+        let executed: Vec<_> = judges
+            .filter(|judge| mutant.is_executed(judge.seen))
+            .collect();
+        if executed.is_empty() {
+            return Fate::NotExecuted;
+        }
+        let (resolved, diagnostics) = resolve(program, self.covered.model);
+        if diagnostics.has_errors() {
+            return Fate::Invalid;
+        }
+        let mut modules = vec![None; self.ways.len()];
+        for judge in &executed {
+            if modules[judge.way].is_none() {
+                let (Some(module), _) = lower(&resolved, &self.ways[judge.way]) else {
+                    return Fate::Invalid;
+                };
+                modules[judge.way] = Some(module);
+            }
+        }
+        let may = executed
+            .into_iter()
+            .filter(|judge| mutant.may_be_noticed(judge.seen));
+        let mut may: Vec<(u32, &Judge)> = may
+            .map(|judge| (judge.noticed.load(Ordering::Relaxed), judge))
+            .collect();
+        may.sort_by_key(|(noticed, _)| std::cmp::Reverse(*noticed));
+        let mut engines: Vec<Option<Interpreter>> = modules.iter().map(|_| None).collect();
+        for (_, judge) in may {
+            let Some(module) = &modules[judge.way] else {
+                continue;
+            };
+            if judge.is_noticed(module, &mut engines[judge.way]) {
+                judge.noticed.fetch_add(1, Ordering::Relaxed);
+                return Fate::Noticed;
+            }
+        }
+        Fate::Survived
+    }
+}
+
+impl Judge<'_> {
+    /// Whether the case fails with the program of its PLC changed. `engine` is kept for cases that have no other PLC.
+    fn is_noticed<'m>(&self, module: &'m Module, engine: &mut Option<Interpreter<'m>>) -> bool {
+        if self.others.is_empty() {
+            let engine = engine.get_or_insert_with(|| Interpreter::new([module]));
+            return run_steps(engine, self.case, &[(0, module)]).is_err();
+        }
+        let all: Vec<&Module> = [module].into_iter().chain(self.others.clone()).collect();
+        let plcs: Vec<(usize, &Module)> = (0..).zip(all.iter().copied()).collect();
+        run_steps(&mut Interpreter::new(all), self.case, &plcs).is_err()
+    }
+}
+
+/// How a changed program is lowered. Its structure is that of the program, which was checked.
+fn way(options: CompileOptions) -> LowerOptions {
+    LowerOptions {
+        name: options.name,
         wanted: Wanted {
-            observe: covered.options.observe.clone(),
-            observe_all: covered.options.observe_all,
-            ports: covered.options.ports.clone(),
+            observe: options.observe,
+            observe_all: options.observe_all,
+            ports: options.ports,
             without_qlink: false,
         },
-        bounds: covered.options.bounds.clone(),
-    };
-    lower(&resolved, &options).0
+        bounds: options.bounds,
+    }
 }

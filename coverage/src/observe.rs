@@ -5,42 +5,42 @@
 //! of MPS, at the coil, at the drive of an instruction.
 
 use rungc_interp::{Machine, Observer};
-use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt, Ty};
+use rungc_ir::{Module, walk};
 use rungc_lower::marks::{Mark, Marks};
 use rungc_rt::{Class, Plc};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU16, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 /// The instruction was executed.
-pub(crate) const EXECUTED: u16 = 1;
+pub(crate) const EXECUTED: u8 = 1;
 /// It was on: conducted, held, or was driven.
-pub(crate) const ON: u16 = 1 << 1;
+pub(crate) const ON: u8 = 1 << 1;
 /// It was off.
-pub(crate) const OFF: u16 = 1 << 2;
+pub(crate) const OFF: u8 = 1 << 2;
 /// It decided while it was on.
-pub(crate) const DECIDED_ON: u16 = 1 << 3;
+pub(crate) const DECIDED_ON: u8 = 1 << 3;
 /// It decided while it was off.
-pub(crate) const DECIDED_OFF: u16 = 1 << 4;
+pub(crate) const DECIDED_OFF: u8 = 1 << 4;
 /// Its timer expired.
-pub(crate) const EXPIRED: u16 = 1 << 5;
+pub(crate) const EXPIRED: u8 = 1 << 5;
 
 /// What was seen of each instruction.
-pub(crate) struct Seen(Vec<AtomicU16>);
+pub(crate) struct Seen(Vec<AtomicU8>);
 
 impl Seen {
     pub(crate) fn new(instrs: usize) -> Self {
-        Seen((0..instrs).map(|_| AtomicU16::new(0)).collect())
+        Seen((0..instrs).map(|_| AtomicU8::new(0)).collect())
     }
 
-    fn add(&self, instr: u32, flags: u16) {
+    fn add(&self, instr: u32, flags: u8) {
         if let Some(seen) = self.0.get(instr as usize) {
             seen.fetch_or(flags, Ordering::Relaxed);
         }
     }
 
     /// What was seen, which is forgotten.
-    pub(crate) fn take(&self) -> Vec<u16> {
+    pub(crate) fn take(&self) -> Vec<u8> {
         self.0
             .iter()
             .map(|seen| seen.swap(0, Ordering::Relaxed))
@@ -57,7 +57,7 @@ impl Observer for Nobody {
 
 /// Looks on at a machine.
 pub(crate) struct Watcher {
-    marks: Marks,
+    marks: Arc<Marks>,
     seen: Arc<Seen>,
     /// The output whose statements are executed.
     output: Option<u32>,
@@ -65,9 +65,9 @@ pub(crate) struct Watcher {
 }
 
 impl Watcher {
-    pub(crate) fn new(marks: &Marks, seen: Arc<Seen>) -> Self {
+    pub(crate) fn new(marks: Arc<Marks>, seen: Arc<Seen>) -> Self {
         Watcher {
-            marks: marks.clone(),
+            marks,
             seen,
             output: None,
             open: Vec::new(),
@@ -79,7 +79,18 @@ impl Watcher {
         self.marks.exprs.get(id).copied()
     }
 
-    /// What the logic of a statement says of its contacts.
+    /// What an expression of a statement says of contacts: those of its logic, or of logic that is part of a number.
+    fn expression(&mut self, machine: &Machine, root: ExprId) {
+        let module = machine.module();
+        if module.ty(root) == Ty::Bit {
+            return self.logic(machine, root);
+        }
+        for part in walk::operands(module.expr(root)) {
+            self.expression(machine, part);
+        }
+    }
+
+    /// What logic says of its contacts.
     fn logic(&mut self, machine: &Machine, root: ExprId) {
         let module = machine.module();
         self.open.clear();
@@ -97,7 +108,8 @@ impl Watcher {
                     self.open.push((a, decides && !values[1]));
                     self.open.push((b, decides && !values[0]));
                 }
-                Expr::Bit(_) => {}
+                // Whether an index leads to a device is not up to a contact.
+                Expr::Bit(_) | Expr::InRange { .. } => {}
                 _ => self.contact(machine, id, decides),
             }
         }
@@ -105,7 +117,8 @@ impl Watcher {
 
     /// A contact or comparison, as the device is: that of a normally closed contact conducts while it is off.
     fn contact(&mut self, machine: &Machine, id: ExprId, decides: bool) {
-        let Some(instr) = self.instr(id) else {
+        let is_contact = |instr: &u32| self.marks.contacts.get(*instr as usize) == Some(&true);
+        let Some(instr) = self.instr(id).filter(is_contact) else {
             return;
         };
         let on = machine.is_on(id);
@@ -147,37 +160,16 @@ fn value(machine: &Machine, module: &Module, id: ExprId) -> bool {
 
 impl Observer for Watcher {
     fn before(&mut self, machine: &Machine, stmt: &Stmt) {
-        let module = machine.module();
         match stmt {
             Stmt::Network(network) => self.mark(machine, *network),
-            &Stmt::Let(_, id) if module.ty(id) == Ty::Bit => self.logic(machine, id),
-            // A single contact is that of LDP or another edge: it decides where its result is used.
-            Stmt::Edge(edge) if is_joined(module, edge.input) => self.logic(machine, edge.input),
-            &Stmt::Write(_, id) if module.ty(id) == Ty::Bit => self.logic(machine, id),
-            Stmt::Timer(coil) => {
-                self.logic(machine, coil.drive);
-                if let (Some(instr), Some(true)) = (self.output, machine.bit(Class::T, coil.number))
-                {
-                    self.seen.add(instr, EXPIRED);
-                }
-            }
-            Stmt::Counter16(coil) => self.logic(machine, coil.drive),
-            Stmt::Counter32(coil) => self.logic(machine, coil.drive),
-            Stmt::TimerAt(coil) | Stmt::Counter16At(coil) => self.logic(machine, coil.drive),
-            Stmt::If(branch) => self.logic(machine, branch.cond),
-            Stmt::Call(call) => {
-                if let Some(drive) = call.drive {
-                    self.logic(machine, drive);
-                }
-            }
-            _ => {}
+            // The contact of LDP decides where its result is used.
+            Stmt::Edge(edge) if self.marks.edges.contains(&edge.memory) => {}
+            _ => walk::for_exprs(stmt, &mut |&id| self.expression(machine, id)),
         }
-    }
-}
-
-fn is_joined(module: &Module, id: ExprId) -> bool {
-    match *module.expr(id) {
-        Expr::Not(a) => is_joined(module, a),
-        ref expr => matches!(expr, Expr::And(..) | Expr::Or(..)),
+        if let Stmt::Timer(coil) = stmt
+            && let (Some(instr), Some(true)) = (self.output, machine.bit(Class::T, coil.number))
+        {
+            self.seen.add(instr, EXPIRED);
+        }
     }
 }

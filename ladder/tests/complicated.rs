@@ -2,12 +2,14 @@
 //!
 //! `RUNGC_PICTURES` names a folder for their pictures.
 
+mod common;
+
+use common::programs_in;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_ladder::list::{Entry, Listed, instructions};
 use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw, draw_alike};
 use rungc_ladder::{Item, Ladder, Network, NetworkBody, Node, Part, Series, build};
-use rungc_models::{Model, ModelId};
 use rungc_syntax::Instr;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -63,27 +65,8 @@ impl Size {
     }
 }
 
-fn programs_in(folder: &Path, found: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    entries.sort();
-    for path in entries {
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        let ending = ending.unwrap_or("").to_lowercase();
-        if path.is_dir() {
-            programs_in(&path, found);
-        } else if ["il", "csv", "gxw", "wpg", "bin"].contains(&ending.as_str()) {
-            found.push(path);
-        }
-    }
-}
-
 fn with<R>(program: &rungc_syntax::Program, then: impl FnOnce(&Resolved, &Ladder) -> R) -> R {
-    let (resolved, _) = resolve(program, Model::get(ModelId::Fx3u));
+    let (resolved, _) = resolve(program, common::model(program));
     then(&resolved, &build::ladder(&resolved))
 }
 

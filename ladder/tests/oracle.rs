@@ -1,6 +1,9 @@
 //! What a drawing says, read independently of the crate: power floods over the characters of the picture, from the left
 //! rail through closed contacts to the outputs, and must drive what the list drives, for random contacts.
 
+mod common;
+
+use common::programs_in;
 use proptest::prelude::*;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_catalogue::{Basic, Join, Lower};
@@ -406,7 +409,7 @@ struct Drawn {
 
 /// Compares all networks of a program that have a drawing, at all widths.
 fn compare(program: &Program, name: &str) -> Drawn {
-    let (resolved, _) = resolve(program, Model::get(ModelId::Fx3u));
+    let (resolved, _) = resolve(program, common::model(program));
     let ladder = build::ladder(&resolved);
     let mut drawn = Drawn::default();
     for network in &ladder.networks {
@@ -505,16 +508,14 @@ fn drawings_of_real_programs_say_what_their_lists_say() {
             eprintln!("skipped: {} is not here", folder.display());
             continue;
         }
-        let mut open = vec![folder];
-        while let Some(path) = open.pop() {
-            if path.is_dir() {
-                let entries = std::fs::read_dir(&path).unwrap();
-                open.extend(entries.map(|entry| entry.unwrap().path()));
-            } else if let Ok(read) = rungc_frontend::read(&path) {
-                let all = compare(&read.program, &path.display().to_string());
-                (drawn, folded, bars) =
-                    (drawn + all.networks, folded + all.folded, bars + all.bars);
-            }
+        let mut files = Vec::new();
+        programs_in(&folder, &mut files);
+        for path in files {
+            let Ok(read) = rungc_frontend::read(&path) else {
+                continue;
+            };
+            let all = compare(&read.program, &path.display().to_string());
+            (drawn, folded, bars) = (drawn + all.networks, folded + all.folded, bars + all.bars);
         }
     }
     assert!(drawn > 100, "{drawn}");

@@ -150,6 +150,7 @@ impl Lowerer<'_> {
     }
 
     pub(super) fn contact(&mut self, join: Join, inverted: bool) {
+        self.mark_contact();
         let state = self.contact_state();
         let contact = match (inverted, self.known_bit(state)) {
             (true, Some(on)) => self.bit_const(!on),
@@ -160,8 +161,10 @@ impl Lowerer<'_> {
     }
 
     pub(super) fn edge_contact(&mut self, join: Join, kind: EdgeKind) {
+        self.mark_contact();
         let state = self.contact_state();
         let edge = self.new_edge();
+        self.mark_edge(edge);
         let contact = self.edge(edge, kind, state);
         self.join(join, contact);
     }
@@ -170,6 +173,7 @@ impl Lowerer<'_> {
         let (Some(a), Some(b)) = (self.operand(0), self.operand(1)) else {
             return;
         };
+        self.mark_contact();
         let wide = self.resolution().form.wide;
         let mut guards = Guards::default();
         let a = self.value(a, wide, &mut guards);

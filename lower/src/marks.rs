@@ -3,7 +3,8 @@
 //! A marked module has more [`Stmt::Network`]s than others: one after the drive of each output is known.
 
 use super::Lowerer;
-use rungc_ir::node::{ExprId, Network, Stmt};
+use rungc_ir::node::{EdgeId, ExprId, Network, Stmt};
+use std::collections::BTreeSet;
 use typed_index_collections::TiVec;
 
 /// Where the parts of a module come from. Instructions are positions in [`rungc_syntax::Program::instrs`].
@@ -13,6 +14,10 @@ pub struct Marks {
     pub exprs: TiVec<ExprId, u32>,
     /// By network, as [`Stmt::Network`] numbers them.
     pub places: Vec<Mark>,
+    /// By instruction: whether it is a contact or a comparison. Those after the last one are not in it.
+    pub contacts: Vec<bool>,
+    /// The memories of contacts that conduct for one scan, such as LDP. What they look at is not itself a contact.
+    pub edges: BTreeSet<EdgeId>,
 }
 
 /// What a [`Stmt::Network`] of a marked module stands before.
@@ -34,6 +39,22 @@ impl Lowerer<'_> {
     pub(super) fn mark_network(&mut self) {
         if let Some(marks) = &mut self.marks {
             marks.places.push(Mark::Network(self.at as u32));
+        }
+    }
+
+    /// Notes that the instruction at hand is a contact or a comparison.
+    pub(super) fn mark_contact(&mut self) {
+        if let Some(marks) = &mut self.marks {
+            let length = marks.contacts.len().max(self.at + 1);
+            marks.contacts.resize(length, false);
+            marks.contacts[self.at] = true;
+        }
+    }
+
+    /// Notes the memory of a contact that conducts for one scan.
+    pub(super) fn mark_edge(&mut self, edge: EdgeId) {
+        if let Some(marks) = &mut self.marks {
+            marks.edges.insert(edge);
         }
     }
 

@@ -22,7 +22,8 @@ pub struct TestArgs {
     /// Run only cases whose `file::name` contains this.
     #[arg(long, alias = "only", value_name = "TEXT")]
     pub filter: Option<String>,
-    /// Run only one part of the cases, to share the work between machines: `1/4` is the first of four.
+    /// Run only one part of the cases (with --mutants, of the mutants), to share the work between machines: `1/4` is
+    /// the first of four. Which part a case is in depends on its name alone.
     #[arg(long, value_name = "PART/PARTS")]
     pub shard: Option<Shard>,
     /// Show each trace that differs from the accepted one, and ask whether to accept it.

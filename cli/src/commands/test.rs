@@ -74,7 +74,8 @@ impl Chosen {
         if files.is_empty() {
             return Err(Failure::Because("no cases to run".to_string()));
         }
-        if let Some(shard) = args.shard {
+        // All cases judge the mutants, of which a part runs.
+        if let Some(shard) = args.shard.filter(|_| !args.mutants) {
             files::keep(&mut files, shard);
         }
         if let Some(path) = &args.machine {

@@ -53,6 +53,7 @@ impl Log {
 pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io::Result<String> {
     let driver = json!({
         "name": "rungc",
+        "informationUri": env!("CARGO_PKG_REPOSITORY"),
         "version": env!("CARGO_PKG_VERSION"),
         "rules": rules,
     });

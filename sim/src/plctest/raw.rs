@@ -125,26 +125,20 @@ pub(super) struct RawRejects {
     pub(super) line: Option<u32>,
 }
 
-#[derive(Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub(super) struct RawStep {
-    #[serde(default)]
     pub(super) set: Map<Spanned<Scalar>>,
     #[serde(rename = "do")]
     pub(super) scenario: Option<Spanned<String>>,
     pub(super) scans: Option<Spanned<RawCount>>,
     pub(super) run_ms: Option<Spanned<RawCount>>,
-    #[serde(default)]
     pub(super) until: Map<Spanned<Scalar>>,
     pub(super) at_most_ms: Option<Spanned<RawCount>>,
     pub(super) scan_ms: Option<Spanned<RawCount>>,
-    #[serde(default)]
     pub(super) within: Vec<Spanned<RawWithin>>,
-    #[serde(default)]
     pub(super) never: Vec<RawSettings>,
-    #[serde(default)]
     pub(super) whenever: Vec<Spanned<RawWhenever>>,
-    #[serde(default)]
     pub(super) expect: Map<Spanned<Scalar>>,
     pub(super) pulses: Option<Map<RawPulses>>,
     pub(super) encoder: Option<RawEncoder>,
@@ -154,17 +148,11 @@ pub(super) struct RawStep {
     pub(super) clock: Option<Spanned<String>>,
     pub(super) mode: Option<Spanned<RawMode>>,
     pub(super) power_fails: Option<bool>,
-    #[serde(default)]
     pub(super) power_cycle: bool,
-    #[serde(default)]
     pub(super) bfm: Map<Spanned<Scalar>>,
-    #[serde(default)]
     pub(super) expect_bfm: Map<Spanned<Scalar>>,
-    #[serde(default)]
     pub(super) answers_after: modules::RawDelays,
-    #[serde(default)]
     pub(super) expect_position: BTreeMap<String, f64>,
-    #[serde(default)]
     pub(super) analog: Map<Spanned<Scalar>>,
 }
 

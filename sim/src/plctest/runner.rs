@@ -49,7 +49,10 @@ pub fn run(
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
             )),
             (Check::Steps { .. }, Built::Modules(built)) => {
-                run_steps(engine, case, built, suite.modules())
+                let plcs = built
+                    .iter()
+                    .map(|&number| (number, &suite.modules()[number]));
+                run_steps(engine, case, &plcs.collect::<Vec<_>>())
             }
         };
         let outcome = Outcome {
@@ -68,22 +71,23 @@ pub fn run(
     report
 }
 
-/// Runs a case whose programs have these numbers among the engine's.
+/// Runs a case: its own program and those of the other PLCs, each with its number among the engine's.
 ///
 /// # Errors
 /// Why it fails.
 pub fn run_steps(
     engine: &mut dyn Engine,
     case: &Case,
-    built: &[usize],
-    modules: &[Module],
+    programs: &[(usize, &Module)],
 ) -> Result<(), Failure> {
     let Check::Steps { init, steps } = &case.check else {
         return Ok(());
     };
     wiring::check(case.machine.as_deref(), case.model, init, steps)?;
-    let plcs = built.iter().map(|&module| PlcInfo::of(module, modules));
-    let servers = Servers::new(&case.serve, &modules[built[0]]);
+    let plcs = programs
+        .iter()
+        .map(|&(number, module)| PlcInfo::of(number, module));
+    let servers = Servers::new(&case.serve, programs[0].1);
     run_case(engine, case, (plcs.collect(), servers), init, steps)
 }
 
@@ -132,14 +136,13 @@ pub(super) struct PlcInfo {
 }
 
 impl PlcInfo {
-    fn of(module: usize, modules: &[Module]) -> Self {
-        let program = modules.get(module);
+    fn of(number: usize, program: &Module) -> Self {
         PlcInfo {
-            module,
-            takes_events: program.is_some_and(Module::takes_events),
-            sends_pulses: program.is_some_and(Module::sends_pulses),
-            asks_constant_scan: program.is_some_and(asks_constant_scan),
-            ports: program.map_or(Vec::new(), |program| program.ports.clone()),
+            module: number,
+            takes_events: program.takes_events(),
+            sends_pulses: program.sends_pulses(),
+            asks_constant_scan: asks_constant_scan(program),
+            ports: program.ports.clone(),
         }
     }
 }

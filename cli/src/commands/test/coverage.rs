@@ -2,12 +2,14 @@
 
 use super::super::{Context, Failure, Outcome, Result, counted, interruption, put, say, tell};
 use super::Chosen;
+use super::files::is_in;
 use super::report::{Results, human};
-use crate::args::{CoverageFormat, EngineChoice, TestArgs};
+use crate::args::{CoverageFormat, EngineChoice, Shard, TestArgs};
 use crate::progress;
-use rungc_coverage::mutants::{self, Fate};
+use rungc_coverage::mutants::{self, Fate, Mutant};
 use rungc_coverage::{Covered, cover, html, lcov, text};
 use rungc_sim::plctest::{Suite, TestFile};
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -87,11 +89,26 @@ fn lines(programs: &[Covered]) {
     }
 }
 
+/// Keeps one part of the mutants. Which one a mutant is in depends on what it changes, not on where it is: most stay
+/// there when the program grows.
+fn keep(mutants: &mut Vec<Mutant>, program: &Covered, shard: Shard) {
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    mutants.retain(|mutant| {
+        let text = mutant.describe(&program.program);
+        let number = known.entry(text.clone()).or_default();
+        *number += 1;
+        is_in(shard, &format!("{text} {number}"))
+    });
+}
+
 /// Runs the mutants of all programs.
 fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> Result {
     let (mut shown, mut gaps, mut noticed) = (String::new(), 0, 0);
     for program in programs {
-        let all = mutants::mutants(program);
+        let mut all = mutants::mutants(program);
+        if let Some(shard) = args.shard {
+            keep(&mut all, program, shard);
+        }
         let bar = progress::bar(all.len() as u64).with_message("mutants");
         let fates = mutants::run(suite, program, &all, &|| {
             bar.inc(1);

@@ -3,7 +3,7 @@
 use super::super::Failure;
 use crate::args::Shard;
 use rungc_sim::plant;
-use rungc_sim::plctest::{self, TestFile};
+use rungc_sim::plctest::{self, Case, TestFile};
 use rungc_syntax::order;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -41,13 +41,27 @@ pub fn load(
     Ok(files)
 }
 
-/// Keeps one part of the cases: dealt out in their order, so that the parts are equal and a slow file is shared.
+/// Keeps one part of the cases. Which one a case is in depends on its name and that of its file alone: it stays there
+/// when others are added.
 pub fn keep(files: &mut Vec<TestFile>, shard: Shard) {
-    let mut dealt = (0..shard.parts).cycle();
     for file in &mut *files {
-        file.cases.retain(|_| dealt.next() == Some(shard.part - 1));
+        let path = Path::new(&file.name);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let of_shard = |case: &Case| is_in(shard, &format!("{name}::{}", case.name));
+        file.cases.retain(of_shard);
     }
     files.retain(|file| !file.cases.is_empty());
+}
+
+/// Whether something of this name is in a part.
+pub fn is_in(shard: Shard, name: &str) -> bool {
+    // FNV-1a, the same on every machine and in every version.
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    let parts = u64::try_from(shard.parts).unwrap_or(u64::MAX);
+    // The upper half depends on all bytes as well as the lower one does.
+    (hash ^ hash >> 32) % parts + 1 == u64::try_from(shard.part).unwrap_or(u64::MAX)
 }
 
 /// Gives the machine of a file to cases that name none.
