@@ -1,15 +1,17 @@
-//! Latched devices that survive: in `rungc run`, from run to run, and in images, from reset to reset.
+//! Latched devices that survive: in `rungc run`, from run to run, and in images, from reset to reset. What runs in real
+//! time, `rungc serve` and executables in C and in Rust, on slow and full disks, and with a clock that is set.
 
 mod common;
 mod tools;
 
+use common::hosts::{self, Host, PATIENCE};
 use common::{folder, rungc, text};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// Counts its starts in D200 and its scans in C100, which are latched, and its scans in D0, which is not.
@@ -288,41 +290,18 @@ fn until_quit(folder: &Path, program: &Path, args: &[&str]) -> (String, Option<i
 #[test]
 fn executables_keep_latched_devices() {
     let folder = folder(&[
-        ("starts.il", STARTS.as_bytes()),
+        ("starts.il", hosts::PROGRAM.as_bytes()),
         ("pump.il", b"LD X0\nSET M500\nLD M500\nOUT Y0\nEND\n"),
     ]);
     let at = folder.path();
-    for args in [
-        ["starts.il", "--emit", "bin", "-o", "in-c"],
-        ["pump.il", "--emit", "bin", "-o", "pump"],
-    ] {
-        let built = rungc(at, &[&["build"], &args[..]].concat());
-        assert!(built.status.success(), "{}", text(&built.stderr));
-    }
-    let rust = [
-        "build",
-        "starts.il",
-        "--emit",
-        "rust",
-        "--main",
-        "-o",
-        "rust",
-    ];
-    assert!(rungc(at, &rust).status.success());
-    let cargo = std::env::var("CARGO").unwrap_or("cargo".to_string());
-    let built = Command::new(cargo)
-        .args(["build", "--quiet", "--offline"])
-        .current_dir(at.join("rust"))
-        .env("CARGO_TARGET_DIR", at.join("target"))
-        .output()
-        .unwrap();
+    let built = rungc(at, &["build", "pump.il", "--emit", "bin", "-o", "pump"]);
     assert!(built.status.success(), "{}", text(&built.stderr));
-    let (in_c, in_rust) = (at.join("in-c"), at.join("target/debug/starts"));
+    let [in_c, in_rust] = hosts::executables();
     let retain = ["--retain", "starts.retain"];
-    let (said, _) = until_quit(at, &in_c, &retain);
+    let (said, _) = until_quit(at, in_c, &retain);
     assert!(said.contains("does not exist yet"), "{said}");
     assert!(said.contains("Y000 on"), "{said}");
-    let (said, _) = until_quit(at, &in_rust, &retain);
+    let (said, _) = until_quit(at, in_rust, &retain);
     assert!(
         said.contains("Y001 on") && said.lines().count() == 1,
         "{said}"
@@ -339,7 +318,7 @@ fn executables_keep_latched_devices() {
         ],
     );
     assert_eq!(last(&third), "3");
-    let (said, _) = until_quit(at, &in_c, &retain);
+    let (said, _) = until_quit(at, in_c, &retain);
     assert!(
         said.contains("Y003 on") && said.lines().count() == 1,
         "{said}"
@@ -351,12 +330,282 @@ fn executables_keep_latched_devices() {
     assert_eq!(refused, (why.to_string(), Some(2)));
     fs::write(at.join("starts.retain"), &before[..before.len() - 1]).unwrap();
     let why = "starts.retain does not hold latched devices, or is damaged\n";
-    let refused = until_quit(at, &in_c, &retain);
+    let refused = until_quit(at, in_c, &retain);
     assert_eq!(refused, (format!("starts: {why}"), Some(2)));
-    let (said, code) = until_quit(at, &in_rust, &retain);
+    let (said, code) = until_quit(at, in_rust, &retain);
     assert_eq!(code, Some(2));
     assert!(
         said.contains("does not hold latched devices, or is damaged"),
         "{said}"
     );
+}
+
+/// Runs a test for each host at the same time, in a separate folder.
+fn each(test: impl Fn(Host, &Path) + Sync) {
+    thread::scope(|scope| {
+        for host in Host::all() {
+            let test = &test;
+            scope.spawn(move || {
+                let folder = folder(&[
+                    ("starts.il", hosts::PROGRAM.as_bytes()),
+                    ("rungc.toml", hosts::SETTINGS.as_bytes()),
+                ]);
+                fs::create_dir(folder.path().join("disk")).unwrap();
+                test(host, folder.path());
+            });
+        }
+    });
+}
+
+/// A library that is loaded before the C library.
+fn preloaded(folder: &Path, name: &str, source: &str) -> String {
+    let (library, text) = (folder.join(name), folder.join(format!("{name}.c")));
+    fs::write(&text, source).unwrap();
+    let cc = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o"])
+        .args([&library, &text])
+        .output()
+        .unwrap();
+    assert!(
+        cc.status.success(),
+        "{}",
+        String::from_utf8_lossy(&cc.stderr)
+    );
+    library.display().to_string()
+}
+
+/// The first flush of a file takes SECONDS.
+const SLOW: &str = "\
+#define _GNU_SOURCE
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+int fsync(int file)
+{
+    static int flushed;
+    struct stat what;
+    if (fstat(file, &what) == 0 && S_ISREG(what.st_mode) && flushed++ == FLUSH) {
+        sleep(SECONDS);
+    }
+    return (int)syscall(SYS_fsync, file);
+}
+";
+
+/// A disk that takes 12 s to save holds up no scan; after 10 s, the program hears of it.
+#[test]
+fn a_slow_disk_does_not_hold_up_scans() {
+    each(|host, folder| {
+        let source = SLOW.replace("SECONDS", "12").replace("FLUSH", "0");
+        let slow = preloaded(folder, "slow.so", &source);
+        let mut running = host.start(
+            folder,
+            &["--retain", "disk/latched"],
+            &[("LD_PRELOAD", &slow)],
+        );
+        running.counts();
+        let began = Instant::now();
+        let mut last = began;
+        let mut longest = Duration::ZERO;
+        while let Some((at, terminal, on)) = running.next() {
+            if terminal == "Y010" {
+                longest = longest.max(at - last);
+                last = at;
+            }
+            if terminal == "Y012" {
+                assert!(on, "{host:?}");
+                break;
+            }
+        }
+        assert!(began.elapsed() > Duration::from_secs(8), "{host:?}");
+        assert!(
+            longest < Duration::from_secs(6),
+            "{host:?}: {longest:?} without a scan"
+        );
+        running.shows("Y012", false);
+        let (code, said) = running.end();
+        assert_eq!(code, host.code(), "{said}");
+        let complaints = [
+            "the disk takes longer than 10 s; latched devices are not saved",
+            "latched devices are saved again",
+        ];
+        for complaint in complaints {
+            assert_eq!(said.matches(complaint).count(), 1, "{host:?}: {said}");
+        }
+    });
+}
+
+/// A disk that is full, and one that vanishes: scans continue, the program hears of it, and what was saved remains.
+#[test]
+fn a_disk_that_takes_nothing_does_not_stop_scans() {
+    each(|host, folder| {
+        let mut running = host.start(folder, &["--retain", "disk/latched"], &[]);
+        running.counts();
+        let latched = folder.join("disk/latched");
+        let until = Instant::now() + PATIENCE;
+        while !latched.exists() {
+            assert!(Instant::now() < until, "{host:?}: it is saved");
+            thread::sleep(Duration::from_millis(20));
+        }
+        running.limit_files("0");
+        running.shows("Y012", true);
+        running.counts();
+        assert!(!folder.join("disk/latched.new").exists(), "{host:?}");
+        let whole = fs::read(&latched).unwrap();
+        running.limit_files("unlimited");
+        running.shows("Y012", false);
+        fs::rename(folder.join("disk"), folder.join("away")).unwrap();
+        running.shows("Y012", true);
+        running.counts();
+        fs::rename(folder.join("away"), folder.join("disk")).unwrap();
+        running.shows("Y012", false);
+        assert_ne!(fs::read(&latched).unwrap(), whole, "{host:?}");
+        fs::rename(folder.join("disk"), folder.join("away")).unwrap();
+        let (code, said) = running.end();
+        // What was not saved at the end is a failure.
+        assert_eq!(code, Some(1), "{host:?}: {said}");
+        let count = |what: &str| said.matches(what).count();
+        assert!(
+            count("latched devices are not saved") >= 3,
+            "{host:?}: {said}"
+        );
+        assert_eq!(
+            count("latched devices are saved again"),
+            2,
+            "{host:?}: {said}"
+        );
+    });
+}
+
+/// What is killed while it saves leaves the old file or the new one.
+#[test]
+fn killing_it_while_it_saves_tears_no_file() {
+    each(|host, folder| {
+        let new = folder.join("disk/latched.new");
+        // During the first save, and during the second.
+        for (flush, known) in [("0", false), ("1", true)] {
+            let source = SLOW.replace("SECONDS", "60").replace("FLUSH", flush);
+            let slow = preloaded(folder, &format!("slow-{flush}.so"), &source);
+            let mut running = host.start(
+                folder,
+                &["--retain", "disk/latched"],
+                &[("LD_PRELOAD", &slow)],
+            );
+            running.counts();
+            let until = Instant::now() + PATIENCE;
+            while !new.exists() || folder.join("disk/latched").exists() != known {
+                assert!(Instant::now() < until, "{host:?}: it saves");
+                thread::sleep(Duration::from_millis(1));
+            }
+            drop(running);
+            assert!(new.exists(), "{host:?}");
+            let mut again = host.start(folder, &["--retain", "disk/latched"], &[]);
+            again.counts();
+            let (code, said) = again.end();
+            assert_eq!(code, host.code(), "{host:?}: {said}");
+            assert_eq!(
+                said.contains("does not exist yet"),
+                !known,
+                "{host:?}: {said}"
+            );
+            assert!(
+                !said.contains("damaged") && !new.exists(),
+                "{host:?}: {said}"
+            );
+            if !known {
+                fs::remove_file(folder.join("disk/latched")).unwrap();
+            }
+        }
+    });
+}
+
+/// libfaketime 0.9.10 takes absolute times of the monotonic clock for times of day, even where it is told to leave that
+/// clock alone; later versions do not.
+const MONOTONIC: &str = "\
+#define _GNU_SOURCE
+#include <errno.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+int clock_nanosleep(clockid_t clock, int flags, const struct timespec *until, struct timespec *left)
+{
+    return syscall(SYS_clock_nanosleep, clock, flags, until, left) == 0 ? 0 : errno;
+}
+";
+
+/// The library that `faketime` (apt-get install faketime) loads before a program.
+fn faketime() -> Option<String> {
+    let found = fs::read_dir("/usr/lib").ok()?.filter_map(Result::ok);
+    let library = |folder: fs::DirEntry| folder.path().join("faketime/libfaketime.so.1");
+    let library = found.map(library).find(|library| library.exists());
+    if library.is_none() {
+        tools::leave_out("libfaketime (apt-get install faketime)");
+    }
+    library.map(|library| library.display().to_string())
+}
+
+/// Someone sets the time of day by hours, forward and back: scans and timers do not notice, the real-time clock follows.
+#[test]
+fn setting_the_clock_changes_only_the_real_time_clock() {
+    let Some(faketime) = faketime() else {
+        return;
+    };
+    each(|host, folder| {
+        let monotonic = preloaded(folder, "monotonic.so", MONOTONIC);
+        let offset = folder.join("offset");
+        // Half past some hour, so that it does not change by itself.
+        let now = std::time::SystemTime::UNIX_EPOCH
+            .elapsed()
+            .unwrap()
+            .as_secs() as i64;
+        let set = |hours: i64| {
+            let seconds = 1800 - now % 3600 + 3600 * hours;
+            fs::write(folder.join("new"), format!("{seconds:+}\n")).unwrap();
+            fs::rename(folder.join("new"), &offset).unwrap();
+        };
+        set(0);
+        let environment = [
+            ("LD_PRELOAD", &*format!("{monotonic} {faketime}")),
+            ("FAKETIME_TIMESTAMP_FILE", &offset.display().to_string()),
+            ("FAKETIME_NO_CACHE", "1"),
+            ("FAKETIME_DONT_FAKE_MONOTONIC", "1"),
+            ("TZ", "UTC0"),
+        ];
+        let mut running = host.start(folder, &[], &environment);
+        running.counts();
+        let began = Instant::now();
+        let mut times = [0u32; 2];
+        let mut last = began;
+        for (hours, changes) in [(5, true), (0, false), (-7, true), (0, false)] {
+            set(hours);
+            let until = Instant::now() + PATIENCE;
+            let mut followed = false;
+            let began = Instant::now();
+            while !followed || began.elapsed() < Duration::from_secs(2) {
+                let (at, terminal, on) = running.next().unwrap();
+                assert!(at < until, "{host:?}: the clock follows");
+                match &*terminal {
+                    "Y010" => times[0] += 1,
+                    "Y011" => times[1] += 1,
+                    "Y013" => {
+                        assert!(on == changes && !followed, "{host:?}");
+                        followed = true;
+                    }
+                    other => panic!("{host:?}: {other}"),
+                }
+                last = at;
+            }
+        }
+        let passed = last - began;
+        for (what, count, every_ms) in [("scans", times[0], 100), ("timers", times[1], 500)] {
+            let most = passed.as_millis() / every_ms;
+            let count = u128::from(count);
+            assert!(
+                count <= most * 5 / 4 + 2 && count >= most / 8,
+                "{host:?}: {count} times {every_ms} ms of {what} in {passed:?}"
+            );
+        }
+        let (code, said) = running.end();
+        assert_eq!(code, host.code(), "{said}");
+        assert!(!said.contains("stood still"), "{host:?}: {said}");
+    });
 }

@@ -43,11 +43,16 @@ struct Serving {
 
 impl Serving {
     fn start(folder: &Path, servers: usize, args: &[&str]) -> Serving {
+        Self::printing(folder, servers, args, Stdio::piped())
+    }
+
+    fn printing(folder: &Path, servers: usize, args: &[&str], output: Stdio) -> Serving {
         let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
             .arg("serve")
             .args(args)
             .current_dir(folder)
-            .stdout(Stdio::piped())
+            .stdin(Stdio::piped())
+            .stdout(output)
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
@@ -81,8 +86,9 @@ impl Serving {
         let mut stderr = Vec::new();
         self.errors.read_to_end(&mut stderr).unwrap();
         let mut stdout = String::new();
-        let table = self.child.stdout.as_mut().unwrap();
-        table.read_to_string(&mut stdout).unwrap();
+        if let Some(table) = &mut self.child.stdout {
+            table.read_to_string(&mut stdout).unwrap();
+        }
         let status = self.child.wait().unwrap();
         for (n, port) in self.ports.iter().enumerate() {
             stdout = stdout.replace(&port.to_string(), &format!("port{n}"));
@@ -116,6 +122,7 @@ fn ask(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> {
 }
 
 const WRITE_D100: [u8; 12] = [0, 1, 0, 0, 0, 6, 1, 6, 0, 100, 0, 7];
+const WRITE_D0: [u8; 12] = [0, 1, 0, 0, 0, 6, 1, 6, 0, 0, 0, 7];
 const READ_60000: [u8; 12] = [0, 2, 0, 0, 0, 6, 1, 3, 0xea, 0x60, 0, 1];
 const RTU_WRITE_D0: [u8; 8] = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
 
@@ -171,6 +178,43 @@ fn the_table_of_connections() {
         "station 1: 06 done  [01 06 00 00 00 05 49 C9]",
     ] {
         assert!(log.contains(said), "{said} is not in\n{log}");
+    }
+}
+
+/// Standard output is a full disk, and then closed; rubbish is typed, and then nothing any more: clients are served.
+#[test]
+fn nobody_who_listens_is_needed() {
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", SETTINGS.as_bytes()),
+    ]);
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let (closed, writer) = std::io::pipe().unwrap();
+    drop(closed);
+    for (output, why) in [
+        (Stdio::from(full), "No space left"),
+        (writer.into(), "Broken pipe"),
+    ] {
+        let watch = ["--watch", "D2", "--for", "30min"];
+        let mut serving = Serving::printing(folder.path(), 4, &watch, output);
+        let mut typed = serving.child.stdin.take().unwrap();
+        let rubbish: Vec<u8> = (0..60_000u32).map(|n| ((n * n) >> 3) as u8).collect();
+        // As much as the pipe takes, since nothing reads it.
+        let _ = typed.write(&rubbish);
+        drop(typed);
+        let mut modbus = serving.connect(0);
+        for _ in 0..5 {
+            // Changes D2, which is printed.
+            assert_eq!(ask(&mut modbus, &WRITE_D0, 12), WRITE_D0);
+        }
+        let said = serving.interrupt();
+        let said = text(&said.stderr);
+        let told = format!("rungc: standard output: {why}");
+        assert_eq!(said.matches(&told).count(), 1, "{said}");
+        assert!(
+            said.contains("; the run continues") && said.contains("interrupted"),
+            "{said}"
+        );
     }
 }
 

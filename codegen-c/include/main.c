@@ -71,6 +71,19 @@ static void sleep_until(uint64_t moment_us)
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
 }
 
+/* When the next scan begins. A run that is later than a second has stood still (a suspended machine, a debugger); it does not catch up. */
+static uint64_t not_late(uint64_t next)
+{
+    const uint64_t now = microseconds();
+
+    if (now < next + 1000000u) {
+        return next;
+    }
+    print(stderr, "PROGRAM: the run stood still for %lu.%lu s\n", (unsigned long)((now - next) / 1000000u),
+          (unsigned long)((now - next) / 100000u % 10u));
+    return now;
+}
+
 /* Takes commands like X12=1 (octal) from standard input, without waiting for them, and no more in a scan than fit the buffer. */
 static void read_commands(PROGRAM_plc *plc)
 {
@@ -222,6 +235,7 @@ int main(int argc, char **argv)
     sigemptyset(&action.sa_mask);
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
+    sigaction(SIGXFSZ, &action, NULL);
     action.sa_handler = stop;
     catch_signal(SIGHUP, &action);
     catch_signal(SIGINT, &action);
@@ -245,9 +259,10 @@ int main(int argc, char **argv)
         scan_us = (uint32_t)(microseconds() - begin);
 
         /* PERIOD */
+        next = not_late(next);
         /* WAIT */
     }
     /* END */
     /* CONNECTIONS */
-    return 0;
+    return /* CODE */;
 }

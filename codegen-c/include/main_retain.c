@@ -1,10 +1,26 @@
-/* The file that keeps latched devices from run to run; NULL: none does. */
+/* How often the scan looks whether a latched device has changed, and how long the disk may take before they count as not saved. */
+#define SAVE_EVERY_MS 1000u
+#define SLOW_MS 10000u
+
+/*
+ * The file that keeps latched devices from run to run; NULL: none does. Between scans the values are put into a record, which a
+ * thread writes to the file, so that no scan waits for the disk. The record and the thread's result belong to the thread from
+ * `to_write` to `written`.
+ */
 static struct {
     const char *path;
     uint32_t sequence;
     uint32_t looked_ms;
     bool has_saved;
-    uint32_t saved; /* checksum of the values that were loaded or saved last */
+    uint32_t saved;   /* checksum of the values that were loaded or saved last */
+    bool writes;      /* the thread has a record */
+    uint32_t writing; /* checksum of its values */
+    bool fails;       /* saving fails, which was reported */
+    sem_t to_write;
+    sem_t written;
+    int error; /* why the thread has not written it; 0: it has */
+    uint32_t length;
+    uint8_t record[RECORD_LENGTH];
 } kept;
 
 static bool keep_in(const char *path)
@@ -62,62 +78,185 @@ static bool load_kept(PROGRAM_plc *plc)
 
 static bool put_kept(void *context, const uint8_t *bytes, uint32_t length)
 {
-    return fwrite(bytes, 1, length, (FILE *)context) == length;
+    (void)context;
+    if (length > sizeof kept.record - kept.length) {
+        return false;
+    }
+    memcpy(&kept.record[kept.length], bytes, length);
+    kept.length += length;
+    return true;
 }
 
-/* Flushes the folder of the file, so that its new name lasts. */
+/* Puts the values, of which this is the checksum, into the record. */
+static void record_kept(const PROGRAM_plc *plc, uint32_t state)
+{
+    const rungc_sink sink = {put_kept, NULL};
+
+    kept.length = 0;
+    (void)rungc_put_record(&PROGRAM_retained, plc, kept.sequence, &sink);
+    kept.writing = state;
+}
+
+/* Flushes the folder of the file, so that its new name lasts; false with errno if that fails. */
 static bool flush_folder(void)
 {
     char folder[1024];
     const char *const slash = strrchr(kept.path, '/');
     const size_t length = slash != NULL ? (size_t)(slash - kept.path) + 1u : 0u;
 
-    if (length >= sizeof folder) {
-        return false;
-    }
     memcpy(folder, kept.path, length);
     folder[length] = '\0';
     const int file = open(length != 0u ? folder : ".", O_RDONLY);
-    const bool done = file >= 0 && fsync(file) == 0;
-    if (file >= 0) {
-        close(file);
+    if (file < 0) {
+        return false;
     }
+    const bool done = fsync(file) == 0;
+    const int error = errno;
+    close(file);
+    errno = error;
     return done;
 }
 
-/* Replaces the file: a new one beside it is written and flushed, and takes its name. */
-static bool replace_kept(const PROGRAM_plc *plc)
+/* Writes the record to a file, and flushes it; false with errno if the disk does not take it. */
+static bool write_record(FILE *file)
+{
+    const bool done = fwrite(kept.record, 1, kept.length, file) == kept.length && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const int error = errno;
+    const bool closed = fclose(file) == 0;
+
+    if (!done) {
+        errno = error;
+    }
+    return done && closed;
+}
+
+/*
+ * Replaces the file: a new one beside it is written and flushed, and takes its name. Nothing remains of what a full disk does not
+ * take. Returns why it cannot be; 0: it is.
+ */
+static int replace_kept(void)
 {
     char path[1024];
     const int length = snprintf(path, sizeof path, "%s.new", kept.path);
-    FILE *const file = length > 0 && (size_t)length < sizeof path ? fopen(path, "wb") : NULL;
-    const rungc_sink sink = {put_kept, file};
 
-    if (file == NULL) {
-        return false;
+    if (length < 0 || (size_t)length >= sizeof path) {
+        return ENAMETOOLONG;
     }
-    bool done = rungc_put_record(&PROGRAM_retained, plc, kept.sequence, &sink) && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    done = fclose(file) == 0 && done;
-    return done && rename(path, kept.path) == 0 && flush_folder();
+    FILE *const file = fopen(path, "wb");
+    if (file == NULL) {
+        return errno;
+    }
+    if (!write_record(file) || rename(path, kept.path) != 0) {
+        const int error = errno;
+        (void)unlink(path);
+        return error;
+    }
+    return flush_folder() ? 0 : errno;
 }
 
-/* Saves what has changed, once a second or `now`. */
-static void save_kept(const PROGRAM_plc *plc, uint32_t now_ms, bool now)
+/* The thread: writes one record after the other. */
+static void *write_records(void *context)
 {
-    if (kept.path == NULL || (!now && now_ms - kept.looked_ms < 1000u)) {
+    (void)context;
+    for (;;) {
+        if (sem_wait(&kept.to_write) == 0) {
+            kept.error = replace_kept();
+            sem_post(&kept.written);
+        }
+    }
+    return NULL;
+}
+
+/* Starts it; false if the system has none. */
+static bool begin_kept(void)
+{
+    pthread_t thread;
+    int error = 0;
+
+    if (kept.path == NULL) {
+        return true;
+    }
+    if (sem_init(&kept.to_write, 0, 0) != 0 || sem_init(&kept.written, 0, 0) != 0) {
+        error = errno;
+    } else {
+        error = pthread_create(&thread, NULL, write_records, NULL);
+    }
+    if (error != 0) {
+        print(stderr, "PROGRAM: no thread for %s: %s\n", kept.path, strerror(error));
+    }
+    return error == 0;
+}
+
+/* Saving fails: reports why, once. */
+static void unsaved(const char *why)
+{
+    if (!kept.fails) {
+        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", kept.path, why);
+    }
+    kept.fails = true;
+}
+
+/* The record has been written, or this is why it cannot be. */
+static void end_record(int error)
+{
+    kept.writes = false;
+    if (error != 0) {
+        unsaved(strerror(error));
         return;
+    }
+    kept.sequence++;
+    kept.has_saved = true;
+    kept.saved = kept.writing;
+    if (kept.fails) {
+        print(stderr, "PROGRAM: %s: latched devices are saved again\n", kept.path);
+    }
+    kept.fails = false;
+}
+
+/* Between scans: has what has changed saved, once a second. */
+static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
+{
+    if (kept.path == NULL) {
+        return;
+    }
+    if (kept.writes) {
+        if (sem_trywait(&kept.written) == 0) {
+            end_record(kept.error);
+        } else if (now_ms - kept.looked_ms > SLOW_MS) {
+            unsaved("the disk takes longer than 10 s");
+        }
+    } else if (now_ms - kept.looked_ms >= SAVE_EVERY_MS) {
+        const uint32_t state = rungc_retained_state(&PROGRAM_retained, plc);
+        kept.looked_ms = now_ms;
+        if (!kept.has_saved || kept.saved != state) {
+            record_kept(plc, state);
+            kept.writes = true;
+            sem_post(&kept.to_write);
+        }
+    }
+    /* UNSAVED */
+}
+
+/* After the last scan: saves what has changed since, and waits for the disk; false if it does not take it. */
+static bool end_kept(const PROGRAM_plc *plc)
+{
+    if (kept.path == NULL) {
+        return true;
+    }
+    while (kept.writes) {
+        if (sem_wait(&kept.written) == 0) {
+            end_record(kept.error);
+        }
     }
     const uint32_t state = rungc_retained_state(&PROGRAM_retained, plc);
-    kept.looked_ms = now_ms;
     if (kept.has_saved && kept.saved == state) {
-        return;
+        return true;
     }
-    if (!replace_kept(plc)) {
-        print(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
-    } else {
-        kept.sequence++;
-        kept.has_saved = true;
-        kept.saved = state;
+    record_kept(plc, state);
+    const int error = replace_kept();
+    if (error != 0) {
+        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", kept.path, strerror(error));
     }
+    return error == 0;
 }
 

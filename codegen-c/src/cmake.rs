@@ -152,10 +152,10 @@ fn program(text: &mut String, recipe: &Recipe, project: &str) {
     let install = INSTALL.replace("@HEADERS@", &headers.join(" "));
     text.push_str(&install.replace("@NAME@", name));
     if recipe.main {
-        let system = if recipe.shared.std {
-            "plc_@NAME@ pthread dl m)"
-        } else {
-            "plc_@NAME@)"
+        let system = match (recipe.shared.std, recipe.has_thread()) {
+            (true, _) => "plc_@NAME@ pthread dl m)",
+            (false, true) => "plc_@NAME@ pthread)",
+            (false, false) => "plc_@NAME@)",
         };
         let main = MAIN
             .replace("@FOLDER@", folder)

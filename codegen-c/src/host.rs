@@ -89,7 +89,7 @@ const HEADERS: [&str; 8] = [
     "poll", "signal", "stdarg", "stdio", "stdlib", "string", "time", "unistd",
 ];
 const LINES_HEADERS: [&str; 3] = ["errno", "fcntl", "termios"];
-const RETAIN_HEADERS: [&str; 2] = ["errno", "fcntl"];
+const RETAIN_HEADERS: [&str; 4] = ["errno", "fcntl", "pthread", "semaphore"];
 const SERVERS_HEADERS: [&str; 6] = [
     "errno",
     "fcntl",
@@ -180,29 +180,32 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     };
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
-    let [header, retain, load, save, end] = retaining(keeps);
+    let retain = retaining(keeps, &fields, options.unsaved);
+    let record = format!("{}_RECORD_LENGTH", name.to_ascii_uppercase());
     let (lines, serving) = (lines(module), server_code(module, servers));
-    let parts = [clock, &lines, retain, &hardware, &serving];
+    let parts = [clock, &lines, &retain.functions, &hardware, &serving];
     outside
         .in_main(include("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
-        .replace("/* INCLUDE */\n", header)
-        .replace("    /* LOAD */\n", load)
-        .replace("        /* SAVE */\n", save)
-        .replace("    /* END */\n", end)
+        .replace("/* INCLUDE */\n", retain.header)
+        .replace("    /* LOAD */\n", retain.load)
+        .replace("        /* SAVE */\n", retain.save)
+        .replace("    /* END */\n", retain.end)
         .replace("    /* ASK */\n", begin_clients)
         .replace("        /* SERVE */\n", &[serve, ask].concat())
         .replace("    /* CONNECTIONS */\n", &[connections, asked].concat())
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
         .replace("    /* REPORT */\n", report)
+        .replace("/* CODE */", retain.code)
         .replace("/* CLOCK */\n", &parts.concat())
         .replace("    /* HAL */\n", hal)
         .replace("/* PERIOD */", period)
         .replace("/* OVERRUN */\n", overrun)
         .replace("/* WAIT */", wait)
         .replace("/* INTERRUPTS */", interrupts)
+        .replace("RECORD_LENGTH", &record)
         .replace("PROGRAM", name)
         // Texts of the program come last: they may contain any word.
         .replace("        /* OPTIONS */\n", &valued(module, &host))
@@ -257,19 +260,45 @@ fn outputs(module: &Module, fields: &Storage) -> String {
     rows
 }
 
-/// What a host that keeps latched devices has: an include, functions, and what is done before, after each and after the
-/// last scan.
-fn retaining(keeps: bool) -> [&'static str; 5] {
+/// What a host has that keeps latched devices.
+struct Retaining {
+    header: &'static str,
+    functions: String,
+    /// Before the first scan, after each, and after the last.
+    load: &'static str,
+    save: &'static str,
+    end: &'static str,
+    /// The exit code.
+    code: &'static str,
+}
+
+/// What a host that keeps latched devices has; a device may show that they cannot be saved.
+fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>) -> Retaining {
     if !keeps {
-        return [""; 5];
+        return Retaining {
+            header: "",
+            functions: String::new(),
+            load: "",
+            save: "",
+            end: "",
+            code: "0",
+        };
     }
-    [
-        "#include \"PROGRAM_retain.h\"\n",
-        include("main_retain.c"),
-        "    if (!load_kept(plc)) {\n        return 2;\n    }\n",
-        "        save_kept(plc, now_ms, false);\n",
-        "    save_kept(plc, 0, true);\n",
-    ]
+    let mut device = String::new();
+    let is_stored =
+        unsaved.is_some_and(|(class, number)| fields.access(&mut device, class, number));
+    let show = match is_stored {
+        true => format!("    {device} = kept.fails;\n"),
+        false => String::new(),
+    };
+    Retaining {
+        header: "#include \"PROGRAM_retain.h\"\n",
+        functions: include("main_retain.c").replace("    /* UNSAVED */\n", &show),
+        load: "    if (!load_kept(plc) || !begin_kept()) {\n        return 2;\n    }\n",
+        save: "        save_kept(plc, now_ms);\n",
+        end: "    const bool is_kept = end_kept(plc);\n",
+        code: "is_kept ? 0 : 1",
+    }
 }
 
 /// What the system's headers are to declare.

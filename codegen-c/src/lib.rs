@@ -50,6 +50,7 @@ pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;
 use rungc_packed::Packed;
+use rungc_syntax::DeviceClass;
 
 /// What to emit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,6 +62,8 @@ pub struct Options {
     /// The `main.c` takes options that connect terminals and keep a log; the runtime library is needed then, with the
     /// standard library of Rust.
     pub io: bool,
+    /// The bit that is on while the `main.c` cannot save latched devices.
+    pub unsaved: Option<(DeviceClass, u32)>,
     /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that
     /// does always has it.
     pub board: bool,

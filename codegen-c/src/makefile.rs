@@ -52,6 +52,11 @@ pub struct Recipe {
 }
 
 impl Recipe {
+    /// Whether its main program has a thread, which saves latched devices.
+    pub(crate) fn has_thread(&self) -> bool {
+        self.main && self.shared.retain
+    }
+
     fn target(&self) -> String {
         let Recipe { name, folder, .. } = self;
         match self.main {
@@ -126,6 +131,9 @@ pub fn makefile(recipes: &[Recipe]) -> String {
          CFLAGS ?= -std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
          LDFLAGS ?= -Wl,--gc-sections\n"
     );
+    if recipes.iter().any(Recipe::has_thread) {
+        text.push_str("# A thread saves latched devices.\noverride LDFLAGS += -pthread\n");
+    }
     if recipes.iter().any(|recipe| !recipe.folder.is_empty()) {
         text.push_str("# Headers that all programs share are here.\noverride CPPFLAGS += -I.\n");
     }

@@ -70,7 +70,8 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         ),
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
-    let needs_std = options.main && (options.servers || options.io || cycle::keeps_any(module));
+    let asks = cycle::keeps_any(module) || cycle::asks_clock(module);
+    let needs_std = options.main && (options.servers || options.io || asks);
     let runtime_features = if needs_std {
         ", features = [\"std\"]"
     } else {

@@ -29,9 +29,6 @@ const SIGNALS: &str = include_str!("../templates/signals.rs");
 /// What connections and the log share with the program.
 const OUTSIDE: &str = include_str!("../templates/outside.rs");
 
-/// What keeps latched devices in a file.
-const RETAIN: &str = include_str!("../templates/retain.rs");
-
 /// What a host with serial ports uses of the standard library and of the runtime.
 const LINES_USES: [&str; 5] = [
     "rungc_rt::comm::{LineFormat, Parity, Received}",
@@ -92,13 +89,13 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
         None => (PERIOD, ""),
     };
-    let (set, local) = match cycle::asks_clock(module) {
-        true => (SET_CLOCK, LOCAL_TIME),
-        false => ("", ""),
+    let [set, follow] = match cycle::asks_clock(module) {
+        true => CLOCK,
+        false => [""; 2],
     };
     let exchange = if module.has_ports() { EXCHANGE } else { "" };
     let keeps = cycle::keeps_any(module);
-    let [save, end] = if keeps { SAVE } else { [""; 2] };
+    let [end, leave] = if keeps { END } else { [""; 2] };
     let [poll, connections] = if servers {
         [POLL, CONNECTIONS]
     } else {
@@ -128,7 +125,6 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let parts = [
         (module.has_ports(), LINES),
         (servers, SERVERS),
-        (keeps, RETAIN),
         (io, OUTSIDE),
         (in_order, SIGNALS),
     ];
@@ -139,12 +135,22 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("    CATCH;\n", catch)
         .replace("        STOPPED;\n", stopped)
         .replace("    CLOCK;\n", set)
-        .replace("LOCAL_TIME;\n", local)
         .replace("    OPEN;\n", &open(module, &host))
-        .replace("        SERVE;\n", &format!("{poll}{ask}{exchange}"))
+        .replace(
+            "        SERVE;\n",
+            &format!("{follow}{poll}{ask}{exchange}"),
+        )
         .replace("    CONNECTIONS;\n", &[connections, asked].concat())
-        .replace("        SAVE;\n", save)
+        .replace(
+            "        SAVE;\n",
+            &if keeps {
+                save(options.unsaved)
+            } else {
+                String::new()
+            },
+        )
         .replace("    END;\n", end)
+        .replace("    LEAVE;\n", leave)
         .replace("OPTION_NAMES", &names.join(", "))
         .replace("        WAIT;\n", wait)
         .replace("FAMILY", &format!("{:?}", module.model.ports))
@@ -211,10 +217,8 @@ fn outputs(generator: &Generator) -> String {
 fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
     let Options { servers, io, .. } = *options;
     let module = generator.module;
-    let clock = match cycle::asks_clock(module) {
-        true => "Class, Clock, Hal",
-        false => "Class",
-    };
+    let wall = "rungc_rt::wall::WallClock";
+    let of_clock = cycle::asks_clock(module).then_some(&wall);
     let ports = module.has_ports();
     let usual = USES.iter().filter(|_| !ports);
     let of_lines = LINES_USES.iter().filter(|_| ports);
@@ -228,15 +232,14 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
         .chain(of_servers)
         .chain(of_clients)
         .chain(of_retain)
+        .chain(of_clock)
         .chain(OUTSIDE_USES.iter().chain([&MUTEX]).filter(|_| io));
     let mut all = order::set(all.map(|name| (*name).to_string()));
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
         all.extend(ERROR_USES.map(String::from));
     }
-    all.insert(format!(
-        "rungc_rt::{{{clock}, LastError, Plc, Program, Stop, VirtualHal}}"
-    ));
+    all.insert("rungc_rt::{Class, LastError, Plc, Program, Stop, VirtualHal}".to_string());
     let lines = all.into_iter().map(|name| format!("use {name};\n"));
     lines.collect()
 }
@@ -342,16 +345,32 @@ const CONNECTED: [&str; 6] = [
     "    let _ = writeln!(io::stdout(), \"{line}\");\n    outside().note(line);\n",
 ];
 
-/// Latched devices are saved after a scan, and after the last one.
-const SAVE: [&str; 2] = [
-    "        if let Some(file) = &mut kept {
-            let saved = file.poll(&plc, now_ms, 1000);
-            report_unsaved(file, saved);
+/// Latched devices are saved after a scan; a device shows that they cannot be.
+fn save(unsaved: Option<(DeviceClass, u32)>) -> String {
+    let device = unsaved.and_then(|(class, number)| Some((rt_class(class)?, number)));
+    let show = device.map(|(class, number)| {
+        format!("            let _ = plc.set_bit(Class::{class:?}, {number}, file.fails());\n")
+    });
+    SAVE.replace("            SHOW;\n", &show.unwrap_or_default())
+}
+
+const SAVE: &str = "        if let Some(file) = &mut kept {
+            if let Some(said) = file.keep(&plc, now_ms) {
+                report(&said);
+            }
+            SHOW;
         }
+";
+
+/// After the last scan, and at the very end.
+const END: [&str; 2] = [
+    "    let kept = kept.map_or(Ok(()), |file| file.end(&plc));
+    if let Err(why) = &kept {
+        report(why);
+    }
 ",
-    "    if let Some(mut file) = kept {
-        let saved = file.save(&plc);
-        report_unsaved(&file, saved);
+    "    if kept.is_err() {
+        std::process::exit(1);
     }
 ",
 ];
@@ -460,25 +479,11 @@ const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().
         };
 ";
 
-/// The program's clock starts with that of the computer.
-const SET_CLOCK: &str = "    if let Some(clock) = local_time() {
-        let _ = hal.set_clock(clock);
-    }
-";
-
-/// Where a host takes its clock from: the standard library knows no local time.
-const LOCAL_TIME: &str = "
-/// The local time, as the command `date` gives it; `None` where there is no such command.
-fn local_time() -> Option<Clock> {
-    let date = std::process::Command::new(\"date\").arg(\"+%Y %m %d %H %M %S\").output().ok()?;
-    let text = String::from_utf8(date.stdout).ok()?;
-    let mut fields = text.split_whitespace().map(|field| field.parse::<u16>().ok());
-    let mut next = || fields.next().flatten();
-    let year = next()?;
-    let mut next = || u8::try_from(next()?).ok();
-    Clock::new(year, next()?, next()?, next()?, next()?, next()?)
-}
-";
+/// The program's clock starts with that of the computer, and follows it.
+const CLOCK: [&str; 2] = [
+    "    let mut wall = WallClock::begin(&mut hal);\n",
+    "        wall.follow(&mut hal, (begin - start).as_millis() as u64);\n",
+];
 
 /// How a host waits for the next scan.
 const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";

@@ -34,6 +34,7 @@ mod write;
 pub use members::Members;
 pub use rungc_emit::OutFile;
 use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
 
 /// What to emit.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -44,6 +45,8 @@ pub struct Options {
     pub servers: bool,
     /// It takes options that connect terminals and keep a log.
     pub io: bool,
+    /// The bit that is on while it cannot save latched devices.
+    pub unsaved: Option<(DeviceClass, u32)>,
     /// A feature `defmt`, with which [defmt](https://defmt.ferrous-systems.com) prints the program's state.
     pub defmt: bool,
     /// Where the emitted crate finds `rungc-rt`.

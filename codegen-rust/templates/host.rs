@@ -88,10 +88,22 @@ fn main() {
         SAVE;
         scan_us = begin.elapsed().as_micros() as u32;
         PERIOD;
+        next = not_late(next);
         WAIT;
     }
     END;
     CONNECTIONS;
+    LEAVE;
+}
+
+/// When the next scan begins. A run that is later than a second has stood still (a suspended machine, a debugger); it does not catch up.
+fn not_late(next: Instant) -> Instant {
+    let late = next.elapsed();
+    if late < Duration::from_secs(1) {
+        return next;
+    }
+    report!("the run stood still for {:.1} s", late.as_secs_f64());
+    next + late
 }
 
 /// Options with a value.
@@ -178,4 +190,3 @@ fn set_input(plc: &mut TYPE, hal: &mut VirtualHal, line: &str) -> Option<()> {
     plc.input_edge(hal, number, on);
     Some(())
 }
-LOCAL_TIME;

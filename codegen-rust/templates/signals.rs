@@ -9,6 +9,9 @@ mod signals {
     /// SIGHUP, SIGINT and SIGTERM.
     const NUMBERS: [i32; 3] = [1, 2, 15];
 
+    /// SIGXFSZ, as all have it but MIPS: a file that may not grow is as a full disk.
+    const FILE_SIZE: i32 = 25;
+
     /// Nothing is done about a signal: `SIG_IGN`.
     const IGNORED: usize = 1;
 
@@ -22,6 +25,7 @@ mod signals {
 
     /// From now on the signals do not end the program at once. What the caller ignores (`nohup`) stays so.
     pub fn catch() {
+        signal(FILE_SIZE, IGNORED);
         for number in NUMBERS {
             if signal(number, stop as extern "C" fn(i32) as usize) == IGNORED {
                 signal(number, IGNORED);

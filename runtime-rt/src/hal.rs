@@ -27,7 +27,10 @@ pub struct Clock {
 const DAYS_BEFORE: [u16; 13] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334, 365];
 
 /// Milliseconds of a day.
-const DAY_MS: u64 = 86_400_000;
+pub(crate) const DAY_MS: u64 = 86_400_000;
+
+/// Days after which the calendar repeats, in weeks and leap years: 400 years.
+const CYCLE_DAYS: u64 = 146_097;
 
 /// Whether `year` of the Gregorian calendar has 366 days.
 fn is_leap(year: u32) -> bool {
@@ -93,6 +96,17 @@ impl Clock {
             .map_or(0, |&days| u64::from(days));
         let leap_day = u64::from(self.month > 2 && is_leap(year));
         days_before_year(year) + before + leap_day + u64::from(self.day.max(1)) - 1
+    }
+
+    /// This time of the day, some days earlier. Years are counted modulo 65,536.
+    #[must_use]
+    pub(crate) fn days_before(&self, days: u64) -> Clock {
+        let cycles = days.div_ceil(CYCLE_DAYS);
+        let later = self.after((cycles * CYCLE_DAYS - days) * DAY_MS);
+        Clock {
+            year: later.year.wrapping_sub(cycles.wrapping_mul(400) as u16),
+            ..later
+        }
     }
 
     /// This moment, `ms` milliseconds later; the weekday continues from this one's. Fractions of a second are dropped.

@@ -59,6 +59,8 @@ mod specials;
 mod timing;
 mod virtual_hal;
 mod virtual_line;
+#[cfg(any(test, feature = "std"))]
+pub mod wall;
 mod wiring;
 pub mod word;
 

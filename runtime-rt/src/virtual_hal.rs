@@ -1,6 +1,6 @@
 //! Hardware for tests, simulation and `rungc run`: everything is memory, and time is virtual.
 
-use crate::hal::{Clock, Hal, SerialPort};
+use crate::hal::{Clock, DAY_MS, Hal, SerialPort};
 use crate::modules::{BOARD, Kind, Module, Quantity, Signal};
 use crate::virtual_line::VirtualLine;
 
@@ -98,6 +98,18 @@ impl VirtualHal {
         self.now_ms = now_ms;
         for (_, module) in self.modules.iter_mut().flatten() {
             module.pass(passed.saturating_mul(1000));
+        }
+    }
+
+    /// The clock is put forward by this many milliseconds, or back; virtual time passes as before.
+    pub fn move_clock(&mut self, ms: i64) {
+        let passed = self.since_base_ms;
+        self.since_base_ms = passed.saturating_add_signed(ms);
+        let missing = ms.unsigned_abs().saturating_sub(passed);
+        if ms < 0 && missing > 0 {
+            let days = missing.div_ceil(DAY_MS);
+            self.base = self.base.days_before(days);
+            self.since_base_ms = days.saturating_mul(DAY_MS).saturating_sub(missing);
         }
     }
 
@@ -272,6 +284,14 @@ mod tests {
         hal.advance_to(1500 + 86_400_000);
         assert_eq!(hal.clock(), Clock::new(2028, 3, 1, 0, 0, 0));
         assert_eq!(hal.set_clock(Clock { month: 13, ..eve }), None);
+        hal.move_clock(-1500);
+        assert_eq!(hal.clock(), Clock::new(2028, 2, 29, 23, 59, 58));
+        hal.move_clock(-366 * DAY_MS as i64);
+        assert_eq!(hal.clock(), Clock::new(2027, 2, 28, 23, 59, 58));
+        hal.move_clock(366 * DAY_MS as i64 + 1500);
+        assert_eq!(hal.clock(), Clock::new(2028, 3, 1, 0, 0, 0));
+        hal.move_clock(i64::MIN);
+        hal.move_clock(i64::MAX);
     }
 
     #[test]

@@ -59,8 +59,7 @@ fn build(
     cx: Context,
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
-    let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
-    let mut image = image.transpose()?;
+    let mut image = ForImage::of(plan)?;
     let read = read(subject, reporter)?;
     image.iter_mut().for_each(|image| image.fit(&read.program));
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
@@ -96,6 +95,7 @@ fn build(
         module: &module,
         target,
         image: image.as_ref(),
+        unsaved: subject.unsaved(),
     };
     let written = match plan.emit {
         Some(_) if shares => Some(job.share(together)?),
@@ -170,6 +170,12 @@ struct ForImage {
 }
 
 impl ForImage {
+    /// That of the plan, if it is for a board.
+    fn of(plan: &Plan) -> Built<Option<Self>> {
+        let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
+        image.transpose()
+    }
+
     fn new(args: &Plan, path: &Path) -> std::result::Result<Self, Failure> {
         let board = boards::named_or_described(path).map_err(because)?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
@@ -325,6 +331,8 @@ struct Job<'a> {
     module: &'a Module,
     target: &'static Target,
     image: Option<&'a ForImage>,
+    /// The bit that is on while latched devices cannot be saved.
+    unsaved: Option<(DeviceClass, u32)>,
 }
 
 type Built<T> = std::result::Result<T, Failure>;
@@ -341,6 +349,7 @@ impl Job<'_> {
             main,
             servers: self.plan.servers,
             io: self.plan.io,
+            unsaved: self.unsaved,
             access: self.plan.device_access,
             retain: self.plan.retain,
             lanes: self.plan.lanes.is_some(),
@@ -355,6 +364,7 @@ impl Job<'_> {
             main: self.plan.main,
             servers: self.plan.servers,
             io: self.plan.io,
+            unsaved: self.unsaved,
             defmt: self.plan.defmt,
             ..Default::default()
         }

@@ -73,7 +73,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     let properties: Vec<Property> = asked.iter().map(|asked| asked.property.clone()).collect();
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
-    let hal = Box::new(hardware::of(false, fitted));
+    let hal = Box::new(hardware::of(fitted));
     let mut task = Task::new(
         &module,
         (&properties, &assumed),

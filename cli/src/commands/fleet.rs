@@ -17,6 +17,7 @@ use rungc_fleet::{At, Choice, Engine, Fleet, Group, Machines, Plcs, Schedule, Se
 use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::wall::WallClock;
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
 use rungc_syntax::{DeviceClass, Diagnostic, FittedModule};
 use running::Fleets;
@@ -45,7 +46,10 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
     let mut groups = Vec::new();
     for (plcs, compiled) in fleet.plcs.iter().zip(&compiled) {
         let folder = folder.path().join(groups.len().to_string());
-        let hal = hardware::of(!args.in_virtual_time, &compiled.fitted);
+        let mut hal = hardware::of(&compiled.fitted);
+        if !args.in_virtual_time {
+            let _ = WallClock::begin(&mut hal);
+        }
         let Chosen { engine, why } = engine::choose(plcs, &compiled.module, &folder, cx)?;
         let engine: Box<dyn Engine> = match (engine, &why) {
             (Some(engine), _) => engine,

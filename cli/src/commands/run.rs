@@ -16,6 +16,7 @@ mod retaining;
 mod scope;
 mod serving;
 mod simulate;
+mod table;
 mod view;
 mod watch;
 
@@ -240,10 +241,10 @@ fn retained(args: &RunArgs, subject: &Subject) -> Option<Kept> {
         let project = project?;
         Some(project.at(project.retain.as_deref()?))
     };
-    let fault = project.and_then(|project| project.retain_fault.as_ref());
+    let fault = subject.unsaved();
     Some(Kept {
         path: args.retain.clone().or_else(usual)?,
-        fault: fault.and_then(|fault| Some((rt_class(fault.class)?, fault.first))),
+        fault: fault.and_then(|(class, number)| Some((rt_class(class)?, number))),
     })
 }
 

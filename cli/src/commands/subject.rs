@@ -8,7 +8,7 @@ use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
-use rungc_syntax::{Program, codes};
+use rungc_syntax::{DeviceClass, Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -44,10 +44,11 @@ impl Subject {
     pub fn options(&self) -> CompileOptions {
         let Reporting { warn, rules, .. } = &self.reporting;
         let served = self.project.as_ref().map(|project| &project.serve);
+        let served = served.into_iter().flat_map(Serve::stored);
         CompileOptions {
             model: self.model,
             variant: self.variant,
-            observe: served.into_iter().flat_map(Serve::stored).collect(),
+            observe: served.chain(self.unsaved()).collect(),
             warn: warn.iter().chain(&rules.warn).copied().collect(),
             bounds: self
                 .project
@@ -55,6 +56,12 @@ impl Subject {
                 .map_or_else(Vec::new, |project| project.bounds(&self.file)),
             ..CompileOptions::default()
         }
+    }
+
+    /// `[retain] fault`: the bit that is on while latched devices cannot be saved.
+    pub fn unsaved(&self) -> Option<(DeviceClass, u32)> {
+        let fault = self.project.as_ref()?.retain_fault.as_ref()?;
+        Some((fault.class, fault.first))
     }
 
     /// The settings of its project, if the project is about this program.

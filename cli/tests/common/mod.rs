@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 pub mod chromium;
+#[cfg(unix)]
+pub mod hosts;
 pub mod mosquitto;
 pub mod running;
 

@@ -13,6 +13,12 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::vec::Vec;
 
+/// How often a host looks whether a latched device has changed, in milliseconds.
+const EVERY_MS: u32 = 1000;
+
+/// How long the disk may take before devices count as not saved, in milliseconds.
+const SLOW_MS: u32 = 10_000;
+
 /// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed
 /// to the disk, renamed. Whenever the process or the machine ends, the file is the old one or the new one.
 #[derive(Debug)]
@@ -25,6 +31,8 @@ pub struct RetainFile {
     writer: Option<Writer>,
     /// The state that it writes now.
     writing: Option<u32>,
+    /// Saving fails, which was reported.
+    fails: bool,
 }
 
 /// A thread that replaces the file, so that no scan waits for the disk. It ends with the file.
@@ -65,6 +73,7 @@ impl RetainFile {
             looked_ms: 0,
             writer: None,
             writing: None,
+            fails: false,
         };
         let bytes = match fs::read(&file.path) {
             Ok(bytes) => bytes,
@@ -189,6 +198,46 @@ impl RetainFile {
         Ok(false)
     }
 
+    /// As [`RetainFile::poll`], once a second, for a host that continues without the disk. Returns what there is to
+    /// report: that devices are not saved, or that they are saved again.
+    pub fn keep(&mut self, program: &dyn Program, now_ms: u32) -> Option<String> {
+        let result = self.poll(program, now_ms, EVERY_MS);
+        let is_slow = self.writing.is_some() && now_ms.wrapping_sub(self.looked_ms) > SLOW_MS;
+        let why = match result {
+            Ok(true) if std::mem::take(&mut self.fails) => {
+                return Some(self.about("latched devices are saved again"));
+            }
+            Ok(_) if is_slow => "the disk takes longer than 10 s".to_string(),
+            Ok(_) => return None,
+            Err(error) => error.to_string(),
+        };
+        if std::mem::replace(&mut self.fails, true) {
+            return None;
+        }
+        Some(self.about(&format!("{why}; latched devices are not saved")))
+    }
+
+    /// Whether latched devices cannot be saved, as [`RetainFile::keep`] has reported.
+    pub fn fails(&self) -> bool {
+        self.fails
+    }
+
+    /// After the last scan: saves what has changed since, and waits for the disk.
+    ///
+    /// # Errors
+    /// What there is to report: that devices are not saved.
+    pub fn end(mut self, program: &dyn Program) -> Result<(), String> {
+        let saved = self.save(program);
+        saved.map(drop).map_err(|error| {
+            let why = format!("{error}; latched devices are not saved");
+            self.about(&why)
+        })
+    }
+
+    fn about(&self, what: &str) -> String {
+        format!("{}: {what}", self.path.display())
+    }
+
     fn record(&self, program: &dyn Program) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         record::write(program, self.sequence, &mut |piece| bytes.write_all(piece))?;
@@ -210,20 +259,27 @@ fn gone() -> io::Error {
 }
 
 /// Replaces a file: one of another name beside it is written and flushed, and takes its name; then the folder is
-/// flushed, too.
+/// flushed, too. Nothing remains of what a full disk does not take.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut name = OsString::from(path);
     name.push(".new");
     let new = PathBuf::from(name);
-    let mut file = File::create(&new)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
-    drop(file);
-    fs::rename(&new, path)?;
+    write(&new, bytes)
+        .and_then(|()| fs::rename(&new, path))
+        .inspect_err(|_| {
+            let _ = fs::remove_file(&new);
+        })?;
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
     // Only Unix opens folders.
     if cfg!(unix) {
         File::open(folder.unwrap_or(Path::new(".")))?.sync_all()?;
     }
     Ok(())
+}
+
+/// Writes a file, and flushes it to the disk.
+fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
 }

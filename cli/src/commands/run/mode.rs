@@ -1,7 +1,7 @@
 //! The RUN/STOP switch of a run in real time: SIGUSR1 is STOP, SIGUSR2 is RUN.
 
 #[cfg(unix)]
-use signal_hook::consts::{SIGUSR1, SIGUSR2};
+use signal_hook::consts::{SIGUSR1, SIGUSR2, SIGXFSZ};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -25,6 +25,9 @@ impl Mode {
         for (signal, asked) in [(SIGUSR1, STOP), (SIGUSR2, RUN)] {
             let _ = signal_hook::flag::register_usize(signal, Arc::clone(&mode.0), asked);
         }
+        // A file that may not grow is as a full disk: it does not end the run.
+        #[cfg(unix)]
+        let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
         mode
     }
 

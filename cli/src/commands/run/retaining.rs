@@ -6,9 +6,6 @@ use rungc_rt::retain::RetainFile;
 use rungc_rt::{Class, Plc, Program};
 use std::path::PathBuf;
 
-/// How often a run in real time looks whether a latched device has changed.
-const EVERY_MS: u32 = 1000;
-
 /// Where a run keeps latched devices.
 #[derive(Clone, Debug)]
 pub struct Kept {
@@ -21,9 +18,7 @@ pub struct Kept {
 /// The file of a run.
 pub struct Retaining {
     file: RetainFile,
-    /// Saving has failed, which was reported.
-    fails: bool,
-    /// The bit that is on then.
+    /// The bit that is on while they cannot be saved.
     fault: Option<(Class, u32)>,
 }
 
@@ -43,46 +38,27 @@ impl Retaining {
         let file = RetainFile::begin(path, machine, say).map_err(|why| because(&why))?;
         Ok(Retaining {
             file,
-            fails: false,
             fault: *fault,
         })
     }
 
     /// Saves what has changed, once in a second. A disk that takes nothing does not stop the PLC: it is tried again.
     pub fn poll(&mut self, machine: &mut Machine, now_ms: u64) {
-        self.save(machine, now_ms);
+        if let Some(said) = self.file.keep(machine, now_ms as u32) {
+            tell(&format!("rungc: {said}"));
+        }
         if let Some((class, number)) = self.fault {
             // Every model that the settings fit has it.
-            let _ = machine.set_bit(class, number, self.fails);
+            let _ = machine.set_bit(class, number, self.file.fails());
         }
     }
 
-    fn save(&mut self, machine: &Machine, now_ms: u64) {
-        match self.file.poll(machine, now_ms as u32, EVERY_MS) {
-            Ok(saved) => {
-                if saved && std::mem::take(&mut self.fails) {
-                    let path = self.file.path().display();
-                    tell(&format!("rungc: {path}: latched devices are saved again"));
-                }
-            }
-            Err(error) if !self.fails => {
-                self.fails = true;
-                let path = self.file.path().display();
-                tell(&format!(
-                    "rungc: {path}: {error}; latched devices are not saved"
-                ));
-            }
-            Err(_) => {}
+    /// Saves what has changed since; whether the disk has taken it.
+    pub fn end(self, machine: &Machine) -> bool {
+        let saved = self.file.end(machine);
+        if let Err(why) = &saved {
+            tell(&format!("rungc: {why}"));
         }
-    }
-
-    /// Saves what has changed since.
-    pub fn end(mut self, machine: &Machine) -> std::result::Result<(), Failure> {
-        let saved = self.file.save(machine);
-        saved.map(drop).map_err(|error| self.failed(&error))
-    }
-
-    fn failed(&self, error: &std::io::Error) -> Failure {
-        Failure::Because(format!("{}: {error}", self.file.path().display()))
+        saved.is_ok()
     }
 }

@@ -13,21 +13,21 @@ use super::recording::Recording;
 use super::retaining::{Kept, Retaining};
 use super::scope::Scope;
 use super::serving::{Asked, Servers};
+use super::table::Table;
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
 use super::{Setting, hardware};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
-use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::io::Connection;
+use rungc_rt::wall::WallClock;
 use rungc_rt::{Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::{Plant, Wired};
 use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{DeviceClass, FittedModule};
-use std::io::{self, Write};
 use std::iter::Peekable;
 use std::slice::Iter;
 use std::time::{Duration, Instant};
@@ -36,6 +36,8 @@ use std::time::{Duration, Instant};
 struct Simulation<'a> {
     machine: Machine<'a>,
     hal: VirtualHal,
+    /// What the real-time clock follows in a run that keeps step with it.
+    wall: Option<WallClock>,
     pending: Peekable<Iter<'a, Setting>>,
     shown: &'a [Target],
     view: View,
@@ -106,7 +108,7 @@ impl Run<'_> {
     ) -> Result {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
-        let hal = hardware::of(args.in_real_time(), self.modules);
+        let (hal, wall) = self.hardware();
         machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.
         self.look_for_all(Seen {
@@ -114,10 +116,9 @@ impl Run<'_> {
             hal: &hal,
             plant: plant.as_ref(),
         })?;
-        let retaining = match &self.retain {
-            Some(kept) => Some(Retaining::begin(kept, &mut machine)?),
-            None => None,
-        };
+        let retaining = self.retain.as_ref();
+        let retaining = retaining.map(|kept| Retaining::begin(kept, &mut machine));
+        let retaining = retaining.transpose()?;
         let seen = Seen {
             machine: &machine,
             hal: &hal,
@@ -139,16 +140,18 @@ impl Run<'_> {
         let mut simulation = Simulation {
             machine,
             hal,
+            wall,
             pending: self.settings.iter().peekable(),
             shown: self.shown,
             view: View::new(
                 self.shown.iter().map(|&t| column(t)).collect(),
                 args.end_ms().is_some(),
             ),
-            out: Table {
-                muted: !self.table,
-                optional: recording.is_some() || plotting.is_some() || scope.is_some(),
-            },
+            out: Table::new(
+                !self.table,
+                recording.is_some() || plotting.is_some() || scope.is_some(),
+                args.serve.any(),
+            ),
             recording,
             recorder,
             plotting,
@@ -176,6 +179,14 @@ impl Run<'_> {
         }
         let outcome = simulation.run(args)?;
         simulation.end(args, outcome)
+    }
+
+    /// The hardware, and what its real-time clock follows in a run that keeps step with it.
+    fn hardware(&self) -> (VirtualHal, Option<WallClock>) {
+        let mut hal = hardware::of(self.modules);
+        let in_real_time = self.args.in_real_time();
+        let wall = in_real_time.then(|| WallClock::begin(&mut hal));
+        (hal, wall)
     }
 
     /// Looks for all that is set and shown.
@@ -219,13 +230,13 @@ impl<'a> Simulation<'a> {
                 .for_each(|text| tell(&format!("rungc: {text}")));
         }
         connected.end();
+        let retaining = self.retaining.take();
+        let is_kept = retaining.is_none_or(|retaining| retaining.end(&self.machine));
         let table = self.watch.table();
-        if !table.is_empty() {
-            say(&format!("\n{}\n", table.join("\n")))?;
-        }
-        if let Some(retaining) = self.retaining.take() {
-            retaining.end(&self.machine)?;
-        }
+        let said = match table.is_empty() {
+            true => Ok(()),
+            false => say(&format!("\n{}\n", table.join("\n"))),
+        };
         let errors = self.machine.errors();
         self.errors.summarise(errors);
         let denied = args.deny_errors && !errors.is_empty();
@@ -246,10 +257,11 @@ impl<'a> Simulation<'a> {
         if let Some(scope) = self.scope {
             scope.keep(&self.machine)?;
         }
-        Ok(match denied {
-            true => Outcome::Failed,
-            false => outcome,
-        })
+        if denied || !is_kept {
+            return Ok(Outcome::Failed);
+        }
+        said?;
+        Ok(outcome)
     }
 
     fn run(&mut self, args: &RunArgs) -> Result {
@@ -297,6 +309,9 @@ impl<'a> Simulation<'a> {
                     .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
             }
             self.pass(scan_ms)?;
+            if let Some(wall) = &mut self.wall {
+                wall.follow(&mut self.hal, self.now_ms);
+            }
             let (hal, machine) = (&mut self.hal, &mut self.machine);
             self.lines.send(hal, machine, self.now_ms, &mut self.watch);
         }
@@ -400,7 +415,11 @@ impl<'a> Simulation<'a> {
                 Due::Now | Due::NotYet => {
                     let shifted = self.live.as_mut().is_some_and(Live::has_shifted);
                     let begin = match shifted {
-                        true => Instant::now().checked_sub(next).unwrap_or(begin),
+                        true => {
+                            let wall = self.wall.iter_mut();
+                            wall.for_each(|wall| wall.stay(next.as_millis() as u64));
+                            Instant::now().checked_sub(next).unwrap_or(begin)
+                        }
                         false => begin,
                     };
                     return Ok((begin, scan_ms));
@@ -643,29 +662,6 @@ impl<'a> Simulation<'a> {
         match &mut self.recording {
             Some(recording) => recording.sample(1000 * self.now_ms, seen),
             None => Ok(()),
-        }
-    }
-}
-
-/// Standard output.
-struct Table {
-    /// The reader has closed it.
-    muted: bool,
-    /// A run that writes files continues then.
-    optional: bool,
-}
-
-impl Table {
-    fn line(&mut self, line: &str) -> std::result::Result<(), Failure> {
-        if self.muted {
-            return Ok(());
-        }
-        match writeln!(io::stdout().lock(), "{}", visible(line)).map_err(Failure::from) {
-            Err(Failure::BrokenPipe) if self.optional => {
-                self.muted = true;
-                Ok(())
-            }
-            result => result,
         }
     }
 }

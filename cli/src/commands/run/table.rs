@@ -1,0 +1,65 @@
+//! The table of a run on standard output.
+
+use crate::commands::{Failure, say, tell};
+use std::io;
+
+/// Standard output.
+pub struct Table {
+    /// The reader has closed it.
+    pub muted: bool,
+    /// A run that writes files continues then.
+    optional: bool,
+    /// A run that serves others continues whatever happens to it.
+    serves: bool,
+    /// It cannot be written, which was reported.
+    fails: bool,
+}
+
+impl Table {
+    /// That of a run that writes files (`optional`), or serves others.
+    pub const fn new(muted: bool, optional: bool, serves: bool) -> Self {
+        Table {
+            muted,
+            optional,
+            serves,
+            fails: false,
+        }
+    }
+
+    /// Prints a line.
+    ///
+    /// # Errors
+    /// It cannot be written, and the run is to end.
+    pub fn line(&mut self, line: &str) -> Result<(), Failure> {
+        if self.muted {
+            return Ok(());
+        }
+        let written = say(&format!("{line}\n"));
+        if self.serves {
+            self.report(written.err());
+            return Ok(());
+        }
+        match written.map_err(Failure::from) {
+            Err(Failure::BrokenPipe) if self.optional => {
+                self.muted = true;
+                Ok(())
+            }
+            result => result,
+        }
+    }
+
+    /// Reports once that standard output is full or closed, and that it is written again.
+    fn report(&mut self, error: Option<io::Error>) {
+        let fails = error.is_some();
+        match error {
+            Some(error) if !self.fails => {
+                tell(&format!(
+                    "rungc: standard output: {error}; the run continues"
+                ));
+            }
+            None if self.fails => tell("rungc: standard output is written again"),
+            _ => {}
+        }
+        self.fails = fails;
+    }
+}
