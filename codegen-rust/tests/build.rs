@@ -14,6 +14,7 @@ fn a_program_builds_without_warnings() {
         main: true,
         servers: false,
         io: false,
+        unsaved: None,
         defmt: false,
         runtime: Runtime::At(runtime_path()),
     };
@@ -57,6 +58,7 @@ fn a_program_keeps_its_last_error() {
         main: true,
         servers: false,
         io: false,
+        unsaved: None,
         defmt: false,
         runtime: Runtime::At(runtime_path()),
     };

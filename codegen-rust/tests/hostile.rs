@@ -37,6 +37,7 @@ fn options() -> Options {
         main: true,
         servers: false,
         io: false,
+        unsaved: None,
         defmt: false,
         runtime: Runtime::At(common::runtime_path()),
     }

@@ -9,6 +9,7 @@ fn emitted(path: &str) -> String {
         main: true,
         servers: false,
         io: false,
+        unsaved: None,
         defmt: false,
         runtime: Runtime::At("../runtime-rt".to_string()),
     };

@@ -51,6 +51,7 @@ fn options() -> Options {
         main: false,
         servers: false,
         io: false,
+        unsaved: None,
         defmt: false,
         runtime: Runtime::At(common::runtime_path()),
     }

@@ -87,7 +87,9 @@ mod system {
         let mut local = Local::default();
         // SAFETY: both are there, and `local` has room for what is written.
         let done = unsafe { localtime_r(&seconds, &mut local) };
-        (!done.is_null()).then(|| utc_ms + i64::from(local.offset) * 1000)
+        #[allow(clippy::useless_conversion, reason = "a long has 32 bits elsewhere")]
+        let offset = i64::from(local.offset);
+        (!done.is_null()).then(|| utc_ms + offset * 1000)
     }
 }
 

@@ -379,6 +379,10 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         };
         let is_up = result.is_ok();
         let is_lost = matches!(result, Err(Trouble::Lost(_)));
+        if is_lost {
+            // At once: a chip or a line that comes back has its old name only when nobody holds the old one.
+            driver = None;
+        }
         let news = result.err().map(Trouble::why);
         let mut state = shared.lock();
         state.is_up = is_up;
@@ -412,8 +416,5 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
             .changed
             .wait_timeout_while(state, wait, |state| !state.ends);
         drop(waited);
-        if is_lost {
-            driver = None;
-        }
     }
 }
