@@ -518,7 +518,7 @@ fn killing_it_while_it_saves_tears_no_file() {
     });
 }
 
-/// libfaketime 0.9.10 takes absolute times of the monotonic clock for times of day, even where it is told to leave that
+/// libfaketime 0.9.10 takes absolute times of the monotonic clock for times of day, even where it is to leave that
 /// clock alone; later versions do not.
 const MONOTONIC: &str = "\
 #define _GNU_SOURCE
@@ -543,7 +543,7 @@ fn faketime() -> Option<String> {
     library.map(|library| library.display().to_string())
 }
 
-/// Someone sets the time of day by hours, forward and back: scans and timers do not notice, the real-time clock follows.
+/// The time of day is set, forward and back by hours: scans and timers do not notice, the real-time clock follows.
 #[test]
 fn setting_the_clock_changes_only_the_real_time_clock() {
     let Some(faketime) = faketime() else {

@@ -209,8 +209,8 @@ fn nobody_who_listens_is_needed() {
         }
         let said = serving.interrupt();
         let said = text(&said.stderr);
-        let told = format!("rungc: standard output: {why}");
-        assert_eq!(said.matches(&told).count(), 1, "{said}");
+        let reported = format!("rungc: standard output: {why}");
+        assert_eq!(said.matches(&reported).count(), 1, "{said}");
         assert!(
             said.contains("; the run continues") && said.contains("interrupted"),
             "{said}"

@@ -103,6 +103,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     };
     let asks = servers && !module.requests.is_empty();
     let [ask, asked] = if asks { [ASK, ASKED] } else { [""; 2] };
+    let serve = format!("{follow}{poll}{ask}{exchange}");
     let host = Host {
         lines: &["/dev/ttyUSB0"],
         servers,
@@ -136,19 +137,9 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("        STOPPED;\n", stopped)
         .replace("    CLOCK;\n", set)
         .replace("    OPEN;\n", &open(module, &host))
-        .replace(
-            "        SERVE;\n",
-            &format!("{follow}{poll}{ask}{exchange}"),
-        )
+        .replace("        SERVE;\n", &serve)
         .replace("    CONNECTIONS;\n", &[connections, asked].concat())
-        .replace(
-            "        SAVE;\n",
-            &if keeps {
-                save(options.unsaved)
-            } else {
-                String::new()
-            },
-        )
+        .replace("        SAVE;\n", &save(keeps, options.unsaved))
         .replace("    END;\n", end)
         .replace("    LEAVE;\n", leave)
         .replace("OPTION_NAMES", &names.join(", "))
@@ -346,7 +337,10 @@ const CONNECTED: [&str; 6] = [
 ];
 
 /// Latched devices are saved after a scan; a device shows that they cannot be.
-fn save(unsaved: Option<(DeviceClass, u32)>) -> String {
+fn save(keeps: bool, unsaved: Option<(DeviceClass, u32)>) -> String {
+    if !keeps {
+        return String::new();
+    }
     let device = unsaved.and_then(|(class, number)| Some((rt_class(class)?, number)));
     let show = device.map(|(class, number)| {
         format!("            let _ = plc.set_bit(Class::{class:?}, {number}, file.fails());\n")

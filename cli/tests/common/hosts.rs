@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Shows in Y000 to Y003 how often it was started, in D200, which is latched. While X000 is on, D210 (latched) counts
-/// scans, Y010 changes after ten scans, and Y011 after 500 ms. Y012 is on while latched devices are not saved, Y013 while
-/// the hour is another one than at the start.
+/// scans, Y010 changes after ten scans, and Y011 after 500 ms. Y012 is on while latched devices are not saved, Y013
+/// while the hour is another one than at the start.
 pub const PROGRAM: &str = "\
 LD M8002
 INC D200

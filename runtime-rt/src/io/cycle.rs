@@ -380,7 +380,7 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         let is_up = result.is_ok();
         let is_lost = matches!(result, Err(Trouble::Lost(_)));
         if is_lost {
-            // At once: a chip or a line that comes back has its old name only when nobody holds the old one.
+            // At once: a chip or a line that comes back has its old name only when the old one is closed.
             driver = None;
         }
         let news = result.err().map(Trouble::why);
