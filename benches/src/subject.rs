@@ -365,6 +365,7 @@ impl RustSubject {
             main: false,
             servers: false,
             io: false,
+            unsaved: None,
             defmt: false,
             runtime: rungc_codegen_rust::Runtime::At(RUNTIME.to_string()),
         };
