@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{folder, rungc, text};
+use common::{cargo_built, folder, rungc, text};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
@@ -135,19 +135,6 @@ fn rust_program(folder: &Path, option: &[&str]) -> PathBuf {
         &[&["--emit", "rust", "--main", "-o", "slave"], option].concat(),
     );
     cargo_built(&folder.join("slave"), "slave")
-}
-
-/// What cargo builds of an emitted package.
-fn cargo_built(package: &Path, name: &str) -> PathBuf {
-    let output = Command::new("cargo")
-        .args(["build", "--quiet", "--offline"])
-        .env("CARGO_PROFILE_DEV_DEBUG", "false")
-        .env("CARGO_TARGET_DIR", package.join("target"))
-        .current_dir(package)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    package.join("target/debug").join(name)
 }
 
 /// Two pseudo-terminals that are joined.

@@ -5,9 +5,12 @@
 #![cfg(unix)]
 
 mod common;
+mod connected;
+mod tools;
 
 use common::running::Run;
 use common::{folder, free_port, text};
+use connected::Form;
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -149,68 +152,108 @@ fn pymodbus_reads_and_writes_over_tcp() {
     );
 }
 
-/// A station over TCP is killed while `rungc serve` or an executable runs (`how`).
-fn remote_io(how: &str) {
-    let Some(mut client) = python("pymodbus", "modbus_io.py") else {
-        return;
-    };
-    let folder = tempfile::tempdir().unwrap();
-    client.arg(how).arg(env!("CARGO_BIN_EXE_rungc"));
-    client.arg(folder.path());
-    succeeds(client);
+/// What runs while a station is killed.
+const REMOTE: &str = "\
+LD X000
+OUT Y000
+LD M100
+OUT Y001
+LD M8000
+INC D0
+MOV D100 D200
+MOV K4X020 D10
+MOV D11 K4Y020
+END
+";
+
+/// A program that runs while a station of pymodbus is killed.
+struct Remote {
+    folder: TempDir,
+    run: Command,
+    code: i32,
 }
 
-/// The same on a line.
-fn remote_io_on_a_line(how: &str) {
-    let Some(mut client) = python("pymodbus", "modbus_io.py") else {
-        return;
-    };
-    let mut socat = Command::new("socat");
-    socat.arg("-V");
-    if !there("socat", "RUNGC_REQUIRE_PEERS", socat) {
-        return;
+impl Remote {
+    /// `None` where something is missing.
+    fn new(form: Form) -> Option<Remote> {
+        python("pymodbus", "modbus_io.py")?;
+        let folder = program(REMOTE);
+        let run = form.command(folder.path(), "h2u", &["--modbus-tcp", "0"])?;
+        let code = form.code();
+        Some(Remote { folder, run, code })
     }
-    let folder = tempfile::tempdir().unwrap();
-    let ends = ["station", "plc"].map(|end| folder.path().join(end));
-    let links = ends
-        .each_ref()
-        .map(|end| format!("pty,rawer,link={}", end.display()));
-    let mut line = Command::new("socat").args(links).spawn().unwrap();
-    while !ends.iter().all(|end| end.exists()) {
-        std::thread::sleep(std::time::Duration::from_millis(10));
+
+    /// Runs it with the station at these ends of a line, or else over TCP.
+    fn with(&self, ends: &[PathBuf]) -> Command {
+        let mut client = python("pymodbus", "modbus_io.py").unwrap();
+        client.arg(self.folder.path()).arg(self.code.to_string());
+        let ends = ends.iter().map(|end| end.display().to_string());
+        client.arg(ends.collect::<Vec<_>>().join(","));
+        client.arg(self.run.get_program()).args(self.run.get_args());
+        client
     }
-    client.arg(how).arg(env!("CARGO_BIN_EXE_rungc"));
-    client.arg(folder.path()).args(&ends);
-    let output = client.output().unwrap();
-    line.kill().unwrap();
-    line.wait().unwrap();
-    assert!(
-        output.status.success(),
-        "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
-    );
+
+    fn over_tcp(&self) {
+        succeeds(self.with(&[]));
+    }
+
+    fn on_a_line(&self) {
+        let mut socat = Command::new("socat");
+        socat.arg("-V");
+        if !there("socat", "RUNGC_REQUIRE_PEERS", socat) {
+            return;
+        }
+        let ends = ["station", "plc"].map(|end| self.folder.path().join(end));
+        let links = ends
+            .each_ref()
+            .map(|end| format!("pty,rawer,link={}", end.display()));
+        let mut line = Command::new("socat").args(links).spawn().unwrap();
+        while !ends.iter().all(|end| end.exists()) {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+        let output = self.with(&ends).output().unwrap();
+        line.kill().unwrap();
+        line.wait().unwrap();
+        assert!(
+            output.status.success(),
+            "{}{}",
+            text(&output.stdout),
+            text(&output.stderr)
+        );
+    }
 }
 
 #[test]
 fn remote_io_of_pymodbus_is_lost_and_comes_back() {
-    remote_io("serve");
+    Remote::new(Form::Serve).inspect(Remote::over_tcp);
 }
 
 #[test]
 fn remote_io_of_pymodbus_on_a_line_is_lost_and_comes_back() {
-    remote_io_on_a_line("serve");
+    Remote::new(Form::Serve).inspect(Remote::on_a_line);
 }
 
 /// The same of executables, with the connections of the runtime.
 #[test]
 fn remote_io_of_an_executable_is_lost_and_comes_back() {
-    remote_io("bin");
+    Remote::new(Form::C).inspect(Remote::over_tcp);
 }
 
 #[test]
 fn remote_io_of_an_executable_on_a_line_is_lost_and_comes_back() {
-    remote_io_on_a_line("bin");
+    Remote::new(Form::C).inspect(Remote::on_a_line);
+}
+
+#[test]
+fn remote_io_of_an_executable_in_rust_is_lost_and_comes_back() {
+    let remote = Remote::new(Form::Rust).inspect(Remote::over_tcp);
+    remote.inspect(Remote::on_a_line);
+}
+
+/// QEMU does not pass the settings of a line on, so over TCP alone.
+#[test]
+fn remote_io_of_an_executable_for_arm_is_lost_and_comes_back() {
+    Remote::new(Form::Arm).inspect(Remote::over_tcp);
 }
 
 #[test]

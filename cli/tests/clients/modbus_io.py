@@ -1,7 +1,7 @@
-"""Remote I/O by a server of pymodbus, which is killed and comes back while a program runs: python3 modbus_io.py HOW RUNGC FOLDER [LINE LINE].
+"""Remote I/O by a server of pymodbus, which is killed and comes back while a program runs: python3 modbus_io.py FOLDER CODE LINE,LINE COMMAND...
 
-HOW is `serve` (`rungc serve`) or `bin` (an executable). The server is reached over TCP, or over the two ends of a serial line, the first its own. With --server and its place, this is that server: a port, or the
-end of a line. It takes lines from standard input: `set 2 0 1 0 1` (function, address, values) and `get 1 8 2` (count).
+COMMAND runs the program of the folder with its rungc.toml; interrupted, it ends with CODE. The server is reached over the two ends of a serial line, the first its own, or over TCP if there are none. With --server and
+its place, this is that server: a port, or the end of a line. It takes lines from standard input: `set 2 0 1 0 1` (function, address, values) and `get 1 8 2` (count).
 """
 
 import asyncio
@@ -50,20 +50,8 @@ if sys.argv[1] == "--server":
     asyncio.run(serve(sys.argv[2]))
     sys.exit()
 
-how, rungc, folder, *line = sys.argv[1:]
-
-PROGRAM = """\
-LD X000
-OUT Y000
-LD M100
-OUT Y001
-LD M8000
-INC D0
-MOV D100 D200
-MOV K4X020 D10
-MOV D11 K4Y020
-END
-"""
+folder, code, line, *command = sys.argv[1:]
+line = line.split(",") if line else []
 
 SETTINGS = """\
 [project]
@@ -124,17 +112,9 @@ else:
         free.bind(("127.0.0.1", 0))
         place = str(free.getsockname()[1])
     connection = f'modbus-tcp = "127.0.0.1:{place}"'
-with open(os.path.join(folder, "p.il"), "w") as file:
-    file.write(PROGRAM)
 with open(os.path.join(folder, "rungc.toml"), "w") as file:
     file.write(SETTINGS % connection)
 
-if how == "bin":
-    build = [rungc, "build", "p.il", "--emit", "bin", "--io", "--servers", "-o", "p"]
-    subprocess.run(build, cwd=folder, check=True, capture_output=True)
-    command, code = ["./p", "--io", "rungc.toml", "--modbus-tcp", "0"], 0
-else:
-    command, code = [rungc, "serve"], 130
 # The station is not there yet.
 pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
 # A shell's background jobs ignore SIGINT, and executables leave it so.
@@ -209,7 +189,7 @@ try:
     # The end of a run leaves the outputs off.
     plc.close()
     run.send_signal(signal.SIGINT)
-    assert run.wait(20) == code
+    assert run.wait(20) == int(code)
     assert server.coils() == [0] * 8
     assert server.registers() == [500, 0]
     server.kill()

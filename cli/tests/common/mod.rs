@@ -100,6 +100,19 @@ pub fn rungc(folder: &Path, args: &[&str]) -> Output {
         .unwrap()
 }
 
+/// What cargo builds of an emitted package.
+pub fn cargo_built(package: &Path, name: &str) -> PathBuf {
+    let output = Command::new("cargo")
+        .args(["build", "--quiet", "--offline"])
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .env("CARGO_TARGET_DIR", package.join("target"))
+        .current_dir(package)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    package.join("target/debug").join(name)
+}
+
 pub fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
