@@ -76,14 +76,15 @@ fn deny() -> Deny {
     toml::from_str(&text).expect("deny.toml is well-formed")
 }
 
-/// The packages that are built on this machine.
+/// The packages that are built on this machine, with all features of the project. Cargo fetches those that were never
+/// built here.
 fn metadata() -> Metadata {
     let version = Command::new("rustc").arg("-vV").output().expect("rustc");
     let version = String::from_utf8_lossy(&version.stdout).into_owned();
     let host = version.lines().find_map(|line| line.strip_prefix("host: "));
     let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--offline", "--locked", "--format-version", "1"])
-        .args(["--filter-platform", host.expect("a host")])
+        .args(["metadata", "--locked", "--format-version", "1"])
+        .args(["--all-features", "--filter-platform", host.expect("a host")])
         .current_dir(root())
         .output()
         .expect("cargo");

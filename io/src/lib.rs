@@ -7,6 +7,8 @@
 #[cfg(feature = "mqtt")]
 mod mqtt;
 mod rtu;
+#[cfg(feature = "tls")]
+mod tls;
 
 use rungc_rt::io::{Connection, Kind, Opener};
 

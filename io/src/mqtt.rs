@@ -1,5 +1,9 @@
 //! Brokers, by rumqttc: values are published at least once.
 
+#[cfg(feature = "tls")]
+use crate::tls::explained;
+#[cfg(not(feature = "tls"))]
+use rumqttc::ConnectionError;
 use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
 use rungc_rt::io::{Connection, Driver, Opener, Trouble, address, password, take, topics};
 use std::collections::BTreeMap;
@@ -79,7 +83,9 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         options.set_credentials(user, password);
     }
     #[cfg(feature = "tls")]
-    encrypt(connection, &mut options)?;
+    if let Some(transport) = crate::tls::transport(connection)? {
+        options.set_transport(transport);
+    }
     let subscribed = connection
         .directed(true)
         .flat_map(topics)
@@ -91,14 +97,17 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         .network_options
         .set_connection_timeout(timeout.as_secs().max(1));
     let (sender, news) = mpsc::channel();
+    let described = connection.clone();
     let listen = move || {
+        let mut accepted = false;
         for event in events.iter() {
             let news = match event {
                 Ok(Event::Incoming(Packet::ConnAck(_))) => News::Connected,
                 Ok(Event::Incoming(Packet::Publish(publish))) => News::Value(publish),
                 Ok(_) => continue,
-                Err(error) => News::Lost(error.to_string()),
+                Err(error) => News::Lost(explained(&error, &described, accepted)),
             };
+            accepted = true;
             let is_over = matches!(news, News::Lost(_));
             if sender.send(news).is_err() || is_over {
                 break;
@@ -134,20 +143,10 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     Ok(Box::new(broker))
 }
 
-/// Encrypts a connection, if that is asked for: with the certificates in the files that it names.
-#[cfg(feature = "tls")]
-fn encrypt(connection: &Connection, options: &mut MqttOptions) -> Result<(), String> {
-    let read = |key: &str| {
-        let path = connection.options.get(key);
-        path.map(|path| std::fs::read(path).map_err(|error| format!("{path}: {error}")))
-            .transpose()
-    };
-    let Some(ca) = read("ca")? else {
-        return Ok(());
-    };
-    let client_auth = read("certificate")?.zip(read("key")?);
-    options.set_transport(rumqttc::Transport::tls(ca, client_auth, None));
-    Ok(())
+/// Why there is no connection; `accepted`: whether there was one.
+#[cfg(not(feature = "tls"))]
+fn explained(error: &ConnectionError, _: &Connection, _accepted: bool) -> String {
+    error.to_string()
 }
 
 impl Broker {

@@ -31,22 +31,26 @@ impl Drop for Ends {
 
 /// Whether there is a broker.
 pub fn is_there() -> bool {
-    let there = ["mosquitto", "mosquitto_pub"].iter().all(|name| {
+    are_there(&["mosquitto", "mosquitto_pub"])
+}
+
+/// Whether programs are there that a test needs.
+pub fn are_there(programs: &[&str]) -> bool {
+    let is_missing = |name: &&&str| {
         let mut command = Command::new(name);
-        command
-            .arg("-h")
-            .stdout(Stdio::null())
-            .stderr(Stdio::null());
-        command.status().is_ok()
-    });
-    if !there {
-        assert!(
-            env::var_os("RUNGC_REQUIRE_PEERS").is_none(),
-            "RUNGC_REQUIRE_PEERS is set, but there is no mosquitto"
-        );
-        eprintln!("skipped: there is no mosquitto (see .ci/run)");
-    }
-    there
+        let command = command.arg("-h").stdin(Stdio::null());
+        let silent = command.stdout(Stdio::null()).stderr(Stdio::null());
+        silent.status().is_err()
+    };
+    let Some(missing) = programs.iter().find(is_missing) else {
+        return true;
+    };
+    assert!(
+        env::var_os("RUNGC_REQUIRE_PEERS").is_none(),
+        "RUNGC_REQUIRE_PEERS is set, but there is no {missing}"
+    );
+    eprintln!("skipped: there is no {missing} (see .ci/run)");
+    false
 }
 
 /// Waits until something is so.
