@@ -147,7 +147,8 @@ impl Tools {
             return Ok(());
         }
         Err(BuildError::Missing(format!(
-            "the Rust toolchain has no library for {triple}: run `rustup target add {triple}`"
+            "the Rust toolchain has no library for {triple}: run `rustup target add {triple}`, or name one that has it by \
+             CARGO and RUSTC"
         )))
     }
 
