@@ -240,7 +240,7 @@ ca = 'ca.pem'
 certificate = 'plc.pem'
 key = 'plc.key'
 fault = 'M100'
-timeout = '5s'
+timeout = '20s'
 status = 'plant/status'
 X000 = 'read plant/start'
 Y000 = 'write plant/motor'
@@ -370,7 +370,7 @@ Y000 = 'write plant/motor'
         let mut plc = String::from(SETTINGS);
         for (name, listener, keys) in WRONG {
             plc += &format!(
-                "\n[io.{name}]\nmqtt = 'localhost:{listener}'\ntimeout = '5s'\n{keys}\nY007 = 'write {name}'\n"
+                "\n[io.{name}]\nmqtt = 'localhost:{listener}'\ntimeout = '20s'\n{keys}\nY007 = 'write {name}'\n"
             );
         }
         for (name, port) in &ports {
