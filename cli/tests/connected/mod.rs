@@ -1,4 +1,4 @@
-//! A program with connections in the forms in which it runs: by `rungc serve`, and as an executable of emitted C or Rust.
+//! A program with connections in the forms in which it runs: by `rungc serve`, and as an executable of C or Rust.
 
 use crate::common::{cache, cargo_built, rungc, text};
 use crate::tools::{self, cargo, leave_out, no_rust, with_cargo, with_library};
