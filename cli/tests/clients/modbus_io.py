@@ -117,8 +117,7 @@ with open(os.path.join(folder, "rungc.toml"), "w") as file:
 
 # The station is not there yet.
 pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
-# A shell's background jobs ignore SIGINT, and executables leave it so.
-run = subprocess.Popen(command, cwd=folder, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), **pipes)
+run = subprocess.Popen(command, cwd=folder, text=True, **pipes)
 said = []
 while not (said and "Modbus TCP at" in said[-1]):
     said.append(run.stderr.readline())

@@ -33,7 +33,7 @@ impl Form {
             args.push("--servers");
         }
         let program = folder.join("p");
-        // Tests may run where interrupts are ignored; a program that they started would not end.
+        // A shell's background jobs ignore interrupts, and executables leave it so.
         let mut run = Command::new("env");
         run.arg("--default-signal=INT");
         match self {
