@@ -2,8 +2,10 @@
 
 mod decoders;
 mod lines;
+mod memories;
 mod readers;
 mod servers;
+mod texts;
 
 use crate::partner;
 
@@ -27,6 +29,8 @@ pub fn all() -> Vec<Target> {
         .chain(servers::targets())
         .chain(decoders::targets())
         .chain(readers::targets())
+        .chain(texts::targets())
+        .chain(memories::targets())
         .collect()
 }
 

@@ -1,12 +1,14 @@
 //! Every target on its corpus, and for a short random campaign. `RUNGC_FUZZ_SECONDS` makes the campaign of each target
-//! that long.
+//! that long, `RUNGC_FUZZ` names one target alone.
 
 use rungc_fuzz::random::Random;
 use rungc_fuzz::targets::{Target, all};
+use std::collections::BTreeSet;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
+use walkdir::WalkDir;
 
 /// The campaign of each target without the variable.
 const SHORT: Duration = Duration::from_millis(200);
@@ -41,7 +43,9 @@ fn every_target_survives_its_corpus_and_random_damage() {
         .and_then(|text| text.parse().ok());
     let time = seconds.map_or(SHORT, Duration::from_secs);
     let mut random = Random::new(seconds.unwrap_or_default());
-    for target in &all() {
+    let only = std::env::var("RUNGC_FUZZ").ok();
+    let is_wanted = |target: &&Target| only.as_ref().is_none_or(|only| only == target.name);
+    for target in all().iter().filter(is_wanted) {
         let inputs = inputs(target);
         assert!(
             !inputs.is_empty(),
@@ -74,6 +78,122 @@ fn every_corpus_belongs_to_a_target() {
         assert!(
             targets.iter().any(|target| *target.name == *name),
             "{name:?}"
+        );
+    }
+}
+
+/// Crates whose functions the command line and its users call; what reads in the command line itself is private to it.
+const OUTSIDE: [&str; 6] = ["benches", "cli", "fuzz", "golden", "target", "xtask"];
+
+/// How the names of functions begin that read what others have written.
+const VERBS: [&str; 8] = [
+    "accept", "answer", "decode", "open", "parse", "read", "receive", "take",
+];
+
+/// Functions of these names that read nothing.
+const NO_READERS: [&str; 3] = [
+    "codegen-c/src/code.rs open",
+    "codegen-c/src/page.rs open",
+    "runtime-sources/src/cache.rs take",
+];
+
+/// Readers and decoders, each with a target that calls it.
+#[rustfmt::skip]
+const READERS: [(&str, &str); 39] = [
+    ("firmware/src/board.rs parse", "board"),
+    ("firmware/src/flash.rs read", "flash-file"),
+    ("firmware/src/flash/uf2.rs read", "flash-file"),
+    ("fleet/src/format.rs parse", "fleet-file"),
+    ("frontend/src/gx/program.rs read", "gx-developer"),
+    ("frontend/src/gx/works2/container.rs open", "gx-works2"),
+    ("frontend/src/gx/works2/objects.rs read", "gx-works2"),
+    ("frontend/src/il/mod.rs read_text", "instruction-list"),
+    ("frontend/src/lib.rs read_bytes", "memory-image"),
+    ("frontend/src/lib.rs read_bytes_with", "plcopen"),
+    ("frontend/src/lib.rs read_from", "instruction-list"),
+    ("frontend/src/plcopen/variables.rs parse", "variable-names"),
+    ("project/src/lib.rs parse", "settings"),
+    ("project/src/reader.rs read", "settings"),
+    ("project/src/serve.rs parse", "words"),
+    ("project/src/serve.rs parse_can", "words"),
+    ("runtime-rt/src/comm/can.rs parse", "decode-can"),
+    ("runtime-rt/src/comm/computer_link.rs answer", "decode-computer-link"),
+    ("runtime-rt/src/comm/computer_link/master.rs accept", "computer-link-master"),
+    ("runtime-rt/src/comm/fx_port.rs answer", "decode-programming-port"),
+    ("runtime-rt/src/comm/link.rs receive", "nn-slave"),
+    ("runtime-rt/src/comm/mc.rs answer", "decode-tcp"),
+    ("runtime-rt/src/comm/modbus/adu.rs open", "decode-modbus-slave"),
+    ("runtime-rt/src/comm/modbus/adu.rs open_ascii", "decode-modbus-slave"),
+    ("runtime-rt/src/comm/modbus/adu.rs open_rtu", "decode-modbus-slave"),
+    ("runtime-rt/src/comm/modbus/exchange.rs receive", "modbus-rtu-master"),
+    ("runtime-rt/src/comm/modbus/master.rs accept", "decode-modbus-master"),
+    ("runtime-rt/src/comm/modbus/slave.rs answer", "decode-modbus-slave"),
+    ("runtime-rt/src/comm/modbus/tcp.rs answer", "decode-tcp"),
+    ("runtime-rt/src/io/settings.rs read", "connections"),
+    ("runtime-rt/src/io/text.rs parse", "connections"),
+    ("runtime-rt/src/io/topics.rs take", "connections"),
+    ("runtime-rt/src/servers/dialogue.rs receive", "mc"),
+    ("sim/src/plant/format/mod.rs parse", "machine"),
+    ("sim/src/plctest/mod.rs parse", "test-file"),
+    ("sim/src/protocol.rs parse", "words"),
+    ("sim/src/serve/decode.rs decode", "overheard"),
+    ("sim/src/target.rs parse", "words"),
+    ("verify/src/property/parse.rs parse", "condition"),
+];
+
+/// The public functions in the sources that take texts or bytes and whose names say that they read them.
+fn readers() -> BTreeSet<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let crates = fs::read_dir(root).unwrap().map(|entry| entry.unwrap());
+    let crates = crates.filter(|entry| {
+        let name = entry.file_name();
+        entry.path().join("Cargo.toml").exists() && OUTSIDE.iter().all(|outside| *outside != name)
+    });
+    let files = crates.flat_map(|entry| WalkDir::new(entry.path().join("src")));
+    let mut found = BTreeSet::new();
+    for file in files.map(|file| file.unwrap()) {
+        let path = file.path();
+        let is_source = path.extension().is_some_and(|extension| extension == "rs");
+        if !is_source || path.ends_with("tests.rs") {
+            continue;
+        }
+        let text = fs::read_to_string(path).unwrap();
+        for function in text.split("pub fn ").skip(1) {
+            let signature = function.split('{').next().unwrap_or_default();
+            let takes = signature.split("->").next().unwrap_or_default();
+            let ends = |c: char| !c.is_alphanumeric() && c != '_';
+            let name = function.split(ends).next().unwrap_or_default();
+            let verb = name.split('_').next().unwrap_or_default();
+            let reads = ["&str", "[u8]", "&Source"]
+                .iter()
+                .any(|kind| takes.contains(kind));
+            if reads && VERBS.contains(&verb) {
+                let path = path.strip_prefix(root).unwrap().display();
+                found.insert(format!("{path} {name}"));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_reader_has_a_target() {
+    let targets = all();
+    let known: BTreeSet<String> = READERS
+        .iter()
+        .map(|(reader, _)| *reader)
+        .chain(NO_READERS)
+        .map(str::to_string)
+        .collect();
+    assert_eq!(
+        readers(),
+        known,
+        "the table of readers is to have all of them"
+    );
+    for (reader, name) in READERS {
+        assert!(
+            targets.iter().any(|target| target.name == name),
+            "{reader}: {name}"
         );
     }
 }

@@ -8,6 +8,8 @@ pub mod book;
 pub mod operands;
 pub mod random;
 pub mod rng;
+pub mod rows;
+pub mod shapes;
 pub mod stations;
 
 use rungc_ir::Module;

@@ -1,7 +1,7 @@
 //! Random applied instructions: operands as the catalogue's rows allow them.
 
 use crate::rng::Rng;
-use rungc_catalogue::{Drive, Form, Forms, Inst, Lower, Param, Role, Shape};
+use rungc_catalogue::{Basic, Drive, Form, Forms, Inst, Lower, Param, Role, Shape};
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::runs::FIRST_COUNTER32;
 use rungc_models::{Model, ModelId};
@@ -26,21 +26,46 @@ pub struct Candidate {
 
 /// All applied instructions that a model has and that are implemented.
 pub fn candidates(model: ModelId) -> Vec<Candidate> {
+    select(model, |inst| {
+        let lower = inst.lower_on_model(model);
+        inst.drive == Drive::Contact && !matches!(lower, Lower::Basic(_) | Lower::Compare(..))
+    })
+}
+
+/// All instructions of a model that may stand in any rung, in all their forms: applied ones, contacts, coils,
+/// comparisons.
+pub fn in_any_rung(model: ModelId) -> Vec<Candidate> {
+    let mut found = select(model, |inst| match inst.lower_on_model(model) {
+        Lower::Basic(basic) => stands_alone(basic),
+        _ => true,
+    });
+    found.retain(|found| found.inst.spelling_of(found.form).as_ref() == Some(&found.spelling));
+    found
+}
+
+/// Whether nothing else of a program belongs to a basic instruction but the rest of its rung.
+fn stands_alone(basic: Basic) -> bool {
+    use Basic::{And, Andf, Andp, Ani, Inv, Ld, Ldf, Ldi, Ldp, Mef, Mep, Nop, Or, Orf, Ori, Orp};
+    use Basic::{Out, Plf, Pls, Rst, Set, Wdt};
+    match basic {
+        Ld | Ldi | Ldp | Ldf | And | Ani | Andp | Andf | Or | Ori | Orp | Orf => true,
+        Inv | Mep | Mef | Nop | Out | Set | Rst | Pls | Plf | Wdt => true,
+        _ => false,
+    }
+}
+
+/// The implemented instructions of a model that are wanted, in all their spellings.
+fn select(model: ModelId, is_wanted: impl Fn(&Inst) -> bool) -> Vec<Candidate> {
     rungc_catalogue::all()
-        .filter(|inst| inst.models.has(model) && inst.drive == Drive::Contact)
-        .filter(|inst| {
-            let lower = inst.lower_on_model(model);
-            !matches!(lower, Lower::Basic(_) | Lower::Compare(..) | Lower::Todo(_))
-        })
+        .filter(|inst| inst.models.has(model) && is_wanted(inst))
+        .filter(|inst| !matches!(inst.lower_on_model(model), Lower::Todo(_)))
         .flat_map(|inst| {
-            let has = inst.forms_on(model);
             let spellings = inst.spellings().into_iter();
             spellings
                 .filter(move |(spelling, form)| {
-                    let width = if form.wide { Forms::W32 } else { Forms::W16 };
                     // A spelling without its D is another name on some models only.
                     let bare = rungc_catalogue::find(spelling).is_none_or(|found| found.bare);
-                    has.has(width) && (!form.pulse || has.has(Forms::PULSE)) && !bare
+                    has_form(inst, *form, model) && !bare
                 })
                 .map(move |(spelling, form)| Candidate {
                     spelling,
@@ -51,26 +76,68 @@ pub fn candidates(model: ModelId) -> Vec<Candidate> {
         .collect()
 }
 
+/// Whether an instruction has a form on a model.
+pub fn has_form(inst: &Inst, form: Form, model: ModelId) -> bool {
+    let has = inst.forms_on(model);
+    let width = if form.wide { Forms::W32 } else { Forms::W16 };
+    inst.models.has(model) && has.has(width) && (!form.pulse || has.has(Forms::PULSE))
+}
+
 impl Candidate {
     /// The instruction's row.
     pub fn inst(&self) -> &'static Inst {
         self.inst
     }
 
+    /// Its form.
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
     /// The instruction with random operands that the compiler accepts; `None` if it was not lucky.
     pub fn draw(&self, rng: &mut Rng, model: ModelId) -> Option<String> {
-        (0..6).find_map(|_| {
-            let params = self.inst.params_of(&[], Model::get(model));
-            let mut text = self.spelling.clone();
-            for param in params {
-                if param.optional && rng.percent(50) {
-                    break;
-                }
-                text.push(' ');
-                text.push_str(&operand(rng, param, self.form, Model::get(model))?);
+        (0..6).find_map(|_| self.attempt(rng, model, None))
+    }
+
+    /// The same with all its operands, each of the class whose turn it is, if the compiler accepts that.
+    pub fn draw_in_turn(&self, rng: &mut Rng, model: ModelId, turn: u32) -> Option<String> {
+        // Some instructions want few of the devices that there are.
+        let mut turns = [Some(turn); 6].into_iter().chain([None; 1000]);
+        turns.find_map(|turn| self.attempt(rng, model, turn))
+    }
+
+    fn attempt(&self, rng: &mut Rng, model: ModelId, turn: Option<u32>) -> Option<String> {
+        let params = self.inst.params_of(&[], Model::get(model));
+        let mut text = self.spelling.clone();
+        for param in params {
+            if param.optional && turn.is_none() && rng.percent(50) {
+                break;
             }
-            accepted(&text, model).then_some(text)
-        })
+            let classes = each(param.classes_on(Model::get(model)));
+            let class = match turn {
+                Some(turn) => classes
+                    .get((turn as usize).checked_rem(classes.len())?)
+                    .copied(),
+                None => rng.pick(&classes),
+            };
+            text.push(' ');
+            text.push_str(&operand(
+                rng,
+                param,
+                (class?, self.form),
+                Model::get(model),
+            )?);
+        }
+        accepted(&self.after_contact(&text), model).then_some(text)
+    }
+
+    /// The instruction as it may stand after a contact, with what belongs to it.
+    pub fn after_contact(&self, text: &str) -> String {
+        match self.inst.drive {
+            Drive::Logic if text.starts_with("LD") => format!("{text}\nANB\nOUT M0"),
+            Drive::Logic => format!("{text}\nOUT M0"),
+            Drive::Contact | Drive::Alone => text.to_string(),
+        }
     }
 }
 
@@ -86,15 +153,19 @@ pub fn accepted(instruction: &str, model: ModelId) -> bool {
 }
 
 /// The classes of a set, one by one.
-fn each(classes: Classes) -> Vec<Classes> {
+pub(crate) fn each(classes: Classes) -> Vec<Classes> {
     (0..32)
         .map(|bit| Classes(1 << bit))
         .filter(|class| class.meets(classes))
         .collect()
 }
 
-fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<String> {
-    let class = rng.pick(&each(param.classes_on(model)))?;
+fn operand(
+    rng: &mut Rng,
+    param: &Param,
+    (class, form): (Classes, Form),
+    model: &Model,
+) -> Option<String> {
     let wide = form.wide && param.shape == Shape::Value || param.shape == Shape::Pair;
     if class == Classes::K || class == Classes::H {
         let bits = if wide { 32 } else { 16 };
@@ -194,7 +265,7 @@ fn device(
 
 #[cfg(test)]
 mod tests {
-    use super::{Rng, candidates};
+    use super::{Rng, in_any_rung};
     use rungc_models::ModelId;
 
     #[test]
@@ -202,7 +273,7 @@ mod tests {
         let mut rng = Rng::new(1);
         let mut never = Vec::new();
         for model in ModelId::ALL {
-            for candidate in candidates(model) {
+            for candidate in in_any_rung(model) {
                 let drawn = (0..200).find_map(|_| candidate.draw(&mut rng, model));
                 if drawn.is_none() {
                     never.push(format!("{model:?} {}", candidate.spelling));

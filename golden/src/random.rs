@@ -1,8 +1,10 @@
 //! Random programs: well-formed by construction, drawing on the whole catalogue.
 
+mod flow;
+
 use crate::operands::{BUFFER_WORDS, Candidate, accepted, first_counter32, special_register};
 use crate::rng::Rng;
-use rungc_models::interrupts::Gate;
+use flow::Subroutine;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -15,8 +17,10 @@ struct Writer<'c> {
     lines: Vec<String>,
     /// Next pointer to be given away.
     next_label: u32,
-    /// Subroutines to be written after FEND.
-    subroutines: Vec<u32>,
+    /// Subroutines to be written after FEND, in this order.
+    subroutines: Vec<Subroutine>,
+    /// How many calls lead to what is written now.
+    depth: u32,
     /// How often instructions with a limit were used.
     uses: BTreeMap<&'static str, u32>,
     /// Depth of loops, and of MC.
@@ -26,76 +30,58 @@ struct Writer<'c> {
 
 /// A program of about `rungs` rungs for a model, made of these instructions.
 pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) -> String {
-    let mut writer = Writer {
-        rng: Rng::new(seed),
-        model,
-        candidates,
-        lines: Vec::new(),
-        next_label: 0,
-        subroutines: Vec::new(),
-        uses: BTreeMap::new(),
-        loops: 0,
-        masters: 0,
-    };
+    let mut writer = Writer::new(seed, model, candidates);
     let interrupts = if writer.rng.percent(25) {
-        writer.enable_interrupts()
+        let mut all = writer.enable_interrupts();
+        all.retain(|_| writer.rng.percent(60));
+        Some(all)
     } else {
         writer.high_speed_counter();
-        Vec::new()
+        None
     };
-    if writer.rng.percent(25) {
-        writer.steps();
+    if writer.rng.percent(30) {
+        writer.steps(0);
     }
     writer.body(rungs, true);
-    if !writer.subroutines.is_empty() || !interrupts.is_empty() {
-        writer.lines.push("FEND".into());
-        for pointer in interrupts {
-            writer.lines.push(format!("I{pointer:03}"));
-            writer.body(2, false);
-            writer.lines.push("IRET".into());
-        }
-        for label in std::mem::take(&mut writer.subroutines) {
-            writer.lines.push(format!("P{label}"));
-            writer.body(2, false);
-            writer.lines.push("SRET".into());
-        }
-    }
-    writer.lines.push("END".into());
-    writer.lines.join("\n") + "\n"
+    writer.routines(interrupts);
+    writer.end()
 }
 
-/// Interrupt pointers of a model with what masks them: of one edge of the first input, of one edge of the next, and of
-/// two timers.
-fn pointers(model: &Model) -> Vec<(u32, Gate)> {
-    let find = |n: u32| {
-        let found = model.interrupts.find(n)?;
-        let exists = model.has(DeviceClass::I, n) && found.source.is_some();
-        exists.then_some((n, found.gate))
-    };
-    let [first, second] = [[1, 0], [100, 101]].map(|pair| pair.into_iter().find_map(find));
-    let all = [first, second, find(610), find(710)];
-    all.into_iter().flatten().collect()
+/// A program for a model that has each structure there is: loops, zones, jumps, subroutines, interrupt routines, a step
+/// ladder.
+pub fn with_all_structures(seed: u64, model: ModelId, candidates: &[Candidate]) -> String {
+    let mut writer = Writer::new(seed, model, candidates);
+    let interrupts = writer.enable_interrupts();
+    writer.all_structures();
+    writer.routines(Some(interrupts));
+    writer.end()
+}
+
+impl<'c> Writer<'c> {
+    fn new(seed: u64, model: ModelId, candidates: &'c [Candidate]) -> Self {
+        Writer {
+            rng: Rng::new(seed),
+            model,
+            candidates,
+            lines: Vec::new(),
+            next_label: 0,
+            subroutines: Vec::new(),
+            depth: 0,
+            uses: BTreeMap::new(),
+            loops: 0,
+            masters: 0,
+        }
+    }
+
+    fn end(mut self) -> String {
+        self.line("END");
+        self.lines.join("\n") + "\n"
+    }
 }
 
 impl Writer<'_> {
     fn line(&mut self, line: impl Into<String>) {
         self.lines.push(line.into());
-    }
-
-    /// EI, and whatever else the pointers need that it gives.
-    fn enable_interrupts(&mut self) -> Vec<u32> {
-        self.line("EI");
-        self.line("LD M8002");
-        let all = pointers(Model::get(self.model));
-        for (_, gate) in &all {
-            self.line(match gate {
-                Gate::Forbids(mask) => format!("RST M{}", mask.number()),
-                Gate::Allows(mask) => format!("SET M{}", mask.number()),
-                Gate::Open => continue,
-            });
-        }
-        let drawn = all.into_iter().filter(|_| self.rng.percent(60));
-        drawn.map(|(pointer, _)| pointer).collect()
     }
 
     /// A counter of the first inputs, sometimes, with comparisons at the count and a table.
@@ -125,10 +111,13 @@ impl Writer<'_> {
         }
         if self.rng.percent(50) && self.knows("DHSZ") {
             self.logic(1);
-            self.line(match model.high_speed.patterns.relay {
-                Some(relay) => format!("DHSZ D0 K3 C{counter} M{}", relay.number()),
-                None => format!("DHSCT D1000 K3 C{counter} M16 K6"),
-            });
+            match model.high_speed.patterns.relay {
+                Some(relay) => self.line(format!("DHSZ D0 K3 C{counter} M{}", relay.number())),
+                None if self.knows("DHSCT") => {
+                    self.line(format!("DHSCT D1000 K3 C{counter} M16 K6"));
+                }
+                None => self.line("OUT M16"),
+            }
         }
     }
 
@@ -138,24 +127,18 @@ impl Writer<'_> {
         found.is_some_and(|found| found.inst.models.has(self.model))
     }
 
-    fn label(&mut self) -> u32 {
-        self.next_label += 1;
-        // P63 means END and is not a label.
-        if self.next_label == 63 {
-            self.next_label = 64;
-        }
-        self.next_label - 1
-    }
-
-    /// Rungs and what surrounds them; `main` bodies may hold MC zones and calls.
+    /// Rungs and what surrounds them; `main` bodies may hold MC zones.
     fn body(&mut self, rungs: u32, main: bool) {
+        // Calls nest in routines, of which there are few.
+        let kinds = if self.depth > 0 { 10 } else { 20 };
         for _ in 0..rungs {
-            match self.rng.below(20) {
-                0 if self.next_label < 60 && self.rng.percent(80) => self.jump(main),
-                0 => self.bounded_index(),
+            match self.rng.below(kinds) {
+                0 => self.jumps(main),
                 1 if self.loops < 2 => self.repeat(),
                 2 if main && self.loops == 0 && self.masters < 3 => self.master(),
-                3 if main && self.next_label < 60 => self.call(),
+                // A call in a loop would be made again for each call that leads to it.
+                3 if self.loops == 0 => self.call(),
+                4 if self.loops == 0 => self.seldom(),
                 _ => self.rung(),
             }
         }
@@ -203,86 +186,6 @@ impl Writer<'_> {
                 self.line(indexed);
             }
         }
-    }
-
-    /// CJ over some rungs.
-    fn jump(&mut self, main: bool) {
-        let label = self.label();
-        self.logic(1);
-        self.line(format!("CJ P{label}"));
-        let rungs = 1 + self.rng.below(2);
-        for _ in 0..rungs {
-            if main && self.rng.percent(20) && self.loops < 2 {
-                self.repeat();
-            } else {
-                self.rung();
-            }
-        }
-        self.line(format!("P{label}"));
-    }
-
-    fn repeat(&mut self) {
-        let count = match self.rng.below(4) {
-            // A count that is only known in the run, and small.
-            0 => "K1X000".to_string(),
-            _ => format!("K{}", self.rng.below(4)),
-        };
-        self.line(format!("FOR {count}"));
-        self.loops += 1;
-        let rungs = 1 + self.rng.below(2);
-        self.body(rungs, false);
-        self.loops -= 1;
-        self.line("NEXT");
-    }
-
-    fn master(&mut self) {
-        let level = self.masters;
-        self.logic(1);
-        let number = 60 + self.rng.below(4);
-        self.line(format!("MC N{level} M{number}"));
-        self.masters += 1;
-        let rungs = 1 + self.rng.below(3);
-        self.body(rungs, true);
-        self.masters -= 1;
-        self.line(format!("MCR N{level}"));
-    }
-
-    fn call(&mut self) {
-        let label = match self.rng.pick(&self.subroutines) {
-            Some(label) if self.rng.percent(40) => label,
-            _ => {
-                let label = self.label();
-                self.subroutines.push(label);
-                label
-            }
-        };
-        self.logic(1);
-        self.line(format!("CALL P{label}"));
-    }
-
-    /// A step ladder of a few states that hand on to each other.
-    fn steps(&mut self) {
-        self.line("LD M8002");
-        self.line("SET S0");
-        let count = 2 + self.rng.below(4);
-        for state in 0..count {
-            self.line(format!("STL S{state}"));
-            if self.rng.percent(50) {
-                let coil = self.coil();
-                self.line(coil);
-            }
-            let rungs = self.rng.below(2);
-            (0..rungs).for_each(|_| self.rung());
-            self.logic(1);
-            let verb = if self.rng.percent(70) { "SET" } else { "OUT" };
-            let target = if self.rng.percent(70) {
-                (state + 1) % count
-            } else {
-                self.rng.below(count)
-            };
-            self.line(format!("{verb} S{target}"));
-        }
-        self.line("RET");
     }
 
     fn rung(&mut self) {

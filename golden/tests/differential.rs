@@ -5,9 +5,12 @@
 //! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a
 //! C compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
 
+use rungc_catalogue::Lower;
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
-use rungc_golden::random::program;
+use rungc_golden::random::{self, program};
 use rungc_golden::rng::Rng;
+use rungc_golden::rows::{self, Occurring};
+use rungc_golden::shapes::Shapes;
 use rungc_golden::stations;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Repeat, Stmt};
@@ -28,6 +31,9 @@ fn setting(name: &str, default: u64) -> u64 {
     let text = std::env::var(format!("RUNGC_RANDOM_{name}"));
     text.ok().and_then(|t| t.parse().ok()).unwrap_or(default)
 }
+
+/// What devices hold after scans.
+type Trace = Vec<(u64, Vec<Answer>)>;
 
 /// A random program and what became of it.
 struct Sample {
@@ -75,6 +81,16 @@ fn compiled(text: &str, seed: u64, model: ModelId, optimise: bool) -> Result<Mod
     }
 }
 
+/// Both modules of a program.
+fn sample(text: String, seed: u64, model: ModelId) -> Result<Sample, String> {
+    Ok(Sample {
+        seed,
+        optimised: compiled(&text, seed, model, true)?,
+        plain: compiled(&text, seed, model, false)?,
+        text,
+    })
+}
+
 fn samples(seed: u64, count: u64) -> Vec<Sample> {
     let pools: Vec<_> = ModelId::ALL.map(|model| (model, candidates(model))).into();
     let mut rejected = Vec::new();
@@ -87,25 +103,70 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
             0 => stations::program(seed),
             _ => program(seed, *model, pool, 8 + (seed % 20) as u32),
         };
-        let modules = compiled(&text, seed, *model, true)
-            .and_then(|optimised| Ok((optimised, compiled(&text, seed, *model, false)?)));
-        match modules {
-            Ok((optimised, plain)) => samples.push(Sample {
-                seed,
-                text,
-                optimised,
-                plain,
-            }),
+        match sample(text, seed, *model) {
+            Ok(sample) => samples.push(sample),
             Err(why) => rejected.push(why),
         }
     }
     assert!(
-        rejected.len() as u64 * 10 <= count,
+        rejected.len() as u64 * 10 <= count + 10,
         "{} of {count} random programs do not compile, e.g. {}",
         rejected.len(),
         rejected[0]
     );
     samples
+}
+
+/// How many rungs stand in a program that shows rows of the catalogue.
+const RUNGS: usize = 24;
+
+/// Adds programs of these rungs; those that cannot stand in one program stand in several.
+fn assemble(rungs: &[String], seed: u64, model: ModelId, samples: &mut Vec<Sample>) {
+    let text = format!("{}\nEND\n", rungs.join("\n"));
+    match sample(text, seed, model) {
+        Ok(sample) => samples.push(sample),
+        Err(why) if rungs.len() == 1 => panic!("{why}"),
+        Err(_) => {
+            let (some, others) = rungs.split_at(rungs.len() / 2);
+            assemble(some, seed, model, samples);
+            assemble(others, seed ^ 1 << 40, model, samples);
+        }
+    }
+}
+
+/// What became of hostile operands.
+#[derive(Default)]
+struct Hostile {
+    refused: u32,
+    run: u32,
+}
+
+/// Programs in which each instruction of a model occurs in each form, with legal operands and with hostile ones.
+fn row_samples(model: ModelId, seed: u64, samples: &mut Vec<Sample>) -> Hostile {
+    let mut hostile = Hostile::default();
+    let mut rungs = Vec::new();
+    for rung in rows::rungs(model, seed, setting("HOSTILE", 1)) {
+        rungs.push(rung.text);
+        for text in rung.hostile {
+            match compiled(&format!("{text}\nEND\n"), seed, model, false) {
+                Ok(_) => {
+                    hostile.run += 1;
+                    rungs.push(text);
+                }
+                Err(_) => hostile.refused += 1,
+            }
+        }
+    }
+    let pool = candidates(model);
+    let structures = (seed..seed + 50).find_map(|seed| {
+        let text = random::with_all_structures(seed, model, &pool);
+        sample(text, seed, model).ok()
+    });
+    samples.extend(structures);
+    for (part, rungs) in rungs.chunks(RUNGS).enumerate() {
+        assemble(rungs, seed + part as u64, model, samples);
+    }
+    hostile
 }
 
 /// A device's value or values as requests.
@@ -190,13 +251,26 @@ fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
     events
 }
 
-/// Runs one program on an engine; the values of its devices after each scan.
+/// How long programs run.
+#[derive(Clone, Copy)]
+struct Length {
+    /// Scans after each of which all is compared.
+    scans: u64,
+    /// Scans that follow, whose results are compared now and then.
+    more: u64,
+}
+
+/// Every so many of the scans that follow something happens to a program, and every so many are compared.
+const EVENTS: u64 = 10;
+const COMPARED: u64 = 100;
+
+/// Runs one program on an engine; the values of its devices, and after which scan they were these.
 fn trace(
     engine: &mut dyn Engine,
     case: usize,
     sample: &Sample,
-    scans: u64,
-) -> Result<Vec<Vec<Answer>>, String> {
+    length: Length,
+) -> Result<Trace, String> {
     let module = &sample.optimised;
     let mut rng = Rng::new(sample.seed ^ 0x5CA9);
     let head = stored(module, HEAD);
@@ -205,9 +279,14 @@ fn trace(
     ask(&[Request::Case(case)])?;
     let mut now_ms = 0;
     let mut values = Vec::new();
+    let scans = length.scans + length.more;
     for scan in 0..scans {
-        let scan_ms = 1 + rng.below(40);
-        let mut requests = events(&mut rng, module, scan == 0);
+        let is_looked_at = scan < length.scans;
+        let scan_ms = 1 + rng.below(if is_looked_at { 40 } else { 10 });
+        let mut requests = match is_looked_at || scan % EVENTS == 0 {
+            true => events(&mut rng, module, scan == 0),
+            false => Vec::new(),
+        };
         if requests.contains(&Request::Power) {
             now_ms = 0;
         }
@@ -228,7 +307,11 @@ fn trace(
         }
         now_ms += scan_ms;
         ask(&requests)?;
-        values.push(ask(if scan + 1 == scans { &all } else { &head })?);
+        if scan + 1 == scans {
+            values.push((scan, ask(&all)?));
+        } else if is_looked_at || scan % COMPARED == 0 {
+            values.push((scan, ask(&head)?));
+        }
     }
     Ok(values)
 }
@@ -236,20 +319,19 @@ fn trace(
 /// Where two runs differ first.
 fn difference(
     sample: &Sample,
-    (name, a): (&str, &Result<Vec<Vec<Answer>>, String>),
-    (other, b): (&str, &Result<Vec<Vec<Answer>>, String>),
+    (name, a): (&str, &Result<Trace, String>),
+    (other, b): (&str, &Result<Trace, String>),
 ) -> Option<String> {
     let (a, b) = match (a, b) {
         (Ok(a), Ok(b)) => (a, b),
         (Err(error), _) => return Some(format!("{name}: {error}")),
         (_, Err(error)) => return Some(format!("{other}: {error}")),
     };
-    let scan = a.iter().zip(b).position(|(a, b)| a != b)?;
-    let asked = stored(
-        &sample.optimised,
-        if scan + 1 == a.len() { u32::MAX } else { HEAD },
-    );
-    let values = a[scan].iter().zip(&b[scan]).zip(&asked);
+    let at = a.iter().zip(b).position(|(a, b)| a != b)?;
+    let most = if at + 1 == a.len() { u32::MAX } else { HEAD };
+    let asked = stored(&sample.optimised, most);
+    let (scan, values) = &a[at];
+    let values = values.iter().zip(&b[at].1).zip(&asked);
     let differing: Vec<_> = values
         .filter(|((a, b), _)| a != b)
         .take(6)
@@ -283,74 +365,6 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
     );
 }
 
-/// A number that no one means: at a border, or beyond.
-fn hostile(rng: &mut Rng) -> &'static str {
-    let numbers = [
-        "K-1",
-        "K0",
-        "K32767",
-        "K-32768",
-        "K2147483647",
-        "K-2147483648",
-        "HFFFF",
-        "HFFFFFFFF",
-        "H80000000",
-    ];
-    numbers[rng.below(numbers.len() as u32) as usize]
-}
-
-/// The instruction with a constant or the number of a device replaced.
-fn spoilt(rng: &mut Rng, instruction: &str) -> String {
-    let mut words: Vec<String> = instruction.split(' ').map(str::to_string).collect();
-    let count = words.len() as u32 - 1;
-    if count == 0 {
-        return instruction.to_string();
-    }
-    let word = &mut words[1 + rng.below(count) as usize];
-    let is_constant = word.starts_with(['K', 'H']) && !word.contains(['X', 'Y', 'M', 'S']);
-    *word = match rng.below(3) {
-        0 if !is_constant => {
-            let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
-            let numbers = ["0", "7777", "32767", "99999", "4294967295"];
-            format!("{letters}{}", numbers[rng.below(5) as usize])
-        }
-        _ => hostile(rng).to_string(),
-    };
-    words.join(" ")
-}
-
-#[test]
-fn hostile_operands_are_refused_or_run() {
-    let mut rng = Rng::new(setting("SEED", 1));
-    let (mut rejected, mut ran) = (0, 0);
-    for model in ModelId::ALL {
-        for candidate in candidates(model) {
-            let Some(instruction) = candidate.draw(&mut rng, model) else {
-                continue;
-            };
-            for _ in 0..setting("HOSTILE", 2) {
-                let text = format!("LD M8000\n{}\nEND\n", spoilt(&mut rng, &instruction));
-                let Ok(module) = compiled(&text, 1, model, false) else {
-                    rejected += 1;
-                    continue;
-                };
-                let modules = [module];
-                let mut engine = Interpreter::new(&modules);
-                let scan = |now_ms| Request::Scan {
-                    now_ms,
-                    scan_us: 10_000,
-                };
-                let asked = [Request::Case(0), scan(0), scan(10)];
-                engine
-                    .ask_all(&asked)
-                    .unwrap_or_else(|e| panic!("{text}: {e}"));
-                ran += 1;
-            }
-        }
-    }
-    assert!(rejected > 100 && ran > 100, "{ran} ran");
-}
-
 /// The engines, or the way that the environment names.
 fn engines<'m>(
     modules: &'m [Module],
@@ -372,10 +386,68 @@ fn engines<'m>(
     Ok(vec![engine?])
 }
 
+/// Programs for a run of the tests: random ones, and those that show the rows of all models, or of one model in turn if
+/// the environment names a way, which is one batch of many.
+fn programs() -> Vec<Sample> {
+    let (seed, count) = (setting("SEED", 1), setting("PROGRAMS", 90));
+    let mut samples = samples(seed, count);
+    let batch = seed / count.max(1);
+    let models = match std::env::var("RUNGC_RANDOM_WAY") {
+        Ok(_) => vec![ModelId::ALL[batch as usize % ModelId::ALL.len()]],
+        Err(_) => ModelId::ALL.to_vec(),
+    };
+    let mut hostile = Hostile::default();
+    for model in models {
+        let of_model = row_samples(model, seed, &mut samples);
+        hostile.run += of_model.run;
+        hostile.refused += of_model.refused;
+    }
+    let Hostile { run, refused } = hostile;
+    println!("hostile operands: {run} instructions compile, {refused} do not");
+    assert!(run.min(refused) > 20, "{run} compile, {refused} do not");
+    samples
+}
+
+/// The instructions of a program that a scan comes to, but for those that it jumps over and with those in loops once.
+fn scanned(text: &str) -> u64 {
+    text.lines().take_while(|line| *line != "FEND").count() as u64
+}
+
+/// What the tests of a run are to have compared, unless the environment asks for something else.
+fn check_extent(samples: &[Sample], executed: u64) {
+    let (mut occurring, mut shapes) = (Occurring::default(), Shapes::default());
+    for sample in samples {
+        occurring.add(sample.optimised.model.id, &sample.text);
+        shapes.add(&sample.text);
+    }
+    let (rows, operands) = occurring.counts();
+    println!("{rows} forms of instructions of models, {operands} classes of operands");
+    println!("{shapes}");
+    if std::env::vars().any(|(name, _)| name.starts_with("RUNGC_RANDOM_")) {
+        return;
+    }
+    let mut missing = Vec::new();
+    for model in ModelId::ALL {
+        for (spelling, lower) in occurring.missing(model) {
+            // What the compiler refuses cannot be compared.
+            if !matches!(lower, Lower::Todo(_)) {
+                missing.push(format!("{model:?} {spelling}"));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "no program has {missing:?}");
+    assert!(operands >= 3_800, "only {operands} classes of operands");
+    assert!(shapes.least() > 0, "{shapes}");
+    assert!(executed >= 10_000_000, "only {executed} executions");
+}
+
 #[test]
 fn all_engines_agree_on_random_programs() {
-    let scans = setting("SCANS", 60);
-    let samples = samples(setting("SEED", 1), setting("PROGRAMS", 150));
+    let length = Length {
+        scans: setting("SCANS", 60),
+        more: setting("MORE", 300),
+    };
+    let samples = programs();
     let optimised: Vec<Module> = samples.iter().map(|s| s.optimised.clone()).collect();
     let plain: Vec<Module> = samples.iter().map(|s| s.plain.clone()).collect();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("differential");
@@ -383,9 +455,9 @@ fn all_engines_agree_on_random_programs() {
     let mut engines = engines(&optimised, &target).unwrap_or_else(|e| panic!("{e}"));
     let mut differences = Vec::new();
     for (case, sample) in samples.iter().enumerate() {
-        let expected = trace(&mut reference, case, sample, scans);
+        let expected = trace(&mut reference, case, sample, length);
         for engine in &mut engines {
-            let actual = trace(&mut **engine, case, sample, scans);
+            let actual = trace(&mut **engine, case, sample, length);
             let found = difference(
                 sample,
                 ("the unoptimised interpreter", &expected),
@@ -399,12 +471,13 @@ fn all_engines_agree_on_random_programs() {
             }
         }
     }
-    let lines: usize = samples.iter().map(|s| s.text.lines().count()).sum();
+    let lines: u64 = samples.iter().map(|s| scanned(&s.text)).sum();
+    let scans = length.scans + length.more;
     println!(
-        "{} programs of {lines} instructions ran {scans} scans on each of {} engines: {} instructions each",
+        "{} programs, of {lines} instructions in scans, ran {scans} scans on each of {} engines: {} instructions each",
         samples.len(),
         engines.len() + 1,
-        lines as u64 * scans
+        lines * scans
     );
     assert!(
         differences.is_empty(),
@@ -412,4 +485,5 @@ fn all_engines_agree_on_random_programs() {
         differences.len() / 2,
         differences.join("\n")
     );
+    check_extent(&samples, lines * scans);
 }

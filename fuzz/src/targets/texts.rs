@@ -1,0 +1,117 @@
+//! Texts that are smaller than a program: descriptions, conditions, names of devices and of lines.
+
+use super::Target;
+use rungc_fleet::Fleet;
+use rungc_frontend::Names;
+use rungc_project::serve::{FxEnd, Line, LineEnd};
+use rungc_rt::io;
+use rungc_sim::protocol::Answer;
+use rungc_verify::property;
+use std::path::Path;
+
+fn fleet(text: &str) {
+    let _ = Fleet::parse(Path::new("fleet.toml"), text);
+}
+
+/// A condition; every word that begins with a small letter stands for two devices, as comments may.
+fn condition(text: &str) {
+    let names = |word: &str| match word.starts_with(|c: char| c.is_lowercase()) {
+        true => ["Y000", "D5"]
+            .into_iter()
+            .filter_map(|name| rungc_sim::Target::parse(name).ok())
+            .collect(),
+        false => Vec::new(),
+    };
+    if let Err(mistake) = property::parse(text, &names) {
+        assert!(text.get(mistake.at..).is_some(), "{mistake:?}");
+    }
+}
+
+/// Connections as hosts without a library for TOML read them, and what a broker sends for the first of them: the rest
+/// of the text after a line of `---`.
+fn connections(text: &str) {
+    let (text, payload) = text.split_once("---\n").unwrap_or((text, ""));
+    let Ok(connections) = io::parse(text) else {
+        return;
+    };
+    for connection in &connections {
+        let _ = io::address(&connection.end, 1883);
+        let length = connection.rows.iter().map(|row| row.place.end).max();
+        let mut inputs = vec![0; length.unwrap_or(0)];
+        let topics = connection.directed(true).flat_map(io::topics);
+        for topic in topics.collect::<Vec<_>>() {
+            io::take(connection, &topic.name, payload.as_bytes(), &mut inputs);
+        }
+    }
+}
+
+fn names(text: &str) {
+    let _ = Names::parse(text);
+}
+
+/// Single words, as arguments of the command line and lines between processes have them.
+fn words(text: &str) {
+    for word in text.lines() {
+        let _ = rungc_sim::Target::parse(word);
+        let _ = Answer::parse(word);
+        let _ = LineEnd::parse(word);
+        let _ = LineEnd::parse_can(word);
+        let _ = word.parse::<Line>();
+        let _ = word.parse::<FxEnd>();
+    }
+}
+
+fn target(name: &'static str, run: fn(&str), seeds: &[&str]) -> Target {
+    Target {
+        name,
+        run: Box::new(move |input| {
+            if let Ok(text) = std::str::from_utf8(input) {
+                run(text);
+            }
+        }),
+        seeds: seeds.iter().map(|seed| seed.as_bytes().to_vec()).collect(),
+    }
+}
+
+pub(super) fn targets() -> [Target; 5] {
+    [
+        target(
+            "fleet-file",
+            fleet,
+            &[
+                "[fleet]\ncycle = \"10ms\"\n[plc.motor]\nprogram = \"motor.il\"\ncount = 1000\nset = [\"X000=1@100ms\"]\nspread = \"2ms\"\nrepeat = \"5s\"\nmodbus-tcp = \"127.0.0.1:5020\"\nunits = 10\n",
+                "[broker]\nmqtt = \"192.168.1.5:1883\"\nevery = \"200ms\"\n[plc.press]\nprogram = \"a.il\"\ncount = 2\n[plc.press.topics]\nX000-X001 = \"read hall/press/{n}/{}\"\nD0 = \"write hall/press/{n}/strokes\"\n",
+            ],
+        ),
+        target(
+            "condition",
+            condition,
+            &[
+                "Y000 & !Y001 | (D0 >= 10 & D1 <> -3)",
+                "\"motor left\" & pump = 1 | !(C0.value < D5.i32) & K4X000 > 7",
+            ],
+        ),
+        target(
+            "connections",
+            connections,
+            &[
+                "[io.panel]\nfiles = \"panel\"\nX000-X001 = \"read buttons\"\nD100 = \"read level loss -1\"\nevery = \"10ms\"\nfault = \"M100\"\n",
+                "[io.cell]\nmqtt = \"192.168.1.5\"\nX000-X007 = \"read cell/in\"\nD0-D3 = \"read cell/{}\"\nY000 = \"write cell/lamp\"\n---\n{\"X000\":1,\"X003\":false,\"D0\":-7}",
+                "[io.remote]\nmodbus-tcp = \"127.0.0.1:502\"\nX010-X017 = \"discrete 1/0\"\nD0 = \"holding 1/100\"\n---\n[1, 2, 3]",
+            ],
+        ),
+        target(
+            "variable-names",
+            names,
+            &["Start,X000\n\"Motor left\"\tY0\n*,M100-M199\n*,T0\n"],
+        ),
+        target(
+            "words",
+            words,
+            &[
+                "K4X000\nD0.f32\nT5.value\nY000.pulses\n-12\nnone\n",
+                "COM1=/dev/ttyUSB0\ntcp:localhost:5000\nslcan:/dev/ttyACM0,250\nCOM3\n127.0.0.1:5551\n",
+            ],
+        ),
+    ]
+}

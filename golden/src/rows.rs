@@ -1,0 +1,173 @@
+//! The rows of the catalogue: rungs in which each occurs in every form, and what occurs in programs.
+
+use crate::operands::{Candidate, each, has_form, in_any_rung};
+use crate::rng::Rng;
+use rungc_catalogue::{Form, Inst, Lower};
+use rungc_models::{Model, ModelId};
+use rungc_syntax::Classes;
+use std::collections::BTreeSet;
+
+/// An instruction in a rung.
+#[derive(Clone, Debug)]
+pub struct Rung {
+    /// The lines.
+    pub text: String,
+    /// The same with operands that no one means, which may not compile.
+    pub hostile: Vec<String>,
+}
+
+/// The models and forms of an instruction.
+fn pairs(inst: &Inst) -> Vec<(ModelId, Form)> {
+    let models = ModelId::ALL.into_iter();
+    models
+        .flat_map(|model| {
+            let forms = inst.spellings().into_iter().map(|(_, form)| form);
+            let mut forms: Vec<Form> = forms.filter(|form| has_form(inst, *form, model)).collect();
+            forms.dedup();
+            forms.into_iter().map(move |form| (model, form))
+        })
+        .collect()
+}
+
+/// Rungs in which each instruction of a model occurs in each of its forms, once or more: over all models its operands
+/// are of each class in turn. Each rung has this many hostile twins.
+pub fn rungs(model: ModelId, seed: u64, hostile: u64) -> Vec<Rung> {
+    let mut rng = Rng::new(seed ^ (model as u64) << 32);
+    let mut rungs = Vec::new();
+    let mut later = Vec::new();
+    let mut unlucky = Vec::new();
+    for candidate in in_any_rung(model) {
+        let inst = candidate.inst();
+        let all = pairs(inst);
+        let mine = |pair: &(ModelId, Form)| *pair == (model, candidate.form());
+        let Some(place) = all.iter().position(mine) else {
+            continue;
+        };
+        let params = inst.params_of(&[], Model::get(model)).iter();
+        let most = params.map(|param| each(param.classes_on(Model::get(model))).len());
+        let times = most.max().unwrap_or(1).div_ceil(all.len()).max(1);
+        for time in 0..times {
+            let turn = place + time * all.len();
+            let drawn = candidate.draw_in_turn(&mut rng, model, turn as u32);
+            let Some(drawn) = drawn else {
+                unlucky.push(candidate.clone());
+                continue;
+            };
+            let twins = (0..hostile).map(|_| spoilt(&mut rng, &drawn));
+            let twins: Vec<String> = twins.collect();
+            let hostile = twins.iter().map(|twin| rung(&mut rng, &candidate, twin));
+            let hostile = hostile.collect();
+            let text = rung(&mut rng, &candidate, &drawn);
+            // Forms of an instruction that may be used once should not meet in a program.
+            let rungs = match candidate.form() {
+                Form { pulse: false, .. } if time == 0 => &mut rungs,
+                _ => &mut later,
+            };
+            rungs.push(Rung { text, hostile });
+        }
+    }
+    rungs.append(&mut later);
+    // Of some instructions few operands fit each other.
+    rungs.extend(unlucky.iter().filter_map(|candidate| {
+        let drawn = (0..1000).find_map(|_| candidate.draw(&mut rng, model))?;
+        Some(Rung {
+            text: rung(&mut rng, candidate, &drawn),
+            hostile: Vec::new(),
+        })
+    }));
+    rungs
+}
+
+/// An instruction with a contact that drives it.
+fn rung(rng: &mut Rng, candidate: &Candidate, instruction: &str) -> String {
+    let drives: &[&str] = match candidate.form().pulse {
+        true => &["LD X000", "LDI X001", "LD M8013"],
+        false => &["LD M8000", "LD M8000", "LD X000", "LDI X002"],
+    };
+    let drive = rng.pick(drives).unwrap_or("LD M8000");
+    let lines = candidate.after_contact(instruction);
+    // Logic needs a coil; each another one.
+    let coil = format!("OUT M{}", rng.below(24));
+    format!("{drive}\n{}", lines.replace("OUT M0", &coil))
+}
+
+/// A number that no one means: at a border, or beyond.
+fn beyond(rng: &mut Rng) -> &'static str {
+    let numbers = [
+        "K-1",
+        "K0",
+        "K32767",
+        "K-32768",
+        "K2147483647",
+        "K-2147483648",
+        "HFFFF",
+        "HFFFFFFFF",
+        "H80000000",
+    ];
+    numbers[rng.below(numbers.len() as u32) as usize]
+}
+
+/// The instruction with a constant or the number of a device replaced.
+fn spoilt(rng: &mut Rng, instruction: &str) -> String {
+    let mut words: Vec<String> = instruction.split(' ').map(str::to_string).collect();
+    let count = words.len() as u32 - 1;
+    if count == 0 {
+        return instruction.to_string();
+    }
+    let word = &mut words[1 + rng.below(count) as usize];
+    let is_constant = word.starts_with(['K', 'H']) && !word.contains(['X', 'Y', 'M', 'S']);
+    *word = match rng.below(3) {
+        0 if !is_constant => {
+            let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+            let numbers = ["0", "7777", "32767", "99999", "4294967295"];
+            format!("{letters}{}", numbers[rng.below(5) as usize])
+        }
+        _ => beyond(rng).to_string(),
+    };
+    words.join(" ")
+}
+
+/// What occurs in programs.
+#[derive(Clone, Debug, Default)]
+pub struct Occurring {
+    /// Models, with spellings of forms.
+    rows: BTreeSet<(ModelId, String)>,
+    /// Instructions, with the names of operands and what these are.
+    operands: BTreeSet<(&'static str, &'static str, u32)>,
+}
+
+impl Occurring {
+    /// Adds what occurs in a program.
+    pub fn add(&mut self, model: ModelId, text: &str) {
+        let program = rungc_frontend::read_text("occurring.il", text).program;
+        for instr in &program.instrs {
+            let Some(found) = rungc_catalogue::find(&instr.mnemonic) else {
+                continue;
+            };
+            let (inst, form) = (found.inst, found.form);
+            self.rows
+                .extend(inst.spelling_of(form).map(|usual| (model, usual)));
+            let params = inst.params_of(&instr.operands, Model::get(model)).iter();
+            for (param, operand) in params.zip(&instr.operands) {
+                let class = Classes::of(&operand.kind);
+                self.operands.insert((inst.name, param.name, class.0));
+            }
+        }
+    }
+
+    /// How many instructions of models, in how many forms, and how many operands of how many classes there are.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.rows.len(), self.operands.len())
+    }
+
+    /// The forms of a model's instructions that do not occur, each with what implements it.
+    pub fn missing(&self, model: ModelId) -> Vec<(String, Lower)> {
+        let rows = rungc_catalogue::all().flat_map(|inst| {
+            let forms = pairs(inst).into_iter().filter(move |(on, _)| *on == model);
+            forms.filter_map(move |(_, form)| Some((inst.spelling_of(form)?, inst)))
+        });
+        rows.map(|(spelling, inst)| (spelling, inst.lower_on_model(model)))
+            .filter(|(spelling, _)| !self.rows.contains(&(model, spelling.clone())))
+            .collect()
+    }
+}
