@@ -24,8 +24,8 @@ use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::{Classes, Device, DeviceClass, Index};
 use std::path::Path;
 
-/// Forms that take so few devices on their model, whose terminals are few, that random operands hardly ever fit; the same
-/// form of other models is in programs.
+/// Forms that take so few devices on their model, whose terminals are few, that random operands hardly ever fit; the
+/// same form of other models is in programs.
 const SELDOM: [&str; 2] = ["Fx1s REFP", "Fx3s MTR"];
 
 /// Devices of a long array that are compared after each scan; the others are compared after the last.
@@ -141,7 +141,7 @@ fn assemble(rungs: &[String], seed: u64, model: ModelId, samples: &mut Vec<Sampl
 /// What became of hostile operands.
 #[derive(Default)]
 struct Hostile {
-    refused: u32,
+    rejected: u32,
     run: u32,
 }
 
@@ -157,7 +157,7 @@ fn row_samples(model: ModelId, seed: u64, samples: &mut Vec<Sample>) -> Hostile 
                     hostile.run += 1;
                     rungs.push(text);
                 }
-                Err(_) => hostile.refused += 1,
+                Err(_) => hostile.rejected += 1,
             }
         }
     }
@@ -264,7 +264,7 @@ struct Length {
     more: u64,
 }
 
-/// Every so many of the scans that follow something happens to a program, and every so many are compared.
+/// Every tenth of the scans that follow something happens to a program, and every hundredth is compared.
 const EVENTS: u64 = 10;
 const COMPARED: u64 = 100;
 
@@ -404,11 +404,11 @@ fn programs() -> Vec<Sample> {
     for model in models {
         let of_model = row_samples(model, seed, &mut samples);
         hostile.run += of_model.run;
-        hostile.refused += of_model.refused;
+        hostile.rejected += of_model.rejected;
     }
-    let Hostile { run, refused } = hostile;
-    println!("hostile operands: {run} instructions compile, {refused} do not");
-    assert!(run.min(refused) > 20, "{run} compile, {refused} do not");
+    let Hostile { run, rejected } = hostile;
+    println!("hostile operands: {run} instructions compile, {rejected} do not");
+    assert!(run.min(rejected) > 20, "{run} compile, {rejected} do not");
     samples
 }
 
@@ -434,7 +434,7 @@ fn check_extent(samples: &[Sample], executed: u64) {
     for model in ModelId::ALL {
         for (spelling, lower) in occurring.missing(model) {
             let row = format!("{model:?} {spelling}");
-            // What the compiler refuses cannot be compared.
+            // What the compiler rejects cannot be compared.
             if !matches!(lower, Lower::Todo(_)) && !SELDOM.contains(&row.as_str()) {
                 missing.push(row);
             }

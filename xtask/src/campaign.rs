@@ -2,8 +2,8 @@
 //!
 //! Each batch of programs is compared on the interpreter, unoptimised, and on one way: the optimised interpreter,
 //! emitted Rust, emitted C by a compiler with an optimisation level or a sanitizer, or a simulated microcontroller.
-//! First each way has one small batch, so that a short campaign reaches all of them; then the way is next that has taken
-//! the least time so far.
+//! First each way has one small batch, so that a short campaign reaches all of them; then the way is next that has
+//! taken the least time so far.
 
 use crate::{Problem, root};
 use serde_json::Value;
