@@ -58,6 +58,10 @@ fn what_is_never_driven_is_removed() {
         "Y001 := X001"
     );
     assert_eq!(
+        main_of("FOR K10\nLD M8001\nMOV D0 D20\nNEXT\nLD X1\nOUT Y1\nEND\n"),
+        "Y001 := X001"
+    );
+    assert_eq!(
         main_of("LD M8000\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n"),
         "Y001 := X001"
     );

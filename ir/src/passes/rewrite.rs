@@ -132,7 +132,9 @@ impl Rewriter<'_> {
                 self.temps.set_available(Vec::new());
                 let body = self.body(body);
                 self.temps.set_available(Vec::new());
-                out.push(Stmt::For { count, body });
+                if body.iter().any(|stmt| !matches!(stmt, Stmt::Network(_))) {
+                    out.push(Stmt::For { count, body });
+                }
             }
             Stmt::Repeat(repeat) => {
                 self.settle(out);
