@@ -201,29 +201,49 @@ fn installed<'a>(names: &[&'a str]) -> Option<&'a str> {
     names.find(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()))
 }
 
-#[test]
-fn sat_solvers_confirm_proofs() {
-    let solvers = ["cadical", "minisat"].map(|name| installed(&[name]));
-    if solvers.iter().all(Option::is_none) {
-        eprintln!("skipped: neither cadical nor minisat is installed");
-        return;
-    }
-    // By induction, by an invariant, and one that holds only while the counter keeps below its limit.
+/// Programs that keep Y000 and Y001 apart: by induction, by an invariant, and one that holds only while the counter keeps
+/// below its limit.
+fn kept_apart() -> [String; 3] {
     let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
     let chain = "LD X000\nOUT M0\nLD M0\nANI M20\nOUT M1\nLDP X001\nADD D0 K1 D0\nLD> D0 K5\nMOV K0 D0\n\
                  LD> D0 K9\nOUT M20\nLD M20\nOUT Y000\nLD M1\nOUT Y001\nEND\n";
-    for program in [reverser("ANI Y000"), timer.to_string(), chain.to_string()] {
+    [reverser("ANI Y000"), timer.to_string(), chain.to_string()]
+}
+
+/// What every test of a proof asks.
+const PROVED: [&str; 7] = [
+    "verify",
+    "program.il",
+    "--never",
+    "Y000 & Y001",
+    "--certificate",
+    "proof",
+    "--cleared",
+];
+
+/// Whether a peer is there; one that `.ci/run` has installed must be.
+fn there(peer: &str, variable: &str, is_there: bool) -> bool {
+    let required = std::env::var_os(variable).is_some();
+    assert!(
+        is_there || !required,
+        "{variable} is set, but there is no {peer}"
+    );
+    if !is_there {
+        eprintln!("skipped: there is no {peer} ({variable}; see .ci/run)");
+    }
+    is_there
+}
+
+#[test]
+fn sat_solvers_confirm_proofs() {
+    let solvers = ["cadical", "minisat"].map(|name| installed(&[name]));
+    let any = solvers.iter().any(Option::is_some);
+    if !there("cadical or minisat", "RUNGC_REQUIRE_PEERS", any) {
+        return;
+    }
+    for program in kept_apart() {
         let folder = folder(&[("program.il", program.as_bytes())]);
-        let args = [
-            "verify",
-            "program.il",
-            "--never",
-            "Y000 & Y001",
-            "--certificate",
-            "proof",
-            "--cleared",
-        ];
-        let output = rungc(folder.path(), &args);
+        let output = rungc(folder.path(), &PROVED);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let mut formulas = 0;
         for entry in std::fs::read_dir(folder.path().join("proof")).unwrap() {
@@ -246,12 +266,79 @@ fn sat_solvers_confirm_proofs() {
     }
 }
 
+/// Checks a proof with a checker that nobody here wrote; the exit code says whether each step follows.
+const CHECK: &str = "\
+import dratify, sys
+formula, proof = sys.argv[1:]
+result = dratify.check_proof(dratify.parse_dimacs_file(formula), open(proof).read())
+print(result.report())
+sys.exit(0 if result.ok and result.reached_empty else 1)
+";
+
+#[test]
+fn a_checker_follows_every_step_of_a_proof() {
+    let with_drat = [&PROVED[..], &["--drat"]].concat();
+    let program = kept_apart()[2].clone();
+    let folder = folder(&[("program.il", program.as_bytes())]);
+    // Without a solver on the path, no proof is written, and that is said.
+    let alone = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(&with_drat)
+        .current_dir(folder.path())
+        .env("PATH", folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(alone.status.code(), Some(2));
+    insta::assert_snapshot!("no_solver", text(&alone.stderr));
+    assert!(!folder.path().join("proof").exists());
+    let cadical = installed(&["cadical"]).is_some();
+    if !there("cadical", "RUNGC_REQUIRE_PEERS", cadical) {
+        return;
+    }
+    let python = std::env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
+    let has_checker = std::process::Command::new(&python)
+        .args(["-c", "import dratify"])
+        .stderr(std::process::Stdio::null())
+        .status();
+    let has_checker = has_checker.is_ok_and(|status| status.success());
+    if !there("dratify", "RUNGC_PYTHON", has_checker) {
+        return;
+    }
+    for program in kept_apart() {
+        std::fs::write(folder.path().join("program.il"), program).unwrap();
+        let output = rungc(folder.path(), &[&with_drat[..], &["--force"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let check = |formula: &str, proof: &str| {
+            let checked = std::process::Command::new(&python)
+                .args(["-c", CHECK, formula, proof])
+                .current_dir(folder.path().join("proof"))
+                .output()
+                .unwrap();
+            (checked.status.success(), text(&checked.stdout))
+        };
+        let (holds, report) = check("step.cnf", "step.drat");
+        assert!(holds, "{report}");
+        let (holds, report) = check("begin.cnf", "begin.drat");
+        assert!(holds, "{report}");
+    }
+    // The checker is not one that says yes to everything.
+    let proof = std::fs::read_to_string(folder.path().join("proof/step.drat")).unwrap();
+    let later: Vec<&str> = proof.lines().skip(proof.lines().count() / 2).collect();
+    std::fs::write(folder.path().join("proof/cut.drat"), later.join("\n")).unwrap();
+    let cut = std::process::Command::new(&python)
+        .args(["-c", CHECK, "step.cnf", "cut.drat"])
+        .current_dir(folder.path().join("proof"))
+        .output()
+        .unwrap();
+    assert_eq!(cut.status.code(), Some(1), "{}", text(&cut.stderr));
+}
+
 #[test]
 fn another_model_checker_agrees() {
-    let Some(abc) = installed(&["berkeley-abc", "abc"]) else {
-        eprintln!("skipped: berkeley-abc is not installed");
+    let abc = installed(&["berkeley-abc", "abc"]);
+    if !there("berkeley-abc", "RUNGC_REQUIRE_PEERS", abc.is_some()) {
         return;
-    };
+    }
+    let abc = abc.unwrap_or_default();
     let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
     let programs = [
         (reverser("ANI Y000"), "proved", "Property proved"),
@@ -351,6 +438,118 @@ fn devices_that_a_panel_can_set_are_inputs() {
         let output = rungc(folder.path(), &args);
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
     }
+}
+
+#[test]
+fn devices_that_the_settings_connect_are_inputs() {
+    // By itself, the program never switches one of these on.
+    let program = "LD M100\nANI M102\nOUT Y000\nLD= D10 K7\nOUT Y001\nLD M500\nANI M102\nOUT Y002\nLD= Z0 K3\n\
+                   OUT Y003\nLD X000\nOUT M100\nOUT M102\nOUT M500\nMOV K5 D10\nEND\n";
+    let settings = "\
+[project]
+program = \"line.il\"
+
+[serve]
+modbus-tcp = \"5020\"
+M = \"M100-M107\"
+
+[io.recipe]
+files = \"recipe\"
+X001 = \"read start\"
+D10 = \"read recipe\"
+fault = \"M500\"
+";
+    let folder = folder(&[
+        ("line.il", program.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+    ]);
+    let asked = [
+        "verify",
+        "line.il",
+        "--replay",
+        "interp",
+        "--cleared",
+        "--never",
+        "Y000",
+        "--never",
+        "Y001",
+        "--never",
+        "Y002",
+        "--never",
+        "Y003",
+        "--never",
+        "M100 & !X000",
+        "--never",
+        "D10 = 8 & X000",
+    ];
+    let output = rungc(folder.path(), &asked);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    insta::assert_snapshot!("outside", timeless(&text(&output.stdout)));
+    // A search changes them, too.
+    let asked = [
+        "explore", "line.il", "--never", "Y001", "--scans", "200000", "--seed", "1", "--replay",
+        "interp",
+    ];
+    let output = rungc(folder.path(), &asked);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stdout).contains("D10 = 7"),
+        "{}",
+        text(&output.stdout)
+    );
+    // Without the settings nothing sets them.
+    std::fs::remove_file(folder.path().join("rungc.toml")).unwrap();
+    let output = rungc(
+        folder.path(),
+        &[
+            "verify",
+            "line.il",
+            "--cleared",
+            "--never",
+            "Y000 | Y001 | Y002",
+        ],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+}
+
+/// A C compiler that takes a contact for its opposite.
+#[cfg(unix)]
+#[test]
+fn no_verdict_rests_on_engines_that_disagree() {
+    use std::os::unix::fs::PermissionsExt;
+    let compiler = "#!/bin/sh\nfor file in \"$@\"; do\n    case \"$file\" in\n        \
+                    *.c) sed -i 's/ & !plc->X3;/ \\& plc->X3;/' \"$file\" ;;\n    esac\ndone\nexec cc \"$@\"\n";
+    let program = reverser("ANI X003");
+    let folder = folder(&[
+        ("bad.il", program.as_bytes()),
+        ("compiler", compiler.as_bytes()),
+    ]);
+    let path = folder.path().join("compiler");
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let verify = |asked: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
+            .args(["verify", "bad.il", "--replay", "c"])
+            .args(asked)
+            .current_dir(folder.path())
+            // What is built wrong must not be used again.
+            .env("RUNGC_CACHE_DIR", folder.path().join("cache"))
+            .env("CC", &path)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+        let report = common::normal(&text(&output.stderr), folder.path());
+        (timeless(&text(&output.stdout)), report)
+    };
+    let (verdict, report) = verify(&["--never", "Y000 & Y001", "--always", "!Y000 | !X002"]);
+    insta::assert_snapshot!("engines_disagree", verdict);
+    insta::assert_snapshot!("engines_disagree_report", report);
+    let other = program.replace("OR Y001\n", "");
+    std::fs::write(folder.path().join("old.il"), other).unwrap();
+    let (verdict, _) = verify(&["--same-as", "old.il"]);
+    assert!(
+        verdict.contains("the engines of rungc disagree, so no verdict can be trusted"),
+        "{verdict}"
+    );
 }
 
 #[test]

@@ -43,38 +43,47 @@ impl Project {
     /// Shows a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
     /// device of `[retain]`.
     pub(crate) fn add_outside(&self, program: &mut Program) {
-        let mut read = Vec::new();
-        let mut written = Vec::new();
-        for Connected { connection, .. } in &self.io {
-            for row in &connection.rows {
-                let run = run(row.class, row.first, row.count);
-                match row.reads {
-                    true => written.push(run),
-                    false => read.push(run),
-                }
-            }
-            let fault = connection.fault.iter();
-            written.extend(fault.map(|&(class, number)| run(class, number, 1)));
-        }
-        for range in &self.serve.devices {
-            let served = DeviceRun {
-                class: range.class,
-                first: range.first,
-                count: range.last - range.first + 1,
-            };
-            read.push(served);
-            written.push(served);
-        }
-        written.extend(self.retain_fault.iter().map(|fault| DeviceRun {
-            class: fault.class,
-            first: fault.first,
-            count: 1,
-        }));
+        let rows = self.io.iter().flat_map(|row| &row.connection.rows);
+        let rows = rows.filter(|row| !row.reads);
+        let read = rows.map(|row| run(row.class, row.first, row.count));
+        let read: Vec<DeviceRun> = read.chain(self.served()).collect();
+        let written = self.written_outside().into_iter();
+        let written: Vec<DeviceRun> = written.map(|(_, run)| run).collect();
         if !read.is_empty() || !written.is_empty() {
             let parameters = program.parameters.get_or_insert_default();
             parameters.read_outside = read;
             parameters.written_outside = written;
         }
+    }
+
+    /// What `[serve]` names.
+    fn served(&self) -> impl Iterator<Item = DeviceRun> {
+        self.serve.devices.iter().map(|range| DeviceRun {
+            class: range.class,
+            first: range.first,
+            count: range.last - range.first + 1,
+        })
+    }
+
+    /// What something other than the program writes while it runs, with the table of the settings that says so: what
+    /// connections read, fault devices, and what `[serve]` names.
+    pub fn written_outside(&self) -> Vec<(&'static str, DeviceRun)> {
+        let mut written = Vec::new();
+        for Connected { connection, .. } in &self.io {
+            let rows = connection.rows.iter().filter(|row| row.reads);
+            let rows = rows.map(|row| run(row.class, row.first, row.count));
+            let fault = connection.fault.iter();
+            let fault = fault.map(|&(class, number)| run(class, number, 1));
+            written.extend(rows.chain(fault).map(|run| ("[io]", run)));
+        }
+        written.extend(self.served().map(|run| ("[serve]", run)));
+        let fault = self.retain_fault.iter().map(|fault| DeviceRun {
+            class: fault.class,
+            first: fault.first,
+            count: 1,
+        });
+        written.extend(fault.map(|run| ("[retain]", run)));
+        written
     }
 
     /// A device of `[io]` that the model does not have is a mistake.

@@ -1,10 +1,11 @@
 //! 64 runs at once with inputs by chance: what happens in one of them needs no proof that it never does.
 
 use crate::aig::{Lit, Node};
-use crate::model::{Digit, Input};
+use crate::model::{Digit, Input, Key, TimerPart};
 use crate::search::{Scan, Trace, with_sign};
 use crate::system::System;
 use rustc_hash::FxHashMap;
+use std::time::Instant;
 
 /// Random numbers, the same in every run of the program.
 pub(crate) struct Chance(u64);
@@ -48,10 +49,13 @@ impl<'s> Lanes<'s> {
     /// Runs that begin, with what may be anything by chance in half of them.
     pub fn new(system: &'s System, chance: &mut Chance) -> Self {
         let half = 0xFFFF_FFFF;
-        let begin = |latch: &crate::system::Latch, chance: &mut Chance| match latch.init {
-            Some(on) => u64::from(on).wrapping_neg(),
-            None => chance.bits() & chance.bits() & half,
-        };
+        let begin =
+            |latch: &crate::system::Latch, chance: &mut Chance| match (latch.init, latch.key) {
+                (Some(on), _) => u64::from(on).wrapping_neg(),
+                // A replay begins at 0, too.
+                (None, Key::Now | Key::Timer(_, TimerPart::Part)) => 0,
+                (None, _) => chance.bits() & chance.bits() & half,
+            };
         let latches: Vec<u64> = system
             .latches
             .iter()
@@ -79,19 +83,44 @@ impl<'s> Lanes<'s> {
                     *held = if bit < 4 || wide { *held ^ few } else { 0 };
                 }
                 Input::Device(..) => {}
-                Input::Time(digit, bit) => {
-                    let value = match digit {
-                        Digit::Hundreds => ms / 100,
-                        Digit::Tens => ms / 10 % 10,
-                        Digit::Ones => ms % 10,
-                    };
-                    *held = u64::from(value >> bit & 1).wrapping_neg();
-                }
+                Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
                 Input::ScanTime(_) => *held = 0,
                 Input::Gap(_) => *held = chance.bits(),
             }
         }
-        self.scans.push((ms, self.inputs.clone()));
+        self.evaluate();
+        self.end(ms);
+    }
+
+    /// Executes a scan this long after the one before; devices change as they are used to. Lanes in which that would
+    /// break a constraint keep what they had.
+    fn scan_by(&mut self, ms: u32, habits: &Habits, chance: &mut Chance) {
+        let before = self.inputs.clone();
+        let inputs = self.system.inputs.iter().zip(&mut self.inputs);
+        for (((_, input), held), seldom) in inputs.zip(&habits.seldom) {
+            match *input {
+                Input::Device(..) => *held ^= seldom.changes(chance),
+                Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
+                Input::ScanTime(_) => *held = 0,
+                Input::Gap(_) => *held = chance.bits() & habits.gaps,
+            }
+        }
+        self.evaluate();
+        let broken = !self.kept() & self.alive;
+        if broken != 0 {
+            let inputs = self.system.inputs.iter().zip(&mut self.inputs);
+            for (((_, input), held), before) in inputs.zip(before) {
+                if let Input::Device(..) = input {
+                    *held = *held & !broken | before & broken;
+                }
+            }
+            self.evaluate();
+        }
+        self.end(ms);
+    }
+
+    /// Finds out the value of each node.
+    fn evaluate(&mut self) {
         let inputs = self.system.inputs.iter().zip(&self.inputs);
         for ((lit, _), &held) in inputs {
             self.values[lit.node()] = held;
@@ -104,9 +133,18 @@ impl<'s> Lanes<'s> {
                 self.values[node] = self.of(a) & self.of(b);
             }
         }
-        for &holds in &self.system.constraints {
-            self.alive &= self.of(holds);
-        }
+    }
+
+    /// The lanes in which all constraints hold in the scan.
+    fn kept(&self) -> u64 {
+        let constraints = self.system.constraints.iter();
+        constraints.fold(u64::MAX, |kept, &holds| kept & self.of(holds))
+    }
+
+    /// Ends the scan.
+    fn end(&mut self, ms: u32) {
+        self.scans.push((ms, self.inputs.clone()));
+        self.alive &= self.kept();
         self.latches = self
             .system
             .latches
@@ -156,4 +194,124 @@ impl<'s> Lanes<'s> {
         trace.start.iter_mut().for_each(with_sign);
         trace
     }
+}
+
+/// A bit of a part of a time, in all lanes.
+fn part_of(ms: u32, digit: Digit, bit: usize) -> u64 {
+    let value = match digit {
+        Digit::Hundreds => ms / 100,
+        Digit::Tens => ms / 10 % 10,
+        Digit::Ones => ms % 10,
+    };
+    u64::from(value >> bit & 1).wrapping_neg()
+}
+
+/// How often an input changes: lanes by the power of two that is the number of scans from one change to the next.
+struct Seldom([u64; 4]);
+
+impl Seldom {
+    /// Powers of two; lanes beyond the last keep what they have.
+    const POWERS: [u32; 4] = [1, 3, 6, 9];
+
+    /// Each lane has one of the powers, or none.
+    fn new(chance: &mut Chance) -> Self {
+        let (mut left, mut lanes) = (u64::MAX, [0; 4]);
+        for part in &mut lanes {
+            *part = left & (chance.bits() | chance.bits() & chance.bits());
+            left &= !*part;
+        }
+        // Which is the most frequent differs from input to input.
+        lanes.rotate_left(chance.below(4) as usize);
+        Seldom(lanes)
+    }
+
+    /// The lanes in which it changes now.
+    fn changes(&self, chance: &mut Chance) -> u64 {
+        let mut changes = 0;
+        let (mut bits, mut power) = (u64::MAX, 0);
+        for (lanes, wanted) in self.0.iter().zip(Self::POWERS) {
+            while power < wanted && bits != 0 {
+                bits &= chance.bits();
+                power += 1;
+            }
+            changes |= lanes & bits;
+        }
+        changes
+    }
+}
+
+/// How inputs change for some time.
+struct Habits {
+    /// Of each input.
+    seldom: Vec<Seldom>,
+    /// The lanes in which what is not modelled is not 0.
+    gaps: u64,
+}
+
+impl Habits {
+    fn new(system: &System, chance: &mut Chance) -> Self {
+        // Numbers are small mostly.
+        let (small, wide) = (chance.bits() & chance.bits(), chance.bits() & chance.bits());
+        let inputs = system.inputs.iter().map(|(_, input)| {
+            let mut seldom = Seldom::new(chance);
+            let lanes = match input {
+                Input::Device(_, 0) => u64::MAX,
+                Input::Device(_, 1..4) => small | wide,
+                _ => small & wide,
+            };
+            seldom.0.iter_mut().for_each(|part| *part &= lanes);
+            seldom
+        });
+        Habits {
+            seldom: inputs.collect(),
+            gaps: chance.bits() & chance.bits(),
+        }
+    }
+}
+
+/// The most words that the inputs of a run take.
+const WORDS: usize = 4_000_000;
+/// The most scans of a run.
+const SCANS: usize = 8192;
+/// Runs that are shown and turn out not to happen before the search gives up.
+const ATTEMPTS: usize = 16;
+
+/// Long runs of 64 lanes in which inputs change often for some time and seldom for another: what counters and timers
+/// need many scans for, which a search scan by scan does not reach. `happens` runs one of them on the interpreter.
+pub(crate) fn long_runs(
+    system: &System,
+    scan_ms: u32,
+    until: Instant,
+    happens: &mut dyn FnMut(&Trace) -> bool,
+) -> Option<Trace> {
+    let mut chance = Chance::new();
+    let mut failed = 0;
+    let scans = SCANS.min(WORDS / system.inputs.len().max(1));
+    while Instant::now() < until && failed < ATTEMPTS {
+        let mut lanes = Lanes::new(system, &mut chance);
+        let mut done = 0;
+        while done < scans && lanes.alive != 0 && failed < ATTEMPTS {
+            let habits = Habits::new(system, &mut chance);
+            let ms = [1, 10, 10, 100][chance.below(4) as usize].min(scan_ms);
+            let length = 1 << (4 + 2 * chance.below(4));
+            for _ in 0..length {
+                lanes.scan_by(if done == 0 { 0 } else { ms }, &habits, &mut chance);
+                done += 1;
+                let bad = lanes.value(system.bad);
+                if bad != 0 {
+                    let trace = lanes.trace(bad.trailing_zeros());
+                    if happens(&trace) {
+                        return Some(trace);
+                    }
+                    failed += 1;
+                    // The lane goes on as something that cannot be shown.
+                    lanes.alive &= !(bad & bad.wrapping_neg());
+                }
+            }
+            if Instant::now() > until {
+                return None;
+            }
+        }
+    }
+    None
 }

@@ -1,5 +1,6 @@
 //! From a program and a property to a verdict.
 
+use crate::chance::long_runs;
 use crate::model::{Encoder, Gap, Input, Key, World};
 use crate::pdr;
 use crate::property::{Condition, Property};
@@ -50,6 +51,11 @@ pub enum Why {
         /// How many.
         scans: usize,
     },
+    /// A run happens on the interpreter, but not on another engine.
+    Engines {
+        /// Which engine, and how it differs.
+        difference: String,
+    },
 }
 
 /// A verdict, and what it is about.
@@ -61,6 +67,8 @@ pub struct Decision {
     pub gaps: Vec<Gap>,
     /// Devices that the property depends on, that the program reads and never writes: they count as inputs.
     pub unwritten: Vec<Key>,
+    /// Devices of [`World::free`] that the property depends on.
+    pub free: Vec<Key>,
     /// How many bits of memory the property depends on.
     pub latches: usize,
 }
@@ -135,9 +143,11 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         .enumerate()
         .filter(|(n, _)| of_cone(&|input| *input == Input::Gap(*n)))
         .map(|(_, gap)| gap.clone());
-    let unwritten = encoder.unwritten().into_iter();
-    let unwritten = unwritten
-        .filter(|key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key)));
+    let in_cone = |key: &Key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key));
+    let (free, unwritten): (Vec<Key>, Vec<Key>) = encoder
+        .opened()
+        .filter(in_cone)
+        .partition(|key| encoder.is_named_free(*key));
     let question = OfProperty {
         module,
         property,
@@ -145,7 +155,8 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     };
     Decision {
         gaps: order::set(gaps).into_iter().collect(),
-        unwritten: unwritten.collect(),
+        unwritten,
+        free,
         latches: system.latches.len(),
         verdict: search(&question, &options.world, &system, deadline),
     }
@@ -154,9 +165,9 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 /// A time, in milliseconds, in which every timer expires.
 pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
-/// Bounded search and induction side by side; then a search, and one for an invariant, where a scan may come any time
-/// after the one before, so that a few scans show what takes many; then bounded search alone. `system` is that of the
-/// question in this world.
+/// Bounded search and induction side by side; long runs by chance, and a search for an invariant; then a search, and one
+/// for an invariant, where a scan may come any time after the one before, so that a few scans show what takes many; then
+/// bounded search alone. `system` is that of the question in this world.
 pub fn search(
     question: &dyn Question,
     world: &World,
@@ -180,6 +191,9 @@ pub fn search(
             }
             Step::Violated(_) | Step::TimeUp => break,
         }
+    }
+    if let Some(found) = hunt.by_chance(system, deadline) {
+        return found;
     }
     if question.may_be_vague() && proved_vaguely(question, world, deadline) {
         return Verdict::Proved;
@@ -278,6 +292,22 @@ impl<'a> Hunt<'a> {
         Some(Verdict::Found(replay::plain(&happens, trace)))
     }
 
+    /// Searches runs that are longer than a search scan by scan can reach.
+    fn by_chance(&self, system: &System, deadline: Instant) -> Option<Verdict> {
+        /// Long enough for runs that can be found so at all, and for what shortens one.
+        const MOST: Duration = Duration::from_secs(3);
+        let soon = || {
+            let now = Instant::now();
+            now + (deadline.saturating_duration_since(now) / 4).min(MOST)
+        };
+        let happens = |trace: &Trace| self.question.happens(trace);
+        let found = long_runs(system, self.scan_ms, soon(), &mut |trace| {
+            happens(trace).is_some()
+        })?;
+        let short = replay::shortened(&happens, found, soon());
+        Some(Verdict::Found(replay::plain(&happens, short)))
+    }
+
     fn undecided(&self) -> Verdict {
         Verdict::Undecided(match self.spurious {
             Some(scans) => Why::Spurious { scans },
@@ -285,5 +315,41 @@ impl<'a> Hunt<'a> {
                 scans: self.bounded.scans().saturating_sub(1),
             },
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Options, Verdict, decide};
+    use crate::model::World;
+    use crate::property::{Property, parse};
+    use rungc_ir::passes::simplify;
+    use rungc_lower::compile::{CompileOptions, compile};
+    use std::time::Duration;
+
+    #[test]
+    fn runs_of_many_scans_are_found() {
+        // Forty parts, then one of twenty marks: no search scan by scan gets there.
+        let list = "LD X000\nAND X001\nOUT C0 K1000\nLDF X000\nMOV C0 D10\nINC D20\nRST C0\nLD> D10 K20\nOUT Y001\n\
+                    LD= D20 K40\nSET M20\nLD X002\nRST M20\nMOV K0 D20\nLD M20\nOUT Y002\nEND\n";
+        let program = rungc_frontend::read_text("parts.il", list).program;
+        let options = CompileOptions {
+            optimise: false,
+            ..CompileOptions::default()
+        };
+        let mut module = compile(&program, &options).module.unwrap();
+        simplify(&mut module);
+        let options = Options {
+            world: World::default(),
+            // What breaks an assumption does not end a run.
+            assumed: vec![parse("!(X001 & X002)", &|_| Vec::new()).unwrap()],
+            time: Duration::from_secs(120),
+        };
+        let both = parse("Y001 & Y002", &|_| Vec::new()).unwrap();
+        let decision = decide(&module, &Property::Never(both), &options);
+        let Verdict::Found(trace) = decision.verdict else {
+            panic!("{decision:?}");
+        };
+        assert!(trace.scans.len() > 80, "{} scans", trace.scans.len());
     }
 }

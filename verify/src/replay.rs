@@ -9,6 +9,7 @@ use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.
 fn set(machine: &mut Machine, key: Key, value: i64) -> bool {
@@ -116,8 +117,40 @@ pub fn stretched(trace: &Trace, most_ms: u32) -> Trace {
     }
 }
 
-/// Runs of more scans than this are shown as they are.
+/// Runs of more scans than this are not simplified scan by scan.
 const SIMPLIFIED: usize = 150;
+
+/// The same run without scans that it does not need, the longer stretches first, as far as the time goes.
+pub fn shortened(
+    happens: &dyn Fn(&Trace) -> Option<usize>,
+    mut trace: Trace,
+    until: Instant,
+) -> Trace {
+    if let Some(scans) = happens(&trace) {
+        trace.scans.truncate(scans);
+    }
+    let mut length = trace.scans.len() / 2;
+    while length > 0 {
+        // The first scan stays the first.
+        let mut at = 1;
+        while at < trace.scans.len() {
+            if Instant::now() > until {
+                return trace;
+            }
+            let mut other = trace.clone();
+            other.scans.drain(at..(at + length).min(trace.scans.len()));
+            match happens(&other) {
+                Some(scans) => {
+                    other.scans.truncate(scans);
+                    trace = other;
+                }
+                None => at += length,
+            }
+        }
+        length /= 2;
+    }
+    trace
+}
 
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
 /// ordinary. `happens` runs one, and says after how many scans it does what it is about.
@@ -146,10 +179,10 @@ pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace) -> Tra
             trace.start.insert(key, 0);
         });
     }
-    let steps = if trace.scans.len() > SIMPLIFIED {
-        0
-    } else {
-        trace.scans.len()
+    let steps = match trace.scans.len() {
+        // Only what is the same in all of the run.
+        more if more > SIMPLIFIED => 1,
+        all => all,
     };
     for scan in 0..steps {
         attempt(&mut trace, &|trace| trace.scans[scan].scan_time = 0);

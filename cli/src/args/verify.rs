@@ -32,6 +32,10 @@ pub struct VerifyArgs {
     /// unsatisfiable.
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<PathBuf>,
+    /// Also write a proof of each formula beside it (`*.drat`, DRAT), whose steps a proof checker can follow: made by
+    /// `cadical`, which must be installed.
+    #[arg(long, requires = "certificate")]
+    pub drat: bool,
     /// Write the runs that were found as a test file, which shows them again: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,

@@ -74,10 +74,11 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
     let hal = Box::new(hardware::of(fitted));
+    let outside: Vec<_> = reader.outside().devices.into_keys().collect();
     let mut task = Task::new(
         &module,
         (&properties, &assumed),
-        &reader.free(),
+        &outside,
         reader.scan_ms()?,
         (machine.as_ref(), hal),
     );

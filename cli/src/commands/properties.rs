@@ -13,13 +13,39 @@ use rungc_models::Model;
 use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
-use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
+use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program, order};
 use rungc_verify::property::{Condition, Mistake, Property, parse};
+use std::collections::BTreeMap;
 
 type Result<T> = std::result::Result<T, Failure>;
 
 /// The longest time from one scan to the next, in milliseconds: after that, the watchdog stops most models.
 const SCAN_MS: u64 = 200;
+
+/// What something other than the program may write, beside terminals.
+#[derive(Default)]
+pub struct Outside {
+    /// Devices, with what says so: an option or a table of the settings.
+    pub devices: BTreeMap<(DeviceClass, u32), &'static str>,
+    /// Whether the settings name servers, whose clients could write other devices, too.
+    pub has_clients: bool,
+}
+
+impl Outside {
+    /// What names the devices, each once.
+    pub fn sources(&self) -> Vec<&'static str> {
+        order::set(self.devices.values().copied())
+            .into_iter()
+            .collect()
+    }
+
+    /// What says that a device is written, by its usual name.
+    pub fn source(&self, model: &Model, device: (DeviceClass, u32)) -> Option<&'static str> {
+        let mut devices = self.devices.iter();
+        let found = devices.find(|&(&(class, number), _)| model.canonical(class, number) == device);
+        found.map(|(_, by)| *by)
+    }
+}
 
 /// A property as it was asked for.
 pub struct Asked {
@@ -82,17 +108,28 @@ impl Reader<'_> {
             })
     }
 
-    /// The devices that something other than the program may write.
-    pub fn free(&self) -> Vec<(DeviceClass, u32)> {
-        let named = self
-            .project()
-            .into_iter()
-            .flat_map(|project| &project.verify.free);
-        let named = named.map(|range| (range.class, range.first, range.last));
-        let ranges = named.chain(self.args.free.iter().copied());
-        ranges
-            .flat_map(|(class, first, last)| (first..=last).map(move |number| (class, number)))
-            .collect()
+    /// What something other than the program may write, by the command line and the settings.
+    pub fn outside(&self) -> Outside {
+        let mut outside = Outside::default();
+        let devices = &mut outside.devices;
+        let mut add = |by: &'static str, class, numbers: std::ops::RangeInclusive<u32>| {
+            for number in numbers.filter(|_| class != DeviceClass::X) {
+                devices.entry((class, number)).or_insert(by);
+            }
+        };
+        for &(class, first, last) in &self.args.free {
+            add("--free", class, first..=last);
+        }
+        if let Some(project) = self.project() {
+            for range in &project.verify.free {
+                add("[verify]", range.class, range.first..=range.last);
+            }
+            for (by, run) in project.written_outside() {
+                add(by, run.class, run.first..=run.first + run.count - 1);
+            }
+            outside.has_clients = project.serve.any();
+        }
+        outside
     }
 
     /// A time in milliseconds: that of the command line, else that of the settings, else the usual one.

@@ -1,24 +1,23 @@
 //! `rungc verify`.
 
 mod engines;
+mod export;
 pub(super) mod report;
 mod same;
 pub(super) mod test_file;
 
 use super::check::draw;
-use super::properties::{Asked, Reader, at_writes, module};
+use super::properties::{Asked, Outside, Reader, at_writes, module};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, put, read, write_file};
+use super::{Context, Failure, Outcome, Result, put, read, write_file};
 use crate::args::VerifyArgs;
 use crate::report::Reporter;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
-use rungc_verify::aiger;
-use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
 use rungc_verify::property::Condition;
-use rungc_verify::prove::{Decision, Options, Verdict, decide, system};
+use rungc_verify::prove::{Decision, Options, Verdict, decide};
 use std::time::{Duration, Instant};
 
 /// How long a property is tried, in milliseconds.
@@ -46,7 +45,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
         return Err(Failure::Because(why.to_string()));
     }
-    let options = options(args, &reader, &assumed)?;
+    let outside = reader.outside();
+    let options = options(args, &reader, &assumed, &outside)?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
     let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
     let conditions = conditions.chain(&options.assumed);
@@ -54,8 +54,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
-    export(args, &module, &asked, &options, cx)?;
-    let decided: Vec<(Decision, Duration)> = asked
+    export::export(args, &module, &asked, &options, cx)?;
+    let mut decided: Vec<(Decision, Duration)> = asked
         .iter()
         .map(|asked| {
             let begin = Instant::now();
@@ -63,7 +63,10 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         })
         .collect();
     let runs = shown(&asked, &decided);
-    engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
+    let differing = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
+    for (number, why) in differing {
+        decided[number].0.verdict = Verdict::Undecided(why);
+    }
     let results: Vec<report::Result> = asked
         .iter()
         .zip(&decided)
@@ -71,11 +74,12 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             asked: &asked.text,
             property: &asked.property,
             decision,
+            outside: &outside,
             time: *time,
         })
         .collect();
     publish(&subject, &read, &module, &results, &mut reporter)?;
-    let text = || report::human(&results, &module, &options, &assumed);
+    let text = || report::human(&results, &module, &options, (&assumed, &outside));
     deliver(args, reporter, text, &report::summary(&results), cx)?;
     if let Some(path) = &args.write_test {
         let text = test_file::text(&subject.file, path, &module, &results);
@@ -91,50 +95,16 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     Ok(outcomes.max().unwrap_or(Outcome::Success))
 }
 
-/// Writes what other programs read: the question, or the proof.
-fn export(
-    args: &VerifyArgs,
-    module: &Module,
-    asked: &[Asked],
-    options: &Options,
-    cx: Context,
-) -> std::result::Result<(), Failure> {
-    let only = |option: &str| match asked {
-        [only] => Ok(&only.property),
-        _ => Err(Failure::Because(format!("{option}: name one property"))),
-    };
-    if let Some(path) = &args.aiger {
-        let (_, system) = system(module, only("--aiger")?, options);
-        write_file(path, &aiger::binary(&system), args.force)?;
-        cx.note(&format!("       Wrote {}", path.display()));
-    }
-    let Some(folder) = &args.certificate else {
-        return Ok(());
-    };
-    match certificate(module, only("--certificate")?, options) {
-        Some(files) => {
-            std::fs::create_dir_all(folder)?;
-            for (name, text) in &files {
-                write_file(&folder.join(name), text.as_bytes(), args.force)?;
-            }
-            let count = counted(files.len(), "formula");
-            cx.note(&format!("       Wrote {count} into {}", folder.display()));
-        }
-        None => cx.note("     Nothing was proved, so no certificate is written"),
-    }
-    Ok(())
-}
-
 /// The runs that were found, to be shown on other engines.
 fn shown<'a>(asked: &'a [Asked], decided: &'a [(Decision, Duration)]) -> Vec<engines::Shown<'a>> {
-    let pairs = asked.iter().zip(decided);
-    let found = pairs.filter_map(|(asked, (decision, _))| {
+    let pairs = asked.iter().zip(decided).enumerate();
+    let found = pairs.filter_map(|(what, (asked, (decision, _)))| {
         let Verdict::Found(trace) = &decision.verdict else {
             return None;
         };
         let conditions = asked.property.conditions().into_iter();
         Some(engines::Shown {
-            what: &asked.text,
+            what,
             program: 0,
             devices: conditions.flat_map(Condition::devices).collect(),
             trace,
@@ -148,6 +118,7 @@ fn options(
     args: &VerifyArgs,
     reader: &Reader,
     assumed: &[(String, Condition)],
+    outside: &Outside,
 ) -> std::result::Result<Options, Failure> {
     let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
     let timeout = reader.chosen(args.timeout, timeout, TIMEOUT_MS)?;
@@ -155,7 +126,7 @@ fn options(
         world: World {
             scan_ms: reader.scan_ms()?,
             fresh: args.cleared,
-            free: reader.free().into_iter().collect(),
+            free: outside.devices.keys().copied().collect(),
             ..World::default()
         },
         assumed: assumed.iter().map(|(_, a)| a.clone()).collect(),

@@ -48,6 +48,16 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
     }
 }
 
+/// Whether something other than the program can write it: devices, and of timers and counters the values and contacts.
+pub(super) fn is_settable(key: Key) -> bool {
+    match key {
+        Key::Timer(_, part) => matches!(part, TimerPart::Value | TimerPart::Done),
+        Key::Counter(_, part) => matches!(part, CounterPart::Value | CounterPart::Done),
+        Key::Bit(..) | Key::Word(..) => true,
+        _ => false,
+    }
+}
+
 /// How many bits a piece of memory has.
 fn width(key: Key, unit_ms: u16) -> usize {
     match key {

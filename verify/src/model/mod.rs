@@ -232,10 +232,14 @@ impl<'m> Encoder<'m> {
 
     fn executed(
         module: &'m Module,
-        world: World,
+        mut world: World,
         mut beside: Option<Beside>,
         probes: Option<Probes>,
     ) -> Self {
+        let free = world.free.into_iter();
+        world.free = free
+            .map(|(class, number)| module.model.canonical(class, number))
+            .collect();
         let aig = beside
             .as_mut()
             .map(|beside| std::mem::take(&mut beside.aig));
@@ -383,14 +387,12 @@ impl<'m> Encoder<'m> {
     /// Whether the program could read a device but nothing in it writes it, or only clears it: a panel or another PLC
     /// may set it.
     fn is_unwritten(&self, key: Key) -> bool {
-        use DeviceClass::{D, ER, M, R, S};
-        let settable = match key {
-            Key::Bit(class, _) | Key::Word(class, _) => matches!(class, M | S | D | R | ER),
-            Key::Timer(_, TimerPart::Value | TimerPart::Done) => true,
-            Key::Counter(_, CounterPart::Value | CounterPart::Done) => true,
-            _ => false,
+        use DeviceClass::{D, ER, M, R, S, V, Z};
+        let asked = match key {
+            Key::Bit(class, _) | Key::Word(class, _) => matches!(class, M | S | D | R | ER | V | Z),
+            _ => true,
         };
-        settable && !self.written.contains(&key)
+        asked && memory::is_settable(key) && !self.written.contains(&key)
     }
 
     /// Whether something other than the program sets a device before each scan.
@@ -398,7 +400,19 @@ impl<'m> Encoder<'m> {
         matches!(key, Key::Bit(DeviceClass::X, _))
             || self.outside.contains(&key)
             || self.is_unwritten(key)
-            || memory::device_of(key).is_some_and(|device| self.world.free.contains(&device))
+            || self.is_named_free(key)
+    }
+
+    /// Whether it belongs to a device of [`World::free`].
+    pub fn is_named_free(&self, key: Key) -> bool {
+        let is_free = |device| self.world.free.contains(&device);
+        memory::is_settable(key) && memory::device_of(key).is_some_and(is_free)
+    }
+
+    /// What counts as an input although it is no terminal: what is unwritten, and what [`World::free`] names.
+    pub fn opened(&self) -> impl Iterator<Item = Key> {
+        let keys = self.before.keys().copied();
+        keys.filter(|&key| self.is_unwritten(key) || self.is_named_free(key))
     }
 
     /// The devices that the program reads and nothing in it writes, which count as inputs.

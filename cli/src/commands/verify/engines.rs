@@ -8,12 +8,14 @@ use rungc_ir::Module;
 use rungc_sim::engines::{BuildError, EngineKind, build};
 use rungc_syntax::DeviceClass;
 use rungc_verify::engines::compare;
+use rungc_verify::prove::Why;
 use rungc_verify::search::Trace;
+use std::collections::BTreeMap;
 
 /// A run that the interpreter has shown.
 pub struct Shown<'a> {
-    /// What it shows, as it was asked for.
-    pub what: &'a str,
+    /// What it shows: the number of a property or of an output.
+    pub what: usize,
     /// The program, by number.
     pub program: usize,
     /// The devices that are compared after every scan.
@@ -21,21 +23,23 @@ pub struct Shown<'a> {
     pub trace: &'a Trace,
 }
 
-/// Replays runs on the engines chosen, or on all that can be built here.
+/// Replays runs on the engines chosen, or on all that can be built here; what the first engine that does otherwise
+/// makes of a verdict, for each run that differs.
 ///
 /// # Errors
 ///
-/// An engine does otherwise, or one that was chosen cannot be built.
+/// An engine that was chosen cannot be built.
 pub fn replay(
     choice: Option<EngineChoice>,
     modules: &[Module],
     runs: &[Shown],
     cx: Context,
-) -> Result<(), Failure> {
+) -> Result<BTreeMap<usize, Why>, Failure> {
+    let mut differing = BTreeMap::new();
     let kinds = engines(choice.unwrap_or(EngineChoice::All)).into_iter();
     let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
     if runs.is_empty() || kinds.is_empty() {
-        return Ok(());
+        return Ok(differing);
     }
     let folder = BuildFolder::take()?;
     for kind in kinds {
@@ -57,16 +61,15 @@ pub fn replay(
         };
         for run in runs {
             let module = (run.program, &modules[run.program]);
-            compare(engine.as_mut(), module, &run.devices, run.trace).map_err(|why| {
-                let (name, what) = (kind.name(), run.what);
-                Failure::Because(format!(
-                    "the engines of rungc disagree, so no verdict can be trusted: replaying the run for `{what}` on \
-                     {name}: {why}; please report this with the program"
-                ))
-            })?;
+            if let Err(why) = compare(engine.as_mut(), module, &run.devices, run.trace) {
+                let difference = format!("replaying the run on {}: {why}", kind.name());
+                differing
+                    .entry(run.what)
+                    .or_insert(Why::Engines { difference });
+            }
         }
     }
-    Ok(())
+    Ok(differing)
 }
 
 /// Whether a tool is missing, as opposed to a fault of what was emitted.

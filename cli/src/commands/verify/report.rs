@@ -1,9 +1,10 @@
 //! Verdicts as text.
 
+use crate::commands::properties::Outside;
 use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
-use rungc_syntax::{DeviceClass, codes};
+use rungc_syntax::{DeviceClass, codes, order};
 use rungc_verify::model::{Gap, Key, device_of};
 use rungc_verify::property::Property;
 use rungc_verify::prove::{Decision, Options, Verdict, Why};
@@ -17,6 +18,8 @@ pub struct Result<'a> {
     pub asked: &'a str,
     pub property: &'a Property,
     pub decision: &'a Decision,
+    /// What something other than the program may write.
+    pub outside: &'a Outside,
     /// How long it took.
     pub time: Duration,
 }
@@ -81,6 +84,20 @@ impl Result<'_> {
                 "            nothing in the program writes {names}: taken as inputs"
             );
         }
+        for by in self.outside.sources() {
+            let named_by = |key: &&Key| {
+                let device = device_of(**key);
+                device.and_then(|device| self.outside.source(module.model, device)) == Some(by)
+            };
+            let free = self.decision.free.iter().filter(named_by).copied();
+            let names = list(&free.collect::<Vec<_>>());
+            if !names.is_empty() {
+                let _ = writeln!(
+                    text,
+                    "            written from outside, as `{by}` says: {names}: taken as inputs"
+                );
+            }
+        }
     }
 
     /// The verdict as a diagnostic says it.
@@ -112,6 +129,10 @@ pub fn reason(why: &Why) -> String {
             "no run of {} keeps the assumptions",
             counted(*scans, "scan")
         ),
+        Why::Engines { difference } => format!(
+            "the engines of rungc disagree, so no verdict can be trusted: {difference}; please report this with the \
+             program"
+        ),
     }
 }
 
@@ -123,7 +144,12 @@ pub fn summary(results: &[Result]) -> String {
 }
 
 /// All verdicts as readable text.
-pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[String]) -> String {
+pub fn human(
+    results: &[Result],
+    module: &Module,
+    options: &Options,
+    (assumed, outside): (&[String], &Outside),
+) -> String {
     let mut text = String::new();
     for result in results {
         let seconds = result.time.as_secs_f64();
@@ -143,7 +169,7 @@ pub fn human(results: &[Result], module: &Module, options: &Options, assumed: &[
         .any(|result| result.word() == "proved" || result.word() == "not reachable")
     {
         let _ = writeln!(text, "Proved for this model under these assumptions:");
-        for line in assumptions(options, assumed) {
+        for line in assumptions(options, assumed, outside) {
             let _ = writeln!(text, "  - {line}");
         }
     }
@@ -165,7 +191,7 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
 }
 
 /// What every proof supposes.
-pub fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
+pub fn assumptions(options: &Options, assumed: &[String], outside: &Outside) -> Vec<String> {
     let ms = options.world.scan_ms;
     let mut lines = vec![
         "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
@@ -177,8 +203,7 @@ pub fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
             true => "latched devices begin with 0".to_string(),
             false => "latched devices begin with any value, all others as at power-on".to_string(),
         },
-        "nothing but the program writes the devices that it writes, except inputs and `--free`: no panel, no other PLC"
-            .to_string(),
+        untouched(outside),
     ];
     lines.extend(
         assumed
@@ -188,11 +213,29 @@ pub fn assumptions(options: &Options, assumed: &[String]) -> Vec<String> {
     lines
 }
 
+/// What is supposed of those who could write devices that the program writes.
+fn untouched(outside: &Outside) -> String {
+    let named = match outside.sources()[..] {
+        [] => "`--free`".to_string(),
+        [only] => format!("what `{only}` names"),
+        [ref several @ .., last] => format!("what `{}` and `{last}` name", several.join("`, `")),
+    };
+    let client = match outside.has_clients {
+        true => ", no client of `[serve]`",
+        false => "",
+    };
+    format!(
+        "nothing but the program writes the devices that it writes, except inputs and {named}: no panel, no other PLC{client}"
+    )
+}
+
 /// Names of devices.
 fn list(keys: &[Key]) -> String {
     const SHOWN: usize = 8;
     let names = keys.iter().filter_map(|&key| device_of(key));
-    let names: Vec<String> = names
+    // A timer is a value and a contact.
+    let names: Vec<String> = order::set(names)
+        .into_iter()
         .map(|(class, n)| class.number(n).to_string())
         .collect();
     match names.len() > SHOWN {

@@ -15,7 +15,7 @@ use rungc_sim::Target;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics};
 use rungc_verify::property::{Condition, Property};
-use rungc_verify::prove::{Options, Verdict};
+use rungc_verify::prove::Verdict;
 use rungc_verify::same::{Compared, Output, compare};
 use rungc_verify::search::Trace;
 use std::fmt::Write;
@@ -45,7 +45,8 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         cx,
     };
     let assumed = reader.assumed()?;
-    let options = super::options(args, &reader, &assumed)?;
+    let outside = reader.outside();
+    let options = super::options(args, &reader, &assumed, &outside)?;
     let looked = || options.assumed.iter();
     let old_module = module(&before, &read_old, looked(), &mut reporter)?;
     let new_module = module(&subject, &read_new, looked(), &mut reporter)?;
@@ -62,20 +63,22 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         return Err(Failure::Because(why));
     }
     let modules = [old_module, new_module];
-    let compared = compare(&modules[0], &modules[1], &options);
+    let mut compared = compare(&modules[0], &modules[1], &options);
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let mut shown = Vec::new();
-    for output in &compared.outputs {
+    for (what, output) in compared.outputs.iter().enumerate() {
         if let Verdict::Found(trace) = &output.verdict {
             shown.extend([0, 1].map(|program| Shown {
-                what: "an output that differs",
+                what,
                 program,
                 devices: vec![(DeviceClass::Y, output.number)],
                 trace,
             }));
         }
     }
-    engines::replay(args.replay, &modules, &shown, cx)?;
+    for (number, why) in engines::replay(args.replay, &modules, &shown, cx)? {
+        compared.outputs[number].verdict = Verdict::Undecided(why);
+    }
     let outputs = compared.outputs.iter();
     let file = subject.file.display().to_string();
     let cases = outputs
@@ -89,7 +92,8 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         &mut reporter,
     )?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    let text = || text(&compared, &names, &modules[1], &options, &assumed);
+    let supposed = report::assumptions(&options, &assumed, &outside);
+    let text = || text(&compared, &names, &modules[1], &supposed);
     let outcomes = outputs.map(|output| outcome(&output.verdict));
     let same = outcomes.clone().filter(|one| *one == Outcome::Success);
     let summary = format!(
@@ -194,13 +198,7 @@ fn case(output: &Output, file: &str, names: &[String; 2], module: &Module) -> Ca
 }
 
 /// The answer in words.
-fn text(
-    compared: &Compared,
-    names: &[String; 2],
-    module: &Module,
-    options: &Options,
-    assumed: &[String],
-) -> String {
+fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[String]) -> String {
     let mut text = String::new();
     let same: Vec<String> = compared
         .outputs
@@ -240,7 +238,7 @@ fn text(
     }
     if !same.is_empty() {
         let _ = writeln!(text, "Proved for this model under these assumptions:");
-        for line in report::assumptions(options, assumed) {
+        for line in supposed {
             let _ = writeln!(text, "  - {line}");
         }
         let calls: Vec<&str> = compared

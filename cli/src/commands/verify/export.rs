@@ -1,0 +1,105 @@
+//! What other programs read: the question, or the proof.
+
+use crate::args::VerifyArgs;
+use crate::commands::properties::Asked;
+use crate::commands::{Context, Failure, counted, spare, write_file};
+use rungc_ir::Module;
+use rungc_verify::aiger;
+use rungc_verify::certificate::certificate;
+use rungc_verify::prove::{Options, system};
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+/// Writes what was asked for.
+///
+/// # Errors
+///
+/// A file cannot be written, or there is no proof of a formula because `cadical` is missing or fails.
+pub fn export(
+    args: &VerifyArgs,
+    module: &Module,
+    asked: &[Asked],
+    options: &Options,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let only = |option: &str| match asked {
+        [only] => Ok(&only.property),
+        _ => Err(Failure::Because(format!("{option}: name one property"))),
+    };
+    if let Some(path) = &args.aiger {
+        let (_, system) = system(module, only("--aiger")?, options);
+        write_file(path, &aiger::binary(&system), args.force)?;
+        cx.note(&format!("       Wrote {}", path.display()));
+    }
+    let Some(folder) = &args.certificate else {
+        return Ok(());
+    };
+    let property = only("--certificate")?;
+    if args.drat {
+        solver()?;
+    }
+    let Some(files) = certificate(module, property, options) else {
+        cx.note("     Nothing was proved, so no certificate is written");
+        return Ok(());
+    };
+    std::fs::create_dir_all(folder)?;
+    for (name, text) in &files {
+        let path = folder.join(name);
+        write_file(&path, text.as_bytes(), args.force)?;
+        if args.drat {
+            prove(&path, options.time, args.force)?;
+        }
+    }
+    let count = counted(files.len(), "formula");
+    let proofs = if args.drat { " with proofs" } else { "" };
+    cx.note(&format!(
+        "       Wrote {count}{proofs} into {}",
+        folder.display()
+    ));
+    Ok(())
+}
+
+/// The solver that writes proofs.
+const SOLVER: &str = "cadical";
+
+/// What is said if the solver cannot be started.
+fn unstarted(error: &std::io::Error) -> Failure {
+    Failure::Because(format!(
+        "--drat: `{SOLVER}`, which makes the proofs, cannot be started: {error}; install it (Debian: `apt install \
+         cadical`), or leave --drat out and prove the formulas with another solver"
+    ))
+}
+
+/// Whether the solver is there.
+fn solver() -> std::result::Result<(), Failure> {
+    let version = Command::new(SOLVER).arg("--version").output();
+    version.map(|_| ()).map_err(|error| unstarted(&error))
+}
+
+/// Has the solver prove a formula, in a file beside it.
+fn prove(formula: &Path, time: Duration, force: bool) -> std::result::Result<(), Failure> {
+    let proof = formula.with_extension("drat");
+    spare(&proof, force)?;
+    let output = Command::new(SOLVER)
+        .args(["-q", "--no-binary", "-t"])
+        .arg(time.as_secs().max(1).to_string())
+        .arg(formula)
+        .arg(&proof)
+        .output()
+        .map_err(|error| unstarted(&error))?;
+    /// What SAT solvers end with when a formula cannot be satisfied.
+    const UNSATISFIABLE: i32 = 20;
+    if output.status.code() == Some(UNSATISFIABLE) {
+        return Ok(());
+    }
+    // Half a proof is none.
+    let _ = std::fs::remove_file(&proof);
+    let said = String::from_utf8_lossy(&output.stderr);
+    Err(Failure::Because(format!(
+        "--drat: `{SOLVER}` does not prove {} ({}): {}",
+        formula.display(),
+        output.status,
+        said.trim()
+    )))
+}
