@@ -201,8 +201,8 @@ fn installed<'a>(names: &[&'a str]) -> Option<&'a str> {
     names.find(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()))
 }
 
-/// Programs that keep Y000 and Y001 apart: by induction, by an invariant, and one that holds only while the counter keeps
-/// below its limit.
+/// Programs that keep Y000 and Y001 apart: by induction, by an invariant, and one that holds only while the counter
+/// keeps below its limit.
 fn kept_apart() -> [String; 3] {
     let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
     let chain = "LD X000\nOUT M0\nLD M0\nANI M20\nOUT M1\nLDP X001\nADD D0 K1 D0\nLD> D0 K5\nMOV K0 D0\n\
@@ -266,7 +266,7 @@ fn sat_solvers_confirm_proofs() {
     }
 }
 
-/// Checks a proof with a checker that nobody here wrote; the exit code says whether each step follows.
+/// Checks a proof with a checker that others wrote; the exit code says whether each step follows.
 const CHECK: &str = "\
 import dratify, sys
 formula, proof = sys.argv[1:]

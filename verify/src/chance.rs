@@ -49,13 +49,15 @@ impl<'s> Lanes<'s> {
     /// Runs that begin, with what may be anything by chance in half of them.
     pub fn new(system: &'s System, chance: &mut Chance) -> Self {
         let half = 0xFFFF_FFFF;
-        let begin =
-            |latch: &crate::system::Latch, chance: &mut Chance| match (latch.init, latch.key) {
-                (Some(on), _) => u64::from(on).wrapping_neg(),
+        let begin = |latch: &crate::system::Latch, chance: &mut Chance| {
+            let Some(on) = latch.init else {
+                let any = chance.bits() & chance.bits() & half;
                 // A replay begins at 0, too.
-                (None, Key::Now | Key::Timer(_, TimerPart::Part)) => 0,
-                (None, _) => chance.bits() & chance.bits() & half,
+                let from_0 = matches!(latch.key, Key::Now | Key::Timer(_, TimerPart::Part));
+                return if from_0 { 0 } else { any };
             };
+            u64::from(on).wrapping_neg()
+        };
         let latches: Vec<u64> = system
             .latches
             .iter()
@@ -304,7 +306,7 @@ pub(crate) fn long_runs(
                         return Some(trace);
                     }
                     failed += 1;
-                    // The lane goes on as something that cannot be shown.
+                    // What cannot be shown in this lane ends it.
                     lanes.alive &= !(bad & bad.wrapping_neg());
                 }
             }

@@ -165,8 +165,9 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 /// A time, in milliseconds, in which every timer expires.
 pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
-/// Bounded search and induction side by side; long runs by chance, and a search for an invariant; then a search, and one
-/// for an invariant, where a scan may come any time after the one before, so that a few scans show what takes many; then
+/// Bounded search and induction side by side; then a search where a scan may come any time after the one before, so
+/// that a few scans show what takes many, and long runs by chance; then searches for an invariant, where timers may
+/// expire at any time and where a scan may come at any time: what is proved there holds for shorter times, too; then
 /// bounded search alone. `system` is that of the question in this world.
 pub fn search(
     question: &dyn Question,
@@ -192,14 +193,20 @@ pub fn search(
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    if let Some(found) = hunt.by_chance(system, deadline) {
+    let patient = question.system(&World {
+        scan_ms: FOREVER_MS,
+        ..world.clone()
+    });
+    let found = patiently(question, world, &patient, deadline);
+    if let Some(found) = found.or_else(|| hunt.by_chance(system, deadline)) {
         return found;
     }
     if question.may_be_vague() && proved_vaguely(question, world, deadline) {
         return Verdict::Proved;
     }
-    if let Some(verdict) = patiently(question, world, deadline) {
-        return verdict;
+    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) * 2 / 3;
+    if invariant(&patient, until, deadline) {
+        return Verdict::Proved;
     }
     while Instant::now() < deadline && hunt.spurious.is_none() {
         if let Some(verdict) = hunt.step() {
@@ -227,16 +234,16 @@ fn invariant(system: &System, until: Instant, deadline: Instant) -> bool {
     }
 }
 
-/// Where a scan may come any time after the one before: what is proved there holds for shorter times, too, and a run is
-/// replayed with scans in between.
-fn patiently(question: &dyn Question, world: &World, deadline: Instant) -> Option<Verdict> {
-    let system = question.system(&World {
-        scan_ms: FOREVER_MS,
-        ..world.clone()
-    });
+/// Searches in `system`, where a scan may come any time after the one before: a run is replayed with scans in between.
+fn patiently(
+    question: &dyn Question,
+    world: &World,
+    system: &System,
+    deadline: Instant,
+) -> Option<Verdict> {
     let now = Instant::now();
-    let left = deadline.saturating_duration_since(now);
-    let mut hunt = Hunt::new(question, world, &system, now + left / 4);
+    let until = now + deadline.saturating_duration_since(now) / 8;
+    let mut hunt = Hunt::new(question, world, system, until);
     for _ in 0..2 * INDUCTION {
         if hunt.spurious.is_some() {
             break;
@@ -246,8 +253,7 @@ fn patiently(question: &dyn Question, world: &World, deadline: Instant) -> Optio
             return found;
         }
     }
-    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) * 2 / 3;
-    invariant(&system, until, deadline).then_some(Verdict::Proved)
+    None
 }
 
 /// A search for a run that the interpreter confirms.

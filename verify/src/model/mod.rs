@@ -409,7 +409,7 @@ impl<'m> Encoder<'m> {
         memory::is_settable(key) && memory::device_of(key).is_some_and(is_free)
     }
 
-    /// What counts as an input although it is no terminal: what is unwritten, and what [`World::free`] names.
+    /// What counts as an input beside terminals: what is unwritten, and what [`World::free`] names.
     pub fn opened(&self) -> impl Iterator<Item = Key> {
         let keys = self.before.keys().copied();
         keys.filter(|&key| self.is_unwritten(key) || self.is_named_free(key))

@@ -65,17 +65,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let modules = [old_module, new_module];
     let mut compared = compare(&modules[0], &modules[1], &options);
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
-    let mut shown = Vec::new();
-    for (what, output) in compared.outputs.iter().enumerate() {
-        if let Verdict::Found(trace) = &output.verdict {
-            shown.extend([0, 1].map(|program| Shown {
-                what,
-                program,
-                devices: vec![(DeviceClass::Y, output.number)],
-                trace,
-            }));
-        }
-    }
+    let shown = shown(&compared);
     for (number, why) in engines::replay(args.replay, &modules, &shown, cx)? {
         compared.outputs[number].verdict = Verdict::Undecided(why);
     }
@@ -103,6 +93,23 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     );
     super::deliver(args, reporter, text, &summary, cx)?;
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// The runs in which outputs differ, of either program.
+fn shown(compared: &Compared) -> Vec<Shown<'_>> {
+    let outputs = compared.outputs.iter().enumerate();
+    let found = outputs.filter_map(|(what, output)| {
+        let Verdict::Found(trace) = &output.verdict else {
+            return None;
+        };
+        Some([0, 1].map(|program| Shown {
+            what,
+            program,
+            devices: vec![(DeviceClass::Y, output.number)],
+            trace,
+        }))
+    });
+    found.flatten().collect()
 }
 
 fn outcome(verdict: &Verdict) -> Outcome {
