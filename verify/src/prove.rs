@@ -165,10 +165,11 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 /// A time, in milliseconds, in which every timer expires.
 pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
-/// Bounded search and induction side by side; then a search where a scan may come any time after the one before, so
-/// that a few scans show what takes many, and long runs by chance; then searches for an invariant, where timers may
-/// expire at any time and where a scan may come at any time: what is proved there holds for shorter times, too; then
-/// bounded search alone. `system` is that of the question in this world.
+/// Bounded search and induction side by side. Then, each for a short time: a search for an invariant where timers may
+/// expire at any time; a search for a run, and one for an invariant, where a scan may come any time after the one
+/// before, so that a few scans show what takes many; and long runs by chance. Then the searches for invariants for
+/// longer, and bounded search alone. What is proved for any time between scans holds for shorter times, too. `system`
+/// is that of the question in this world.
 pub fn search(
     question: &dyn Question,
     world: &World,
@@ -193,19 +194,28 @@ pub fn search(
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
+    // Most proofs are found at once.
+    const AT_ONCE: u32 = 16;
+    if question.may_be_vague() && proved_vaguely(question, world, deadline, AT_ONCE) {
+        return Verdict::Proved;
+    }
     let patient = question.system(&World {
         scan_ms: FOREVER_MS,
         ..world.clone()
     });
-    let found = patiently(question, world, &patient, deadline);
-    if let Some(found) = found.or_else(|| hunt.by_chance(system, deadline)) {
+    if let Some(found) = patiently(question, world, &patient, deadline) {
         return found;
     }
-    if question.may_be_vague() && proved_vaguely(question, world, deadline) {
+    if invariant(&patient, share(deadline, AT_ONCE), deadline) {
         return Verdict::Proved;
     }
-    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) * 2 / 3;
-    if invariant(&patient, until, deadline) {
+    if let Some(found) = hunt.by_chance(system, deadline) {
+        return found;
+    }
+    if question.may_be_vague() && proved_vaguely(question, world, deadline, 4) {
+        return Verdict::Proved;
+    }
+    if invariant(&patient, share(deadline, 2), deadline) {
         return Verdict::Proved;
     }
     while Instant::now() < deadline && hunt.spurious.is_none() {
@@ -216,14 +226,19 @@ pub fn search(
     hunt.undecided()
 }
 
-/// Whether a property is proved where timers may expire at any time.
-fn proved_vaguely(question: &dyn Question, world: &World, deadline: Instant) -> bool {
+/// When one of so many parts of the time that is left will be over.
+fn share(deadline: Instant, parts: u32) -> Instant {
+    let now = Instant::now();
+    now + deadline.saturating_duration_since(now) / parts
+}
+
+/// Whether a property is proved where timers may expire at any time, in one of so many parts of the time.
+fn proved_vaguely(question: &dyn Question, world: &World, deadline: Instant, parts: u32) -> bool {
     let system = question.system(&World {
         any_preset: true,
         ..world.clone()
     });
-    let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) / 4;
-    invariant(&system, until, deadline)
+    invariant(&system, share(deadline, parts), deadline)
 }
 
 /// Whether an invariant is found, and another solver confirms it.
@@ -241,9 +256,7 @@ fn patiently(
     system: &System,
     deadline: Instant,
 ) -> Option<Verdict> {
-    let now = Instant::now();
-    let until = now + deadline.saturating_duration_since(now) / 8;
-    let mut hunt = Hunt::new(question, world, system, until);
+    let mut hunt = Hunt::new(question, world, system, share(deadline, 8));
     for _ in 0..2 * INDUCTION {
         if hunt.spurious.is_some() {
             break;
@@ -302,10 +315,7 @@ impl<'a> Hunt<'a> {
     fn by_chance(&self, system: &System, deadline: Instant) -> Option<Verdict> {
         /// Long enough for runs that can be found so at all, and for what shortens one.
         const MOST: Duration = Duration::from_secs(3);
-        let soon = || {
-            let now = Instant::now();
-            now + (deadline.saturating_duration_since(now) / 4).min(MOST)
-        };
+        let soon = || share(deadline, 4).min(Instant::now() + MOST);
         let happens = |trace: &Trace| self.question.happens(trace);
         let found = long_runs(system, self.scan_ms, soon(), &mut |trace| {
             happens(trace).is_some()
