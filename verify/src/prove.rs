@@ -226,13 +226,13 @@ pub fn search(
     hunt.undecided()
 }
 
-/// When one of so many parts of the time that is left will be over.
+/// When this part of the time that is left will be over: 4 is a quarter.
 fn share(deadline: Instant, parts: u32) -> Instant {
     let now = Instant::now();
     now + deadline.saturating_duration_since(now) / parts
 }
 
-/// Whether a property is proved where timers may expire at any time, in one of so many parts of the time.
+/// Whether a property is proved where timers may expire at any time, in this part of the time.
 fn proved_vaguely(question: &dyn Question, world: &World, deadline: Instant, parts: u32) -> bool {
     let system = question.system(&World {
         any_preset: true,
