@@ -17,6 +17,9 @@ pub const CHECKED_SCANS: u32 = 3000;
 /// C compilers, in the order of the table.
 const COMPILERS: [&str; 2] = ["gcc", "clang"];
 
+/// The longest programs that are timed as many instances: clang takes more than ten minutes for 100,000 steps.
+const LANES_STEPS: u32 = 20_000;
+
 /// How thoroughly to time.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
@@ -99,7 +102,8 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
     let mut builds = Vec::new();
     for compiler in compilers {
         // What calls the runtime does not run in lanes.
-        let lanes = (!ladder.kind.calls()).then_some(Code::Lanes);
+        let fits = !ladder.kind.calls() && ladder.steps <= LANES_STEPS;
+        let lanes = fits.then_some(Code::Lanes);
         for code in [Code::Hand, Code::C].into_iter().chain(lanes) {
             builds.push(build_c(ladder, code, compiler, folder.path()));
         }
