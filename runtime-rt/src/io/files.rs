@@ -5,7 +5,7 @@ use super::settings::{Connection, End, Row, devices};
 use std::boxed::Box;
 use std::collections::BTreeMap;
 use std::format;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
@@ -105,8 +105,19 @@ fn number(text: &str) -> Option<i16> {
 /// Writes numbers as one line, at once.
 fn write(path: &Path, values: &[i16]) -> io::Result<()> {
     let words: Vec<_> = values.iter().map(ToString::to_string).collect();
-    // Not replaced by another file: it may be one that stands for hardware.
-    fs::write(path, words.join(" ") + "\n")
+    let line = words.join(" ") + "\n";
+    // Not replaced by another file: it may be one that stands for hardware. Cut off afterwards, so that no reader finds it empty.
+    let mut file = File::options()
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(path)?;
+    file.write_all(line.as_bytes())?;
+    let known = file.metadata()?;
+    if known.is_file() && known.len() > line.len() as u64 {
+        file.set_len(line.len() as u64)?;
+    }
+    Ok(())
 }
 
 /// Standard input and output: lines such as `X000=1` and `Y000=1`.

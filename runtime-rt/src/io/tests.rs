@@ -175,7 +175,19 @@ fn files_are_read_and_written() {
     put("speed", b"65535");
     assert_eq!(exchange(&mut inputs, [-1, 7]), Ok(()));
     assert_eq!(inputs, [1, 0, 1, -1]);
-    assert_eq!(fs::read_to_string(folder.join("state")).unwrap(), "-1 7\n");
+    let state = || fs::read_to_string(folder.join("state")).unwrap();
+    assert_eq!(state(), "-1 7\n");
+    std::thread::scope(|scope| {
+        let reader = scope.spawn(|| (0..5_000).all(|_| !state().is_empty()));
+        let mut count = 0;
+        while !reader.is_finished() {
+            count += 1;
+            assert_eq!(exchange(&mut inputs, [-count % 300, 7]), Ok(()));
+        }
+        assert!(reader.join().unwrap(), "a reader found no value");
+    });
+    assert_eq!(exchange(&mut inputs, [0, 7]), Ok(()));
+    assert_eq!(state(), "0 7\n");
     for text in [&b"70000"[..], b"", b"x", b"\xff\xfe"] {
         put("speed", text);
         assert!(exchange(&mut inputs, [0; 2]).is_err(), "{text:?}");
