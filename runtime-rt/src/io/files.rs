@@ -106,7 +106,8 @@ fn number(text: &str) -> Option<i16> {
 fn write(path: &Path, values: &[i16]) -> io::Result<()> {
     let words: Vec<_> = values.iter().map(ToString::to_string).collect();
     let line = words.join(" ") + "\n";
-    // Not replaced by another file: it may be one that stands for hardware. Cut off afterwards, so that no reader finds it empty.
+    // Not replaced by another file: it may be one that stands for hardware. Cut off afterwards, so that no
+    // reader finds it empty.
     let mut file = File::options()
         .write(true)
         .create(true)
