@@ -1,6 +1,6 @@
 //! A program in real time, as each host runs it: executables in C and in Rust, and `rungc serve`.
 
-use super::{rungc, text};
+use super::{cargo_built, rungc, text};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -77,26 +77,17 @@ pub fn executables() -> &'static [PathBuf; 2] {
     static BUILT: OnceLock<[PathBuf; 2]> = OnceLock::new();
     BUILT.get_or_init(|| {
         let at = &Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts");
-        let _ = fs::remove_dir_all(at.join("rust"));
         fs::create_dir_all(at).unwrap();
         fs::write(at.join("starts.il"), PROGRAM).unwrap();
         fs::write(at.join("rungc.toml"), SETTINGS).unwrap();
         for emit in [
             &["--emit", "bin", "-o", "in-c", "--force"][..],
-            &["--emit", "rust", "--main", "-o", "rust"],
+            &["--emit", "rust", "--main", "-o", "rust", "--force"],
         ] {
             let built = rungc(at, &[&["build", "starts.il"], emit].concat());
             assert!(built.status.success(), "{}", text(&built.stderr));
         }
-        let cargo = std::env::var("CARGO").unwrap_or("cargo".to_string());
-        let built = Command::new(cargo)
-            .args(["build", "--quiet", "--offline"])
-            .current_dir(at.join("rust"))
-            .env("CARGO_TARGET_DIR", at.join("target"))
-            .output()
-            .unwrap();
-        assert!(built.status.success(), "{}", text(&built.stderr));
-        [at.join("in-c"), at.join("target/debug/starts")]
+        [at.join("in-c"), cargo_built(&at.join("rust"), "starts")]
     })
 }
 
