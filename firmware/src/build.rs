@@ -146,10 +146,17 @@ impl Tools {
         if output.status.success() && Path::new(folder.trim()).is_dir() {
             return Ok(());
         }
-        Err(BuildError::Missing(format!(
-            "the Rust toolchain has no library for {triple}: run `rustup target add {triple}`, or name one that has it by \
-             CARGO and RUSTC"
-        )))
+        Err(BuildError::Missing(match self.target.rustc_name() {
+            Some(_) => format!(
+                "the Rust toolchain has no library for {triple}: run `rustup target add {triple}`, or name one that has it \
+                 by CARGO and RUSTC"
+            ),
+            None => format!(
+                "{} has no standard library for this machine: install Rust from https://rustup.rs, or name a toolchain \
+                 that has it by CARGO and RUSTC",
+                self.rustc.display()
+            ),
+        }))
     }
 
     /// The runtime as a static library, which is built once for each target and toolchain. Where there is no cache, it
