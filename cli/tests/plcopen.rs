@@ -91,11 +91,16 @@ fn follows_schema(project: &Path) {
 
 #[test]
 fn a_program_becomes_a_ladder() {
-    let list = format!(";! title = Press\n;! X000 = start\n; Run-up\n{MOTOR}");
+    let list = format!(";! title = Press\n;! cpu = FX2N/FX2NC\n;! X000 = start\n; Run-up\n{MOTOR}");
     let folder = folder(&[("motor.il", list.as_bytes())]);
-    let written = rungc(folder.path(), &["convert", "motor.il", "--to", "plcopen"]);
+    let path = folder.path();
+    let written = rungc(path, &["convert", "motor.il", "--to", "plcopen"]);
     assert_eq!(text(&written.stderr), "");
     insta::assert_snapshot!("plcopen_motor", text(&written.stdout));
+    fs::write(path.join("motor.xml"), &written.stdout).unwrap();
+    let back = text(&rungc(path, &["convert", "motor.xml", "--to", "il"]).stdout);
+    let expected = ";! title = Press\n;! cpu = FX2N/FX2NC\n;! X000 = start\n; Run-up\n";
+    assert!(back.starts_with(expected), "{back}");
 }
 
 #[test]

@@ -28,6 +28,10 @@ use variables::{Found, Kind, Missing, Variables};
 pub use blocks::iec_timer_unit;
 pub use variables::Names;
 
+/// What the description of a project begins with (`contentDescription` of its header), before the CPU type of its PLC:
+/// TC6 2.01 has no element for it.
+pub const PLCOPEN_CPU: &str = "CPU type ";
+
 /// What the namespace of a project begins with.
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
 /// How far into a text its namespace is, at most.
@@ -138,6 +142,7 @@ fn called(node: Node) -> String {
 struct Reader {
     parts: Vec<Part>,
     title: Option<String>,
+    cpu: Option<String>,
     variables: Variables,
     /// Pointers by the labels of programs.
     pointers: BTreeMap<String, u32>,
@@ -185,6 +190,10 @@ impl Reader {
         let root = document.root_element();
         let header = children(root, "contentHeader").next();
         self.title = header.and_then(|h| h.attribute("name")).map(str::to_owned);
+        let header = children(root, "fileHeader").next();
+        let described = header.and_then(|h| h.attribute("contentDescription"));
+        let cpu = described.and_then(|text| text.trim().strip_prefix(PLCOPEN_CPU));
+        self.cpu = cpu.map(|cpu| cpu.trim().to_owned());
         let pous = root
             .descendants()
             .filter(|node| node.tag_name().name() == "pou");
@@ -350,6 +359,7 @@ impl Reader {
         let mut read = il::read_text(name, &lines.join("\n"));
         read.program.kind = SourceKind::Plcopen;
         read.program.title = self.title.filter(|title| !title.trim().is_empty());
+        read.program.cpu = self.cpu.filter(|cpu| !cpu.is_empty());
         read.program.comments = self.variables.comments;
         if self.faults.is_empty() {
             return read;

@@ -246,12 +246,17 @@ fn document(program: &Program, pous: &[Pou], words: &Words) -> String {
         ("xmlns:xhtml", "http://www.w3.org/1999/xhtml"),
     ];
     xml.node("project", &spaces, |xml| {
-        let product = [
+        let cpu = program
+            .cpu
+            .as_ref()
+            .map(|cpu| format!("{}{cpu}", rungc_frontend::PLCOPEN_CPU));
+        let mut product = vec![
             ("companyName", ""),
             ("productName", "rungc"),
             ("productVersion", env!("CARGO_PKG_VERSION")),
             ("creationDateTime", MADE),
         ];
+        product.extend(cpu.iter().map(|cpu| ("contentDescription", cpu.as_str())));
         xml.leaf("fileHeader", &product);
         xml.node(
             "contentHeader",
