@@ -106,13 +106,16 @@ impl Host {
 
     /// Starts it in a folder with the program and its settings, and turns X000 on.
     pub fn start(self, folder: &Path, args: &[&str], environment: &[(&str, &str)]) -> Running {
-        let mut command = match self {
-            Host::InC => Command::new(&executables()[0]),
-            Host::InRust => Command::new(&executables()[1]),
+        // A caller in the background ignores SIGINT, and a program that it started would, too.
+        let mut command = Command::new("env");
+        command.arg("--default-signal=INT");
+        match self {
+            Host::InC => command.arg(&executables()[0]),
+            Host::InRust => command.arg(&executables()[1]),
             Host::Serve => {
-                let mut command = Command::new(env!("CARGO_BIN_EXE_rungc"));
-                command.args(["serve", "--set", "X000=1@20ms"]);
                 command
+                    .arg(env!("CARGO_BIN_EXE_rungc"))
+                    .args(["serve", "--set", "X000=1@20ms"])
             }
         };
         let mut child = command
