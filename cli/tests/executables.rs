@@ -261,7 +261,10 @@ fn serves(program: &Path) {
 
 /// The programming port answers on a separate line, and Ctrl-C ends the run with the table of connections.
 fn answers_a_programmer_until_interrupted(program: &Path, line: &str, client: Option<&Path>) {
-    let mut host = Host::start(Command::new(program).args(["--fx", line, "--modbus-tcp", "0"]));
+    // A caller in the background ignores SIGINT, and a program that it started would, too.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT").arg(program);
+    let mut host = Host::start(command.args(["--fx", line, "--modbus-tcp", "0"]));
     let path = host.says("COM0 at ");
     let client = client.map_or(path, |client| client.display().to_string());
     let modbus = host.says("Modbus TCP at ");

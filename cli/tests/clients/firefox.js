@@ -8,11 +8,13 @@ const [url, pictures] = process.argv.slice(2);
   const browser = await puppeteer.launch({ browser: "firefox", executablePath: process.env.RUNGC_FIREFOX, headless: true });
   const page = await browser.newPage();
   await page.setViewport({ width: 1280, height: 800 });
+  // On a loaded machine.
+  page.setDefaultTimeout(120_000);
   const errors = [];
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(url);
   const report = await slide({
-    settle: (test, ...given) => page.waitForFunction(test, { timeout: 60_000, polling: 100 }, ...given),
+    settle: (test, ...given) => page.waitForFunction(test, { polling: 100 }, ...given),
     read: (what) => page.evaluate(what),
     fill: (place, text) => page.locator(place).fill(text),
     press: (name) => page.locator(`::-p-aria([name="${name}"][role="button"])`).click(),

@@ -4,7 +4,7 @@ const { look, open } = require("./browser.js");
 open(async (page) => {
   const press = (name) => page.getByRole("button", { name, exact: true }).click();
   const text = (selector) => page.locator(selector).innerText();
-  const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 20_000 });
+  const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 60_000 });
   // The whole text: "RUN" is also how that of a pause begins.
   const mode = (wanted) => settle((wanted) => document.getElementById("mode").textContent === wanted, wanted);
   const lit = (network) => page.locator(`#n${network} [data-net].on`).count();
