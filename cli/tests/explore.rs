@@ -295,3 +295,79 @@ END
     let args = ["explore", "around.il", "--model", "fx3u", "--scans", "2000"];
     insta::assert_snapshot!("not_tried", shown(folder.path(), &args));
 }
+
+/// A knife that comes down at a length of 300 pulses, and must not while the clamp is open. `{}`: how it is switched.
+fn cutter(switched: &str) -> String {
+    format!(
+        "\
+LD X001          ; feed
+OUT C235 K100000 ; length
+LD X001
+DHSCS K300 C235 {switched}
+LDI X001
+RST C235
+RST Y000
+RST M0
+END
+"
+    )
+}
+
+const FAULTY: &str = "Y000   ; knife";
+const REPAIRED: &str = "M0\nLD M0\nAND X002 ; clamp\nOUT Y000 ; knife";
+
+#[test]
+fn faults_that_show_after_many_pulses_are_found() {
+    let folder = folder(&[("cutter.il", cutter(FAULTY).as_bytes())]);
+    let args = [
+        "explore",
+        "cutter.il",
+        "--model",
+        "fx3u",
+        "--never",
+        "Y000 & !X002",
+        "--scans",
+        "4000",
+        "--replay",
+        "all",
+        "--write-test",
+        "found.plctest.toml",
+    ];
+    insta::assert_snapshot!("pulses", shown(folder.path(), &args));
+    let test = fs::read_to_string(folder.path().join("found.plctest.toml")).unwrap();
+    insta::assert_snapshot!("pulses_test_file", test);
+    let tested = || {
+        code(
+            folder.path(),
+            &["test", "found.plctest.toml", "--engine", "all"],
+        )
+    };
+    assert_eq!(tested(), 1);
+    fs::write(folder.path().join("cutter.il"), cutter(REPAIRED)).unwrap();
+    assert_eq!(tested(), 0);
+    let nothing = shown(folder.path(), &args[..8]);
+    assert!(nothing.contains("Nothing was found."), "{nothing}");
+}
+
+/// A slide on an encoder that must not go back beyond its stop.
+const SLIDE: &str = "\
+LD M8000
+OUT C251 K100000
+LDD< C251 K-40
+OUT Y000
+END
+";
+
+#[test]
+fn encoders_turn_in_both_directions() {
+    let folder = folder(&[("slide.il", SLIDE.as_bytes())]);
+    let args = ["explore", "slide.il", "--model", "fx3u", "--never", "Y000"];
+    let rest = ["--replay", "all", "--write-test", "found.plctest.toml"];
+    let args = [&args[..], &["--scans", "4000"], &rest].concat();
+    let output = shown(folder.path(), &args);
+    assert!(output.contains("cycles of X000 and X001 = -41"), "{output}");
+    let test = fs::read_to_string(folder.path().join("found.plctest.toml")).unwrap();
+    let step = "encoder = { a = \"X000\", b = \"X001\", count = -41, hz = 5000 }";
+    assert!(test.contains(step), "{test}");
+    assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 1);
+}

@@ -4,7 +4,7 @@ use crate::run::Runner;
 use crate::task::Task;
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Expr, ExprId, FlagId, Stmt};
+use rungc_ir::node::{AccessKind, CellId, Expr, ExprId, FlagId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_models::runs::{is_counter32, is_special};
 use rungc_rt::{Class, Plc};
@@ -296,11 +296,15 @@ fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i
             numbers.push(number);
         }
     };
+    let cells = Cells::of(module);
     for expr in &module.exprs {
         if let Expr::Cmp(_, a, b) = *expr {
             for (a, b) in [(a, b), (b, a)] {
-                if let (Some(device), Some(number)) = (word(module, a), constant(module, b)) {
-                    add(device, number);
+                if let Some(device) = word(module, a) {
+                    let numbers = cells
+                        .behind(module, b)
+                        .filter_map(|id| constant(module, id));
+                    numbers.for_each(|number| add(device, number));
                 }
             }
         }
@@ -311,11 +315,12 @@ fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i
                 Stmt::Timer(coil) => ((DeviceClass::T, coil.number), coil.preset),
                 Stmt::Counter16(coil) => ((DeviceClass::C, coil.number), coil.preset),
                 Stmt::Counter32(coil) => ((DeviceClass::C, coil.number), coil.preset),
+                Stmt::Count(count) => ((DeviceClass::C, count.number), count.preset),
                 _ => return,
             };
-            if let Some(number) = constant(module, preset) {
-                add(device, number);
-            }
+            let numbers = cells.behind(module, preset);
+            let numbers = numbers.filter_map(|id| constant(module, id));
+            numbers.for_each(|number| add(device, number));
         });
     }
     let conditions = task.properties.iter().flat_map(|p| p.conditions());
@@ -332,6 +337,33 @@ fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i
         }
     }
     found
+}
+
+/// What a program's private cells are set to.
+pub(crate) struct Cells(FxHashMap<CellId, Vec<ExprId>>);
+
+impl Cells {
+    pub(crate) fn of(module: &Module) -> Self {
+        let mut cells: FxHashMap<CellId, Vec<ExprId>> = FxHashMap::default();
+        for function in &module.functions {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::SetCell(cell, value) = *stmt {
+                    cells.entry(cell).or_default().push(value);
+                }
+            });
+        }
+        Cells(cells)
+    }
+
+    /// An expression, or if it is a cell, all that the cell is set to.
+    pub(crate) fn behind(&self, module: &Module, id: ExprId) -> impl Iterator<Item = ExprId> {
+        let set = match *module.expr(id) {
+            Expr::Cell(cell) => self.0.get(&cell).map_or(&[][..], Vec::as_slice),
+            _ => &[],
+        };
+        let own = set.is_empty().then_some(id);
+        own.into_iter().chain(set.iter().copied())
+    }
 }
 
 /// The word that an expression reads.

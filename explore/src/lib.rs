@@ -16,6 +16,7 @@ pub mod run;
 pub mod search;
 pub mod shrink;
 pub mod task;
+pub mod trains;
 pub mod untried;
 pub mod vary;
 pub mod wide;

@@ -1,12 +1,15 @@
 //! Runs of a program, step by step, as test files run it.
 
 use crate::task::{Kind, Step, Task, What};
+use crate::trains::{changes, left_off};
 use rungc_interp::{Machine, Saved};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::{Plant, Wired};
+use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
 use rungc_verify::property::{Watcher, read};
+use std::collections::VecDeque;
 
 /// How many scans in a row an output changes before it counts as one that never comes to rest.
 pub const RESTLESS: u32 = 20;
@@ -24,6 +27,8 @@ pub struct Runner<'t> {
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
     inputs: Vec<i32>,
+    /// Pulses of the step that has begun; their times are since power-on.
+    coming: VecDeque<Change>,
     /// Milliseconds since power-on.
     now_ms: u64,
     /// Milliseconds of the run until then, and how often the power supply has gone off.
@@ -96,6 +101,7 @@ impl<'t> Runner<'t> {
             plant,
             watchers: task.properties.iter().map(Watcher::new).collect(),
             inputs: vec![0; task.inputs.len()],
+            coming: VecDeque::new(),
             now_ms: 0,
             before: (0, 0),
             last_ms: None,
@@ -182,7 +188,31 @@ impl<'t> Runner<'t> {
         self.outputs.clone_from(&moment.outputs);
     }
 
-    /// Changes inputs, as a step of a run says.
+    /// Begins a step of a run: inputs change, and pulses come in the time of its first scan.
+    pub fn begin(&mut self, step: &Step) {
+        self.set(&step.set);
+        self.coming.clear();
+        if step.pulses.is_empty() {
+            return;
+        }
+        let task = self.task;
+        let is_on = |number: u32| {
+            let target = Target::Bit(DeviceClass::X, number);
+            let mut inputs = task.inputs.iter().zip(&self.inputs);
+            inputs.any(|(input, value)| input.target == target && *value != 0)
+        };
+        let mut coming = changes(task, step, &is_on);
+        coming
+            .iter_mut()
+            .for_each(|change| change.at_us += 1000 * self.now_ms);
+        self.coming.extend(coming);
+        for input in left_off(task, &step.pulses) {
+            self.inputs[input] = 0;
+        }
+        self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
+    }
+
+    /// Changes inputs, as a step without pulses says.
     pub fn set(&mut self, set: &[(usize, i32)]) {
         if let Some(&(_, times)) = set.iter().find(|(input, _)| *input == POWER) {
             self.cycle_power(times);
@@ -238,8 +268,13 @@ impl<'t> Runner<'t> {
         let scan_us = scan_ms.saturating_mul(1000);
         self.machine
             .scan(&mut *self.hal, self.now_ms as u32, scan_us);
-        let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
+        let mut elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
+        // What happens between two scans is seen as test files see it, which look once the time has passed.
+        if self.takes_events {
+            elapsed_ms = scan_ms;
+            self.pass(scan_ms);
+        }
         if !self.task.assumed.iter().all(|a| a.holds(&self.machine)) {
             return Scanned::Excluded;
         }
@@ -250,7 +285,9 @@ impl<'t> Runner<'t> {
             }
         }
         self.notice();
-        self.pass(scan_ms);
+        if !self.takes_events {
+            self.pass(scan_ms);
+        }
         let broken = self.plant.as_ref().and_then(Plant::collision);
         if let Some(collision) = broken
             && self.task.wants(Kind::Collisions)
@@ -331,14 +368,25 @@ impl<'t> Runner<'t> {
         for _ in 0..scan_ms {
             self.now_ms += 1;
             self.hal.advance_to(self.now_ms as u32);
-            if let Some(plant) = &mut self.plant {
+            let mut others = Vec::new();
+            while let Some(next) = self.coming.front()
+                && next.at_us < 1000 * self.now_ms
+            {
+                others.extend(self.coming.pop_front());
+            }
+            let mut pulsed = Plant::default();
+            let plant = match &mut self.plant {
+                None if !others.is_empty() => Some(&mut pulsed),
+                plant => plant.as_mut(),
+            };
+            if let Some(plant) = plant {
                 let mut wired = Wired {
                     machine: &mut self.machine,
                     hal: &mut self.hal,
                     changed: &mut |_| Ok::<_, String>(()),
                 };
                 // Nothing can go wrong: all sensors were connected at power-on.
-                let _ = plant.step(self.now_ms, &[], &mut wired);
+                let _ = plant.step(self.now_ms, &others, &mut wired);
             }
             if self.takes_events {
                 self.machine.tick(&mut *self.hal, self.now_ms as u32);
@@ -363,7 +411,7 @@ pub fn replay(task: &Task, what: &What, run: &[Step]) -> Option<Vec<Step>> {
 pub fn follow(runner: &mut Runner, what: &What, run: &[Step]) -> Option<Vec<Step>> {
     let mut done: Vec<Step> = Vec::new();
     for step in run {
-        runner.set(&step.set);
+        runner.begin(step);
         done.push(Step {
             scans: 0,
             ..step.clone()

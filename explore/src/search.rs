@@ -8,6 +8,7 @@ use crate::cover::{Feature, Last, Seen, View};
 use crate::lanes::Lanes;
 use crate::run::{Moment, RESTLESS, Runner, Scanned};
 use crate::task::{Found, Kind, Step, Task, What};
+use crate::trains::cost;
 use crate::vary::Choices;
 use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
@@ -358,7 +359,9 @@ impl<'t> Round<'_, 't> {
         (brought, own): (&mut Brought<'t>, &mut Seen),
     ) -> bool {
         let step = self.choices.step(runner, rng, 4 * self.scans.max(64));
-        runner.set(&step.set);
+        runner.begin(&step);
+        let cost = cost(&step.pulses);
+        brought.spent += cost;
         let mut done = Step { scans: 0, ..step };
         let mut new = Vec::new();
         let mut scanned = Scanned::Next;

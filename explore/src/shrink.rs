@@ -2,6 +2,7 @@
 
 use crate::run::{Moment, Runner, follow};
 use crate::task::{Found, Input, Step, Task, What};
+use crate::trains::{MOST_A_MS, are_possible, cost, left_off};
 
 /// How many scans may be executed to shrink a run.
 const BUDGET: u64 = 400_000;
@@ -39,10 +40,12 @@ pub fn shrink(task: &Task, found: Found) -> Found {
         let before = shrinking.found.run.clone();
         shrinking.leave_steps_out();
         shrinking.leave_changes_out();
+        shrinking.leave_pulses_out();
         shrinking.merge();
         shrinking.wait_less();
         shrinking.scan_as_usual();
         shrinking.take_small_values();
+        shrinking.take_few_pulses();
         if shrinking.found.run == before || shrinking.left == 0 {
             return shrinking.found;
         }
@@ -56,8 +59,14 @@ impl Shrinking<'_> {
 
     /// Takes another run if it shows the same and is no longer.
     fn attempt(&mut self, mut run: Vec<Step>) -> bool {
-        tidy(&mut run);
-        let cost: u64 = run.iter().map(|step| u64::from(step.scans)).sum();
+        tidy(self.task, &mut run);
+        if !run.iter().all(|step| are_possible(self.task, step)) {
+            return false;
+        }
+        let costs = run
+            .iter()
+            .map(|step| u64::from(step.scans) + cost(&step.pulses));
+        let cost: u64 = costs.sum();
         if run == self.found.run || self.left == 0 {
             return false;
         }
@@ -69,7 +78,7 @@ impl Shrinking<'_> {
         let Some(mut shown) = follow(&mut self.runner, &self.found.what, &run) else {
             return false;
         };
-        tidy(&mut shown);
+        tidy(self.task, &mut shown);
         let shorter = measure(&shown) < measure(&self.found.run);
         if shorter {
             self.found.run = shown;
@@ -117,6 +126,20 @@ impl Shrinking<'_> {
         }
     }
 
+    /// Pulses that do not matter.
+    fn leave_pulses_out(&mut self) {
+        for at in 0..self.run().len() {
+            let mut train = 0;
+            while train < self.run().get(at).map_or(0, |step| step.pulses.len()) {
+                let mut run = self.run().to_vec();
+                run[at].pulses.remove(train);
+                if !self.attempt(run) {
+                    train += 1;
+                }
+            }
+        }
+    }
+
     /// What changes in two steps can change in one; and later changes can come earlier.
     fn merge(&mut self) {
         let mut at = 1;
@@ -128,6 +151,15 @@ impl Shrinking<'_> {
                 .set
                 .retain(|(input, _)| moved.set.iter().all(|(other, _)| other != input));
             before.set.extend(moved.set);
+            for (source, count) in moved.pulses {
+                let mut earlier = before.pulses.iter_mut();
+                match earlier.find(|(other, _)| *other == source) {
+                    Some((_, earlier)) => *earlier = earlier.saturating_add(count),
+                    None => before.pulses.push((source, count)),
+                }
+            }
+            before.pulses.retain(|(_, count)| *count != 0);
+            before.pulses.sort_unstable();
             before.scans = moved.scans;
             before.scan_ms = moved.scan_ms;
             if !self.attempt(run) {
@@ -142,22 +174,18 @@ impl Shrinking<'_> {
             let Some(scans) = self.run().get(at).map(|step| step.scans) else {
                 return;
             };
-            let (mut low, mut high) = (1, scans);
-            // The fewest that show it, if more than the fewest do, too.
-            while low < high {
-                let middle = low + (high - low) / 2;
+            smallest(1, scans, |fewer| {
                 let mut run = self.run().to_vec();
-                let Some(step) = run.get_mut(at) else { return };
-                step.scans = middle;
-                match self.attempt(run) {
-                    true => high = middle,
-                    false => low = middle + 1,
-                }
-            }
+                let Some(step) = run.get_mut(at) else {
+                    return false;
+                };
+                step.scans = fewer;
+                self.attempt(run)
+            });
         }
     }
 
-    /// Scans that last as long as people expect.
+    /// Scans that last as long as people expect, or as their pulses take.
     fn scan_as_usual(&mut self) {
         let usual = USUAL_MS.min(self.task.scan_ms);
         let all = self.run().iter().cloned();
@@ -171,7 +199,9 @@ impl Shrinking<'_> {
         for at in 0..self.run().len() {
             let mut run = self.run().to_vec();
             let Some(step) = run.get_mut(at) else { return };
-            step.scan_ms = usual;
+            let counts = step.pulses.iter().map(|(_, count)| count.unsigned_abs());
+            let needed = counts.max().unwrap_or(0).div_ceil(MOST_A_MS);
+            step.scan_ms = usual.max(needed);
             self.attempt(run);
         }
     }
@@ -188,34 +218,58 @@ impl Shrinking<'_> {
                 if self.task.inputs.get(input).is_none_or(Input::is_bit) {
                     continue;
                 }
-                // The smallest that shows it, if all beyond it do, too.
-                let (mut low, mut high) = (0, value.abs());
-                while low < high {
-                    let middle = low + (high - low) / 2;
+                smallest(0, value.unsigned_abs(), |value_now| {
                     let mut run = self.run().to_vec();
                     let of_step = run.get_mut(at).and_then(|step| step.set.get_mut(change));
-                    let Some(smaller) = of_step else { break };
-                    smaller.1 = middle * value.signum();
-                    match self.attempt(run) {
-                        true => high = middle,
-                        false => low = middle + 1,
-                    }
-                }
+                    let Some(smaller) = of_step else { return false };
+                    smaller.1 = value_now as i32 * value.signum();
+                    self.attempt(run)
+                });
+            }
+        }
+    }
+
+    /// As few pulses as show it.
+    fn take_few_pulses(&mut self) {
+        for at in 0..self.run().len() {
+            for train in 0..self.run().get(at).map_or(0, |step| step.pulses.len()) {
+                let of_step = self.run().get(at).and_then(|step| step.pulses.get(train));
+                let Some(&(_, count)) = of_step else { continue };
+                smallest(1, count.unsigned_abs(), |fewer| {
+                    let mut run = self.run().to_vec();
+                    let of_step = run.get_mut(at).and_then(|step| step.pulses.get_mut(train));
+                    let Some(pulses) = of_step else { return false };
+                    pulses.1 = fewer as i32 * count.signum();
+                    self.attempt(run)
+                });
             }
         }
     }
 }
 
-/// How long a run is: scans, changes, how unusual its scan times are, numbers.
+/// Tries numbers to come to the smallest that `holds`, if all beyond it up to `high` do, too.
+fn smallest(mut low: u32, mut high: u32, mut holds: impl FnMut(u32) -> bool) {
+    while low < high {
+        let middle = low + (high - low) / 2;
+        match holds(middle) {
+            true => high = middle,
+            false => low = middle + 1,
+        }
+    }
+}
+
+/// How long a run is: scans, changes and trains of pulses, how unusual its scan times are, numbers.
 fn measure(run: &[Step]) -> (u64, usize, u64, u64, usize) {
     let scans = run.iter().map(|step| u64::from(step.scans)).sum();
-    let changes = run.iter().map(|step| step.set.len()).sum();
+    let changes = run.iter().map(|step| step.set.len() + step.pulses.len());
     let unusual = |step: &Step| u64::from(step.scan_ms.abs_diff(USUAL_MS));
-    let values = run.iter().flat_map(|step| &step.set);
+    let values = run
+        .iter()
+        .flat_map(|step| step.set.iter().chain(&step.pulses));
     let values = values.map(|(_, value)| u64::from(value.unsigned_abs()));
     (
         scans,
-        changes,
+        changes.sum(),
         run.iter().map(unusual).sum(),
         values.sum(),
         run.len(),
@@ -223,16 +277,18 @@ fn measure(run: &[Step]) -> (u64, usize, u64, u64, usize) {
 }
 
 /// Leaves out what changes nothing, and joins scans that are alike.
-fn tidy(run: &mut Vec<Step>) {
+fn tidy(task: &Task, run: &mut Vec<Step>) {
     let mut values: std::collections::BTreeMap<usize, i32> = std::collections::BTreeMap::new();
     for step in run.iter_mut() {
         step.set
             .retain(|&(input, value)| values.insert(input, value).unwrap_or(0) != value);
         step.set.sort_unstable();
+        values.extend(left_off(task, &step.pulses).map(|input| (input, 0)));
     }
     run.retain(|step| step.scans > 0);
     run.dedup_by(|next, before| {
-        let alike = next.set.is_empty() && next.scan_ms == before.scan_ms;
+        let nothing = next.set.is_empty() && next.pulses.is_empty();
+        let alike = nothing && next.scan_ms == before.scan_ms;
         if alike {
             before.scans += next.scans;
         }

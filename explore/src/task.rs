@@ -1,6 +1,7 @@
 //! What is searched for, and in what.
 
 use crate::notes::Notes;
+use crate::trains::{Source, sources};
 use rungc_ir::Module;
 use rungc_ir::walk::{calls_runtime, statements};
 use rungc_models::runs::is_special;
@@ -83,6 +84,8 @@ pub struct Step {
     /// Inputs that change before the first scan: numbers of [`Task::inputs`] or [`crate::run::POWER`], and their
     /// values.
     pub set: Vec<(usize, i32)>,
+    /// Pulses that come in the time of the first scan: numbers of [`Task::sources`], in order, and how many.
+    pub pulses: Vec<(usize, i32)>,
     /// How many scans, at least 1.
     pub scans: u32,
     /// Milliseconds from each of them to the next, at least 1.
@@ -130,6 +133,8 @@ pub struct Task<'a> {
     pub kinds: BTreeSet<Kind>,
     /// What the search changes.
     pub inputs: Vec<Input>,
+    /// Where it lets pulses come in.
+    pub sources: Vec<Source>,
     /// Whether the power supply goes off and comes back at times, so that latched devices begin with what a run has
     /// left in them.
     pub power_cycles: bool,
@@ -179,6 +184,7 @@ impl<'a> Task<'a> {
             assumed,
             kinds: Kind::ALL.into(),
             inputs,
+            sources: sources(module, &driven),
             power_cycles: false,
             scan_ms,
             machine,

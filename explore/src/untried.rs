@@ -1,7 +1,8 @@
 //! What happens around a PLC and a search does not vary.
 
 use crate::task::Task;
-use rungc_ir::node::{FunctionKind, Stmt};
+use crate::trains::MOST_A_MS;
+use rungc_ir::node::Stmt;
 use rungc_ir::walk::statements;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
@@ -11,16 +12,13 @@ use std::collections::BTreeSet;
 pub fn untried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();
-    let edges = module.functions.iter().filter_map(|f| match f.kind {
-        FunctionKind::InputEdge { input, .. } => Some(input),
-        _ => None,
-    });
-    let edges: BTreeSet<u32> = edges.collect();
-    if !edges.is_empty() {
-        let names = edges.iter().map(|&n| DeviceClass::X.number(n).to_string());
+    let inputs = task.sources.iter().flat_map(|source| source.at.inputs());
+    let inputs: BTreeSet<u32> = inputs.collect();
+    if !inputs.is_empty() {
+        let names = inputs.iter().map(|&n| DeviceClass::X.number(n).to_string());
         let names = names.collect::<Vec<_>>().join(", ");
         found.push(format!(
-            "pulse trains at {names}: an input changes once between two scans at most"
+            "uneven pulses at {names}, and more than {MOST_A_MS} in a millisecond"
         ));
     }
     let ports = module.ports.iter().map(|number| format!("COM{number}"));

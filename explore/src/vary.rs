@@ -3,6 +3,7 @@
 use crate::cover::constant;
 use crate::run::{POWER, Runner};
 use crate::task::{Step, Task};
+use crate::trains::Trains;
 use crate::wide::{LANES, Stride};
 use fastrand::Rng;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt};
@@ -33,6 +34,7 @@ enum Preset {
 pub struct Choices<'t> {
     task: &'t Task<'t>,
     timers: Vec<Timer>,
+    trains: Trains<'t>,
 }
 
 impl<'t> Choices<'t> {
@@ -52,7 +54,12 @@ impl<'t> Choices<'t> {
                 }
             });
         }
-        Choices { task, timers }
+        let trains = Trains::new(task);
+        Choices {
+            task,
+            timers,
+            trains,
+        }
     }
 
     /// The steps of a sweep, all lanes from the moment of this runner on, at most about this many scans together.
@@ -81,9 +88,14 @@ impl<'t> Choices<'t> {
         if self.task.power_cycles && rng.u32(..POWER_STAYS) == 0 {
             set.push((POWER, runner.power_cycles() + 1));
         }
-        let (scans, scan_ms) = self.time(runner, rng, most_scans);
+        let (scans, mut scan_ms) = self.time(runner, rng, most_scans);
+        let most_ms = self.task.scan_ms;
+        let pulses = self
+            .trains
+            .next(runner.machine(), rng, (&mut scan_ms, most_ms));
         Step {
             set,
+            pulses,
             scans,
             scan_ms,
         }

@@ -219,6 +219,7 @@ impl<'t> Sweep<'_, 't> {
         let until = self.strides[..=stride].iter().enumerate();
         let steps = until.map(|(i, at)| Step {
             set: at.set[lane].clone(),
+            pulses: Vec::new(),
             scans: if i == stride { scans } else { at.time.0 },
             scan_ms: at.time.1,
         });

@@ -15,6 +15,7 @@ use crate::args::{ExploreArgs, Latched};
 use crate::progress;
 use crate::report::{Findings, Reporter};
 use rungc_explore::run::{POWER, Runner};
+use rungc_explore::trains::At;
 use rungc_explore::untried::untried;
 use rungc_explore::{Found, Limits, Task, What, search, shrink};
 use rungc_frontend::Read;
@@ -44,6 +45,8 @@ struct Shown {
     story: Vec<Change>,
     /// For each change of the story, whether power goes off and on before it.
     power: Vec<bool>,
+    /// For each change of the story, the pulses that come in the time of its first scan.
+    pulses: Vec<Vec<(At, i32)>>,
 }
 
 /// Searches runs of a program.
@@ -181,9 +184,13 @@ impl Searched<'_> {
     fn shown(&self, found: Found) -> Shown {
         let (mut first, mut at_ms) = (0, 0);
         let (mut story, mut power) = (Vec::new(), Vec::new());
+        let mut pulses = Vec::new();
         for step in &found.run {
             let cycles = step.set.iter().any(|(input, _)| *input == POWER);
             power.push(cycles);
+            let trains = step.pulses.iter();
+            let trains = trains.map(|&(source, count)| (self.task.sources[source].at, count));
+            pulses.push(trains.collect());
             let set = step.set.iter().filter(|(input, _)| *input != POWER);
             let set = set.map(|&(input, value)| {
                 let target = self.task.inputs[input].target;
@@ -209,6 +216,7 @@ impl Searched<'_> {
             found,
             story,
             power,
+            pulses,
         }
     }
 
@@ -220,7 +228,7 @@ impl Searched<'_> {
     ) -> std::result::Result<(), Failure> {
         let mut runner = Runner::new(self.task)?;
         for step in &found.run {
-            runner.set(&step.set);
+            runner.begin(step);
             for _ in 0..step.scans {
                 let at_ms = runner.now_ms();
                 runner.scan(step.scan_ms);

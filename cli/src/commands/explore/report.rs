@@ -4,7 +4,9 @@ use super::{Searched, Shown, What};
 use crate::commands::counted;
 use crate::commands::verify::report::tell;
 use rungc_explore::Report;
+use rungc_explore::trains::At;
 use rungc_syntax::DeviceClass;
+use rungc_verify::replay::Setting;
 use std::fmt::Write;
 
 impl Searched<'_> {
@@ -56,11 +58,14 @@ impl Searched<'_> {
                 what => self.sentence(what),
             };
             let _ = writeln!(text, "{:<11} {title}", self.word(what));
-            for (change, cycles) in shown.story.iter().zip(&shown.power) {
+            let steps = shown.story.iter().zip(&shown.power).zip(&shown.pulses);
+            for ((change, cycles), pulses) in steps {
                 if *cycles {
                     text.push_str("            power off and on\n");
                 }
-                tell(&mut text, self.module, std::slice::from_ref(change));
+                let mut change = change.clone();
+                change.set.extend(pulses.iter().map(named));
+                tell(&mut text, self.module, &[change]);
             }
         }
         for (number, asked) in self.asked.iter().enumerate() {
@@ -90,4 +95,14 @@ impl Searched<'_> {
         }
         text
     }
+}
+
+/// Pulses as reports have them, beside what is set: `pulses at X000 = 100`.
+fn named(&(at, count): &(At, i32)) -> Setting {
+    let x = |n: u32| DeviceClass::X.number(n);
+    let (name, first) = match at {
+        At::Input(n) => (format!("pulses at {}", x(n)), n),
+        At::Encoder(a, b) => (format!("cycles of {} and {}", x(a), x(b)), a),
+    };
+    (name, (DeviceClass::X, first), count.into())
 }

@@ -2,6 +2,8 @@
 
 use super::{Searched, Shown, What, beside};
 use crate::commands::verify::test_file::{quoted, step};
+use rungc_explore::trains::{At, hertz};
+use rungc_syntax::DeviceClass;
 use rungc_verify::replay::Change;
 use std::fmt::Write;
 use std::path::Path;
@@ -48,11 +50,13 @@ impl Searched<'_> {
         let last = story.len().saturating_sub(1);
         for (i, change) in story.iter_mut().enumerate() {
             let at_end = expected.at_end.iter().filter(|_| i == last);
-            let class = rungc_syntax::DeviceClass::M;
+            let class = DeviceClass::M;
             change.after = at_end
                 .map(|(name, value)| (name.clone(), (class, 0), *value))
                 .collect();
             step(text, change);
+            let trains = shown.pulses.get(i).map_or(&[][..], Vec::as_slice);
+            pulses(text, trains, change.scan_ms);
             if shown.power.get(i) == Some(&true) {
                 text.push_str("power_cycle = true\n");
             }
@@ -61,7 +65,7 @@ impl Searched<'_> {
 
     /// What was found, in a few words: a name for its test.
     pub fn title(&self, what: &What) -> String {
-        let output = |n: u32| rungc_syntax::DeviceClass::Y.number(n);
+        let output = |n: u32| DeviceClass::Y.number(n);
         match what {
             What::Property(number) => self.asked[*number].text.clone(),
             What::Error { code, step } => format!("operation error {code} at step {step}"),
@@ -70,5 +74,27 @@ impl Searched<'_> {
             What::Oscillation(n) => format!("{} comes to rest", output(*n)),
             What::Collision(axis) => format!("{axis} at the end of its travel"),
         }
+    }
+}
+
+/// The pulses of a step.
+fn pulses(text: &mut String, trains: &[(At, i32)], scan_ms: u32) {
+    let x = |n: u32| DeviceClass::X.number(n);
+    let mut inputs = Vec::new();
+    for &(at, count) in trains {
+        let hz = hertz(count, scan_ms);
+        match at {
+            At::Input(n) => inputs.push(format!("{} = {{ count = {count}, hz = {hz} }}", x(n))),
+            At::Encoder(a, b) => {
+                let (a, b) = (x(a), x(b));
+                let _ = writeln!(
+                    text,
+                    "encoder = {{ a = \"{a}\", b = \"{b}\", count = {count}, hz = {hz} }}"
+                );
+            }
+        }
+    }
+    if !inputs.is_empty() {
+        let _ = writeln!(text, "pulses = {{ {} }}", inputs.join(", "));
     }
 }
