@@ -109,8 +109,8 @@ const OF_PULSES: [(&str, &str, &str, &str); 6] = [
     (
         "a count far away",
         "Y000 & !X002",
-        "LD X001\nOUT C235 K200000\nLD X001\nDHSCS K30000 C235 Y000\nLDI X001\nRST Y000\nEND\n",
-        "LD X001\nOUT C235 K200000\nLD X001\nDHSCS K30000 C235 M0\nLD M0\nAND X002\nOUT Y000\nEND\n",
+        "LD X001\nOUT C235 K200000\nLD X001\nDHSCS K9000 C235 Y000\nLDI X001\nRST Y000\nEND\n",
+        "LD X001\nOUT C235 K200000\nLD X001\nDHSCS K9000 C235 M0\nLD M0\nAND X002\nOUT Y000\nEND\n",
     ),
     (
         "a count in a register",
@@ -150,7 +150,7 @@ fn faults_that_pulses_show_are_found() {
         let property = Property::Never(parse(never, &|_| Vec::new()).expect(never));
         let module = faults::module(faulty, &property);
         let of_faulty = task(&module, &property, &[]);
-        let report = searched(&of_faulty, 8_000);
+        let report = searched(&of_faulty, 40_000);
         let found = report.found.first();
         let found = found.unwrap_or_else(|| panic!("{name}: not found"));
         let short = shrink(&of_faulty, found.clone());
@@ -160,7 +160,7 @@ fn faults_that_pulses_show_are_found() {
         assert!(short.run.len() <= 12, "{name}: {:?}", short.run);
         let module = faults::module(repaired, &property);
         let of_repaired = task(&module, &property, &[]);
-        let found = searched(&of_repaired, 8_000).found;
+        let found = searched(&of_repaired, 3_000).found;
         assert!(found.is_empty(), "{name}, repaired: {found:?}");
     }
 }
