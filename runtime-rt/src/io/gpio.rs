@@ -5,9 +5,10 @@ use super::settings::{Connection, End, Row};
 use super::sys::{Passed, Request, own};
 use std::boxed::Box;
 use std::format;
-use std::fs::File;
-use std::io;
+use std::fs::{File, read_dir};
+use std::io::{self, ErrorKind};
 use std::os::fd::OwnedFd;
+use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
@@ -16,6 +17,18 @@ const LINES: usize = 64;
 
 /// Attributes of a request at most.
 const ATTRIBUTES: usize = 10;
+
+/// Where chips are.
+const DEVICES: &str = "/dev";
+
+/// `struct gpiochip_info`.
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+struct Chip {
+    name: [u8; 32],
+    label: [u8; 32],
+    lines: u32,
+}
 
 /// `struct gpio_v2_line_config_attribute` with flags.
 #[repr(C)]
@@ -56,7 +69,11 @@ unsafe impl Passed for Lines {}
 // SAFETY: likewise.
 #[allow(unsafe_code, reason = "the promise of the trait")]
 unsafe impl Passed for Values {}
+// SAFETY: likewise.
+#[allow(unsafe_code, reason = "the promise of the trait")]
+unsafe impl Passed for Chip {}
 
+const GET_CHIP: Request = Request::answer(0xb4, 0x01);
 const GET_LINES: Request = Request::exchange(0xb4, 0x07);
 const GET_VALUES: Request = Request::exchange(0xb4, 0x0e);
 const SET_VALUES: Request = Request::exchange(0xb4, 0x0f);
@@ -77,13 +94,74 @@ struct Pins {
     outputs: Option<OwnedFd>,
 }
 
-/// Takes the lines of a chip: `/dev/gpiochip0`.
+/// Takes the lines of a chip: `/dev/gpiochip0`, or the one with a label.
 pub(super) fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
-    let chip = File::open(&connection.end).map_err(|error| error.to_string())?;
+    let end = connection.end.as_str();
+    let chip = match end.contains('/') {
+        true => File::open(end).map_err(|error| error.to_string())?,
+        false => labelled(end, Path::new(DEVICES), &label)?,
+    };
     Ok(Box::new(Pins {
         inputs: lines(&chip, connection, true)?,
         outputs: lines(&chip, connection, false)?,
     }))
+}
+
+/// What a chip is called, whatever its number.
+fn label(chip: &File) -> io::Result<String> {
+    let mut known = Chip::default();
+    GET_CHIP.pass(chip, &mut known)?;
+    let end = known.label.iter().position(|&byte| byte == 0);
+    let text = &known.label[..end.unwrap_or(known.label.len())];
+    Ok(String::from_utf8_lossy(text).into_owned())
+}
+
+/// The chip with a label, among those of a folder: a chip that goes away may come back with another number.
+fn labelled(
+    wanted: &str,
+    folder: &Path,
+    label: &dyn Fn(&File) -> io::Result<String>,
+) -> Result<File, String> {
+    let wrong = |error: io::Error| error.to_string();
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for entry in read_dir(folder).map_err(wrong)? {
+        let entry = entry.map_err(wrong)?;
+        if entry
+            .file_name()
+            .as_encoded_bytes()
+            .starts_with(b"gpiochip")
+        {
+            paths.push(entry.path());
+        }
+    }
+    paths.sort();
+    let (mut found, mut others, mut refused) = (None, Vec::new(), None);
+    for path in paths {
+        let chip = match File::open(&path) {
+            Ok(chip) => chip,
+            Err(error) => {
+                // One that has just gone away is none; another may be the one, for those who may open it.
+                if error.kind() != ErrorKind::NotFound {
+                    refused = Some(format!("{}: {error}", path.display()));
+                }
+                continue;
+            }
+        };
+        match label(&chip) {
+            Ok(label) if label == wanted => {
+                if found.replace(chip).is_some() {
+                    return Err("several chips have this label: name one by its path".to_string());
+                }
+            }
+            Ok(label) => others.push(label),
+            Err(_) => {}
+        }
+    }
+    found.ok_or_else(|| match (refused, others.is_empty()) {
+        (Some(refused), _) => refused,
+        (None, true) => "there is no chip".to_string(),
+        (None, false) => format!("no chip has this label; there are {}", others.join(", ")),
+    })
 }
 
 /// The line of a row, and its flags.
@@ -151,13 +229,24 @@ fn lines(chip: &File, connection: &Connection, reads: bool) -> Result<Option<Own
         return Ok(None);
     }
     let mut lines = asked(connection, reads)?;
-    GET_LINES
-        .pass(chip, &mut lines)
-        .map_err(|error| error.to_string())?;
+    GET_LINES.pass(chip, &mut lines).map_err(refusal)?;
     // SAFETY: the kernel has opened it for this request.
     #[allow(unsafe_code, reason = "the kernel opens a file")]
     let file = unsafe { own(lines.file) };
     Ok(Some(file))
+}
+
+/// Why lines cannot be had.
+fn refusal(error: io::Error) -> String {
+    /// `ENOTTY`: the file knows no such request.
+    const NO_CHIP: i32 = 25;
+    match (error.raw_os_error(), error.kind()) {
+        (Some(NO_CHIP), _) => {
+            "this is no chip of pins, or the kernel is older than 5.10".to_string()
+        }
+        (_, ErrorKind::ResourceBusy) => format!("a line is taken by another program: {error}"),
+        _ => error.to_string(),
+    }
 }
 
 impl Driver for Pins {
@@ -192,6 +281,8 @@ impl Driver for Pins {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+    use std::io::Read;
 
     #[test]
     fn what_is_no_chip_is_not_opened() {
@@ -202,14 +293,43 @@ mod tests {
                 ("Y000", "write 22"),
             ];
             let connection = Connection::read("pins", &pairs).unwrap();
-            assert!(open(&connection).is_err(), "{chip}");
+            let why = open(&connection).err().unwrap();
+            let exists = chip != "/dev/gpiochip-none";
+            assert_eq!(why.contains("no chip of pins"), exists, "{chip}: {why}");
         }
+    }
+
+    /// Text files stand for chips, with their labels in them.
+    #[test]
+    fn chips_are_found_by_label_whatever_their_number() {
+        let folder = std::env::temp_dir().join(format!("rungc-chips-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let label = |mut file: &File| {
+            let mut text = String::new();
+            file.read_to_string(&mut text).map(|_| text)
+        };
+        let find = |wanted| labelled(wanted, &folder, &label).map(drop);
+        let plug = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+        assert_eq!(find("plant"), Err("there is no chip".to_string()));
+        plug("gpiochip0", "soc");
+        plug("gpio", "plant");
+        let without = find("plant").unwrap_err();
+        assert_eq!(without, "no chip has this label; there are soc");
+        plug("gpiochip1", "plant");
+        assert_eq!(find("plant"), Ok(()));
+        fs::rename(folder.join("gpiochip1"), folder.join("gpiochip7")).unwrap();
+        assert!(find("plant").is_ok());
+        plug("gpiochip1", "plant");
+        let several = find("plant").unwrap_err();
+        assert!(several.starts_with("several chips"), "{several}");
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
     fn sizes_are_those_of_the_kernel() {
         assert_eq!((size_of::<Lines>(), size_of::<Values>()), (592, 16));
         assert_eq!(core::mem::offset_of!(Lines, count), 560);
+        assert_eq!(size_of::<Chip>(), 68);
     }
 
     #[test]

@@ -78,13 +78,18 @@ const SET_TERMIOS: Request = Request {
     number: 0x2b,
 };
 
-const GET_TERMIOS: Request = Request {
-    direction: 2,
-    group: b'T',
-    number: 0x2a,
-};
+const GET_TERMIOS: Request = Request::answer(b'T', 0x2a);
 
 impl Request {
+    /// One that gives a value.
+    pub(super) const fn answer(group: u8, number: u8) -> Self {
+        Request {
+            direction: 2,
+            group,
+            number,
+        }
+    }
+
     /// One that takes a value and gives it back.
     pub(super) const fn exchange(group: u8, number: u8) -> Self {
         Request {
