@@ -161,7 +161,11 @@ impl Shrinking<'_> {
             before.pulses.retain(|(_, count)| *count != 0);
             before.pulses.sort_unstable();
             before.scans = moved.scans;
-            before.scan_ms = moved.scan_ms;
+            // Its pulses take their time.
+            before.scan_ms = match before.pulses.is_empty() {
+                true => moved.scan_ms,
+                false => before.scan_ms.max(moved.scan_ms),
+            };
             if !self.attempt(run) {
                 at += 1;
             }

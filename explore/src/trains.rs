@@ -20,6 +20,8 @@ use std::collections::BTreeSet;
 pub const MOST_A_MS: u32 = 100;
 /// As many pulses take about as long as a scan of a small machine's program.
 const PULSES_A_SCAN: u64 = 32;
+/// Longer trains come the less often the longer they are, or a search would do little else.
+const SHORT: u32 = 2_000;
 
 /// Where pulses come in.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -242,16 +244,21 @@ impl<'t> Trains<'t> {
         (scan_ms, most_ms): (&mut u32, u32),
     ) -> i32 {
         let missing = self.missing(source, machine, rng);
-        if let Some(missing) = missing.filter(|_| rng.u32(..4) != 0) {
+        let is_taken = |missing: &i32, rng: &mut Rng| {
+            let most = most_ms.max(*scan_ms).saturating_mul(MOST_A_MS);
+            let count = missing.unsigned_abs().min(most);
+            rng.u32(..4) != 0 && rng.u32(..count.max(SHORT)) < SHORT
+        };
+        if let Some(missing) = missing.filter(|missing| is_taken(missing, rng)) {
             let needed = missing.unsigned_abs().div_ceil(MOST_A_MS);
             *scan_ms = needed.clamp(*scan_ms, most_ms.max(*scan_ms));
-            let most = (*scan_ms * MOST_A_MS) as i32;
+            let most = scan_ms.saturating_mul(MOST_A_MS) as i32;
             return match missing.clamp(-most, most) {
                 0 => 1,
                 count => count,
             };
         }
-        let most = *scan_ms * MOST_A_MS;
+        let most = scan_ms.saturating_mul(MOST_A_MS).min(SHORT);
         let count = match rng.u32(..8) {
             0..=2 => 1,
             3..=4 => rng.u32(2..=10),
