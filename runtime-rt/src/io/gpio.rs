@@ -242,7 +242,7 @@ fn refusal(error: io::Error) -> String {
     const NO_CHIP: i32 = 25;
     match (error.raw_os_error(), error.kind()) {
         (Some(NO_CHIP), _) => {
-            "this is no chip of pins, or the kernel is older than 5.10".to_string()
+            "this is not a chip of pins, or the kernel is older than 5.10".to_string()
         }
         (_, ErrorKind::ResourceBusy) => format!("a line is taken by another program: {error}"),
         _ => error.to_string(),
@@ -295,7 +295,7 @@ mod tests {
             let connection = Connection::read("pins", &pairs).unwrap();
             let why = open(&connection).err().unwrap();
             let exists = chip != "/dev/gpiochip-none";
-            assert_eq!(why.contains("no chip of pins"), exists, "{chip}: {why}");
+            assert_eq!(why.contains("not a chip of pins"), exists, "{chip}: {why}");
         }
     }
 
