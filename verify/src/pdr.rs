@@ -7,9 +7,8 @@
 //! invariant.
 
 use crate::aig::Lit;
-use crate::sat::{Answer, Solver};
+use crate::sat::{Answer, SatLit, Solver};
 use crate::system::System;
-use batsat::Lit as SatLit;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,8 +1,18 @@
-//! Graphs as clauses for a SAT solver.
+//! Graphs as clauses for a SAT solver: BatSat, or CaDiCaL with the feature `cadical`.
+
+#[cfg(any(test, not(feature = "cadical")))]
+mod batsat;
+#[cfg(feature = "cadical")]
+mod cadical;
 
 use crate::aig::{Aig, Lit, Node};
-use batsat::{BasicSolver, Lit as SatLit, SolverInterface, Var, lbool};
+use std::ops::Not;
 use std::time::Instant;
+
+#[cfg(not(feature = "cadical"))]
+use batsat::Engine as Chosen;
+#[cfg(feature = "cadical")]
+use cadical::Engine as Chosen;
 
 /// The answer of a solver.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,45 +25,63 @@ pub enum Answer {
     Unknown,
 }
 
+/// A variable of a solver, perhaps inverted: the number of the variable, from 1, and its sign, as in DIMACS.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct SatLit(i32);
+
+impl Not for SatLit {
+    type Output = SatLit;
+
+    fn not(self) -> SatLit {
+        SatLit(-self.0)
+    }
+}
+
+/// What decides clauses.
+trait Engine: Sized {
+    /// One that gives up at this time.
+    fn new(deadline: Instant) -> Self;
+
+    /// Adds a clause.
+    fn clause(&mut self, lits: &[SatLit]);
+
+    /// Whether all clauses can hold together with these.
+    fn solve(&mut self, assumed: &[SatLit]) -> Answer;
+
+    /// After [`Answer::Sat`], before another clause: whether a variable is on; what does not matter is off.
+    fn is_on(&self, lit: SatLit) -> bool;
+
+    /// After [`Answer::Unsat`], before another clause: which of the assumptions cannot hold together.
+    fn core(&mut self) -> Vec<SatLit>;
+}
+
 /// A solver, and the clauses of the nodes of one graph that were asked for.
 pub struct Solver {
-    solver: BasicSolver,
+    engine: Chosen,
     /// The variable of each node.
     variables: Vec<Option<SatLit>>,
-    next: u32,
+    last: i32,
 }
 
 impl Solver {
     /// A solver that gives up at this time.
     pub fn new(deadline: Instant) -> Self {
-        let mut solver = BasicSolver::default();
-        solver.cb_mut().set_stop(move || Instant::now() > deadline);
         Solver {
-            solver,
+            engine: Chosen::new(deadline),
             variables: Vec::new(),
-            next: 0,
+            last: 0,
         }
     }
 
     /// A new variable.
     pub fn variable(&mut self) -> SatLit {
-        self.next += 1;
-        positive(self.next - 1)
+        self.last += 1;
+        SatLit(self.last)
     }
 
     /// Adds a clause.
     pub fn clause(&mut self, lits: &[SatLit]) {
-        let mut clause = self.known_to_solver(lits);
-        // Whether all can still hold is asked when it is solved.
-        self.solver.add_clause_reuse(&mut clause);
-    }
-
-    /// The same literals, whose variables the solver has from now on.
-    fn known_to_solver(&mut self, lits: &[SatLit]) -> Vec<SatLit> {
-        for lit in lits {
-            self.solver.var_of_int(lit.var().idx());
-        }
-        lits.to_vec()
+        self.engine.clause(lits);
     }
 
     /// The variable of a literal of the graph, with the clauses that define it.
@@ -87,7 +115,7 @@ impl Solver {
                 }
             }
         }
-        self.known(lit).unwrap_or_else(|| positive(0))
+        self.known(lit).unwrap_or(SatLit(1))
     }
 
     fn known(&self, lit: Lit) -> Option<SatLit> {
@@ -101,20 +129,15 @@ impl Solver {
 
     /// Whether all that was added can hold together with these.
     pub fn solve(&mut self, assumed: &[SatLit]) -> Answer {
-        let assumed = self.known_to_solver(assumed);
-        match self.solver.solve_limited(&assumed) {
-            found if found == lbool::TRUE => Answer::Sat,
-            found if found == lbool::FALSE => Answer::Unsat,
-            _ => Answer::Unknown,
-        }
+        self.engine.solve(assumed)
     }
 
-    /// After [`Answer::Sat`]: whether a variable is on; what does not matter is off.
+    /// After [`Answer::Sat`], before another clause: whether a variable is on; what does not matter is off.
     pub fn is_on(&self, lit: SatLit) -> bool {
-        self.solver.value_lit(lit) == lbool::TRUE
+        self.engine.is_on(lit)
     }
 
-    /// After [`Answer::Sat`]: whether a literal of the graph is on; one that no clause names is off.
+    /// After [`Answer::Sat`], before another clause: whether a literal of the graph is on; off if no clause has it.
     pub fn value(&self, lit: Lit) -> bool {
         match self.known(lit) {
             Some(variable) => self.is_on(variable),
@@ -122,16 +145,10 @@ impl Solver {
         }
     }
 
-    /// After [`Answer::Unsat`]: which of the assumptions cannot hold together.
+    /// After [`Answer::Unsat`], before another clause: which of the assumptions cannot hold together.
     pub fn core(&mut self) -> Vec<SatLit> {
-        // The library gives the clause that follows: the inversions of the assumptions.
-        self.solver.unsat_core().iter().map(|&lit| !lit).collect()
+        self.engine.core()
     }
-}
-
-/// The literal that holds if a variable is on.
-fn positive(variable: u32) -> SatLit {
-    SatLit::new(Var::unsafe_from_idx(variable), true)
 }
 
 #[cfg(test)]
@@ -156,5 +173,55 @@ mod tests {
         let mut expected = vec![both, !inputs[1]];
         expected.sort();
         assert_eq!(core, expected);
+    }
+
+    /// Small formulas by chance, some of which can be satisfied.
+    #[cfg(feature = "cadical")]
+    #[test]
+    fn both_solvers_give_the_same_answers() {
+        use super::{Engine, SatLit};
+        let deadline = Instant::now() + Duration::from_secs(60);
+        let mut chance = 1u64;
+        let mut lit = || {
+            chance = chance
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            let variable = (chance >> 33) as i32 % 20 + 1;
+            SatLit(if chance >> 63 == 1 {
+                variable
+            } else {
+                -variable
+            })
+        };
+        let mut answers = [0; 2];
+        for _ in 0..200 {
+            let mut one = super::batsat::Engine::new(deadline);
+            let mut other = super::cadical::Engine::new(deadline);
+            let mut clauses = Vec::new();
+            // Asked again and again with more clauses, as searches do.
+            for _ in 0..5 {
+                for _ in 0..16 {
+                    let clause = [lit(), lit(), lit()];
+                    one.clause(&clause);
+                    other.clause(&clause);
+                    clauses.push(clause);
+                }
+                let assumed = [lit(), lit(), lit()];
+                let answer = one.solve(&assumed);
+                assert_eq!(other.solve(&assumed), answer);
+                if answer == Answer::Sat {
+                    answers[0] += 1;
+                    let holds = |lit: &SatLit| other.is_on(*lit);
+                    assert!(assumed.iter().all(holds));
+                    assert!(clauses.iter().all(|clause| clause.iter().any(holds)));
+                } else {
+                    answers[1] += 1;
+                    let core = other.core();
+                    assert!(core.iter().all(|lit| assumed.contains(lit)));
+                    assert_eq!(one.solve(&core), Answer::Unsat);
+                }
+            }
+        }
+        assert!(answers.iter().all(|&count| count > 100), "{answers:?}");
     }
 }
