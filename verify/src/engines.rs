@@ -83,6 +83,9 @@ pub fn compare(
 fn set(engine: &mut dyn Engine, key: Key, value: i64) -> Result<(), EngineError> {
     let bit = |class, number| Request::SetBit(class, number, value != 0);
     let request = match key {
+        Key::Buffer(module, address) => {
+            Some(Request::SetBfm(module.into(), address as u16, value as i16))
+        }
         Key::Bit(class, number) => rt_class(class).map(|class| bit(class, number)),
         Key::Timer(number, TimerPart::Done) => Some(bit(Class::T, number)),
         Key::Counter(number, CounterPart::Done) => Some(bit(Class::C, number)),

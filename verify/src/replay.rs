@@ -12,8 +12,9 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.
-fn set(machine: &mut Machine, key: Key, value: i64) -> bool {
+fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> bool {
     let done = match key {
+        Key::Buffer(module, address) => hal.set_bfm(module.into(), address as u16, value as i16),
         Key::Bit(class, number) => {
             rt_class(class).and_then(|class| machine.set_bit(class, number, value != 0))
         }
@@ -47,12 +48,13 @@ impl<'m> Run<'m> {
     /// Before the first scan of a trace.
     pub fn new(module: &'m Module, trace: &Trace) -> Self {
         let mut machine = Machine::new(module);
+        let mut hal = VirtualHal::new();
         for (&key, &value) in &trace.start {
-            set(&mut machine, key, value);
+            set(&mut machine, &mut hal, key, value);
         }
         Run {
             machine,
-            hal: VirtualHal::new(),
+            hal,
             now_ms: 0,
             first: true,
         }
@@ -61,7 +63,7 @@ impl<'m> Run<'m> {
     /// Executes a scan; the milliseconds since the one before, unless the program stops.
     pub fn scan(&mut self, scan: &Scan) -> Option<u32> {
         for (&key, &value) in &scan.set {
-            set(&mut self.machine, key, value);
+            set(&mut self.machine, &mut self.hal, key, value);
         }
         self.now_ms = self.now_ms.wrapping_add(scan.ms);
         self.machine
@@ -230,6 +232,8 @@ pub struct Change {
     pub scan_ms: u32,
     /// What changes before the first of them.
     pub set: Vec<Setting>,
+    /// What changes in the buffer memory of special modules: module, address, value.
+    pub buffers: Vec<(u8, u32, i64)>,
     /// At the end of the run: what the property looks at.
     pub after: Vec<Setting>,
 }
@@ -240,7 +244,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
     let mut hal = VirtualHal::new();
     let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value));
     for (&key, &value) in &trace.start {
-        set(&mut machine, key, value);
+        set(&mut machine, &mut hal, key, value);
     }
     let start = trace.start.iter().filter(|(_, value)| **value != 0);
     let start: Vec<Setting> = start.filter_map(named).collect();
@@ -251,8 +255,11 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         now_ms += u64::from(scan.ms);
         let mut set_now = BTreeMap::new();
         for (&key, &value) in &scan.set {
-            set(&mut machine, key, value);
-            if known.insert(key, value).unwrap_or(0) != value {
+            set(&mut machine, &mut hal, key, value);
+            // A module is there as soon as its memory is set, if only to 0.
+            let is_buffer = matches!(key, Key::Buffer(..));
+            let before = known.insert(key, value).or((!is_buffer).then_some(0));
+            if before != Some(value) {
                 set_now.insert(key, value);
             }
         }
@@ -268,6 +275,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
                 at_ms: now_ms,
                 scan_ms,
                 set: set_now.iter().filter_map(named).collect(),
+                buffers: set_now.iter().filter_map(in_buffer).collect(),
                 after: Vec::new(),
             }),
         }
@@ -282,6 +290,13 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         last.after.dedup();
     }
     changes
+}
+
+fn in_buffer((key, &value): (&Key, &i64)) -> Option<(u8, u32, i64)> {
+    match *key {
+        Key::Buffer(module, address) => Some((module, address, value)),
+        _ => None,
+    }
 }
 
 /// What test files call a piece of memory, if they can set it.

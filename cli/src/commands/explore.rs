@@ -204,6 +204,7 @@ impl Searched<'_> {
                 at_ms,
                 scan_ms: step.scan_ms,
                 set: set.collect(),
+                buffers: Vec::new(),
                 after: Vec::new(),
             });
             first += step.scans as usize;

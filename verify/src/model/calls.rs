@@ -1,11 +1,14 @@
 //! What is not modelled: calls of the runtime, which may write what they are handed and special devices.
 
 use super::shared::{Seen, Signature};
-use super::{Encoder, Key};
+use super::{Encoder, Input, Key};
 use crate::aig::Lit;
-use rungc_ir::node::{Call, Fetch, Stmt};
+use crate::bits::{Bits, known, signed};
+use rungc_ir::node::{Arg, Call, Fetch, Stmt};
 use rungc_ir::reach::of_stmt;
+use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 
 /// Special devices that an instruction of the runtime may write: all but those that the scan alone maintains, M8000 to
 /// M8003 and M8011 to M8014.
@@ -17,6 +20,9 @@ const SPECIAL: [(DeviceClass, u32, u32); 3] = [
 
 /// How operands in buffer memory are called.
 const BUFFER: &str = "buffer memory of special modules";
+
+/// How many words of a FROM are known to be those of the module.
+const MOVED: i32 = 256;
 
 /// What an operation error writes.
 const ERRORS: [(DeviceClass, u32, u32); 4] = [
@@ -76,8 +82,82 @@ impl Encoder<'_> {
         };
         let anywhere = call.function.needs().anywhere;
         let seen = self.seen(stmt, anywhere, call.step);
+        let moved = self.moved(call);
+        keys.retain(|key| !moved.contains_key(key));
         self.apply(&keys, guard, &name, &seen);
+        if !moved.is_empty() {
+            let signature = Signature::Answer(format!("{} moves other words", seen.text));
+            let other = self.applied(1, &name, signature, &seen.bits)[0];
+            self.wishes.push(!other);
+            for (key, held) in moved {
+                let any = self.applied(held.len(), &name, seen.of(key), &seen.bits);
+                let value = self.aig.select(other, &any, &held);
+                self.store(key, &value, guard);
+            }
+        }
         self.leave_tokens(Some(call), &seen, guard);
+    }
+
+    /// What FROM moves from a module to registers, or one word of it to a group of bits, if all is as usual: its other
+    /// operands are constants, the module is there, and nothing changes the count. Otherwise, they may get anything.
+    fn moved(&mut self, call: &Call) -> BTreeMap<Key, Bits> {
+        let mut moved = BTreeMap::new();
+        let number = |arg: &Arg| match *arg {
+            Arg::Const {
+                value, index: None, ..
+            } => Some(value),
+            _ => None,
+        };
+        let (RtFn::From | RtFn::FromHost | RtFn::FromRemote, [unit, address, to, count]) =
+            (call.function, &call.args[..])
+        else {
+            return moved;
+        };
+        let (Some(unit), Some(address), Some(count)) =
+            (number(unit), number(address), number(count))
+        else {
+            return moved;
+        };
+        let Ok(module) = u8::try_from(unit) else {
+            return moved;
+        };
+        let words = if call.wide {
+            count.saturating_mul(2)
+        } else {
+            count
+        };
+        let place = match *to {
+            Arg::Device { place, .. } if place.index.is_none() => place,
+            Arg::Nibbles { place, digits, .. } if place.index.is_none() && words == 1 => {
+                let held = self.held(module, address.into()).unwrap_or_default();
+                let bits = held.into_iter().take(4 * usize::from(digits));
+                let bits = bits.zip(place.number..);
+                let bits = bits.map(|(bit, number)| (Key::Bit(place.class, number), vec![bit]));
+                return bits
+                    .filter(|(key, _)| self.state.contains_key(key))
+                    .collect();
+            }
+            _ => return moved,
+        };
+        for (n, register) in (0..words.min(MOVED)).zip(place.number..) {
+            let key = Key::Word(place.class, register);
+            if self.state.contains_key(&key)
+                && let Some(held) = self.held(module, i64::from(address) + i64::from(n))
+            {
+                moved.insert(key, held);
+            }
+        }
+        moved
+    }
+
+    /// What a module holds at an address in this scan: anything.
+    fn held(&mut self, module: u8, address: i64) -> Option<Bits> {
+        // Addresses have 16 bits.
+        let key = Key::Buffer(module, u16::try_from(address).ok()?.into());
+        let held = self.buffers.get(&key).cloned();
+        let held = held.unwrap_or_else(|| self.inputs_named(16, |bit| Input::Device(key, bit)));
+        self.buffers.insert(key, held.clone());
+        Some(held)
     }
 
     /// What a statement looks at, if programs are compared.
@@ -100,12 +180,49 @@ impl Encoder<'_> {
 
     pub(super) fn fetch(&mut self, fetch: &Fetch, guard: Lit) {
         let seen = self.seen(&Stmt::Fetch(*fetch), false, fetch.step);
-        let mut keys = self.specials();
-        keys.push(Key::Cell(fetch.value.0));
-        self.apply(&keys, guard, BUFFER, &seen);
-        let there = self.applied(1, BUFFER, Signature::Answer(seen.text.clone()), &seen.bits);
-        self.assign(fetch.there, there, guard);
+        let answer = |this: &mut Self, what: &str| {
+            let signature = Signature::Answer(format!("{} {what}", seen.text));
+            this.applied(1, BUFFER, signature, &seen.bits)[0]
+        };
+        // There may be no module, and its memory may change while a scan is under way: a replay shows neither.
+        let (fails, changes) = (answer(self, "fails"), answer(self, "changes"));
+        let faulty = self.aig.and(guard, fails);
+        self.apply(&self.specials(), faulty, BUFFER, &seen);
+        let cell = Key::Cell(fetch.value.0);
+        let any = self.applied(32, BUFFER, seen.of(cell), &seen.bits);
+        let value = match self.buffer(fetch) {
+            Some(held) => {
+                self.wishes.extend([!fails, !changes]);
+                self.aig.select(changes, &any, &held)
+            }
+            None => any,
+        };
+        let reads = self.aig.and(guard, !fails);
+        self.store(cell, &value, reads);
+        self.assign(fetch.there, vec![!fails], guard);
         self.leave_tokens(None, &seen, guard);
+    }
+
+    /// What a module holds where a fetch reads it, if that is known; in each scan it may be anything.
+    fn buffer(&mut self, fetch: &Fetch) -> Option<Bits> {
+        let Arg::Buffer {
+            module,
+            address,
+            index,
+        } = fetch.from
+        else {
+            return None;
+        };
+        let index = match index {
+            Some(index) => known(&self.eval(index))?,
+            None => 0,
+        };
+        let words = if fetch.wide { 2 } else { 1 };
+        let mut bits = Bits::new();
+        for word in 0..words {
+            bits.extend(self.held(module, i64::from(address) + index + word)?);
+        }
+        Some(signed(&bits, 32))
     }
 
     pub(super) fn send(&mut self, stmt: &Stmt, step: u32, guard: Lit) {

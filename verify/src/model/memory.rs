@@ -41,6 +41,7 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
         | Key::Flag(_)
         | Key::Cell(_)
         | Key::Entry(..)
+        | Key::Buffer(..)
         | Key::First
         | Key::Running
         | Key::Now
@@ -63,7 +64,8 @@ fn width(key: Key, unit_ms: u16) -> usize {
     match key {
         Key::Bit(..) | Key::Edge(_) | Key::Flag(_) | Key::First | Key::Running => 1,
         Key::Slot(_) | Key::Outer => 1,
-        Key::Word(..) | Key::Timer(_, TimerPart::Value | TimerPart::Preset) => 16,
+        Key::Word(..) | Key::Buffer(..) => 16,
+        Key::Timer(_, TimerPart::Value | TimerPart::Preset) => 16,
         Key::Timer(_, TimerPart::Part) => match unit_ms {
             ..=1 => 0,
             2..=10 => 4,
@@ -218,6 +220,7 @@ impl Encoder<'_> {
             | Key::Flag(_)
             | Key::Cell(_)
             | Key::Entry(..)
+            | Key::Buffer(..)
             | Key::Monitor(_) => Some(0),
         }
     }

@@ -79,6 +79,8 @@ pub enum Key {
     Cell(u32),
     /// An entry of a private table.
     Entry(u32, u32),
+    /// A word of the buffer memory of a special module: the number of the module and the address.
+    Buffer(u8, u32),
     /// Whether it is the first scan.
     First,
     /// Whether the PLC is in RUN.
@@ -202,6 +204,8 @@ pub struct Encoder<'m> {
     lost_gap: Option<usize>,
     time: Option<Time>,
     scan_time: Option<Bits>,
+    /// What special modules hold in this scan, word by word.
+    buffers: BTreeMap<Key, Bits>,
     network: Option<u32>,
     statements: u32,
     watched: u64,
@@ -269,6 +273,7 @@ impl<'m> Encoder<'m> {
             lost_gap: None,
             time: None,
             scan_time: None,
+            buffers: BTreeMap::new(),
             network: None,
             statements: 0,
             watched: 0,

@@ -44,6 +44,7 @@ impl Searched<'_> {
                 at_ms: 0,
                 scan_ms,
                 set: Vec::new(),
+                buffers: Vec::new(),
                 after: Vec::new(),
             });
         }

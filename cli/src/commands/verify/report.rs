@@ -4,7 +4,7 @@ use crate::commands::properties::Outside;
 use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
-use rungc_syntax::{DeviceClass, codes, order};
+use rungc_syntax::{codes, order};
 use rungc_verify::model::{Gap, Key, device_of};
 use rungc_verify::property::Property;
 use rungc_verify::prove::{Decision, Options, Verdict, Why};
@@ -252,7 +252,7 @@ fn list(keys: &[Key]) -> String {
 pub fn tell(text: &mut String, module: &Module, story: &[Change]) {
     let settings = |settings: &[Setting]| -> String {
         let settings = settings.iter();
-        let settings = settings.map(|(name, device, value)| setting(module, name, *device, *value));
+        let settings = settings.map(|set| setting(module, set));
         settings.collect::<Vec<_>>().join(", ")
     };
     for change in story {
@@ -267,9 +267,11 @@ pub fn tell(text: &mut String, module: &Module, story: &[Change]) {
             1 => format!("scan {}", change.first + 1),
             n => format!("scans {} to {}", change.first + 1, change.first + n),
         };
-        let set = match change.set.is_empty() {
+        let mut set: Vec<String> = change.set.iter().map(|set| setting(module, set)).collect();
+        set.extend(change.buffers.iter().map(buffer));
+        let set = match set.is_empty() {
             true => "no change".to_string(),
-            false => settings(&change.set),
+            false => set.join(", "),
         };
         let _ = writeln!(
             text,
@@ -287,10 +289,15 @@ pub fn tell(text: &mut String, module: &Module, story: &[Change]) {
     }
 }
 
+/// `U0\G10 = 5`.
+fn buffer((module, address, value): &(u8, u32, i64)) -> String {
+    format!("U{module}\\G{address} = {value}")
+}
+
 /// `X000 = 1 (start button)`.
-fn setting(module: &Module, name: &str, (class, number): (DeviceClass, u32), value: i64) -> String {
+fn setting(module: &Module, (name, device, value): &Setting) -> String {
     let mut comments = module.comments.iter();
-    let comment = comments.find(|(of, n, _)| (*of, *n) == (class, number));
+    let comment = comments.find(|(class, number, _)| (*class, *number) == *device);
     match comment {
         Some((_, _, comment)) => format!("{name} = {value} ({})", comment.trim()),
         None => format!("{name} = {value}"),
@@ -302,8 +309,8 @@ pub fn changes(module: &Module, story: &[Change]) -> String {
     let mut parts = Vec::new();
     for change in story {
         let all = change.start.iter().chain(&change.set);
-        let set = all.map(|(name, device, value)| setting(module, name, *device, *value));
-        let set: Vec<String> = set.collect();
+        let set = all.map(|set| setting(module, set));
+        let set: Vec<String> = set.chain(change.buffers.iter().map(buffer)).collect();
         if !set.is_empty() {
             parts.push(format!(
                 "from scan {} on {}",

@@ -38,6 +38,13 @@ pub fn step(text: &mut String, change: &Change) {
     if !change.set.is_empty() {
         let _ = writeln!(text, "set = {}", table(&plain(&change.set)));
     }
+    if !change.buffers.is_empty() {
+        let words = change.buffers.iter();
+        let words =
+            words.map(|(module, address, value)| format!("\"{module}:{address}\" = {value}"));
+        let words: Vec<String> = words.collect();
+        let _ = writeln!(text, "bfm = {{ {} }}", words.join(", "));
+    }
     let _ = writeln!(text, "scans = {}", change.scans);
     let _ = writeln!(text, "scan_ms = {}", change.scan_ms);
     if !change.after.is_empty() {
