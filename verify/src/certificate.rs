@@ -2,50 +2,110 @@
 //!
 //! An induction over `k` scans is two of them: no run of `k` scans from power-on violates the property, and of `k`
 //! scans in a row from any state the last is not the first to violate it. An invariant is three: all states to begin
-//! with are inside, no scan leads out, and none from inside violates the property.
+//! with are inside, no scan leads out, and none from inside violates the property. What memory always holds is two: it
+//! holds at first, and from a state in which all of it holds no scan leads to one in which some of it does not; the
+//! other formulas suppose it. That two programs have memory in common is one: a scan that begins with the same memory
+//! ends with the same.
 
 use crate::aig::{Aig, Lit, Node};
-use crate::pdr::{self, Cube, Found};
-use crate::property::Property;
-use crate::prove::{FOREVER_MS, INDUCTION, Options, system};
-use crate::search::{Bounded, Induction, Step};
+use crate::pdr::Cube;
+use crate::proof::{Formula, Method, Proof};
+use crate::same::Compared;
 use crate::system::System;
 use crate::unroll::Unroller;
-use rungc_ir::Module;
+use rungc_syntax::{Device, DeviceClass};
 use std::fmt::Write;
-use std::time::Instant;
 
-/// Formulas in the format DIMACS with the names of their files. If none of them can be satisfied, the property holds.
-pub type Certificate = Vec<(&'static str, String)>;
+/// Formulas in the format DIMACS with the names of their files. If none of them can be satisfied, the claim holds.
+pub type Certificate = Vec<(String, String)>;
 
-/// Proves a property so that others can check it; `None` if it is not proved in time.
-pub fn certificate(module: &Module, property: &Property, options: &Options) -> Option<Certificate> {
-    let deadline = Instant::now() + options.time;
-    let (_, plain) = system(module, property, options);
-    if let Some(found) = induction(&plain, deadline) {
-        return Some(found);
-    }
-    let worlds = [(true, options.world.scan_ms), (false, FOREVER_MS)];
-    worlds.into_iter().find_map(|(any_preset, scan_ms)| {
-        let mut other = options.clone();
-        other.world.any_preset = any_preset;
-        other.world.scan_ms = scan_ms;
-        let (_, system) = system(module, property, &other);
-        let until = Instant::now() + deadline.saturating_duration_since(Instant::now()) / 2;
-        match pdr::search(&system, until) {
-            Found::Invariant(cubes) => Some(invariant(&system, &cubes)),
-            Found::Violated | Found::TimeUp => None,
+/// What others need to confirm a proof.
+pub fn certificate(proof: &Proof) -> Certificate {
+    let formulas = formulas(proof).into_iter();
+    let files = formulas.map(|(name, formula)| (format!("{name}.cnf"), dimacs(&formula)));
+    files.collect()
+}
+
+/// What others need to confirm that outputs of two programs are the same: one formula for all memory that both have in
+/// common, `memory.cnf`, and for each output that is not part of it a separate proof, `Y000-….cnf`.
+pub fn of_comparison(compared: &Compared) -> Certificate {
+    let mut files = vec![("memory.cnf".to_string(), dimacs(&compared.apart))];
+    for output in &compared.outputs {
+        if let Some(proof) = &output.proof {
+            let device = Device {
+                class: DeviceClass::Y,
+                number: output.number,
+            };
+            let own = certificate(proof).into_iter();
+            files.extend(own.map(|(name, text)| (format!("{device}-{name}"), text)));
         }
+    }
+    files
+}
+
+/// The formulas of a proof with their names.
+pub(crate) fn formulas(proof: &Proof) -> Vec<(&'static str, Formula)> {
+    let apart = proof.apart.iter().cloned();
+    let mut formulas: Vec<_> = apart.map(|apart| ("memory", apart)).collect();
+    if !proof.facts.is_empty() {
+        let [begin, step] = facts(proof);
+        formulas.extend([("bits-begin", begin), ("bits-step", step)]);
+    }
+    // The facts hold in every scan, as the constraints do.
+    let mut system = proof.system.clone();
+    for fact in &proof.facts {
+        let now = |latch: usize| proof.system.latches[latch].now;
+        let holds = fact.holds(&proof.system, &mut system.aig, &now);
+        system.constraints.push(holds);
+    }
+    match &proof.method {
+        Method::Induction(scans) => {
+            let [begin, step] = induction(&system, *scans);
+            formulas.extend([("begin", begin), ("step", step)]);
+        }
+        // No scan at all does it.
+        Method::Invariant(cubes) if cubes.is_empty() => {
+            let all = [&system.constraints[..], &[system.bad]].concat();
+            let aig = system.aig;
+            formulas.push(("end", Formula { aig, all }));
+        }
+        Method::Invariant(cubes) => {
+            let [begin, step, end] = invariant(&system, cubes);
+            formulas.extend([("begin", begin), ("step", step), ("end", end)]);
+        }
+    }
+    formulas
+}
+
+/// What latches hold at first, where that is known.
+fn first_state(system: &System) -> Vec<Lit> {
+    let latches = system.latches.iter();
+    let known = latches.filter_map(|latch| Some(latch.now.invert_if(!latch.init?)));
+    known.collect()
+}
+
+/// That a fact does not hold at first, and that one does not hold after a scan though all did before.
+fn facts(proof: &Proof) -> [Formula; 2] {
+    let system = &proof.system;
+    let mut aig = system.aig.clone();
+    let mut all = |of: &dyn Fn(usize) -> Lit| {
+        let facts = proof.facts.iter();
+        let holds: Vec<Lit> = facts.map(|fact| fact.holds(system, &mut aig, of)).collect();
+        (aig.all(holds.iter().copied()), holds)
+    };
+    let (now, holds) = all(&|latch| system.latches[latch].now);
+    let (next, _) = all(&|latch| system.latches[latch].next);
+    let mut begin = first_state(system);
+    begin.push(!now);
+    let mut step = [&system.constraints[..], &holds].concat();
+    step.push(!next);
+    [begin, step].map(|all| Formula {
+        aig: aig.clone(),
+        all,
     })
 }
 
-fn induction(system: &System, deadline: Instant) -> Option<Certificate> {
-    let mut bounded = Bounded::new(system, false, deadline);
-    let mut induction = Induction::new(system, deadline);
-    let holds = |_: &usize| bounded.step() == Step::Holds;
-    let scans = (1..=INDUCTION)
-        .take_while(holds)
-        .find(|_| induction.step())?;
+fn induction(system: &System, scans: usize) -> [Formula; 2] {
     let unrolled = |from_start: bool| {
         let mut unroller = Unroller::new(system, from_start);
         (0..scans).for_each(|_| unroller.extend());
@@ -56,21 +116,19 @@ fn induction(system: &System, deadline: Instant) -> Option<Certificate> {
         let bad: Vec<Lit> = (0..scans)
             .map(|scan| unroller.at(scan, system.bad))
             .collect();
-        (unroller, holds, bad)
+        (unroller.aig, holds, bad)
     };
-    let (mut begin, mut in_begin, bad) = unrolled(true);
-    in_begin.push(begin.aig.any(bad));
-    let (step, mut in_step, bad) = unrolled(false);
-    let (last, before) = bad.split_last()?;
-    in_step.extend(before.iter().map(|&lit| !lit));
-    in_step.push(*last);
-    Some(vec![
-        ("begin.cnf", dimacs(&begin.aig, &in_begin)),
-        ("step.cnf", dimacs(&step.aig, &in_step)),
-    ])
+    let (mut aig, mut all, bad) = unrolled(true);
+    all.push(aig.any(bad));
+    let begin = Formula { aig, all };
+    let (aig, mut all, mut bad) = unrolled(false);
+    let last = bad.pop();
+    all.extend(bad.iter().map(|&lit| !lit));
+    all.extend(last);
+    [begin, Formula { aig, all }]
 }
 
-fn invariant(system: &System, cubes: &[Cube]) -> Certificate {
+fn invariant(system: &System, cubes: &[Cube]) -> [Formula; 3] {
     let mut aig = system.aig.clone();
     let inside = |aig: &mut Aig, of: &dyn Fn(usize) -> Lit| {
         let mut clauses = Vec::new();
@@ -82,23 +140,20 @@ fn invariant(system: &System, cubes: &[Cube]) -> Certificate {
     };
     let now = inside(&mut aig, &|latch| system.latches[latch].now);
     let next = inside(&mut aig, &|latch| system.latches[latch].next);
-    let begins = system.latches.iter();
-    let mut begin: Vec<Lit> = begins
-        .filter_map(|latch| Some(latch.now.invert_if(!latch.init?)))
-        .collect();
+    let mut begin = first_state(system);
     begin.push(!now);
     let mut inside = system.constraints.clone();
     inside.push(now);
     let with = |last: Lit| [&inside[..], &[last]].concat();
-    vec![
-        ("begin.cnf", dimacs(&aig, &begin)),
-        ("step.cnf", dimacs(&aig, &with(!next))),
-        ("end.cnf", dimacs(&aig, &with(system.bad))),
-    ]
+    [begin, with(!next), with(system.bad)].map(|all| Formula {
+        aig: aig.clone(),
+        all,
+    })
 }
 
-/// All of these literals at once, as clauses.
-fn dimacs(aig: &Aig, all: &[Lit]) -> String {
+/// All literals of a formula at once, as clauses.
+fn dimacs(formula: &Formula) -> String {
+    let Formula { aig, all } = formula;
     let mut wanted = vec![false; aig.nodes().len()];
     let mut open: Vec<usize> = all.iter().map(|lit| lit.node()).collect();
     while let Some(node) = open.pop() {

@@ -1,11 +1,15 @@
 //! 64 runs at once with inputs by chance: what happens in one of them needs no proof that it never does.
 
+mod long;
+mod rarity;
+
+pub(crate) use long::LongRuns;
+
 use crate::aig::{Lit, Node};
 use crate::model::{Digit, Input, Key, TimerPart};
 use crate::search::{Scan, Trace, with_sign};
 use crate::system::System;
 use rustc_hash::FxHashMap;
-use std::time::Instant;
 
 /// Random numbers, the same in every run of the program.
 pub(crate) struct Chance(u64);
@@ -43,6 +47,8 @@ pub(crate) struct Lanes<'s> {
     start: Vec<u64>,
     /// Inputs and milliseconds of each scan so far.
     scans: Vec<(u32, Vec<u64>)>,
+    /// Before which scan lanes continued from where others had come to, and from which.
+    moves: Vec<(usize, [u8; 64])>,
 }
 
 impl<'s> Lanes<'s> {
@@ -71,6 +77,7 @@ impl<'s> Lanes<'s> {
             inputs: vec![0; system.inputs.len()],
             alive: u64::MAX,
             scans: Vec::new(),
+            moves: Vec::new(),
         }
     }
 
@@ -169,20 +176,46 @@ impl<'s> Lanes<'s> {
         self.of(lit) & self.alive
     }
 
+    /// Lets each lane continue from where another one has come to.
+    fn follow(&mut self, from: [u8; 64]) {
+        let moved = |bits: &u64| {
+            let lanes = from.iter().enumerate();
+            lanes.fold(0, |all, (lane, &from)| all | (bits >> from & 1) << lane)
+        };
+        self.latches = self.latches.iter().map(moved).collect();
+        self.inputs = self.inputs.iter().map(moved).collect();
+        self.alive = moved(&self.alive);
+        self.moves.push((self.scans.len(), from));
+    }
+
+    /// Which lane a lane was in each scan, and which it began as.
+    fn history(&self, mut lane: u32) -> (Vec<u32>, u32) {
+        let mut lanes = vec![lane; self.scans.len()];
+        let mut end = self.scans.len();
+        for &(scan, ref from) in self.moves.iter().rev() {
+            lanes[scan..end].fill(lane);
+            end = scan;
+            lane = from[lane as usize].into();
+        }
+        lanes[..end].fill(lane);
+        (lanes, lane)
+    }
+
     /// One of the runs.
     pub fn trace(&self, lane: u32) -> Trace {
-        let on = |bits: u64| i64::from(bits >> lane & 1 == 1);
+        let on = |bits: u64, lane: u32| i64::from(bits >> lane & 1 == 1);
+        let (lanes, first) = self.history(lane);
         let mut trace = Trace::default();
         for (latch, &bits) in self.system.latches.iter().zip(&self.start) {
             if latch.init.is_none() {
-                *trace.start.entry(latch.key).or_default() |= on(bits) << latch.bit;
+                *trace.start.entry(latch.key).or_default() |= on(bits, first) << latch.bit;
             }
         }
-        for (ms, inputs) in &self.scans {
+        for ((ms, inputs), lane) in self.scans.iter().zip(lanes) {
             let mut set: FxHashMap<_, i64> = FxHashMap::default();
             for ((_, input), &bits) in self.system.inputs.iter().zip(inputs) {
                 if let Input::Device(key, bit) = *input {
-                    *set.entry(key).or_default() |= on(bits) << bit;
+                    *set.entry(key).or_default() |= on(bits, lane) << bit;
                 }
             }
             let mut scan = Scan {
@@ -209,21 +242,21 @@ fn part_of(ms: u32, digit: Digit, bit: usize) -> u64 {
 }
 
 /// How often an input changes: lanes by the power of two that is the number of scans from one change to the next.
-struct Seldom([u64; 4]);
+struct Seldom([u64; 5]);
 
 impl Seldom {
-    /// Powers of two; lanes beyond the last keep what they have.
-    const POWERS: [u32; 4] = [1, 3, 6, 9];
+    /// Powers of two: from a change in every scan to hardly one; lanes beyond the last keep what they have.
+    const POWERS: [u32; 5] = [0, 1, 3, 6, 10];
 
     /// Each lane has one of the powers, or none.
     fn new(chance: &mut Chance) -> Self {
-        let (mut left, mut lanes) = (u64::MAX, [0; 4]);
+        let (mut left, mut lanes) = (u64::MAX, [0; 5]);
         for part in &mut lanes {
             *part = left & (chance.bits() | chance.bits() & chance.bits());
             left &= !*part;
         }
         // Which is the most frequent differs from input to input.
-        lanes.rotate_left(chance.below(4) as usize);
+        lanes.rotate_left(chance.below(5) as usize);
         Seldom(lanes)
     }
 
@@ -269,51 +302,4 @@ impl Habits {
             gaps: chance.bits() & chance.bits(),
         }
     }
-}
-
-/// The most words that the inputs of a run take.
-const WORDS: usize = 4_000_000;
-/// The most scans of a run.
-const SCANS: usize = 8192;
-/// Runs that are shown and turn out not to happen before the search gives up.
-const ATTEMPTS: usize = 16;
-
-/// Long runs of 64 lanes in which inputs change often for some time and seldom for another: what counters and timers
-/// need many scans for, which a search scan by scan does not reach. `happens` runs one of them on the interpreter.
-pub(crate) fn long_runs(
-    system: &System,
-    scan_ms: u32,
-    until: Instant,
-    happens: &mut dyn FnMut(&Trace) -> bool,
-) -> Option<Trace> {
-    let mut chance = Chance::new();
-    let mut failed = 0;
-    let scans = SCANS.min(WORDS / system.inputs.len().max(1));
-    while Instant::now() < until && failed < ATTEMPTS {
-        let mut lanes = Lanes::new(system, &mut chance);
-        let mut done = 0;
-        while done < scans && lanes.alive != 0 && failed < ATTEMPTS {
-            let habits = Habits::new(system, &mut chance);
-            let ms = [1, 10, 10, 100][chance.below(4) as usize].min(scan_ms);
-            let length = 1 << (4 + 2 * chance.below(4));
-            for _ in 0..length {
-                lanes.scan_by(if done == 0 { 0 } else { ms }, &habits, &mut chance);
-                done += 1;
-                let bad = lanes.value(system.bad);
-                if bad != 0 {
-                    let trace = lanes.trace(bad.trailing_zeros());
-                    if happens(&trace) {
-                        return Some(trace);
-                    }
-                    failed += 1;
-                    // What cannot be shown in this lane ends it.
-                    lanes.alive &= !(bad & bad.wrapping_neg());
-                }
-            }
-            if Instant::now() > until {
-                return None;
-            }
-        }
-    }
-    None
 }

@@ -9,12 +9,14 @@
 pub mod aig;
 pub mod aiger;
 pub mod bits;
+pub mod btor2;
 pub mod certificate;
 mod chance;
 pub mod deep;
 pub mod engines;
 pub mod model;
 pub mod pdr;
+pub mod proof;
 pub mod property;
 pub mod prove;
 pub mod reduce;

@@ -1,8 +1,9 @@
 //! From a program and a property to a verdict.
 
-use crate::chance::long_runs;
+use crate::chance::LongRuns;
 use crate::model::{Encoder, Gap, Input, Key, World};
 use crate::pdr;
+use crate::proof::{Method, Posed, Proof};
 use crate::property::{Condition, Property};
 use crate::replay;
 use crate::search::{Bounded, Induction, Step, Trace};
@@ -58,11 +59,40 @@ pub enum Why {
     },
 }
 
+/// A verdict, and how it is known.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What was found.
+    pub verdict: Verdict,
+    /// The proof, of what is proved.
+    pub proof: Option<Proof>,
+}
+
+impl From<Verdict> for Answer {
+    fn from(verdict: Verdict) -> Self {
+        Answer {
+            verdict,
+            proof: None,
+        }
+    }
+}
+
+impl From<Proof> for Answer {
+    fn from(proof: Proof) -> Self {
+        Answer {
+            verdict: Verdict::Proved,
+            proof: Some(proof),
+        }
+    }
+}
+
 /// A verdict, and what it is about.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Decision {
     /// What was found.
     pub verdict: Verdict,
+    /// The proof, of what is proved.
+    pub proof: Option<Proof>,
     /// What the model leaves open, of what the property depends on.
     pub gaps: Vec<Gap>,
     /// Devices that the property depends on, that the program reads and never writes: they count as inputs.
@@ -99,14 +129,14 @@ pub fn system<'m>(
 
 /// A question about runs: whether one can do something.
 pub trait Question {
-    /// What the answer depends on.
-    fn system(&self, world: &World) -> System;
+    /// The question in this world.
+    fn posed(&self, world: &World) -> Posed;
 
     /// Runs a trace on the interpreter; after how many of its scans what is searched for has happened.
     fn happens(&self, trace: &Trace) -> Option<usize>;
 
-    /// Whether timers may be taken to expire at any time.
-    fn may_be_vague(&self) -> bool {
+    /// Whether the answer may abstract from when timers expire.
+    fn abstracts_timers(&self) -> bool {
         true
     }
 }
@@ -119,12 +149,12 @@ struct OfProperty<'a> {
 }
 
 impl Question for OfProperty<'_> {
-    fn system(&self, world: &World) -> System {
+    fn posed(&self, world: &World) -> Posed {
         let options = Options {
             world: world.clone(),
             ..self.options.clone()
         };
-        self::system(self.module, self.property, &options).1
+        system(self.module, self.property, &options).1.into()
     }
 
     fn happens(&self, trace: &Trace) -> Option<usize> {
@@ -153,77 +183,62 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         property,
         options,
     };
+    let gaps = order::set(gaps).into_iter().collect();
+    let latches = system.latches.len();
+    let answer = search(&question, &options.world, &system.into(), deadline);
     Decision {
-        gaps: order::set(gaps).into_iter().collect(),
+        gaps,
         unwritten,
         free,
-        latches: system.latches.len(),
-        verdict: search(&question, &options.world, &system, deadline),
+        latches,
+        verdict: answer.verdict,
+        proof: answer.proof,
     }
 }
 
 /// A time, in milliseconds, in which every timer expires.
 pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
-/// Bounded search and induction side by side. Then, each for a short time: a search for an invariant where timers may
-/// expire at any time; a search for a run, and one for an invariant, where a scan may come any time after the one
-/// before, so that a few scans show what takes many; and long runs by chance. Then the searches for invariants for
-/// longer, and bounded search alone. What is proved for any time between scans holds for shorter times, too. `system`
-/// is that of the question in this world.
-pub fn search(
-    question: &dyn Question,
-    world: &World,
-    system: &System,
-    deadline: Instant,
-) -> Verdict {
-    let mut hunt = Hunt::new(question, world, system, deadline);
+/// How long each way is tried at first, and how many times longer in the next round.
+const ROUND: (Duration, u32) = (Duration::from_millis(500), 4);
+
+/// Bounded search and induction side by side; then, in rounds that give each of them more time, the ways of [`Ways`];
+/// then bounded search alone. `posed` is the question in this world.
+pub fn search(question: &dyn Question, world: &World, posed: &Posed, deadline: Instant) -> Answer {
+    let mut hunt = Hunt::new(question, world, &posed.system, deadline);
     // A proof must hold for what a replay cannot show, too.
-    let mut complete = Bounded::new(system, false, deadline);
-    let mut induction = Induction::new(system, deadline);
-    for _ in 0..INDUCTION {
+    let mut complete = Bounded::new(&posed.system, false, deadline);
+    let mut induction = Induction::new(&posed.system, deadline);
+    for scans in 1..=INDUCTION {
         if let Some(verdict) = hunt.step() {
-            return verdict;
+            return verdict.into();
         }
         match complete.step() {
-            Step::Holds if induction.step() => return Verdict::Proved,
+            Step::Holds if induction.step() => {
+                return posed.proof(Method::Induction(scans)).into();
+            }
             Step::Holds => {}
             Step::Impossible => {
                 let scans = complete.scans();
-                return Verdict::Undecided(Why::Contradiction { scans });
+                return Verdict::Undecided(Why::Contradiction { scans }).into();
             }
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    // Most proofs are found at once.
-    const AT_ONCE: u32 = 16;
-    if question.may_be_vague() && proved_vaguely(question, world, deadline, AT_ONCE) {
-        return Verdict::Proved;
-    }
-    let patient = question.system(&World {
-        scan_ms: FOREVER_MS,
-        ..world.clone()
-    });
-    if let Some(found) = patiently(question, world, &patient, deadline) {
-        return found;
-    }
-    if invariant(&patient, share(deadline, AT_ONCE), deadline) {
-        return Verdict::Proved;
-    }
-    if let Some(found) = hunt.by_chance(system, deadline) {
-        return found;
-    }
-    if question.may_be_vague() && proved_vaguely(question, world, deadline, 4) {
-        return Verdict::Proved;
-    }
-    if invariant(&patient, share(deadline, 2), deadline) {
-        return Verdict::Proved;
+    let mut ways = Ways::new(question, world, posed, deadline);
+    let (mut time, factor) = ROUND;
+    while Instant::now() < deadline && !ways.are_exhausted(&hunt) {
+        if let Some(answer) = ways.round(time) {
+            return answer;
+        }
+        time *= factor;
     }
     while Instant::now() < deadline && hunt.spurious.is_none() {
         if let Some(verdict) = hunt.step() {
-            return verdict;
+            return verdict.into();
         }
     }
-    hunt.undecided()
+    hunt.undecided().into()
 }
 
 /// When this part of the time that is left will be over: 4 is a quarter.
@@ -232,41 +247,129 @@ fn share(deadline: Instant, parts: u32) -> Instant {
     now + deadline.saturating_duration_since(now) / parts
 }
 
-/// Whether a property is proved where timers may expire at any time, in this part of the time.
-fn proved_vaguely(question: &dyn Question, world: &World, deadline: Instant, parts: u32) -> bool {
-    let system = question.system(&World {
-        any_preset: true,
-        ..world.clone()
-    });
-    invariant(&system, share(deadline, parts), deadline)
-}
-
-/// Whether an invariant is found, and another solver confirms it.
-fn invariant(system: &System, until: Instant, deadline: Instant) -> bool {
-    match pdr::search(system, until) {
-        pdr::Found::Invariant(cubes) => pdr::check(system, &cubes, deadline),
-        pdr::Found::Violated | pdr::Found::TimeUp => false,
-    }
-}
-
-/// Searches in `system`, where a scan may come any time after the one before: a run is replayed with scans in between.
-fn patiently(
-    question: &dyn Question,
-    world: &World,
-    system: &System,
+/// What may answer a question that needs many scans.
+struct Ways<'a> {
+    question: &'a dyn Question,
+    world: &'a World,
+    /// The question as it is, simplified.
+    as_it_is: Posed,
+    /// The same with timers that may expire at any time, if that may be asked.
+    timers_abstracted: Option<Posed>,
+    /// The same where a scan may come any time after the one before, so that a few scans show what takes many. What is
+    /// proved for any time between scans holds for shorter times, too.
+    free_scan_times: Posed,
+    /// Whether an invariant may exist: of each of these, and of the question as it is.
+    may_hold: [bool; 3],
+    /// Runs that are longer than a search scan by scan can reach.
+    long_runs: LongRuns<'a>,
     deadline: Instant,
-) -> Option<Verdict> {
-    let mut hunt = Hunt::new(question, world, system, share(deadline, 8));
-    for _ in 0..2 * INDUCTION {
-        if hunt.spurious.is_some() {
-            break;
-        }
-        let found = hunt.step();
-        if found.is_some() {
-            return found;
+}
+
+impl<'a> Ways<'a> {
+    fn new(
+        question: &'a dyn Question,
+        world: &'a World,
+        posed: &'a Posed,
+        deadline: Instant,
+    ) -> Self {
+        let timers_abstracted = question.abstracts_timers().then(|| {
+            question.posed(&World {
+                any_preset: true,
+                ..world.clone()
+            })
+        });
+        let free_scan_times = question.posed(&World {
+            scan_ms: FOREVER_MS,
+            ..world.clone()
+        });
+        let until = (Instant::now() + ROUND.0).min(deadline);
+        Ways {
+            question,
+            world,
+            as_it_is: posed.clone().simplified(until),
+            may_hold: [timers_abstracted.is_some(), true, true],
+            timers_abstracted,
+            free_scan_times,
+            long_runs: LongRuns::new(&posed.system, world.scan_ms),
+            deadline,
         }
     }
-    None
+
+    /// Whether no proof can be found any more, nor a run that the interpreter confirms.
+    fn are_exhausted(&self, hunt: &Hunt) -> bool {
+        hunt.spurious.is_some() && self.may_hold == [false; 3]
+    }
+
+    /// Tries each for this time.
+    fn round(&mut self, time: Duration) -> Option<Answer> {
+        let end = self.deadline;
+        let until = || (Instant::now() + time).min(end);
+        // Runs by chance continue where they were; the others begin anew.
+        let longer = || (Instant::now() + 2 * time).min(end);
+        if let Some(proof) = self.invariant(0, until()) {
+            return Some(proof.into());
+        }
+        if let Some(found) = self.with_free_scan_times(until()) {
+            return Some(found.into());
+        }
+        if let Some(proof) = self.invariant(1, until()) {
+            return Some(proof.into());
+        }
+        if let Some(found) = self.by_chance(longer()) {
+            return Some(found.into());
+        }
+        self.invariant(2, until()).map(Answer::from)
+    }
+
+    /// A proof by an invariant of one of the systems, which another solver confirms.
+    fn invariant(&mut self, of: usize, until: Instant) -> Option<Proof> {
+        if !self.may_hold[of] {
+            return None;
+        }
+        let all = [
+            self.timers_abstracted.as_ref(),
+            Some(&self.free_scan_times),
+            Some(&self.as_it_is),
+        ];
+        let posed = all[of]?;
+        match pdr::search(&posed.system, until) {
+            pdr::Found::Invariant(cubes) => pdr::check(&posed.system, &cubes, self.deadline)
+                .then(|| posed.proof(Method::Invariant(cubes))),
+            pdr::Found::Violated => {
+                self.may_hold[of] = false;
+                None
+            }
+            pdr::Found::TimeUp => None,
+        }
+    }
+
+    /// Continues the search over long runs.
+    fn by_chance(&mut self, until: Instant) -> Option<Verdict> {
+        /// Long enough for what shortens a run.
+        const MOST: Duration = Duration::from_secs(3);
+        let happens = |trace: &Trace| self.question.happens(trace);
+        let happened = &mut |trace: &Trace| happens(trace).is_some();
+        let found = self.long_runs.search(until, happened)?;
+        let soon = share(self.deadline, 4).min(Instant::now() + MOST);
+        let short = replay::shortened(&happens, found, soon);
+        Some(Verdict::Found(replay::plain(&happens, short)))
+    }
+
+    /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
+    fn with_free_scan_times(&self, until: Instant) -> Option<Verdict> {
+        let system = &self.free_scan_times.system;
+        let mut hunt = Hunt::new(self.question, self.world, system, until);
+        for _ in 0..2 * INDUCTION {
+            if hunt.spurious.is_some() || Instant::now() > until {
+                break;
+            }
+            let found = hunt.step();
+            if found.is_some() {
+                return found;
+            }
+        }
+        None
+    }
 }
 
 /// A search for a run that the interpreter confirms.
@@ -311,19 +414,6 @@ impl<'a> Hunt<'a> {
         Some(Verdict::Found(replay::plain(&happens, trace)))
     }
 
-    /// Searches runs that are longer than a search scan by scan can reach.
-    fn by_chance(&self, system: &System, deadline: Instant) -> Option<Verdict> {
-        /// Long enough for runs that can be found so at all, and for what shortens one.
-        const MOST: Duration = Duration::from_secs(3);
-        let soon = || share(deadline, 4).min(Instant::now() + MOST);
-        let happens = |trace: &Trace| self.question.happens(trace);
-        let found = long_runs(system, self.scan_ms, soon(), &mut |trace| {
-            happens(trace).is_some()
-        })?;
-        let short = replay::shortened(&happens, found, soon());
-        Some(Verdict::Found(replay::plain(&happens, short)))
-    }
-
     fn undecided(&self) -> Verdict {
         Verdict::Undecided(match self.spurious {
             Some(scans) => Why::Spurious { scans },
@@ -336,25 +426,92 @@ impl<'a> Hunt<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Options, Verdict, decide};
+    use super::{OfProperty, Options, Question, Verdict, Ways, decide};
+    use crate::certificate::formulas;
     use crate::model::World;
+    use crate::proof::{Fact, Proof};
     use crate::property::{Property, parse};
+    use crate::sat::{Answer, Solver};
+    use rungc_ir::Module;
     use rungc_ir::passes::simplify;
     use rungc_lower::compile::{CompileOptions, compile};
-    use std::time::Duration;
+    use std::time::{Duration, Instant};
 
-    #[test]
-    fn runs_of_many_scans_are_found() {
-        // Forty parts, then one of twenty marks: no search scan by scan gets there.
-        let list = "LD X000\nAND X001\nOUT C0 K1000\nLDF X000\nMOV C0 D10\nINC D20\nRST C0\nLD> D10 K20\nOUT Y001\n\
-                    LD= D20 K40\nSET M20\nLD X002\nRST M20\nMOV K0 D20\nLD M20\nOUT Y002\nEND\n";
-        let program = rungc_frontend::read_text("parts.il", list).program;
+    fn module(list: &str) -> Module {
+        let program = rungc_frontend::read_text("program.il", list).program;
         let options = CompileOptions {
             optimise: false,
             ..CompileOptions::default()
         };
         let mut module = compile(&program, &options).module.unwrap();
         simplify(&mut module);
+        module
+    }
+
+    #[test]
+    fn each_way_to_a_proof_leaves_what_others_can_check() {
+        // M20, which Y000 needs and M1 excludes, is on if D0 is above 9; D0 begins again after 5.
+        let module = module(
+            "LD X000\nOUT T0 K3\nLD T0\nOUT M0\nLD M0\nANI M20\nOUT M1\nLDP X001\nADD D0 K1 D0\nLD> D0 K5\nMOV K0 D0\n\
+             LD> D0 K9\nOUT M20\nLD M20\nOUT Y000\nLD M1\nOUT Y001\nEND\n",
+        );
+        let both = parse("Y000 & Y001", &|_| Vec::new()).unwrap();
+        let options = Options {
+            world: World {
+                fresh: true,
+                ..World::default()
+            },
+            assumed: Vec::new(),
+            time: Duration::from_secs(60),
+        };
+        let question = OfProperty {
+            module: &module,
+            property: &Property::Never(both),
+            options: &options,
+        };
+        let deadline = Instant::now() + options.time;
+        let posed = question.posed(&options.world);
+        let mut ways = Ways::new(&question, &options.world, &posed, deadline);
+        let mut proofs: Vec<_> = (0..3).map(|of| ways.invariant(of, deadline)).collect();
+        assert!(proofs.iter().all(Option::is_some));
+        // What bits always hold is part of the proof.
+        assert!(
+            proofs[2]
+                .as_ref()
+                .is_some_and(|proof| !proof.facts.is_empty())
+        );
+        proofs.push(decide(&module, question.property, &options).proof);
+        let refuted = |proof: &Proof| {
+            let formulas = formulas(proof).into_iter();
+            let satisfied = formulas.filter(|(_, formula)| {
+                let mut solver = Solver::new(deadline);
+                let all = formula.all.iter();
+                let all: Vec<_> = all.map(|&lit| solver.lit(&formula.aig, lit)).collect();
+                solver.solve(&all) != Answer::Unsat
+            });
+            satisfied.map(|(name, _)| name).collect::<Vec<_>>()
+        };
+        for proof in proofs.iter().flatten() {
+            assert_eq!(refuted(proof), Vec::<&str>::new());
+        }
+        // A proof that rests on what does not hold is not confirmed.
+        let mut wrong = proofs[2].clone().unwrap();
+        let facts = wrong.facts.clone();
+        let unknown = |latch: &usize| facts.iter().all(|fact| fact.latch != *latch);
+        let known_at_first = |latch: &usize| posed.system.latches[*latch].init.is_some();
+        let latches = (0..posed.system.latches.len()).filter(|n| unknown(n) && known_at_first(n));
+        wrong
+            .facts
+            .extend(latches.map(|latch| Fact { latch, like: None }));
+        assert!(refuted(&wrong).contains(&"bits-step"));
+    }
+
+    #[test]
+    fn runs_of_many_scans_are_found() {
+        // Forty parts, then one of twenty marks: no search scan by scan gets there.
+        let list = "LD X000\nAND X001\nOUT C0 K1000\nLDF X000\nMOV C0 D10\nINC D20\nRST C0\nLD> D10 K20\nOUT Y001\n\
+                    LD= D20 K40\nSET M20\nLD X002\nRST M20\nMOV K0 D20\nLD M20\nOUT Y002\nEND\n";
+        let module = module(list);
         let options = Options {
             world: World::default(),
             // What breaks an assumption does not end a run.

@@ -6,6 +6,7 @@
 
 use crate::aig::{Aig, Lit, Node};
 use crate::chance::{Chance, Lanes};
+use crate::proof::Fact;
 use crate::sat::{Answer, Solver};
 use crate::system::{Latch, System};
 use rustc_hash::FxHashMap;
@@ -20,6 +21,10 @@ const SCANS: u32 = 60;
 pub struct Reduced {
     /// The system.
     pub system: System,
+    /// What was proved of the system before.
+    pub facts: Vec<Fact>,
+    /// The numbers of its latches in the system before.
+    kept: Vec<usize>,
     /// What each node of the system before is in it.
     nodes: Vec<Lit>,
 }
@@ -28,6 +33,15 @@ impl Reduced {
     /// What a literal of the system before is.
     pub fn lit(&self, lit: Lit) -> Lit {
         self.nodes[lit.node()].invert_if(lit.is_inverted())
+    }
+
+    /// What the question depends on alone, and the numbers of its latches in the system before.
+    pub fn sliced(&self) -> (System, Vec<usize>) {
+        let wanted = self.system.cone(self.system.bad);
+        let latches = self.system.latches.iter().zip(&self.kept);
+        let kept = latches.filter(|(latch, _)| wanted[latch.now.node()]);
+        let kept = kept.map(|(_, &number)| number).collect();
+        (self.system.keep(&wanted, self.system.bad), kept)
     }
 }
 
@@ -133,6 +147,7 @@ fn substituted(system: &System, classes: &Classes) -> Reduced {
         }
     };
     Reduced {
+        facts: facts(classes),
         system: System {
             latches: kept.iter().map(latch).collect(),
             inputs: system.inputs.iter().map(|&(l, i)| (of(l), i)).collect(),
@@ -142,8 +157,30 @@ fn substituted(system: &System, classes: &Classes) -> Reduced {
             bad: of(system.bad),
             aig,
         },
+        kept,
         nodes,
     }
+}
+
+/// What classes mean.
+fn facts(classes: &Classes) -> Vec<Fact> {
+    let mut first: FxHashMap<usize, usize> = FxHashMap::default();
+    let members = classes.iter().enumerate();
+    members
+        .filter_map(|(latch, class)| match (*class)? {
+            0 => Some(Fact { latch, like: None }),
+            class => match first.get(&class) {
+                Some(&other) => Some(Fact {
+                    latch,
+                    like: Some(other),
+                }),
+                None => {
+                    first.insert(class, latch);
+                    None
+                }
+            },
+        })
+        .collect()
 }
 
 /// Whether classes that hold before a scan hold after it; if not, they are divided. `None`: the time is up.

@@ -9,11 +9,10 @@ mod product;
 
 use crate::aig::Lit;
 use crate::model::{Gap, Input, Key, Names, World};
-use crate::prove::{Options, Question, Verdict, search};
-use crate::reduce::reduced;
+use crate::proof::{Formula, Method, Posed, Proof};
+use crate::prove::{Answer, Options, Question, Verdict, search};
 use crate::replay::Run;
 use crate::search::Trace;
-use crate::system::System;
 use product::Product;
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc};
@@ -22,12 +21,14 @@ use rungc_syntax::order;
 use std::time::{Duration, Instant};
 
 /// What was found of an output of two programs.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Output {
     /// Its number, Y.
     pub number: u32,
     /// Whether it can differ: [`Verdict::Proved`] if it cannot.
     pub verdict: Verdict,
+    /// The proof that it is the same, if it is not part of what both programs have in common.
+    pub proof: Option<Proof>,
     /// What the answer depends on and is not modelled.
     pub gaps: Vec<Gap>,
     /// How long it took.
@@ -35,7 +36,7 @@ pub struct Output {
 }
 
 /// What was found of two programs.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Compared {
     /// All outputs that one of them has.
     pub outputs: Vec<Output>,
@@ -43,6 +44,9 @@ pub struct Compared {
     pub same_outside: bool,
     /// What is not modelled in either, taken to be the same function in both.
     pub functions: Vec<Gap>,
+    /// What is never the case: that a scan which begins with the same in all memory that both have in common ends with
+    /// a difference in it.
+    pub apart: Formula,
 }
 
 /// Compares the outputs of an old and a new program for the same model. [`Options::time`] is the time for what both
@@ -61,15 +65,15 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     let outputs = numbers.into_iter().map(|number| {
         let begin = Instant::now();
         let asked = open.iter().position(|key| *key == key_of(&number));
-        let system = asked.map(|at| simplified(whole.about(questions[at]), options.time));
-        let Some(system) = system.filter(|system| system.bad != Lit::FALSE) else {
-            return Output {
-                number,
-                verdict: Verdict::Proved,
-                gaps: Vec::new(),
-                time: begin.elapsed(),
-            };
+        let Some(at) = asked else {
+            return Output::proved(number, None, begin);
         };
+        let until = begin + options.time / 4;
+        let posed = Posed::from(whole.about(questions[at])).simplified(until);
+        if posed.system.bad == Lit::FALSE {
+            let proof = posed.proof(Method::Invariant(Vec::new()));
+            return Output::proved(number, Some(proof), begin);
+        }
         let question = Differs {
             modules,
             number,
@@ -78,34 +82,41 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         };
         let gaps = product.encoder().gaps.iter().enumerate();
         let gaps = gaps.filter(|(n, _)| {
-            system
-                .inputs
-                .iter()
-                .any(|(_, input)| *input == Input::Gap(*n))
+            let mut inputs = posed.system.inputs.iter();
+            inputs.any(|(_, input)| *input == Input::Gap(*n))
         });
+        let deadline = begin + options.time;
+        let Answer { verdict, proof } = search(&question, &options.world, &posed, deadline);
         Output {
             number,
             gaps: order::set(gaps.map(|(_, gap)| gap.clone()))
                 .into_iter()
                 .collect(),
-            verdict: search(&question, &options.world, &system, begin + options.time),
+            verdict,
+            proof,
             time: begin.elapsed(),
         }
     });
     Compared {
         outputs: outputs.collect(),
         same_outside: product.same_outside(),
+        apart: product.apart(&names),
         functions: order::set(product.encoder().gaps.iter().cloned())
             .into_iter()
             .collect(),
     }
 }
 
-/// The system of a question, simplified for a quarter of the time at most by what its memory always holds.
-fn simplified(system: System, time: Duration) -> System {
-    match reduced(&system, Instant::now() + time / 4) {
-        Some(reduced) => reduced.system.sliced(),
-        None => system,
+impl Output {
+    /// An output that is the same.
+    fn proved(number: u32, proof: Option<Proof>, begin: Instant) -> Self {
+        Output {
+            number,
+            verdict: Verdict::Proved,
+            proof,
+            gaps: Vec::new(),
+            time: begin.elapsed(),
+        }
     }
 }
 
@@ -118,7 +129,7 @@ struct Differs<'a> {
 }
 
 impl Question for Differs<'_> {
-    fn system(&self, world: &World) -> System {
+    fn posed(&self, world: &World) -> Posed {
         let deadline = Instant::now() + self.options.time;
         let product = Product::new(
             self.modules,
@@ -127,7 +138,9 @@ impl Question for Differs<'_> {
             &self.options.assumed,
             deadline,
         );
-        product.system(Key::Bit(DeviceClass::Y, self.number), self.names)
+        let output = Key::Bit(DeviceClass::Y, self.number);
+        let posed = Posed::from(product.system(output, self.names));
+        posed.resting_on(product.apart(self.names))
     }
 
     fn happens(&self, trace: &Trace) -> Option<usize> {
@@ -150,7 +163,7 @@ impl Question for Differs<'_> {
     }
 
     /// When a timer expires must be the same in both.
-    fn may_be_vague(&self) -> bool {
+    fn abstracts_timers(&self) -> bool {
         false
     }
 }

@@ -47,6 +47,11 @@ impl System {
 
     /// The same with another question.
     pub fn about(&self, bad: Lit) -> System {
+        self.keep(&self.cone(bad), bad)
+    }
+
+    /// What the answer to a question depends on, by node.
+    pub(crate) fn cone(&self, bad: Lit) -> Vec<bool> {
         let number_of = self.latch_numbers();
         let mut wanted = vec![false; self.aig.nodes().len()];
         let conditions: Vec<Lit> = self.conditions().collect();
@@ -73,7 +78,7 @@ impl System {
                 }
             }
             if open.is_empty() {
-                return self.keep(&wanted, bad);
+                return wanted;
             }
         }
     }
@@ -109,7 +114,7 @@ impl System {
     }
 
     /// The wanted nodes, in a new graph.
-    fn keep(&self, wanted: &[bool], bad: Lit) -> System {
+    pub(crate) fn keep(&self, wanted: &[bool], bad: Lit) -> System {
         let mut aig = Aig::default();
         let mut map = vec![None; wanted.len()];
         map[0] = Some(Lit::FALSE);

@@ -12,7 +12,11 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub asked: Properties,
     /// Compare with this older program instead: can an output differ, given the same inputs at the same times?
-    #[arg(long, value_name = "OLD", conflicts_with_all = ["never", "always", "reachable", "aiger", "certificate", "write_test"])]
+    #[arg(
+        long,
+        value_name = "OLD",
+        conflicts_with_all = ["never", "always", "reachable", "aiger", "btor2", "write_test"],
+    )]
     pub same_as: Option<PathBuf>,
     /// The engines that must show a run before it is reported, beside the interpreter. Default: all that can be built
     /// here.
@@ -28,8 +32,11 @@ pub struct VerifyArgs {
     /// its output can be on.
     #[arg(long, value_name = "FILE")]
     pub aiger: Option<PathBuf>,
-    /// Write the proof of the only property into this folder, as formulas (`*.cnf`) that any SAT solver confirms to be
-    /// unsatisfiable.
+    /// The same in another format (BTOR2), in which bits have the names of the devices that they belong to.
+    #[arg(long, value_name = "FILE")]
+    pub btor2: Option<PathBuf>,
+    /// Write the proof of the only property into this folder, or with --same-as the proofs of all outputs that are the
+    /// same, as formulas (`*.cnf`) that any SAT solver confirms to be unsatisfiable.
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<PathBuf>,
     /// Also write a proof of each formula beside it (`*.drat`, DRAT), whose steps a proof checker can follow: made by

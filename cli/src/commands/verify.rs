@@ -15,6 +15,7 @@ use crate::report::Reporter;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
+use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
 use rungc_verify::property::Condition;
 use rungc_verify::prove::{Decision, Options, Verdict, decide};
@@ -54,7 +55,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
-    export::export(args, &module, &asked, &options, cx)?;
+    export::questions(args, &module, &asked, &options, cx)?;
     let mut decided: Vec<(Decision, Duration)> = asked
         .iter()
         .map(|asked| {
@@ -62,6 +63,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             (decide(&module, &asked.property, &options), begin.elapsed())
         })
         .collect();
+    let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
+    export::proofs(args, proof.map(certificate), options.time, cx)?;
     let runs = shown(&asked, &decided);
     let differing = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
     for (number, why) in differing {

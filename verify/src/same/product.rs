@@ -3,6 +3,7 @@
 use crate::aig::Lit;
 use crate::bits::Bits;
 use crate::model::{Beside, Encoder, Key, Names, World, device_of};
+use crate::proof::Formula;
 use crate::property::Condition;
 use crate::sat::{Answer, Solver};
 use crate::system::System;
@@ -111,6 +112,21 @@ impl<'m> Product<'m> {
         });
         differing.extend(begins.map(|(_, name)| name));
         differing
+    }
+
+    /// What the induction over all memory rests on: that a scan which begins with the same ends with a difference.
+    pub fn apart(&self, names: &Names) -> Formula {
+        let mut aig = self.new.aig.clone();
+        let mut all = [self.old.constraints(), self.new.constraints()].concat();
+        let mut differs = Vec::new();
+        for (key, _, after) in self.new.memory() {
+            let name = names.name(key);
+            if let Some(other) = self.old.after(name).filter(|_| self.is_shared(name)) {
+                differs.push(!aig.equal(other, after));
+            }
+        }
+        all.push(aig.any(differs));
+        Formula { aig, all }
     }
 
     /// Whether a memory, by its name in the old program, is checked to be equal.

@@ -4,19 +4,20 @@ use crate::args::VerifyArgs;
 use crate::commands::properties::Asked;
 use crate::commands::{Context, Failure, counted, spare, write_file};
 use rungc_ir::Module;
-use rungc_verify::aiger;
-use rungc_verify::certificate::certificate;
+use rungc_verify::certificate::Certificate;
 use rungc_verify::prove::{Options, system};
+use rungc_verify::{aiger, btor2};
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-/// Writes what was asked for.
+/// Writes the question, if that was asked for.
 ///
 /// # Errors
 ///
-/// A file cannot be written, or there is no proof of a formula because `cadical` is missing or fails.
-pub fn export(
+/// A file cannot be written, more than one property is asked where one file takes one, or what proves formulas is
+/// missing.
+pub fn questions(
     args: &VerifyArgs,
     module: &Module,
     asked: &[Asked],
@@ -24,22 +25,53 @@ pub fn export(
     cx: Context,
 ) -> std::result::Result<(), Failure> {
     let only = |option: &str| match asked {
-        [only] => Ok(&only.property),
+        [only] => Ok(only),
         _ => Err(Failure::Because(format!("{option}: name one property"))),
     };
-    if let Some(path) = &args.aiger {
-        let (_, system) = system(module, only("--aiger")?, options);
-        write_file(path, &aiger::binary(&system), args.force)?;
+    let write = |path: &Path, bytes: &[u8]| -> std::result::Result<(), Failure> {
+        write_file(path, bytes, args.force)?;
         cx.note(&format!("       Wrote {}", path.display()));
+        Ok(())
+    };
+    if let Some(path) = &args.aiger {
+        let (_, system) = system(module, &only("--aiger")?.property, options);
+        write(path, &aiger::binary(&system))?;
     }
+    if let Some(path) = &args.btor2 {
+        let asked = only("--btor2")?;
+        let (encoder, system) = system(module, &asked.property, options);
+        let text = btor2::text(&system, &encoder.gaps, &asked.text);
+        write(path, text.as_bytes())?;
+    }
+    if args.certificate.is_some() {
+        only("--certificate")?;
+    }
+    can_prove(args)
+}
+
+/// Whether what proves formulas is there, if it is needed.
+pub fn can_prove(args: &VerifyArgs) -> std::result::Result<(), Failure> {
+    match args.drat {
+        true => solver(),
+        false => Ok(()),
+    }
+}
+
+/// Writes proofs into a folder, if that was asked for; `None`: nothing was proved.
+///
+/// # Errors
+///
+/// A file cannot be written, or there is no proof of a formula because `cadical` is missing or fails.
+pub fn proofs(
+    args: &VerifyArgs,
+    files: Option<Certificate>,
+    time: Duration,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
     let Some(folder) = &args.certificate else {
         return Ok(());
     };
-    let property = only("--certificate")?;
-    if args.drat {
-        solver()?;
-    }
-    let Some(files) = certificate(module, property, options) else {
+    let Some(files) = files else {
         cx.note("     Nothing was proved, so no certificate is written");
         return Ok(());
     };
@@ -48,7 +80,7 @@ pub fn export(
         let path = folder.join(name);
         write_file(&path, text.as_bytes(), args.force)?;
         if args.drat {
-            prove(&path, options.time, args.force)?;
+            prove(&path, time, args.force)?;
         }
     }
     let count = counted(files.len(), "formula");

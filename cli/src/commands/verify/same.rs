@@ -1,7 +1,7 @@
 //! `--same-as`: two programs.
 
 use super::engines::{self, Shown};
-use super::report;
+use super::{export, report};
 use crate::args::{Input, VerifyArgs};
 use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
@@ -14,6 +14,7 @@ use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics};
+use rungc_verify::certificate;
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::Verdict;
 use rungc_verify::same::{Compared, Output, compare};
@@ -62,8 +63,13 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         );
         return Err(Failure::Because(why));
     }
+    export::can_prove(args)?;
     let modules = [old_module, new_module];
     let mut compared = compare(&modules[0], &modules[1], &options);
+    let is_same = |output: &Output| output.verdict == Verdict::Proved;
+    let proved = compared.outputs.iter().any(is_same);
+    let proofs = proved.then(|| certificate::of_comparison(&compared));
+    export::proofs(args, proofs, options.time, cx)?;
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let shown = shown(&compared);
     for (number, why) in engines::replay(args.replay, &modules, &shown, cx)? {
