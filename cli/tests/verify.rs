@@ -1,6 +1,8 @@
 //! Properties of programs, proved and violated.
 
 mod common;
+#[path = "verify/peers.rs"]
+mod peers;
 
 use common::{folder, reverser, rungc, shown, text};
 
@@ -126,6 +128,33 @@ fn a_counterexample_is_a_test() {
 }
 
 #[test]
+fn buffer_memory_may_hold_anything() {
+    // One reads it as an operand, the other moves it to a register first.
+    let program = "LD M8000\nFROM K0 K10 D0 K1\nLD> D0 K500\nAND X000\nOUT Y000\nLD> U0\\G10 K700\nAND X001\nOUT Y001\n\
+                   LD> D0 K700\nANI X001\nOUT Y002\nEND\n";
+    let folder = folder(&[("scale.il", program.as_bytes())]);
+    let args = [
+        "verify",
+        "scale.il",
+        "--never",
+        "Y000 & Y001",
+        "--never",
+        "Y001 & Y002",
+        "--write-test",
+        "scale.plctest.toml",
+        "--replay",
+        "interp",
+    ];
+    let output = rungc(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    insta::assert_snapshot!("buffer_memory", timeless(&text(&output.stdout)));
+    let test = std::fs::read_to_string(folder.path().join("scale.plctest.toml")).unwrap();
+    insta::assert_snapshot!("buffer_memory_test", test);
+    let output = rungc(folder.path(), &["test", "scale.plctest.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+}
+
+#[test]
 fn what_is_not_decided_has_an_exit_code() {
     let program = "LD X000\nPID D0 D1 D100 D150\nLD> D150 K100\nOUT Y000\nEND\n";
     let folder = folder(&[("pid.il", program.as_bytes())]);
@@ -192,185 +221,6 @@ until = \"X002 | Y001\"
         "wrong_settings",
         shown(folder.path(), &["verify", "good.il"])
     );
-}
-
-/// The first of these programs that is installed.
-fn installed<'a>(names: &[&'a str]) -> Option<&'a str> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let mut names = names.iter().copied();
-    names.find(|name| std::env::split_paths(&path).any(|folder| folder.join(name).is_file()))
-}
-
-/// Programs that keep Y000 and Y001 apart: by induction, by an invariant, and one that holds only while the counter
-/// keeps below its limit.
-fn kept_apart() -> [String; 3] {
-    let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
-    let chain = "LD X000\nOUT M0\nLD M0\nANI M20\nOUT M1\nLDP X001\nADD D0 K1 D0\nLD> D0 K5\nMOV K0 D0\n\
-                 LD> D0 K9\nOUT M20\nLD M20\nOUT Y000\nLD M1\nOUT Y001\nEND\n";
-    [reverser("ANI Y000"), timer.to_string(), chain.to_string()]
-}
-
-/// What every test of a proof asks.
-const PROVED: [&str; 7] = [
-    "verify",
-    "program.il",
-    "--never",
-    "Y000 & Y001",
-    "--certificate",
-    "proof",
-    "--cleared",
-];
-
-/// Whether a peer is there; one that `.ci/run` has installed must be.
-fn there(peer: &str, variable: &str, is_there: bool) -> bool {
-    let required = std::env::var_os(variable).is_some();
-    assert!(
-        is_there || !required,
-        "{variable} is set, but there is no {peer}"
-    );
-    if !is_there {
-        eprintln!("skipped: there is no {peer} ({variable}; see .ci/run)");
-    }
-    is_there
-}
-
-#[test]
-fn sat_solvers_confirm_proofs() {
-    let solvers = ["cadical", "minisat"].map(|name| installed(&[name]));
-    let any = solvers.iter().any(Option::is_some);
-    if !there("cadical or minisat", "RUNGC_REQUIRE_PEERS", any) {
-        return;
-    }
-    for program in kept_apart() {
-        let folder = folder(&[("program.il", program.as_bytes())]);
-        let output = rungc(folder.path(), &PROVED);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        let mut formulas = 0;
-        for entry in std::fs::read_dir(folder.path().join("proof")).unwrap() {
-            formulas += 1;
-            for solver in solvers.iter().flatten() {
-                let asked = std::process::Command::new(solver)
-                    .arg(entry.as_ref().unwrap().path())
-                    .output()
-                    .unwrap();
-                // Solvers agree on the exit code of what cannot be satisfied.
-                assert_eq!(
-                    asked.status.code(),
-                    Some(20),
-                    "{solver}: {}",
-                    text(&asked.stdout)
-                );
-            }
-        }
-        assert!(formulas >= 2, "{formulas} formulas");
-    }
-}
-
-/// Checks a proof with a checker that others wrote; the exit code says whether each step follows.
-const CHECK: &str = "\
-import dratify, sys
-formula, proof = sys.argv[1:]
-result = dratify.check_proof(dratify.parse_dimacs_file(formula), open(proof).read())
-print(result.report())
-sys.exit(0 if result.ok and result.reached_empty else 1)
-";
-
-#[test]
-fn a_checker_follows_every_step_of_a_proof() {
-    let with_drat = [&PROVED[..], &["--drat"]].concat();
-    let program = kept_apart()[2].clone();
-    let folder = folder(&[("program.il", program.as_bytes())]);
-    // Without a solver on the path, no proof is written, and that is said.
-    let alone = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
-        .args(&with_drat)
-        .current_dir(folder.path())
-        .env("PATH", folder.path())
-        .output()
-        .unwrap();
-    assert_eq!(alone.status.code(), Some(2));
-    insta::assert_snapshot!("no_solver", text(&alone.stderr));
-    assert!(!folder.path().join("proof").exists());
-    let cadical = installed(&["cadical"]).is_some();
-    if !there("cadical", "RUNGC_REQUIRE_PEERS", cadical) {
-        return;
-    }
-    let python = std::env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
-    let has_checker = std::process::Command::new(&python)
-        .args(["-c", "import dratify"])
-        .stderr(std::process::Stdio::null())
-        .status();
-    let has_checker = has_checker.is_ok_and(|status| status.success());
-    if !there("dratify", "RUNGC_PYTHON", has_checker) {
-        return;
-    }
-    for program in kept_apart() {
-        std::fs::write(folder.path().join("program.il"), program).unwrap();
-        let output = rungc(folder.path(), &[&with_drat[..], &["--force"]].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        let check = |formula: &str, proof: &str| {
-            let checked = std::process::Command::new(&python)
-                .args(["-c", CHECK, formula, proof])
-                .current_dir(folder.path().join("proof"))
-                .output()
-                .unwrap();
-            (checked.status.success(), text(&checked.stdout))
-        };
-        let (holds, report) = check("step.cnf", "step.drat");
-        assert!(holds, "{report}");
-        let (holds, report) = check("begin.cnf", "begin.drat");
-        assert!(holds, "{report}");
-    }
-    // The checker is not one that says yes to everything.
-    let proof = std::fs::read_to_string(folder.path().join("proof/step.drat")).unwrap();
-    let later: Vec<&str> = proof.lines().skip(proof.lines().count() / 2).collect();
-    std::fs::write(folder.path().join("proof/cut.drat"), later.join("\n")).unwrap();
-    let cut = std::process::Command::new(&python)
-        .args(["-c", CHECK, "step.cnf", "cut.drat"])
-        .current_dir(folder.path().join("proof"))
-        .output()
-        .unwrap();
-    assert_eq!(cut.status.code(), Some(1), "{}", text(&cut.stderr));
-}
-
-#[test]
-fn another_model_checker_agrees() {
-    let abc = installed(&["berkeley-abc", "abc"]);
-    if !there("berkeley-abc", "RUNGC_REQUIRE_PEERS", abc.is_some()) {
-        return;
-    }
-    let abc = abc.unwrap_or_default();
-    let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
-    let programs = [
-        (reverser("ANI Y000"), "proved", "Property proved"),
-        (reverser("ANI X003"), "violated", "was asserted in frame"),
-        (timer.to_string(), "proved", "Property proved"),
-    ];
-    for (program, ours, theirs) in programs {
-        let folder = folder(&[("program.il", program.as_bytes())]);
-        let args = [
-            "verify",
-            "program.il",
-            "--never",
-            "Y000 & Y001",
-            "--aiger",
-            "program.aig",
-            "--replay",
-            "interp",
-        ];
-        let output = rungc(folder.path(), &args);
-        assert!(
-            text(&output.stdout).starts_with(ours),
-            "{}",
-            text(&output.stdout)
-        );
-        let asked = std::process::Command::new(abc)
-            .args(["-c", "read_aiger program.aig; pdr"])
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        let answer = text(&asked.stdout);
-        assert!(answer.contains(theirs), "{answer}");
-    }
 }
 
 /// A start-stop circuit, a timer, a controller, an edge.
