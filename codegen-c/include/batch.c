@@ -147,7 +147,36 @@ static void long_value(bool ok, int64_t number)
     fflush(stdout);
 }
 
-/* Sets or reads a device; false if the request is another one. */
+/* What a digest of devices becomes with one more value, or without one. */
+static uint32_t with(uint32_t digest, bool found, uint32_t number)
+{
+    return (digest ^ (found ? number : 0x80000001u)) * 0x01000193u;
+}
+
+/* One number that stands for all that devices hold: bits, words and 32-bit counters, and terminals of outputs. */
+static uint32_t digest(const program *program, rungc_class device_class, uint32_t first, uint32_t count)
+{
+    rungc_map map = program->map();
+    uint32_t all = 0x811c9dc5u;
+    for (uint32_t number = first; number - first < count; number++) {
+        bool on = false;
+        int16_t word = 0;
+        int32_t both = 0;
+        bool found = rungc_get_bit(&map, device_class, number, &on);
+        all = with(all, found, on ? 1u : 0u);
+        found = rungc_get_word(&map, device_class, number, &word);
+        all = with(all, found, (uint32_t)word);
+        if (device_class == RUNGC_CLASS_Y) {
+            all = with(all, true, program->output((unsigned)number) ? 1u : 0u);
+        } else if (device_class == RUNGC_CLASS_C && number >= 200u) {
+            found = rungc_get_long(&map, device_class, number, &both);
+            all = with(all, found, (uint32_t)both);
+        }
+    }
+    return all;
+}
+
+/* Sets or reads a device, or reads many; false if the request is another one. */
 static bool device_request(const program *program, const char *verb, const char *class_name, uint32_t number, long set)
 {
     rungc_map map = program->map();
@@ -171,6 +200,8 @@ static bool device_request(const program *program, const char *verb, const char 
         int32_t both = 0;
         const bool found = known && rungc_get_long(&map, device_class, number, &both);
         value(found, both);
+    } else if (strcmp(verb, "digest") == 0) {
+        long_value(known, digest(program, device_class, number, (uint32_t)set));
     } else {
         return false;
     }

@@ -31,6 +31,8 @@ pub enum Request {
     Word(Class, u32),
     /// Asks for a pair, or for a 32-bit counter.
     Double(Class, u32),
+    /// Asks for a [`Digest`] of all that devices hold: of this class, from this number on, this many.
+    Digest(Class, u32, u32),
     /// One scan.
     Scan {
         /// Milliseconds since power-on.
@@ -141,6 +143,39 @@ impl Answer {
     }
 }
 
+/// One number that stands for many: whoever compares devices of two engines asks for it first, and for the devices only
+/// where it differs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Digest(u32);
+
+impl Digest {
+    /// What stands for a value that there is not; no bit, word or terminal has it.
+    const NONE: u32 = 0x8000_0001;
+
+    /// Of nothing.
+    pub const fn new() -> Self {
+        Digest(0x811C_9DC5)
+    }
+
+    /// Adds a value, or that there is none, as FNV-1a adds a byte.
+    #[must_use]
+    pub fn with(self, value: Option<impl Into<i64>>) -> Self {
+        let value = value.map_or(Self::NONE, |value| value.into() as u32);
+        Digest((self.0 ^ value).wrapping_mul(0x0100_0193))
+    }
+
+    /// As the answer to a request.
+    pub fn value(self) -> i64 {
+        self.0.into()
+    }
+}
+
+impl Default for Digest {
+    fn default() -> Self {
+        Digest::new()
+    }
+}
+
 /// The letters of a class.
 pub(crate) fn letters(class: Class) -> &'static str {
     match class {
@@ -170,6 +205,7 @@ impl fmt::Display for Request {
             Request::Bit(c, n) => write!(f, "getbit {} {n}", letters(c)),
             Request::Word(c, n) => write!(f, "getword {} {n}", letters(c)),
             Request::Double(c, n) => write!(f, "getdword {} {n}", letters(c)),
+            Request::Digest(c, n, count) => write!(f, "digest {} {n} {count}", letters(c)),
             Request::Scan { now_ms, scan_us } => write!(f, "scan {now_ms} {scan_us}"),
             Request::ConstantScan => write!(f, "constant"),
             Request::Edge(n, level) => write!(f, "edge {n} {}", u8::from(level)),

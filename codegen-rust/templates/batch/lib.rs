@@ -147,6 +147,10 @@ fn answer(
             let (class, number) = device(words)?;
             return value(double(program, class, number)?);
         }
+        "digest" => {
+            let (class, first) = device(words)?;
+            return value(digest(program, class, first, next(words)?));
+        }
         "scan" => {
             let now_ms = next(words)?;
             hal.advance_to(now_ms);
@@ -238,6 +242,26 @@ fn device(words: &mut SplitAsciiWhitespace) -> Option<(Class, u32)> {
         _ => return None,
     };
     Some((class, next(words)?))
+}
+
+/// One number that stands for all that devices hold: bits, words and 32-bit counters, and terminals of outputs.
+fn digest(program: &dyn Program, class: Class, first: u32, count: u32) -> u32 {
+    let with = |digest: u32, value: Option<u32>| {
+        (digest ^ value.unwrap_or(0x8000_0001)).wrapping_mul(0x0100_0193)
+    };
+    let mut all = 0x811C_9DC5;
+    for number in first..first.saturating_add(count) {
+        all = with(all, program.bit(class, number).map(u32::from));
+        all = with(all, program.word(class, number).map(|word| word as u32));
+        match class {
+            Class::Y => all = with(all, Some(program.output(number).into())),
+            Class::C if number >= FIRST_COUNTER32 => {
+                all = with(all, program.counter32(number).map(|both| both as u32));
+            }
+            _ => {}
+        }
+    }
+    all
 }
 
 fn double(program: &dyn Program, class: Class, number: u32) -> Option<i32> {

@@ -1,12 +1,12 @@
 //! The reference interpreter as an engine.
 
 use super::{Engine, EngineError};
-use crate::protocol::{Answer, Request};
+use crate::protocol::{Answer, Digest, Request};
 use crate::target::Channel;
 use rungc_interp::{Machine, Observer, Saved};
 use rungc_ir::Module;
 use rungc_rt::modules::{KINDS, Signal};
-use rungc_rt::{Class, Cx, Operand, Plc, Program, Site, VirtualHal};
+use rungc_rt::{Class, Cx, FIRST_COUNTER32, Operand, Plc, Program, Site, VirtualHal};
 
 /// The reference interpreter and virtual hardware.
 pub struct Interpreter<'m> {
@@ -48,7 +48,10 @@ impl<'m> Interpreter<'m> {
     }
 
     /// An engine for these programs, whose execution others look on.
-    pub fn observed(modules: &'m [Module], observers: Observers<'m>) -> Self {
+    pub fn observed(
+        modules: impl IntoIterator<Item = &'m Module>,
+        observers: Observers<'m>,
+    ) -> Self {
         Interpreter {
             observers: Some(observers),
             ..Interpreter::new(modules)
@@ -65,6 +68,21 @@ fn double<'a>(machine: &'a mut Machine<'_>, hal: &'a mut VirtualHal, op: &'a [Op
 fn value_of(machine: &mut Machine, hal: &mut VirtualHal, (class, n): (Class, u32)) -> Option<i32> {
     let ops = [operand(class, n)];
     double(machine, hal, &ops).dword(0, 0).ok()
+}
+
+/// Of all that devices hold: bits, words and 32-bit counters, and terminals of outputs.
+fn digest(machine: &Machine, class: Class, first: u32, count: u32) -> Digest {
+    let numbers = first..first.saturating_add(count);
+    numbers.fold(Digest::new(), |digest, n| {
+        let digest = digest
+            .with(machine.bit(class, n))
+            .with(machine.word(class, n));
+        match class {
+            Class::Y => digest.with(Some(machine.output(n))),
+            Class::C if n >= FIRST_COUNTER32 => digest.with(machine.counter32(n)),
+            _ => digest,
+        }
+    })
 }
 
 fn operand(class: Class, number: u32) -> Operand {
@@ -170,6 +188,9 @@ impl Engine for Interpreter<'_> {
             Request::Bit(class, n) => Answer::value(machine.bit(class, n)),
             Request::Word(class, n) => Answer::value(machine.word(class, n)),
             Request::Double(class, n) => Answer::value(value_of(machine, hal, (class, n))),
+            Request::Digest(class, first, count) => {
+                Answer::Value(digest(machine, class, first, count).value())
+            }
             Request::Scan { now_ms, scan_us } => {
                 hal.advance_to(now_ms);
                 machine.scan(hal, now_ms, scan_us);

@@ -136,6 +136,7 @@ fn asks_for_value(request: Request) -> bool {
         Request::Bit(..)
             | Request::Word(..)
             | Request::Double(..)
+            | Request::Digest(..)
             | Request::Output(_)
             | Request::Pulses(_)
             | Request::Pass { .. }
