@@ -5,6 +5,7 @@
 //! compared with one another. Start reading at `tests/conformance.rs`, then [`random`] and `tests/differential.rs`.
 
 pub mod book;
+mod fitting;
 pub mod operands;
 pub mod random;
 pub mod rng;

@@ -32,9 +32,7 @@ struct Writer<'c> {
 pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) -> String {
     let mut writer = Writer::new(seed, model, candidates);
     let interrupts = if writer.rng.percent(25) {
-        let mut all = writer.enable_interrupts();
-        all.retain(|_| writer.rng.percent(60));
-        Some(all)
+        Some(writer.enable_interrupts(60))
     } else {
         writer.high_speed_counter();
         None
@@ -51,7 +49,7 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
 /// ladder.
 pub fn with_all_structures(seed: u64, model: ModelId, candidates: &[Candidate]) -> String {
     let mut writer = Writer::new(seed, model, candidates);
-    let interrupts = writer.enable_interrupts();
+    let interrupts = writer.enable_interrupts(100);
     writer.all_structures();
     writer.routines(Some(interrupts));
     writer.end()

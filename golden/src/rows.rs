@@ -1,11 +1,11 @@
 //! The rows of the catalogue: rungs in which each occurs in every form, and what occurs in programs.
 
-use crate::operands::{Candidate, each, has_form, in_any_rung};
+use crate::operands::{Candidate, Wish, has_form, in_any_rung, wishes};
 use crate::rng::Rng;
 use rungc_catalogue::{Form, Inst, Lower};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::Classes;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An instruction in a rung.
 #[derive(Clone, Debug)]
@@ -29,30 +29,36 @@ fn pairs(inst: &Inst) -> Vec<(ModelId, Form)> {
         .collect()
 }
 
+/// The operands that this model and form are to show of an instruction: over all of them, each operand is of each class
+/// that it may be.
+fn share(inst: &Inst, pair: (ModelId, Form), seed: u64) -> Vec<Wish> {
+    let all = pairs(inst);
+    let mut able: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    let is_run = |model| !matches!(inst.lower_on_model(model), Lower::Todo(_));
+    for &(model, form) in all.iter().filter(|(model, _)| is_run(*model)) {
+        for ((name, class), wish) in wishes(inst, model, form) {
+            let able = able.entry((name, class.0)).or_default();
+            able.push(((model, form), wish));
+        }
+    }
+    let turns = able.values().zip(seed..);
+    turns
+        .filter_map(|(able, turn)| able.get((turn % able.len() as u64) as usize))
+        .filter(|(able, _)| *able == pair)
+        .map(|&(_, wish)| wish)
+        .collect()
+}
+
 /// Rungs in which each instruction of a model occurs in each of its forms, once or more: over all models its operands
-/// are of each class in turn. Each rung has this many hostile twins.
+/// are of each class. Each rung has this many hostile twins.
 pub fn rungs(model: ModelId, seed: u64, hostile: u64) -> Vec<Rung> {
     let mut rng = Rng::new(seed ^ (model as u64) << 32);
     let mut rungs = Vec::new();
     let mut later = Vec::new();
-    let mut unlucky = Vec::new();
     for candidate in in_any_rung(model) {
-        let inst = candidate.inst();
-        let all = pairs(inst);
-        let mine = |pair: &(ModelId, Form)| *pair == (model, candidate.form());
-        let Some(place) = all.iter().position(mine) else {
-            continue;
-        };
-        let params = inst.params_of(&[], Model::get(model)).iter();
-        let most = params.map(|param| each(param.classes_on(Model::get(model))).len());
-        let times = most.max().unwrap_or(1).div_ceil(all.len()).max(1);
-        for time in 0..times {
-            let turn = place + time * all.len();
-            let drawn = candidate.draw_in_turn(&mut rng, model, turn as u32);
-            let Some(drawn) = drawn else {
-                unlucky.push(candidate.clone());
-                continue;
-            };
+        let wishes = share(candidate.inst(), (model, candidate.form()), seed);
+        let lines = candidate.draw_with(&mut rng, model, wishes);
+        for (time, drawn) in lines.into_iter().enumerate() {
             let twins = (0..hostile).map(|_| spoilt(&mut rng, &drawn));
             let twins: Vec<String> = twins.collect();
             let hostile = twins.iter().map(|twin| rung(&mut rng, &candidate, twin));
@@ -67,14 +73,6 @@ pub fn rungs(model: ModelId, seed: u64, hostile: u64) -> Vec<Rung> {
         }
     }
     rungs.append(&mut later);
-    // Of some instructions few operands fit each other.
-    rungs.extend(unlucky.iter().filter_map(|candidate| {
-        let drawn = (0..1000).find_map(|_| candidate.draw(&mut rng, model))?;
-        Some(Rung {
-            text: rung(&mut rng, candidate, &drawn),
-            hostile: Vec::new(),
-        })
-    }));
     rungs
 }
 
@@ -160,6 +158,24 @@ impl Occurring {
         (self.rows.len(), self.operands.len())
     }
 
+    /// The operands of implemented instructions that occur on no model, by their names and classes.
+    pub fn missing_operands(&self) -> Vec<String> {
+        let mut missing = BTreeSet::new();
+        for inst in rungc_catalogue::all() {
+            for (model, form) in pairs(inst) {
+                if matches!(inst.lower_on_model(model), Lower::Todo(_)) {
+                    continue;
+                }
+                for ((name, class), _) in wishes(inst, model, form) {
+                    if !self.operands.contains(&(inst.name, name, class.0)) {
+                        missing.insert(format!("{} {name} {class:?}", inst.name));
+                    }
+                }
+            }
+        }
+        missing.into_iter().collect()
+    }
+
     /// The forms of a model's instructions that do not occur, each with what implements it.
     pub fn missing(&self, model: ModelId) -> Vec<(String, Lower)> {
         let rows = rungc_catalogue::all().flat_map(|inst| {
@@ -169,5 +185,29 @@ impl Occurring {
         rows.map(|(spelling, inst)| (spelling, inst.lower_on_model(model)))
             .filter(|(spelling, _)| !self.rows.contains(&(model, spelling.clone())))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Occurring, rungs};
+    use rungc_models::ModelId;
+
+    #[test]
+    fn rungs_show_every_class_of_operands() {
+        let mut occurring = Occurring::default();
+        for model in ModelId::ALL {
+            for rung in rungs(model, 1, 0) {
+                occurring.add(model, &rung.text);
+            }
+        }
+        let mut missing = occurring.missing_operands();
+        // Others belong to these.
+        missing.retain(|operand| {
+            !["FOR ", "MC ", "STL "]
+                .iter()
+                .any(|i| operand.starts_with(i))
+        });
+        assert!(missing.is_empty(), "{missing:?}");
     }
 }

@@ -14,9 +14,10 @@ const BOTH: &str = "step ladders with subroutines";
 const JOINS: &str = "joined branches";
 const LADDERS_IN_ZONES: &str = "step ladders in zones";
 const INTERRUPTS: &str = "interrupt routines";
+const AT_COUNTS: &str = "interrupts at counts";
 
 /// All of them.
-const ALL: [&str; 11] = [
+const ALL: [&str; 12] = [
     NESTED_JUMPS,
     CROSSING_JUMPS,
     JUMPS_BACK,
@@ -28,6 +29,7 @@ const ALL: [&str; 11] = [
     JOINS,
     LADDERS_IN_ZONES,
     INTERRUPTS,
+    AT_COUNTS,
 ];
 
 /// How many there are of each, by name.
@@ -58,6 +60,7 @@ impl Shapes {
                 "MC" => zones += 1,
                 "MCR" => zones -= 1,
                 "FEND" => routine = verb,
+                "DHSCS" => self.count(AT_COUNTS, words.last().is_some_and(|to| is_label(to, 'I'))),
                 "CJ" | "CJP" => self.count(JUMPS_IN_STATES, in_state),
                 "CALL" | "CALLP" => {
                     has_calls = true;

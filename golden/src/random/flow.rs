@@ -1,9 +1,10 @@
 //! What leads a random program's scan elsewhere: jumps, loops, zones, subroutines, interrupt routines, step ladders.
 
 use super::Writer;
+use crate::operands::each;
 use rungc_models::Model;
-use rungc_models::interrupts::{Advanced, Gate};
-use rungc_syntax::DeviceClass;
+use rungc_models::interrupts::{Advanced, Gate, Source};
+use rungc_syntax::{Classes, DeviceClass};
 
 /// The last pointers are left to what stands in a program once.
 const LABELS: u32 = 56;
@@ -18,16 +19,29 @@ pub(super) struct Subroutine {
     depth: u32,
 }
 
-/// Interrupt pointers of a model with what masks them: of one edge of the first input, of one edge of the next, and of
-/// two timers.
-fn pointers(model: &Model) -> Vec<(u32, Gate)> {
+/// Interrupt pointers of a model with what requests and masks them: one edge of the first input, one of the next, two
+/// timers, and one of each other kind that the model has.
+fn pointers(model: &Model) -> Vec<(u32, Source, Gate)> {
     let find = |n: u32| {
         let found = model.interrupts.find(n)?;
-        let exists = model.has(DeviceClass::I, n) && found.source.is_some();
-        exists.then_some((n, found.gate))
+        let source = found.source.filter(|_| model.has(DeviceClass::I, n))?;
+        Some((n, source, found.gate))
+    };
+    let kind = |is_it: fn(Source) -> bool| {
+        let mut found = (0..1000).filter_map(find);
+        found.find(|&(_, source, _)| is_it(source))
     };
     let [first, second] = [[1, 0], [100, 101]].map(|pair| pair.into_iter().find_map(find));
-    let all = [first, second, find(610), find(710)];
+    let all = [
+        first,
+        second,
+        find(610),
+        find(710),
+        kind(|source| matches!(source, Source::Comparison { .. })),
+        kind(|source| matches!(source, Source::Row { .. })),
+        kind(|source| matches!(source, Source::PulsesEnd { .. })),
+        kind(|source| matches!(source, Source::Interpolation)),
+    ];
     all.into_iter().flatten().collect()
 }
 
@@ -43,18 +57,24 @@ fn advanced(model: &Model) -> Vec<(u32, Advanced)> {
 }
 
 impl Writer<'_> {
-    /// EI, and whatever else the pointers need that it gives.
-    pub(super) fn enable_interrupts(&mut self) -> Vec<u32> {
+    /// EI, and whatever else pointers need that it gives: this many of a hundred of the model's.
+    pub(super) fn enable_interrupts(&mut self, percent: u32) -> Vec<u32> {
         self.line("EI");
         self.line("LD M8002");
         let model = Model::get(self.model);
-        let all = pointers(model);
-        for (_, gate) in &all {
+        let mut all = pointers(model);
+        all.retain(|_| self.rng.percent(percent));
+        for (_, _, gate) in &all {
             self.line(match gate {
                 Gate::Forbids(mask) => format!("RST M{}", mask.number()),
                 Gate::Allows(mask) => format!("SET M{}", mask.number()),
                 Gate::Open => continue,
             });
+        }
+        // A contact leads to something.
+        self.line("SET M58");
+        for &(_, source, _) in &all {
+            self.request(source);
         }
         for (_, interrupt) in advanced(model) {
             for relay in [interrupt.request, interrupt.again] {
@@ -63,14 +83,65 @@ impl Writer<'_> {
                 self.line(format!("SET M{}", relay.number()));
             }
         }
-        all.into_iter().map(|(pointer, _)| pointer).collect()
+        all.into_iter().map(|(pointer, ..)| pointer).collect()
+    }
+
+    /// What leads to an interrupt, where that is more than an input or time: a count, a row of a table of counts, the end
+    /// of pulses.
+    fn request(&mut self, source: Source) {
+        let model = Model::get(self.model);
+        // Its input interrupts nothing.
+        let counter = 238;
+        let lines = match source {
+            Source::Comparison { pointer } => vec![
+                "LD M8000".to_string(),
+                format!("OUT C{counter} K4"),
+                "LD M8000".to_string(),
+                format!("DHSCS K2 C{counter} I{pointer:03}"),
+            ],
+            Source::Row { .. } => {
+                let Some(table) = model.interrupts.count_rows else {
+                    return;
+                };
+                let registers = [
+                    (table.counter, counter),
+                    (table.rows, 2),
+                    (table.first, 100),
+                ];
+                let registers = registers
+                    .map(|(register, value)| format!("MOV K{value} D{}", register.number()));
+                let mut lines = vec!["LD M8002".to_string()];
+                lines.extend(registers);
+                lines.extend(["DMOV K1 D100".to_string(), "DMOV K3 D102".to_string()]);
+                lines.extend([
+                    "LD M8000".to_string(),
+                    format!("OUT M{}", table.enable.number()),
+                    "LD M8000".to_string(),
+                    format!("OUT C{counter} K5"),
+                ]);
+                lines
+            }
+            Source::PulsesEnd { output } => vec![
+                "LDI X003".to_string(),
+                format!("PLSY K1000 K3 Y{output:03o}"),
+            ],
+            Source::Input { .. } | Source::Period { .. } | Source::Interpolation => return,
+        };
+        let has_counter = model.high_speed.counter(counter).is_some();
+        if has_counter || matches!(source, Source::PulsesEnd { .. }) {
+            self.lines.extend(lines);
+        }
     }
 
     /// Each structure once, in the pulse form too.
     pub(super) fn all_structures(&mut self) {
         self.steps(0);
-        self.master();
-        self.repeat();
+        for drive in ["M60", "Y000"] {
+            self.master_of(drive.to_string());
+        }
+        for class in self.counts() {
+            self.repeat_by(class);
+        }
         self.web();
         for verb in ["CJ", "CJP"] {
             let label = self.label();
@@ -218,13 +289,50 @@ impl Writer<'_> {
         self.line(format!("CJ P{label}"));
     }
 
+    /// A loop of a few passes, whose count is written or only known in the run.
     pub(super) fn repeat(&mut self) {
-        let count = match self.rng.below(4) {
-            // A count that is only known in the run, and small.
-            0 => "K1X000".to_string(),
-            _ => format!("K{}", self.rng.below(4)),
+        let class = match self.rng.percent(60) {
+            true => None,
+            false => self.rng.pick(&self.counts()),
         };
-        self.line(format!("FOR {count}"));
+        self.repeat_by(class.unwrap_or(Classes::K));
+    }
+
+    /// What a count of FOR may be on the model.
+    fn counts(&self) -> Vec<Classes> {
+        let model = Model::get(self.model);
+        let count = rungc_catalogue::find("FOR").map(|found| found.inst.params_of(&[], model));
+        let count = count.and_then(|params| params.first());
+        count.map_or(Vec::new(), |count| each(count.classes_on(model)))
+    }
+
+    /// A loop whose count is of this class.
+    fn repeat_by(&mut self, class: Classes) {
+        let passes = self.rng.below(4);
+        // What other instructions leave there would be many passes.
+        let set = match class {
+            Classes::T => Some("T5"),
+            Classes::C => Some("C5"),
+            Classes::D => Some("D121"),
+            Classes::R => Some("R121"),
+            Classes::V => Some("V2"),
+            Classes::Z => Some("Z2"),
+            Classes::BUFFER => Some("U0\\G15"),
+            _ => None,
+        };
+        let count = match class {
+            Classes::H => format!("H{passes}"),
+            Classes::KNX => "K1X000".to_string(),
+            Classes::KNY => "K1Y000".to_string(),
+            Classes::KNM => "K1M0".to_string(),
+            Classes::KNS => "K1S0".to_string(),
+            _ => format!("K{passes}"),
+        };
+        if let Some(set) = set {
+            self.line("LD M8000");
+            self.line(format!("MOV {count} {set}"));
+        }
+        self.line(format!("FOR {}", set.unwrap_or(&count)));
         self.loops += 1;
         let rungs = 1 + self.rng.below(2);
         self.body(rungs, false);
@@ -232,11 +340,19 @@ impl Writer<'_> {
         self.line("NEXT");
     }
 
+    /// A zone that a relay or an output shows.
     pub(super) fn master(&mut self) {
+        let number = self.rng.below(4);
+        match self.rng.percent(80) {
+            true => self.master_of(format!("M{}", 60 + number)),
+            false => self.master_of(format!("Y{number:03o}")),
+        }
+    }
+
+    fn master_of(&mut self, drive: String) {
         let level = self.masters;
         self.logic(1);
-        let number = 60 + self.rng.below(4);
-        self.line(format!("MC N{level} M{number}"));
+        self.line(format!("MC N{level} {drive}"));
         self.masters += 1;
         if level == 0 && self.rng.percent(25) {
             self.steps(20);
