@@ -6,8 +6,8 @@
 //! taken the least time so far.
 
 use crate::{Problem, root};
+use rungc_sim::engines::cortex_m::{CORTEX_M3, CORTEX_M4, missing};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,6 +20,9 @@ pub struct Args {
     /// one batch.
     #[arg(long, default_value_t = 1.0)]
     hours: f64,
+    /// Stop earlier, after this many hours of the clock.
+    #[arg(long)]
+    clock: Option<f64>,
     /// Stop earlier, once this many executions of instructions have been compared.
     #[arg(long)]
     instructions: Option<u64>,
@@ -30,7 +33,7 @@ pub struct Args {
     #[arg(long, default_value_t = 200)]
     scans: u64,
     /// Scans that follow, whose results are compared now and then.
-    #[arg(long, default_value_t = 2_000)]
+    #[arg(long, default_value_t = 10_000)]
     more: u64,
     /// The number of the first program; each number is another program.
     #[arg(long, default_value_t = 1)]
@@ -41,7 +44,7 @@ pub struct Args {
 }
 
 /// The ways, as the differential test reads them.
-const WAYS: [&str; 15] = [
+const WAYS: [&str; 16] = [
     "gcc -O0",
     "clang -O3",
     "rust",
@@ -57,86 +60,144 @@ const WAYS: [&str; 15] = [
     "clang -O1",
     "gcc -O1 -fsanitize=address",
     "cortex-m3 c",
+    "cortex-m4 rust",
 ];
 
-/// What became of the batches of a way.
-#[derive(Default)]
-struct Tally {
-    batches: u64,
+/// What was compared, as the test says it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+struct Extent {
+    programs: u64,
+    scans: u64,
     instructions: u64,
-    seconds: f64,
-    failed: Vec<PathBuf>,
 }
 
-/// Runs a campaign; fails if anything differs.
+/// What became of the batches of a way.
+#[derive(Debug, Default)]
+struct Tally {
+    way: &'static str,
+    /// What is missing on this computer, so that the way is left out.
+    lacks: Option<String>,
+    batches: u64,
+    compared: Extent,
+    /// Programs that differ.
+    differing: u64,
+    /// Batches that did not come to compare anything.
+    broken: u64,
+    seconds: f64,
+    /// What the batches said that failed.
+    kept: Vec<PathBuf>,
+}
+
+/// Runs a campaign; fails if anything differs, or if a way whose tools are there has compared nothing.
 pub fn run(args: &Args) -> Result<(), Problem> {
-    let executable = build()?;
     let folder = root().join("target/campaign");
     fs::create_dir_all(&folder)?;
-    let ways: Vec<&str> = WAYS
+    let mut tallies: Vec<Tally> = WAYS
         .into_iter()
         .filter(|way| args.way.as_deref().is_none_or(|part| way.contains(part)))
-        .filter(|way| is_available(way))
+        .map(|way| Tally {
+            way,
+            lacks: lacking(way),
+            ..Tally::default()
+        })
         .collect();
-    if ways.is_empty() {
+    for Tally { way, lacks, .. } in &tallies {
+        if let Some(lacks) = lacks {
+            println!("left out, there is no {lacks}: {way}");
+        }
+    }
+    if tallies.iter().all(|tally| tally.lacks.is_some()) {
         return Err("no way to run programs is available".into());
     }
+    let executable = build()?;
     let clock = Clock::new();
-    let mut tallies: BTreeMap<&str, Tally> =
-        ways.iter().map(|way| (*way, Tally::default())).collect();
     let mut seed = args.seed;
-    for number in 0.. {
-        let compared: u64 = tallies.values().map(|tally| tally.instructions).sum();
-        let enough = args.instructions.is_some_and(|most| compared >= most);
-        let is_first = number < ways.len();
-        if enough || clock.seconds() >= args.hours * 3600.0 && !is_first {
-            break;
-        }
-        let way = match is_first {
-            true => ways[number],
-            false => neediest(&tallies),
+    while let Some(next) = next(&tallies, args, &clock) {
+        let tally = &mut tallies[next];
+        let programs = match tally.batches {
+            0 => args.programs.min(FIRST_PROGRAMS),
+            _ => args.programs,
         };
-        let programs = match is_first {
-            true => args.programs.min(FIRST_PROGRAMS),
-            false => args.programs,
-        };
-        let started = clock.seconds();
         let batch = Batch {
             programs,
-            way,
+            way: tally.way,
             seed,
         };
-        let found = compare(&executable, args, &batch)?;
-        let tally = tallies.entry(way).or_default();
-        match found {
-            Ok(instructions) => tally.instructions += instructions,
-            Err(output) => tally.failed.push(keep(&folder, args, &batch, &output)?),
-        }
-        tally.batches += 1;
+        let started = clock.seconds();
+        let outcome = compare(&executable, args, &batch)?;
         tally.seconds += clock.seconds() - started;
-        println!("{way}: programs {seed} to {}", seed + programs - 1);
+        let extent = outcome.extent.unwrap_or_default();
+        println!(
+            "{}: programs {seed} to {}: {} instructions",
+            tally.way,
+            seed + programs - 1,
+            extent.instructions
+        );
+        if let Some(output) = &outcome.failure {
+            tally.kept.push(keep(&folder, args, &batch, output)?);
+        }
+        tally.add(&outcome);
         seed += programs;
     }
-    summarise(&tallies, clock.seconds())
+    println!("\n{}", table(&tallies, clock.seconds()));
+    judge(&tallies)
 }
 
 /// Programs in the first batch of each way.
 const FIRST_PROGRAMS: u64 = 10;
 
-/// The way that has taken the least time.
-fn neediest<'w>(tallies: &BTreeMap<&'w str, Tally>) -> &'w str {
-    let seconds = |(_, tally): &(&&str, &Tally)| tally.seconds;
-    let least = tallies
+/// Whose turn it is: a way that has had no batch, then the one that has taken the least time; `None` at the end.
+fn next(tallies: &[Tally], args: &Args, clock: &Clock) -> Option<usize> {
+    let ways = || (0..tallies.len()).filter(|&way| tallies[way].lacks.is_none());
+    let compared: u64 = tallies
         .iter()
-        .min_by(|a, b| seconds(a).total_cmp(&seconds(b)));
-    least.map_or("", |(way, _)| way)
+        .map(|tally| tally.compared.instructions)
+        .sum();
+    if args.instructions.is_some_and(|most| compared >= most) {
+        return None;
+    }
+    let first = ways().find(|&way| tallies[way].batches == 0);
+    let is_over = clock.seconds() >= args.hours * 3600.0
+        || args
+            .clock
+            .is_some_and(|hours| clock.elapsed() >= hours * 3600.0);
+    first.or_else(|| {
+        let seconds = |way: usize| tallies[way].seconds;
+        ways()
+            .filter(|_| !is_over)
+            .min_by(|&a, &b| seconds(a).total_cmp(&seconds(b)))
+    })
 }
 
 /// Programs that are compared together.
-struct Batch<'w> {
+struct Batch {
     programs: u64,
-    way: &'w str,
+    way: &'static str,
     seed: u64,
+}
+
+/// What became of a batch.
+#[derive(Debug, Default)]
+struct Outcome {
+    /// `None` if the test did not come to that.
+    extent: Option<Extent>,
+    differing: u64,
+    /// What the test says, if it fails.
+    failure: Option<String>,
+}
+
+impl Tally {
+    fn add(&mut self, outcome: &Outcome) {
+        self.batches += 1;
+        self.differing += outcome.differing;
+        let Some(extent) = outcome.extent else {
+            self.broken += 1;
+            return;
+        };
+        self.compared.programs += extent.programs;
+        self.compared.scans += extent.scans;
+        self.compared.instructions += extent.instructions;
+    }
 }
 
 /// The time that programs take which this one starts.
@@ -154,6 +215,11 @@ impl Clock {
         clock
     }
 
+    /// Seconds of the clock.
+    fn elapsed(&self) -> f64 {
+        self.begin.elapsed().as_secs_f64()
+    }
+
     /// Seconds of the processor, of programs that have ended; where the system does not say, of the clock.
     fn seconds(&self) -> f64 {
         let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
@@ -168,16 +234,17 @@ impl Clock {
             .collect();
         match hundredths.as_slice() {
             [user, system] => (user + system) as f64 / 100.0 - self.before,
-            _ => self.begin.elapsed().as_secs_f64(),
+            _ => self.elapsed(),
         }
     }
 }
 
-/// The executable of the differential test.
+/// The executable of the differential test, optimised.
 fn build() -> Result<PathBuf, Problem> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
         .args(["test", "-p", "rungc-golden", "--test", "differential"])
+        .args(["--profile", "thorough"])
         .args(["--no-run", "--message-format", "json"])
         .current_dir(root())
         .output()?;
@@ -199,21 +266,36 @@ fn build() -> Result<PathBuf, Problem> {
     path.ok_or_else(|| "cargo names no executable of the differential test".into())
 }
 
-/// Whether the tools of a way are installed; says which are not.
-fn is_available(way: &str) -> bool {
-    let tools: &[&str] = match way.split(' ').next() {
-        Some("gcc") => &["gcc", "make"],
-        Some("clang") => &["clang", "make"],
-        Some("cortex-m3" | "cortex-m4") => &["arm-none-eabi-gcc", "qemu-system-arm"],
-        _ => &[],
-    };
-    tools.iter().all(|tool| {
-        let found = Command::new(tool).arg("--version").output().is_ok();
-        if !found {
-            println!("left out, there is no {tool}: {way}");
+/// What of the tools of a way is missing on this computer, if anything.
+fn lacking(way: &str) -> Option<String> {
+    let (first, flags) = way.split_once(' ').unwrap_or((way, ""));
+    match first {
+        "cortex-m3" => missing(&CORTEX_M3).into_iter().next(),
+        "cortex-m4" => missing(&CORTEX_M4).into_iter().next(),
+        "gcc" | "clang" => {
+            let is_there = |tool: &&str| Command::new(tool).arg("--version").output().is_ok();
+            let tool = [first, "make"].into_iter().find(|tool| !is_there(tool));
+            let links = || links(first, flags).unwrap_or(false);
+            tool.map(str::to_string)
+                .or_else(|| (!links()).then(|| format!("library that {first} needs for {flags}")))
         }
-        found
-    })
+        _ => None,
+    }
+}
+
+/// Whether a compiler makes executables with these flags: what sanitizers link with is a package of its own.
+fn links(compiler: &str, flags: &str) -> std::io::Result<bool> {
+    let folder = tempfile::tempdir()?;
+    fs::write(
+        folder.path().join("none.c"),
+        "int main(void)\n{\n    return 0;\n}\n",
+    )?;
+    let output = Command::new(compiler)
+        .args(flags.split_whitespace())
+        .args(["none.c", "-o", "none"])
+        .current_dir(folder.path())
+        .output()?;
+    Ok(output.status.success())
 }
 
 /// What makes a batch again, as variables of the environment.
@@ -227,8 +309,8 @@ fn variables(args: &Args, batch: &Batch) -> [(&'static str, String); 5] {
     ]
 }
 
-/// Compares a batch: how many instructions were executed on the way, or what the test says.
-fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Result<u64, String>, Problem> {
+/// Compares a batch.
+fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Outcome, Problem> {
     let output = Command::new(executable)
         .args([
             "all_engines_agree_on_random_programs",
@@ -238,19 +320,40 @@ fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Result<u64, 
         .envs(variables(args, batch))
         .current_dir(root().join("golden"))
         .output()?;
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    if !output.status.success() {
-        let why = String::from_utf8_lossy(&output.stderr);
-        return Ok(Err(format!("{said}\n{why}")));
-    }
-    let count = said.lines().find_map(|line| {
-        let (before, _) = line.split_once(" instructions each")?;
-        before.rsplit(' ').next()?.parse().ok()
-    });
-    Ok(count.ok_or_else(|| format!("the test does not say what it has run:\n{said}")))
+    let said = String::from_utf8_lossy(&output.stdout);
+    let why = String::from_utf8_lossy(&output.stderr);
+    let extent = extent(&said);
+    let failed = !output.status.success() || extent.is_none();
+    Ok(Outcome {
+        extent,
+        differing: differing(&why),
+        failure: failed.then(|| format!("{said}\n{why}")),
+    })
 }
 
-/// Keeps what a batch says that differs, with the command that makes it again.
+/// What was compared, from what the test says: `compared with 1 engines: 7 programs, 70 scans, 900 instructions`.
+fn extent(said: &str) -> Option<Extent> {
+    let (_, after) = said.split_once("compared with ")?;
+    let (_, counts) = after.lines().next()?.split_once(": ")?;
+    let count = |name: &str| {
+        let mut counts = counts.split(", ");
+        counts.find_map(|count| count.strip_suffix(name)?.trim().parse().ok())
+    };
+    Some(Extent {
+        programs: count("programs")?,
+        scans: count("scans")?,
+        instructions: count("instructions")?,
+    })
+}
+
+/// How many programs differ, from how the test fails.
+fn differing(why: &str) -> u64 {
+    let before = why.split_once(" programs differ").map(|(before, _)| before);
+    let number = before.and_then(|before| before.split_whitespace().next_back()?.parse().ok());
+    number.unwrap_or(0)
+}
+
+/// Keeps what a batch says that fails, with the command that makes it again.
 fn keep(folder: &Path, args: &Args, batch: &Batch, output: &str) -> Result<PathBuf, Problem> {
     let name = batch.way.replace(|c: char| !c.is_ascii_alphanumeric(), "-");
     let path = folder.join(format!("{name}-{}.txt", batch.seed));
@@ -261,38 +364,153 @@ fn keep(folder: &Path, args: &Args, batch: &Batch, output: &str) -> Result<PathB
         &path,
         format!("{} {command}\n\n{output}\n", variables.join(" ")),
     )?;
-    println!("differs: {}", path.display());
+    println!("fails: {}", path.display());
     Ok(path)
 }
 
-/// Prints what was compared; fails if anything differs.
-fn summarise(tallies: &BTreeMap<&str, Tally>, seconds: f64) -> Result<(), Problem> {
-    println!(
-        "\n{:>8} {:>14} {:>8}  way",
-        "batches", "instructions", "seconds"
-    );
-    for (way, tally) in tallies {
-        let Tally {
-            batches,
-            instructions,
-            seconds,
-            failed,
-        } = tally;
-        let differ = match failed.len() {
-            0 => String::new(),
-            n => format!(": {n} differ"),
-        };
-        println!("{batches:>8} {instructions:>14} {seconds:>8.0}  {way}{differ}");
+/// What was compared on each way, as a table for people and for Markdown.
+fn table(tallies: &[Tally], seconds: f64) -> String {
+    let widest = tallies.iter().map(|tally| tally.way.len()).max();
+    let width = widest.unwrap_or(0) + 2;
+    let mut lines = vec![
+        format!(
+            "| {:width$} | batches | programs | {:>10} | {:>13} | differ | seconds |",
+            "way", "scans", "instructions"
+        ),
+        format!(
+            "|{}|--------:|---------:|-----------:|--------------:|-------:|--------:|",
+            "-".repeat(width + 2)
+        ),
+    ];
+    let row = |way: &str, (batches, differing): (u64, u64), extent: Extent, seconds: f64| {
+        format!(
+            "| {way:width$} | {batches:>7} | {:>8} | {:>10} | {:>13} | {differing:>6} | {seconds:>7.0} |",
+            extent.programs, extent.scans, extent.instructions,
+        )
+    };
+    let mut all = Tally::default();
+    for tally in tallies {
+        let way = format!("`{}`", tally.way);
+        lines.push(match &tally.lacks {
+            Some(lacks) => format!("| {way:width$} | left out: there is no {lacks} |"),
+            None => row(
+                &way,
+                (tally.batches, tally.differing),
+                tally.compared,
+                tally.seconds,
+            ),
+        });
+        all.batches += tally.batches;
+        all.differing += tally.differing;
+        all.compared.programs += tally.compared.programs;
+        all.compared.scans += tally.compared.scans;
+        all.compared.instructions += tally.compared.instructions;
     }
-    let all: u64 = tallies.values().map(|tally| tally.instructions).sum();
-    println!("{all} executions of instructions in {seconds:.0} s");
-    let failed: Vec<String> = tallies
-        .values()
-        .flat_map(|tally| &tally.failed)
-        .map(|path| path.display().to_string())
-        .collect();
-    match failed.is_empty() {
+    lines.push(row(
+        "all",
+        (all.batches, all.differing),
+        all.compared,
+        seconds,
+    ));
+    lines.join("\n")
+}
+
+/// Fails if programs differ, if batches did not come to compare anything, or if a way has compared nothing.
+fn judge(tallies: &[Tally]) -> Result<(), Problem> {
+    let mut problems = Vec::new();
+    for tally in tallies.iter().filter(|tally| tally.lacks.is_none()) {
+        let way = tally.way;
+        if tally.compared.instructions == 0 {
+            problems.push(format!("{way}: nothing was compared"));
+        }
+        if tally.differing > 0 {
+            problems.push(format!("{way}: {} programs differ", tally.differing));
+        }
+        if tally.broken > 0 {
+            problems.push(format!("{way}: {} batches compared nothing", tally.broken));
+        }
+        let kept = tally.kept.iter();
+        problems.extend(kept.map(|path| format!("    {}", path.display())));
+    }
+    match problems.is_empty() {
         true => Ok(()),
-        false => Err(format!("engines differ:\n{}", failed.join("\n")).into()),
+        false => Err(problems.join("\n").into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Extent, Outcome, Tally, WAYS, differing, extent, judge, table};
+
+    const SOME: Extent = Extent {
+        programs: 7,
+        scans: 70,
+        instructions: 900,
+    };
+
+    fn tally(outcome: &Outcome) -> Tally {
+        let mut tally = Tally {
+            way: "gcc -O0",
+            ..Tally::default()
+        };
+        tally.add(outcome);
+        tally
+    }
+
+    #[test]
+    fn what_the_test_says_is_read() {
+        let said = "running 1 test\ntest a ... hostile operands: 9 compile, 3 do not\n\
+            compared with 1 engines: 7 programs, 70 scans, 900 instructions\nok\n";
+        assert_eq!(extent(said), Some(SOME));
+        assert_eq!(extent("error: no compiler"), None);
+        assert_eq!(
+            differing("panicked at differential.rs:\n3 programs differ:\nseed 1"),
+            3
+        );
+        assert_eq!(differing(""), 0);
+    }
+
+    #[test]
+    fn a_way_that_compares_nothing_is_an_error() {
+        let fine = Outcome {
+            extent: Some(SOME),
+            ..Outcome::default()
+        };
+        assert!(judge(&[tally(&fine)]).is_ok());
+        let differs = Outcome {
+            differing: 2,
+            ..fine
+        };
+        let nothing = Outcome::default();
+        let empty = Outcome {
+            extent: Some(Extent::default()),
+            ..Outcome::default()
+        };
+        for (outcome, expected) in [
+            (differs, "2 programs differ"),
+            (nothing, "nothing was compared"),
+            (empty, "nothing was compared"),
+        ] {
+            let problem = judge(&[tally(&outcome)]).unwrap_err().to_string();
+            assert!(problem.contains(expected), "{problem}");
+        }
+        let left_out = Tally {
+            lacks: Some("gcc".to_string()),
+            ..Tally::default()
+        };
+        assert!(judge(&[left_out]).is_ok());
+    }
+
+    #[test]
+    fn the_table_has_a_row_for_each_way() {
+        let tallies = WAYS.map(|way| Tally {
+            way,
+            lacks: (way == "rust").then(|| "rustc".to_string()),
+            compared: SOME,
+            ..Tally::default()
+        });
+        let table = table(&tallies, 1.0);
+        assert_eq!(table.lines().count(), WAYS.len() + 3);
+        assert!(table.contains("| left out: there is no rustc |"), "{table}");
     }
 }
