@@ -7,7 +7,7 @@ use crate::node::{
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
 use rungc_models::runs::is_special;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, order};
 use typed_index_collections::TiVec;
 
 /// Checks every rule; the first one that is broken.
@@ -27,6 +27,7 @@ pub fn validate(module: &Module) -> Result<(), String> {
         return Err(format!("{area:?} holds other names of index registers"));
     }
     no_recursion(module)?;
+    one_meaning_each(module)?;
     for function in &module.functions {
         let mut checker = Checker {
             module,
@@ -40,6 +41,18 @@ pub fn validate(module: &Module) -> Result<(), String> {
             .map_err(|error| format!("{:?}: {error}", function.kind))?;
     }
     Ok(())
+}
+
+/// Flags and cells become fields of one struct.
+fn one_meaning_each(module: &Module) -> Result<(), String> {
+    let flags = module.flags.iter().map(|flag| flag.name.as_str());
+    let cells = module.cells.iter().map(|cell| cell.name.as_str());
+    let mut names: Vec<&str> = flags.chain(cells).collect();
+    order::sort(&mut names);
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(format!("two flags or cells are called {}", pair[0])),
+        None => Ok(()),
+    }
 }
 
 fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {

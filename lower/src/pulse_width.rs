@@ -32,7 +32,7 @@ impl Lowerer<'_> {
             let measured = Measured {
                 meter,
                 clock: self.clock(),
-                rose: self.cell(format!("{name}_rose_at"), "when the input rose, in ms"),
+                rose: self.cell(format!("{name}_pulse_at"), "when the input rose, in ms"),
                 known: self.flag(format!("{name}_measured"), "a pulse has begun", None),
             };
             for kind in [EdgeKind::Rising, EdgeKind::Falling] {
