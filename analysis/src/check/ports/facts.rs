@@ -284,7 +284,8 @@ fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
         true => &[value as u16, (value >> 16) as u16],
         false => &[value as u16],
     };
-    let numbers = first.number..;
+    // A number that does not exist may be the last one that can be written.
+    let numbers = first.number..=u32::MAX;
     let each = words
         .iter()
         .cycle()
