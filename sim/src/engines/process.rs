@@ -8,9 +8,9 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How long an answer may take. All scans of a case are answered within this time, which a loop in the program would
-/// exceed.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// How many seconds an answer may take. All scans of a case are answered within this time, which a loop in the program
+/// would exceed.
+const PATIENCE: u32 = 20;
 
 /// A batch executable. It is started at the first request and again after it was killed or has crashed.
 pub struct Process {
@@ -89,12 +89,20 @@ impl Running {
         writeln!(self.requests, "{request}")
     }
 
+    /// Waits second by second: whoever stops both programs for a while uses up one of the seconds.
+    fn next_answer(&self) -> Result<String, RecvTimeoutError> {
+        let wait = || self.answers.recv_timeout(Duration::from_secs(1));
+        let mut waits = (0..PATIENCE).map(|_| wait());
+        let answered = waits.find(|answer| *answer != Err(RecvTimeoutError::Timeout));
+        answered.unwrap_or(Err(RecvTimeoutError::Timeout))
+    }
+
     /// Waits for the answers to all pending requests; returns those to the ones that ask for values.
     fn answers(&mut self) -> Result<Vec<Answer>, EngineError> {
         let mut values = Vec::new();
         let mut missing = None;
         while let Some(request) = self.pending.pop_front() {
-            let line = match self.answers.recv_timeout(PATIENCE) {
+            let line = match self.next_answer() {
                 Ok(line) => line,
                 Err(RecvTimeoutError::Timeout) => return Err(EngineError::Silent(request)),
                 Err(RecvTimeoutError::Disconnected) => {
