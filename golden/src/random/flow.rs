@@ -314,7 +314,7 @@ impl Writer<'_> {
             Classes::T => Some("T5"),
             Classes::C => Some("C5"),
             Classes::D => Some("D121"),
-            Classes::R => Some("R121"),
+            Classes::R => Some("R90"),
             Classes::V => Some("V2"),
             Classes::Z => Some("Z2"),
             Classes::BUFFER => Some("U0\\G15"),
