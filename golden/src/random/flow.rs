@@ -86,8 +86,8 @@ impl Writer<'_> {
         all.into_iter().map(|(pointer, ..)| pointer).collect()
     }
 
-    /// What leads to an interrupt, where that is more than an input or time: a count, a row of a table of counts, the end
-    /// of pulses.
+    /// What leads to an interrupt, where that is more than an input or time: a count, a row of a table of counts, the
+    /// end of pulses.
     fn request(&mut self, source: Source) {
         let model = Model::get(self.model);
         // Its input interrupts nothing.
