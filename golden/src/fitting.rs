@@ -48,7 +48,7 @@ struct Fitting<'p, 'r> {
 }
 
 /// Operands of these classes that obey the row's limits, rules and extents; `None` if none of the devices fits the
-/// constants that were drawn. What a rule finds by a function of its own is not looked at.
+/// constants that were drawn. What a rule's function finds is not looked at.
 pub(crate) fn draw(rng: &mut Rng, place: Place) -> Option<Vec<String>> {
     let mut fitting = Fitting {
         constants: vec![None; place.classes.len()],
@@ -355,7 +355,7 @@ impl Fitting<'_, '_> {
         param.shape == Shape::Pair || param.shape == Shape::Value && self.place.form.wide
     }
 
-    /// The number of a device that so many devices follow, itself among them: one of the first that fit, which other
+    /// The number of the first of `count` devices: one of the first that fit, which other
     /// instructions use too, or now and then the last.
     fn number(&mut self, at: usize, class: DeviceClass, count: u32, aligned: u32) -> Option<u32> {
         let starts = self.starts(at, class, count, aligned);
@@ -379,7 +379,7 @@ impl Fitting<'_, '_> {
         Some(first + if pairs { even } else { place * step })
     }
 
-    /// Where an operand of so many devices may begin: the first and the last number, and how far apart they are.
+    /// Where an operand of `count` devices may begin: the first and the last number, and how far apart they are.
     fn starts(
         &self,
         at: usize,

@@ -199,8 +199,8 @@ pub fn accepted(instruction: &str, model: ModelId) -> bool {
     !read.diagnostics.has_errors() && compile(&read.program, &options).module.is_some()
 }
 
-/// How often operands are drawn. Almost all fit the first time; what a rule finds by a function of its own, and what
-/// the whole instruction demands, is left to the compiler.
+/// How often operands are drawn. Almost all fit the first time; what a rule's function finds, and what the whole
+/// instruction demands, is left to the compiler.
 const TRIES: u32 = 6;
 const WISHES: u32 = 24;
 

@@ -283,7 +283,7 @@ fn lacking(way: &str) -> Option<String> {
     }
 }
 
-/// Whether a compiler makes executables with these flags: what sanitizers link with is a package of its own.
+/// Whether a compiler makes executables with these flags: what sanitizers link with is a separate package.
 fn links(compiler: &str, flags: &str) -> std::io::Result<bool> {
     let folder = tempfile::tempdir()?;
     fs::write(
@@ -368,7 +368,7 @@ fn keep(folder: &Path, args: &Args, batch: &Batch, output: &str) -> Result<PathB
     Ok(path)
 }
 
-/// What was compared on each way, as a table for people and for Markdown.
+/// What was compared on each way, as a table, which Markdown takes.
 fn table(tallies: &[Tally], seconds: f64) -> String {
     let widest = tallies.iter().map(|tally| tally.way.len()).max();
     let width = widest.unwrap_or(0) + 2;
