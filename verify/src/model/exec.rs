@@ -1,7 +1,7 @@
 //! Statements as logic.
 
 use super::memory::REACH;
-use super::{Encoder, Key, STATEMENTS};
+use super::{Encoder, Key, NODES, STATEMENTS};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, known, signed};
 use rungc_ir::node::{
@@ -37,6 +37,9 @@ impl Encoder<'_> {
             self.statements += 1;
             if self.statements > STATEMENTS {
                 return self.give_up(guard, "loops of very many steps");
+            }
+            if self.aig.nodes().len() > NODES {
+                return self.give_up(guard, "the rest of a scan whose logic is too large");
             }
             self.forget_values();
             guard = self.step(stmt, guard);

@@ -155,6 +155,10 @@ impl Default for World {
 /// How many statements a scan may execute, loops unrolled, before the rest of it counts as not modelled.
 const STATEMENTS: u32 = 400_000;
 
+/// How large the logic of a scan may become, before the rest of it counts as not modelled: far larger than any solver
+/// takes.
+const NODES: usize = 4_000_000;
+
 /// The time of a scan, as logic.
 #[derive(Clone)]
 struct Time {
