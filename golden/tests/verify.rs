@@ -216,14 +216,14 @@ fn follow(module: &Module, seed: u64, scans: u64, exact: &mut Exactness) -> Resu
 
 #[test]
 fn the_logic_allows_what_the_interpreter_does() {
-    let (first, count) = (setting("SEED", 1), setting("PROGRAMS", 40));
+    let (first, count) = (setting("SEED", 1), setting("PROGRAMS", 60));
     let scans = setting("SCANS", 8);
     let pools: Vec<_> = ModelId::ALL.map(|model| (model, candidates(model))).into();
     let mut exact = Exactness::default();
     let (mut followed, mut wrong) = (0, Vec::new());
     let drawn = (first..).map(|seed| {
         let (model, pool) = &pools[(seed % pools.len() as u64) as usize];
-        let text = program(seed, *model, pool, 4 + (seed % 12) as u32);
+        let text = program(seed, *model, pool, 3 + (seed % 8) as u32);
         (seed, model, text)
     });
     // A routine is part of the logic wherever it is called, so calls in routines multiply it.
@@ -255,12 +255,11 @@ fn the_logic_allows_what_the_interpreter_does() {
         followed * 10 >= count * 8,
         "only {followed} of {count} programs compile"
     );
-    // Indexed operands in loops make logic large.
     assert!(
-        too_large * 3 <= count,
+        too_large * 5 <= count,
         "{too_large} of {count} programs are too large"
     );
-    assert!(computed * 2 > free, "{computed} bits computed, {free} free");
+    assert!(computed > free, "{computed} bits computed, {free} free");
 }
 
 /// Pairs of outputs that nothing decides: what sends pulses is not modelled, and the relay Y000 stays off while pulses
