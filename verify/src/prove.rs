@@ -10,6 +10,7 @@ use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_syntax::order;
+use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
 /// How to decide.
@@ -247,19 +248,56 @@ fn share(deadline: Instant, parts: u32) -> Instant {
     now + deadline.saturating_duration_since(now) / parts
 }
 
+/// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
+struct Attempt<'a> {
+    posed: LazyCell<Posed, Box<dyn FnOnce() -> Posed + 'a>>,
+    /// Whether an invariant may exist.
+    may_hold: bool,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(pose: impl FnOnce() -> Posed + 'a) -> Self {
+        Attempt {
+            posed: LazyCell::new(Box::new(pose)),
+            may_hold: true,
+        }
+    }
+
+    /// The system, and when a search in it for this time ends. Making the system takes nothing of that time.
+    fn begin(&self, time: Duration, deadline: Instant) -> (&Posed, Instant) {
+        let posed = LazyCell::force(&self.posed);
+        (posed, (Instant::now() + time).min(deadline))
+    }
+
+    /// A proof by an invariant, which another solver confirms.
+    fn invariant(&mut self, time: Duration, deadline: Instant) -> Option<Proof> {
+        if !self.may_hold {
+            return None;
+        }
+        let (posed, until) = self.begin(time, deadline);
+        match pdr::search(&posed.system, until) {
+            pdr::Found::Invariant(cubes) => pdr::check(&posed.system, &cubes, deadline)
+                .then(|| posed.proof(Method::Invariant(cubes))),
+            pdr::Found::Violated => {
+                self.may_hold = false;
+                None
+            }
+            pdr::Found::TimeUp => None,
+        }
+    }
+}
+
 /// What may answer a question that needs many scans.
 struct Ways<'a> {
     question: &'a dyn Question,
     world: &'a World,
     /// The question as it is, simplified.
-    as_it_is: Posed,
+    as_it_is: Attempt<'a>,
     /// The same with timers that may expire at any time, if that may be asked.
-    timers_abstracted: Option<Posed>,
+    timers_abstracted: Option<Attempt<'a>>,
     /// The same where a scan may come any time after the one before, so that a few scans show what takes many. What is
     /// proved for any time between scans holds for shorter times, too.
-    free_scan_times: Posed,
-    /// Whether an invariant may exist: of each of these, and of the question as it is.
-    may_hold: [bool; 3],
+    free_scan_times: Attempt<'a>,
     /// Runs that are longer than a search scan by scan can reach.
     long_runs: LongRuns<'a>,
     deadline: Instant,
@@ -272,24 +310,29 @@ impl<'a> Ways<'a> {
         posed: &'a Posed,
         deadline: Instant,
     ) -> Self {
-        let timers_abstracted = question.abstracts_timers().then(|| {
+        let abstracted = || {
             question.posed(&World {
                 any_preset: true,
                 ..world.clone()
             })
-        });
-        let free_scan_times = question.posed(&World {
-            scan_ms: FOREVER_MS,
-            ..world.clone()
-        });
-        let until = (Instant::now() + ROUND.0).min(deadline);
+        };
+        let free_scan_times = || {
+            question.posed(&World {
+                scan_ms: FOREVER_MS,
+                ..world.clone()
+            })
+        };
+        let as_it_is = move || {
+            let until = (Instant::now() + ROUND.0).min(deadline);
+            posed.clone().simplified(until)
+        };
+        let abstracts = question.abstracts_timers();
         Ways {
             question,
             world,
-            as_it_is: posed.clone().simplified(until),
-            may_hold: [timers_abstracted.is_some(), true, true],
-            timers_abstracted,
-            free_scan_times,
+            as_it_is: Attempt::new(as_it_is),
+            timers_abstracted: abstracts.then(|| Attempt::new(abstracted)),
+            free_scan_times: Attempt::new(free_scan_times),
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
             deadline,
         }
@@ -297,50 +340,31 @@ impl<'a> Ways<'a> {
 
     /// Whether no proof can be found any more, nor a run that the interpreter confirms.
     fn are_exhausted(&self, hunt: &Hunt) -> bool {
-        hunt.spurious.is_some() && self.may_hold == [false; 3]
+        let mut attempts = [&self.free_scan_times, &self.as_it_is]
+            .into_iter()
+            .chain(&self.timers_abstracted);
+        hunt.spurious.is_some() && attempts.all(|attempt| !attempt.may_hold)
     }
 
     /// Tries each for this time.
     fn round(&mut self, time: Duration) -> Option<Answer> {
         let end = self.deadline;
-        let until = || (Instant::now() + time).min(end);
+        let abstracted = self.timers_abstracted.as_mut();
+        if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(time, end)) {
+            return Some(proof.into());
+        }
+        if let Some(found) = self.with_free_scan_times(time) {
+            return Some(found.into());
+        }
+        if let Some(proof) = self.free_scan_times.invariant(time, end) {
+            return Some(proof.into());
+        }
         // Runs by chance continue where they were; the others begin anew.
-        let longer = || (Instant::now() + 2 * time).min(end);
-        if let Some(proof) = self.invariant(0, until()) {
-            return Some(proof.into());
-        }
-        if let Some(found) = self.with_free_scan_times(until()) {
+        let longer = (Instant::now() + 2 * time).min(end);
+        if let Some(found) = self.by_chance(longer) {
             return Some(found.into());
         }
-        if let Some(proof) = self.invariant(1, until()) {
-            return Some(proof.into());
-        }
-        if let Some(found) = self.by_chance(longer()) {
-            return Some(found.into());
-        }
-        self.invariant(2, until()).map(Answer::from)
-    }
-
-    /// A proof by an invariant of one of the systems, which another solver confirms.
-    fn invariant(&mut self, of: usize, until: Instant) -> Option<Proof> {
-        if !self.may_hold[of] {
-            return None;
-        }
-        let all = [
-            self.timers_abstracted.as_ref(),
-            Some(&self.free_scan_times),
-            Some(&self.as_it_is),
-        ];
-        let posed = all[of]?;
-        match pdr::search(&posed.system, until) {
-            pdr::Found::Invariant(cubes) => pdr::check(&posed.system, &cubes, self.deadline)
-                .then(|| posed.proof(Method::Invariant(cubes))),
-            pdr::Found::Violated => {
-                self.may_hold[of] = false;
-                None
-            }
-            pdr::Found::TimeUp => None,
-        }
+        self.as_it_is.invariant(time, end).map(Answer::from)
     }
 
     /// Continues the search over long runs.
@@ -356,9 +380,9 @@ impl<'a> Ways<'a> {
     }
 
     /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
-    fn with_free_scan_times(&self, until: Instant) -> Option<Verdict> {
-        let system = &self.free_scan_times.system;
-        let mut hunt = Hunt::new(self.question, self.world, system, until);
+    fn with_free_scan_times(&self, time: Duration) -> Option<Verdict> {
+        let (posed, until) = self.free_scan_times.begin(time, self.deadline);
+        let mut hunt = Hunt::new(self.question, self.world, &posed.system, until);
         for _ in 0..2 * INDUCTION {
             if hunt.spurious.is_some() || Instant::now() > until {
                 break;
@@ -472,7 +496,11 @@ mod tests {
         let deadline = Instant::now() + options.time;
         let posed = question.posed(&options.world);
         let mut ways = Ways::new(&question, &options.world, &posed, deadline);
-        let mut proofs: Vec<_> = (0..3).map(|of| ways.invariant(of, deadline)).collect();
+        let abstracted = ways.timers_abstracted.as_mut().unwrap();
+        let attempts = [abstracted, &mut ways.free_scan_times, &mut ways.as_it_is];
+        let mut proofs: Vec<_> = attempts
+            .map(|attempt| attempt.invariant(options.time, deadline))
+            .into();
         assert!(proofs.iter().all(Option::is_some));
         // What bits always hold is part of the proof.
         assert!(
