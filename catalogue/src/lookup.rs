@@ -20,7 +20,7 @@ pub struct Family {
 }
 
 /// The families, each a file of this folder.
-const FAMILIES: &[Family] = &[
+static FAMILIES: [Family; 17] = [
     Family {
         name: "basic",
         title: "Contacts, coils and the step ladder",
@@ -110,7 +110,7 @@ const FAMILIES: &[Family] = &[
 
 /// All families, in the manuals' order.
 pub fn families() -> &'static [Family] {
-    FAMILIES
+    &FAMILIES
 }
 
 /// A row and the form that its spelling names.

@@ -7,7 +7,7 @@ use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::{Module, reach};
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeSet;
+use rungc_syntax::SortedSet;
 use std::fmt::Write;
 
 /// A function.
@@ -32,7 +32,7 @@ enum Helper {
 /// The functions that a program needs.
 #[derive(Default)]
 pub struct Helpers {
-    needed: BTreeSet<(Helper, DeviceClass)>,
+    needed: SortedSet<(Helper, DeviceClass)>,
 }
 
 impl Helpers {

@@ -11,7 +11,7 @@ use rungc_ir::Module;
 use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::fmt::Write;
 
 /// How a program waits for its next scan that follows the time.
@@ -474,7 +474,7 @@ static bool is_missing(char *name, size_t size, const char *letter, long first, 
 /// The function that names the device which an instruction with an index has not found.
 fn missing_device(module: &Module, fields: &Storage) -> String {
     let mut cases = String::new();
-    let mut classes = BTreeSet::new();
+    let mut classes = SortedSet::new();
     for origin in &module.origins {
         let mut checks = Vec::new();
         for (device, index) in &origin.indexed {
@@ -516,8 +516,8 @@ static bool missing_device(const PROGRAM_plc *plc, unsigned step, char *name, si
 }
 
 /// The input terminals, and the effect of each turning on or off.
-fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
-    let mut inputs: BTreeMap<u32, String> = BTreeMap::new();
+fn inputs_of(module: &Module, fields: &Storage) -> SortedMap<u32, String> {
+    let mut inputs: SortedMap<u32, String> = SortedMap::new();
     for (number, access) in terminals(fields, DeviceClass::X) {
         inputs.insert(number, format!("        {access} = on;\n"));
     }

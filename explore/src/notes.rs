@@ -7,7 +7,7 @@ use rungc_ir::node::{
 };
 use rungc_ir::walk::bodies_mut;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeMap;
+use rungc_syntax::SortedMap;
 
 /// What is noted of a coil.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,7 +35,7 @@ struct Noting {
     on: ExprId,
     notes: Notes,
     /// By output: its coils so far.
-    coils: BTreeMap<u32, Vec<Coil>>,
+    coils: SortedMap<u32, Vec<Coil>>,
 }
 
 impl Notes {
@@ -49,7 +49,7 @@ impl Notes {
             module,
             on,
             notes: Notes::default(),
-            coils: BTreeMap::new(),
+            coils: SortedMap::new(),
         };
         for function in &mut functions {
             let of_program = matches!(

@@ -12,8 +12,8 @@ use crate::trains::cost;
 use crate::vary::Choices;
 use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -107,7 +107,7 @@ pub fn search(
     }];
     let mut report = Report::default();
     let mut spent = 0;
-    let mut known: BTreeSet<What> = BTreeSet::new();
+    let mut known: SortedSet<What> = SortedSet::new();
     let mut rng = Rng::with_seed(limits.seed);
     let items = Items::new(task, &view);
     let may_sweep = refusal(task).is_none();
@@ -191,7 +191,7 @@ struct Round<'r, 't> {
     view: &'r View<'t>,
     choices: &'r Choices<'t>,
     seen: &'r Seen,
-    known: &'r BTreeSet<What>,
+    known: &'r SortedSet<What>,
     kept: &'r [Kept<'t>],
     /// Of each part.
     scans: u32,
@@ -318,7 +318,7 @@ impl<'t> Round<'_, 't> {
     ) -> Result<(), String> {
         let mut judge = sweep.judge(&mut worker.runner);
         let mut is_new = |feature| self.seen.lacks(feature) && own.add(feature);
-        let mut met = BTreeSet::new();
+        let mut met = SortedSet::new();
         let mut is_searched = |what: &What| !self.known.contains(what) && met.insert(what.clone());
         let mut row = |changes: &[_]| judge.scan(changes, &mut is_new, &mut is_searched);
         match &mut worker.lanes {

@@ -282,7 +282,7 @@ fn measure(run: &[Step]) -> (u64, usize, u64, u64, usize) {
 
 /// Leaves out what changes nothing, and joins scans that are alike.
 fn tidy(task: &Task, run: &mut Vec<Step>) {
-    let mut values: std::collections::BTreeMap<usize, i32> = std::collections::BTreeMap::new();
+    let mut values: rungc_syntax::SortedMap<usize, i32> = rungc_syntax::SortedMap::new();
     for step in run.iter_mut() {
         step.set
             .retain(|&(input, value)| values.insert(input, value).unwrap_or(0) != value);

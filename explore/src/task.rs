@@ -8,10 +8,10 @@ use rungc_models::runs::is_special;
 use rungc_rt::VirtualHal;
 use rungc_sim::Target;
 use rungc_sim::plant::Description;
+use rungc_syntax::SortedSet;
 use rungc_syntax::{DeviceClass, order};
 use rungc_verify::model::{Encoder, Key, World};
 use rungc_verify::property::{Condition, Property};
-use std::collections::BTreeSet;
 
 /// What is searched for beside properties.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -130,7 +130,7 @@ pub struct Task<'a> {
     /// What the machine sees to.
     pub assumed: &'a [Condition],
     /// What else is searched for.
-    pub kinds: BTreeSet<Kind>,
+    pub kinds: SortedSet<Kind>,
     /// What the search changes.
     pub inputs: Vec<Input>,
     /// Where it lets pulses come in.

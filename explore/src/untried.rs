@@ -6,14 +6,14 @@ use rungc_ir::node::Stmt;
 use rungc_ir::walk::statements;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeSet;
+use rungc_syntax::SortedSet;
 
 /// What the program of a search depends on and the search does not vary, a sentence each; nothing if that is all.
 pub fn untried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();
     let inputs = task.sources.iter().flat_map(|source| source.at.inputs());
-    let inputs: BTreeSet<u32> = inputs.collect();
+    let inputs: SortedSet<u32> = inputs.collect();
     if !inputs.is_empty() {
         let names = inputs.iter().map(|&n| DeviceClass::X.number(n).to_string());
         let names = names.collect::<Vec<_>>().join(", ");
@@ -26,7 +26,7 @@ pub fn untried(task: &Task) -> Vec<String> {
     if !ports.is_empty() {
         found.push(format!("characters that {ports} receives"));
     }
-    let mut others = BTreeSet::new();
+    let mut others = SortedSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             if let Stmt::Call(call) = stmt {

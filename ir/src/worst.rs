@@ -8,8 +8,8 @@ use crate::node::{
     Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
 };
 use crate::walk::{for_exprs, operands, statements};
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
-use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 /// How much something does at most.
@@ -124,12 +124,12 @@ struct Finder<'m> {
     /// Operations of each expression.
     sizes: TiVec<ExprId, u64>,
     /// What functions cost that were looked at.
-    known: BTreeMap<usize, Cost>,
+    known: SortedMap<usize, Cost>,
     /// Whether interrupts are left aside.
     aside: bool,
     /// Step of the network that is looked at.
     step: u32,
-    open_loops: BTreeMap<u32, Cost>,
+    open_loops: SortedMap<u32, Cost>,
     jumps_back: Vec<u32>,
 }
 
@@ -145,10 +145,10 @@ impl<'m> Finder<'m> {
             module,
             lengths: lengths(module),
             sizes,
-            known: BTreeMap::new(),
+            known: SortedMap::new(),
             aside: true,
             step: 0,
-            open_loops: BTreeMap::new(),
+            open_loops: SortedMap::new(),
             jumps_back: Vec::new(),
         }
     }

@@ -4,7 +4,7 @@ use crate::network::{Ladder, Network};
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::order;
 use rungc_syntax::{Device, Parameters, Program, align};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// A program with its ladder.
 #[derive(Clone, Copy, Debug)]
@@ -225,9 +225,9 @@ fn moved(
     same: &[(usize, usize)],
     old: &[Vec<String>],
     new: &[Vec<String>],
-) -> BTreeSet<(usize, usize)> {
-    let in_order: (BTreeSet<usize>, BTreeSet<usize>) = same.iter().copied().unzip();
-    let mut waiting: BTreeMap<&[String], Vec<usize>> = BTreeMap::new();
+) -> SortedSet<(usize, usize)> {
+    let in_order: (SortedSet<usize>, SortedSet<usize>) = same.iter().copied().unzip();
+    let mut waiting: SortedMap<&[String], Vec<usize>> = SortedMap::new();
     for (at, text) in old.iter().enumerate().rev() {
         if !in_order.0.contains(&at) {
             waiting.entry(text).or_default().push(at);
@@ -258,7 +258,7 @@ struct Pairing<'a> {
     old_texts: &'a [Vec<String>],
     new_texts: &'a [Vec<String>],
     /// Networks that moved, in the old and in the new program.
-    moved: (BTreeSet<usize>, BTreeSet<usize>),
+    moved: (SortedSet<usize>, SortedSet<usize>),
     changes: Vec<Change>,
 }
 
@@ -283,13 +283,13 @@ impl Pairing<'_> {
 
     /// All changes, where what was removed and what was added elsewhere, but writes the same, is one changed network.
     fn elsewhere(self) -> Vec<Change> {
-        let mut removed: BTreeMap<Vec<String>, Vec<usize>> = BTreeMap::new();
+        let mut removed: SortedMap<Vec<String>, Vec<usize>> = SortedMap::new();
         for change in self.changes.iter().rev() {
             if let Change::Removed { old } = *change {
                 removed.entry(self.old.outputs(old)).or_default().push(old);
             }
         }
-        let mut paired = BTreeSet::new();
+        let mut paired = SortedSet::new();
         let mut changes = self.changes;
         for change in &mut changes {
             if let Change::Added { new } = *change {

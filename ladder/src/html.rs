@@ -8,8 +8,8 @@ use crate::svg::Painter;
 use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::Device;
+use rungc_syntax::SortedMap;
 use rungc_syntax::text::one_line;
-use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 mod comparison;
@@ -17,7 +17,7 @@ mod comparison;
 pub use comparison::comparison;
 
 /// The style of pages with ladders.
-pub const STYLE: &str = include_str!("page/page.css");
+pub static STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 /// Characters of a line; a page of A4 has room for them.
 const WIDTH: usize = 104;
@@ -97,8 +97,8 @@ fn write_picture(out: &mut String, picture: &str, list: &[String]) -> fmt::Resul
 }
 
 /// The networks that name each device, by their numbers.
-pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> BTreeMap<Device, Vec<usize>> {
-    let mut uses: BTreeMap<Device, Vec<usize>> = BTreeMap::new();
+pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> SortedMap<Device, Vec<usize>> {
+    let mut uses: SortedMap<Device, Vec<usize>> = SortedMap::new();
     for (number, network) in (1..).zip(&ladder.networks) {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
         for operand in instrs.iter().flat_map(|instr| &instr.operands) {
@@ -116,7 +116,7 @@ pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> BTreeMap<Device, Vec
 fn write_devices(
     out: &mut String,
     resolved: &Resolved,
-    uses: &BTreeMap<Device, Vec<usize>>,
+    uses: &SortedMap<Device, Vec<usize>>,
 ) -> fmt::Result {
     writeln!(
         out,

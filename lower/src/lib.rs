@@ -68,10 +68,10 @@ use flow::{Flow, Open};
 use marks::Marks;
 use parts::Item;
 use rungc_rt::{EdgeKind, RtFn, TimerKind};
+use rungc_syntax::SortedMap;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
 use special::Specials;
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
 
 /// Options in addition to the program.
 #[derive(Clone, Debug, Default)]
@@ -185,7 +185,7 @@ struct Lowerer<'a> {
     steps: stl::Steps,
     interrupts: interrupt::Interrupts,
     /// Timers that continue in scans that do not execute their coils.
-    free_running: BTreeMap<u32, TimerKind>,
+    free_running: SortedMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
     signals: signals::Signals,
@@ -241,7 +241,7 @@ impl<'a> Lowerer<'a> {
             logic: logic::Logic::of(resolved),
             steps: stl::Steps::of(resolved),
             interrupts: interrupt::Interrupts::default(),
-            free_running: BTreeMap::new(),
+            free_running: SortedMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
             signals: signals::Signals::default(),

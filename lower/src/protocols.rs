@@ -8,9 +8,9 @@ use rungc_rt::comm::codec::Codec;
 use rungc_rt::comm::{Choice, PortWiring, Protocol, Protocols};
 use rungc_rt::special::Register;
 use rungc_rt::{Class, Plc, Ports, State, Sys};
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
-use std::collections::BTreeSet;
 
 /// The station number of a master on L01S, and one of a slave.
 const STATIONS: [u16; 2] = [1, 255];
@@ -114,7 +114,7 @@ impl Lowerer<'_> {
     }
 
     /// All values that a register may have; `None` if they are not known.
-    fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<BTreeSet<u16>> {
+    fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<SortedSet<u16>> {
         let Some(register) = register else {
             return Some(order::set([0]));
         };

@@ -12,7 +12,7 @@ use rungc_ir::node::{
 use rungc_ir::walk::{bodies_mut, statements};
 use rungc_ir::worst::lengths;
 use rungc_syntax::OperandKind;
-use std::collections::BTreeMap;
+use rungc_syntax::SortedMap;
 
 /// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some
 /// milliseconds.
@@ -33,7 +33,7 @@ pub(super) fn watch(module: &mut Module, resolved: &Resolved) {
         lengths: lengths(module),
         module,
         resolved,
-        known: BTreeMap::new(),
+        known: SortedMap::new(),
         step: 0,
         watches: false,
     };
@@ -57,7 +57,7 @@ struct Watcher<'m> {
     /// Steps of each network.
     lengths: Vec<u64>,
     /// Functions that were looked at.
-    known: BTreeMap<usize, Known>,
+    known: SortedMap<usize, Known>,
     /// Step of the network at hand.
     step: u32,
     /// Whether the function at hand may be cut short.

@@ -42,9 +42,9 @@ macro_rules! models {
         impl Model {
             /// The data of a model.
             pub const fn get(id: ModelId) -> &'static Model {
-                match id {
-                    $(ModelId::$id => &$model,)*
-                }
+                // A constant would be copied into each crate that asks.
+                static MODELS: [Model; ModelId::ALL.len()] = [$($model),*];
+                &MODELS[id as usize]
             }
         }
     };

@@ -43,7 +43,7 @@ const PID_RANGE: &str =
     "Scale the measured value and the set value down, or choose a smaller gain.";
 
 /// All of them, in the order of their codes.
-pub const PLC_ERRORS: &[PlcError] = &[
+pub static PLC_ERRORS: &[PlcError] = &[
     row(
         WATCHDOG,
         "a scan does not end (watchdog)",

@@ -1,8 +1,8 @@
 //! Aligning two sequences: what they have in common, in order.
 
+use crate::SortedMap;
 use crate::order;
 use similar::{Algorithm, capture_diff_slices};
-use std::collections::BTreeMap;
 
 /// Positions of elements that two sequences have in common, in order in both: as many as a good alignment finds.
 ///
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
     let in_old = order::set(old);
-    let mut numbers: BTreeMap<&T, usize> = BTreeMap::new();
+    let mut numbers: SortedMap<&T, usize> = SortedMap::new();
     for (number, element) in new.iter().enumerate() {
         if in_old.contains(element) {
             numbers.entry(element).or_insert(number);

@@ -11,6 +11,7 @@ mod device;
 pub mod diag;
 pub mod order;
 mod program;
+mod sorted;
 mod source;
 pub mod text;
 
@@ -21,4 +22,5 @@ pub use program::{
     Device, DeviceRun, FittedModule, Index, Instr, NetworkRequest, Operand, OperandKind, Operands,
     Parameters, Program, Remarks, SourceKind,
 };
+pub use sorted::{Entry, SortedMap, SortedSet};
 pub use source::{Source, Span};

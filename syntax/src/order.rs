@@ -3,8 +3,8 @@
 //! The methods of the standard library are compiled anew for each type of element, 6 KB each: these have one copy of
 //! the algorithm.
 
+use crate::{SortedMap, SortedSet};
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Sorts; elements that are equal keep their order.
 pub fn sort<T: Ord>(items: &mut [T]) {
@@ -46,21 +46,13 @@ fn swaps(len: usize, compare: &mut dyn FnMut(usize, usize) -> Ordering) -> Vec<(
 }
 
 /// The set of these elements.
-pub fn set<T: Ord>(items: impl IntoIterator<Item = T>) -> BTreeSet<T> {
-    let mut set = BTreeSet::new();
-    for item in items {
-        set.insert(item);
-    }
-    set
+pub fn set<T: Ord>(items: impl IntoIterator<Item = T>) -> SortedSet<T> {
+    items.into_iter().collect()
 }
 
 /// The map of these pairs; of pairs with equal keys the last one counts.
-pub fn map<K: Ord, V>(pairs: impl IntoIterator<Item = (K, V)>) -> BTreeMap<K, V> {
-    let mut map = BTreeMap::new();
-    for (key, value) in pairs {
-        map.insert(key, value);
-    }
-    map
+pub fn map<K: Ord, V>(pairs: impl IntoIterator<Item = (K, V)>) -> SortedMap<K, V> {
+    pairs.into_iter().collect()
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use rungc_ir::node::{Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeSet;
+use rungc_syntax::SortedSet;
 use std::time::{Duration, Instant};
 
 /// What was found.
@@ -225,8 +225,8 @@ fn bits(encoder: &Encoder, probes: &Probes, reached: &impl Fn(u32) -> Lit) -> Ve
 }
 
 /// Timers with presets that are set up while the program runs: before that they expire at once, which does no harm.
-fn timers_that_are_set_up(module: &Module) -> BTreeSet<u32> {
-    let mut found = BTreeSet::new();
+fn timers_that_are_set_up(module: &Module) -> SortedSet<u32> {
+    let mut found = SortedSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             if let Stmt::Timer(coil) = stmt

@@ -6,9 +6,9 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
-use std::collections::BTreeMap;
 
 /// Instructions whose result depends on what they have done before, whatever their operands are.
 const STEPPING: &[&str] = &[
@@ -20,7 +20,7 @@ const STEPPING: &[&str] = &[
 #[derive(Default)]
 pub(super) struct EveryScan {
     /// By what is changed.
-    found: BTreeMap<Device, Vec<Change>>,
+    found: SortedMap<Device, Vec<Change>>,
 }
 
 /// An instruction that changes its own operand.

@@ -2,9 +2,9 @@
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
-use std::collections::BTreeMap;
 
 /// Warns of a program that asks for more than there is.
 pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
@@ -42,8 +42,8 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
 }
 
 /// The outputs that send pulses, and where they are first named.
-fn outputs(code: &Code) -> BTreeMap<u32, usize> {
-    let mut found = BTreeMap::new();
+fn outputs(code: &Code) -> SortedMap<u32, usize> {
+    let mut found = SortedMap::new();
     for i in 0..code.len {
         for (n, param) in code.params(i).iter().enumerate() {
             let output = code.device(i, n).filter(|_| param.sends_pulses);

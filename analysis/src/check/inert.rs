@@ -7,9 +7,9 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special};
 use rungc_rt::modules::Place;
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
-use std::collections::BTreeMap;
 
 /// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
 const MAX_RUN: u32 = 32;
@@ -20,7 +20,7 @@ const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.
 pub(super) struct Inert {
-    used: BTreeMap<Device, Used>,
+    used: SortedMap<Device, Used>,
     /// Where the PLC has special modules.
     places: Vec<Place>,
 }
@@ -37,7 +37,7 @@ struct Used {
 impl Inert {
     pub(super) fn new(modules: &Modules) -> Self {
         Inert {
-            used: BTreeMap::new(),
+            used: SortedMap::new(),
             places: modules.places().collect(),
         }
     }

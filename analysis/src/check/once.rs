@@ -1,9 +1,9 @@
 //! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
-use std::collections::BTreeMap;
 
 /// An instruction that may occur only once in a program with some operand.
 struct Limit {
@@ -45,7 +45,7 @@ const LIMITS: &[Limit] = &[
 
 /// Checks how often a program uses instructions.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
-    let mut by_name: BTreeMap<&str, (usize, Vec<usize>)> = BTreeMap::new();
+    let mut by_name: SortedMap<&str, (usize, Vec<usize>)> = SortedMap::new();
     let mut by_operand: Vec<Vec<(usize, Device)>> = LIMITS.iter().map(|_| Vec::new()).collect();
     for i in 0..code.len {
         let Some(inst) = code.inst(i).filter(|inst| inst.fnc.is_some()) else {

@@ -3,10 +3,10 @@
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 
 /// At most this many circuits may begin at one branch (h1u-h2u-programming §4.2.2).
 const MAX_BRANCH: usize = 8;
@@ -65,7 +65,7 @@ fn acts(code: &Code, stl: usize) -> bool {
 /// The states to which SET leads from each state, with the first transition; OUT only jumps to a state that others lead
 /// to.
 fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
-    let mut leads: BTreeMap<Device, BTreeMap<Device, usize>> = BTreeMap::new();
+    let mut leads: SortedMap<Device, SortedMap<Device, usize>> = SortedMap::new();
     for i in 0..code.len {
         let from = match nesting.of(i).state {
             NONE => continue,
@@ -108,7 +108,7 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
 
 /// How many circuits branch off in the flow of an initial state, and the last transition to one.
 fn flow_branches(
-    leads: &BTreeMap<Device, BTreeMap<Device, usize>>,
+    leads: &SortedMap<Device, SortedMap<Device, usize>>,
     initial: Device,
 ) -> (usize, usize) {
     let (mut count, mut last) = (0, 0);

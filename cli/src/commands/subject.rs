@@ -9,7 +9,7 @@ use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
 use rungc_syntax::{DeviceClass, Program, codes};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -75,7 +75,7 @@ impl Subject {
 struct Projects<'a> {
     reading: &'a Reading,
     cx: Context,
-    loaded: BTreeMap<PathBuf, Rc<Project>>,
+    loaded: SortedMap<PathBuf, Rc<Project>>,
 }
 
 impl Projects<'_> {
@@ -212,7 +212,7 @@ pub fn one(input: &Input, cx: Context) -> std::result::Result<Subject, Failure> 
     let mut projects = Projects {
         reading,
         cx,
-        loaded: BTreeMap::new(),
+        loaded: SortedMap::new(),
     };
     let file = match &input.file {
         Some(file) => file.clone(),
@@ -235,7 +235,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     let mut projects = Projects {
         reading: &inputs.reading,
         cx,
-        loaded: BTreeMap::new(),
+        loaded: SortedMap::new(),
     };
     let mut many = inputs.files.len() > 1;
     let mut files = Vec::new();
@@ -259,7 +259,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     if inputs.files.is_empty() {
         files.push(projects.own()?);
     }
-    let mut seen = BTreeSet::new();
+    let mut seen = SortedSet::new();
     files.retain(|file| seen.insert(file.clone()));
     let subjects = files.into_iter().map(|file| projects.subject(file));
     Ok((subjects.collect::<std::result::Result<_, _>>()?, many))
@@ -328,7 +328,7 @@ pub fn source(
 
 /// Which path each program of a command is written to, with the file that it was read from.
 #[derive(Default)]
-pub struct OutputPaths(BTreeMap<PathBuf, PathBuf>);
+pub struct OutputPaths(SortedMap<PathBuf, PathBuf>);
 
 impl OutputPaths {
     /// Claims a path for a program; no other program of this command may have it.

@@ -9,8 +9,8 @@ use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_ir::walk::{assigned, operands};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
-use std::collections::BTreeSet;
 
 /// What is known of a program's statements.
 pub(super) struct Classes<'a, 'm> {
@@ -18,9 +18,9 @@ pub(super) struct Classes<'a, 'm> {
     pub plan: &'a Plan<'m>,
     pub fields: &'a Storage<'m>,
     /// Temporaries that one instance has, not all in lanes.
-    single: BTreeSet<TempId>,
+    single: SortedSet<TempId>,
     /// Timers and counters whose coils always run, since something else writes their values.
-    pub forced: BTreeSet<(DeviceClass, u32)>,
+    pub forced: SortedSet<(DeviceClass, u32)>,
 }
 
 impl<'a, 'm> Classes<'a, 'm> {
@@ -34,7 +34,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             plan,
             fields,
             single: single.map(|(id, _)| id).collect(),
-            forced: BTreeSet::new(),
+            forced: SortedSet::new(),
         };
         let mut meeting = classes.meeting();
         (0..plan.functions.len()).for_each(|function| meeting.function(function));
@@ -104,9 +104,9 @@ impl<'a, 'm> Classes<'a, 'm> {
     /// use together.
     pub fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
         let mut sliced: Vec<bool> = nodes.iter().map(|node| self.slices(node)).collect();
-        let mut uses: Vec<BTreeSet<TempId>> = Vec::with_capacity(nodes.len());
+        let mut uses: Vec<SortedSet<TempId>> = Vec::with_capacity(nodes.len());
         for node in nodes {
-            let mut found = BTreeSet::new();
+            let mut found = SortedSet::new();
             self.temps_of(node, &mut found);
             found.retain(|temp| {
                 self.single.contains(temp) && self.plan.temp(*temp).home() != Home::Field
@@ -127,7 +127,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// All temporaries that a node assigns or reads.
-    fn temps_of(&self, node: &Node, found: &mut BTreeSet<TempId>) {
+    fn temps_of(&self, node: &Node, found: &mut SortedSet<TempId>) {
         for root in node.roots() {
             self.temps_read(root, found);
         }
@@ -140,7 +140,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// The temporaries that an expression reads.
-    pub fn temps_read(&self, id: ExprId, found: &mut BTreeSet<TempId>) {
+    pub fn temps_read(&self, id: ExprId, found: &mut SortedSet<TempId>) {
         let expr = self.module.expr(id);
         if let Expr::Temp(temp) = *expr {
             found.insert(temp);
@@ -260,7 +260,7 @@ impl<'a, 'm> Classes<'a, 'm> {
 
     /// Whether an expression looks at nothing that is in lanes, so that each instance has all of it.
     fn is_single(&self, id: ExprId) -> bool {
-        let mut temps = BTreeSet::new();
+        let mut temps = SortedSet::new();
         self.temps_read(id, &mut temps);
         let mut meeting = self.meeting();
         meeting.expr(id);

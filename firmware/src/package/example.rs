@@ -3,8 +3,8 @@
 use super::Package;
 use crate::image::{comment, terminals};
 use rungc_emit::storage::Storage;
+use rungc_syntax::SortedSet;
 use rungc_syntax::{DeviceClass, order};
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// How the example of a build system is written.
@@ -38,7 +38,7 @@ pub fn pins(package: &Package, pins: &[u8]) -> [Vec<Terminal>; 2] {
         .len()
         .min(half.max(pins.len().saturating_sub(outputs.len())));
     let (first, rest) = pins.split_at(of_inputs);
-    let with = |class: DeviceClass, numbers: BTreeSet<u32>, pins: &[u8]| {
+    let with = |class: DeviceClass, numbers: SortedSet<u32>, pins: &[u8]| {
         let of = |(i, number): (usize, u32)| Terminal {
             number,
             name: named(package, class, number),

@@ -6,7 +6,7 @@ use super::elf::Elf;
 use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 use rungc_syntax::order;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// Why there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -33,9 +33,9 @@ impl std::fmt::Display for Unbounded {
 
 /// The functions of an image.
 pub struct Functions {
-    by_address: BTreeMap<u32, Function>,
+    by_address: SortedMap<u32, Function>,
     /// Addresses of those that a register may lead to.
-    stored: BTreeSet<u32>,
+    stored: SortedSet<u32>,
 }
 
 /// How much stack a function takes with all that it calls by name.
@@ -56,7 +56,7 @@ struct Function {
 struct Code<'d> {
     sections: Vec<(u32, &'d [u8])>,
     /// From each address on: whether there is code.
-    marks: BTreeMap<u32, bool>,
+    marks: SortedMap<u32, bool>,
 }
 
 impl Code<'_> {
@@ -92,7 +92,7 @@ impl Code<'_> {
 fn code<'d>(file: &Elf<'d>) -> Code<'d> {
     let mut code = Code {
         sections: Vec::new(),
-        marks: BTreeMap::new(),
+        marks: SortedMap::new(),
     };
     for section in file.sections() {
         let data = section.data().unwrap_or_default();
@@ -120,7 +120,7 @@ impl Functions {
     /// Reads all functions of an image. Vectors do not count as stored addresses: only hardware jumps through them.
     pub fn new(file: &Elf) -> Self {
         let code = code(file);
-        let mut by_address = BTreeMap::new();
+        let mut by_address = SortedMap::new();
         let mut vectors = 0..0;
         for symbol in file.symbols() {
             let from = symbol.address() as u32 & !1;
@@ -156,7 +156,7 @@ impl Functions {
     pub fn depth(&self, name: &str) -> Result<u32, Unbounded> {
         let found = self.by_address.iter().find(|(_, f)| f.name == name);
         let (address, _) = found.ok_or_else(|| Unbounded::Missing(name.to_string()))?;
-        let mut known = BTreeMap::new();
+        let mut known = SortedMap::new();
         let own = self.direct(*address, &mut Vec::new(), &mut known)?;
         if !own.indirect {
             return Ok(own.bytes);
@@ -178,7 +178,7 @@ impl Functions {
         &self,
         address: u32,
         open: &mut Vec<u32>,
-        known: &mut BTreeMap<u32, Depth>,
+        known: &mut SortedMap<u32, Depth>,
     ) -> Result<Depth, Unbounded> {
         // An address amid a function stands for it.
         let found = self.by_address.range(..=address).next_back();

@@ -12,8 +12,8 @@ use rungc_syntax::diag::did_you_mean;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, Source, Span, codes,
 };
+use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::ToSmolStr;
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// What a window holds.
@@ -53,9 +53,9 @@ struct Heading {
 #[derive(Default)]
 pub(super) struct Windows {
     /// By the start of their lines.
-    headings: BTreeMap<u32, Heading>,
+    headings: SortedMap<u32, Heading>,
     /// The pointers of subroutines by name.
-    names: BTreeMap<String, Device>,
+    names: SortedMap<String, Device>,
     /// The window at hand; before the first heading it is the main program.
     current: Option<Routine>,
 }
@@ -71,13 +71,13 @@ impl Windows {
         if windows.headings.is_empty() {
             return windows;
         }
-        let mut used: BTreeSet<u32> = source
+        let mut used: SortedSet<u32> = source
             .lines()
             .flat_map(|(_, line)| pointers(line))
             .collect();
         // The end of the program.
         used.insert(63);
-        let mut seen = BTreeSet::new();
+        let mut seen = SortedSet::new();
         for (i, heading) in windows.headings.values_mut().enumerate() {
             let twice = heading
                 .name

@@ -4,7 +4,7 @@ use super::grid::{Drawn, Kind, Symbol};
 use rungc_syntax::Span;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::order;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// A step on the way from a drawing to a list.
 pub(super) enum Step {
@@ -67,7 +67,7 @@ fn networks(drawn: &Drawn) -> Vec<Vec<usize>> {
         }
         at
     }
-    let mut by_wire: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut by_wire: SortedMap<usize, usize> = SortedMap::new();
     for (at, symbol) in drawn.symbols.iter().enumerate() {
         for wire in [symbol.left, symbol.right] {
             if wire == drawn.rail || Some(wire) == drawn.right {
@@ -78,7 +78,7 @@ fn networks(drawn: &Drawn) -> Vec<Vec<usize>> {
             parents[a.max(b)] = a.min(b);
         }
     }
-    let mut networks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut networks: SortedMap<usize, Vec<usize>> = SortedMap::new();
     for at in 0..drawn.symbols.len() {
         networks.entry(root(&mut parents, at)).or_default().push(at);
     }
@@ -107,7 +107,7 @@ struct Circuit<'a> {
     drawn: &'a Drawn,
     edges: Vec<Edge>,
     /// Outputs by the wire that feeds them.
-    outputs: BTreeMap<usize, Vec<usize>>,
+    outputs: SortedMap<usize, Vec<usize>>,
 }
 
 /// What a wire feeds.
@@ -121,7 +121,7 @@ impl<'a> Circuit<'a> {
         let mut circuit = Circuit {
             drawn,
             edges: Vec::new(),
-            outputs: BTreeMap::new(),
+            outputs: SortedMap::new(),
         };
         for &at in network {
             let symbol = &drawn.symbols[at];
@@ -162,7 +162,7 @@ impl<'a> Circuit<'a> {
             return Err(self.fault(edge.first, "a wire bridges this contact"));
         }
         self.reduce();
-        let mut fed = BTreeSet::new();
+        let mut fed = SortedSet::new();
         for edge in &self.edges {
             if !fed.insert(edge.to) || edge.to == self.drawn.rail {
                 let why = "this network is more than contacts in series and parallel, which a list cannot say";
@@ -234,7 +234,7 @@ impl<'a> Circuit<'a> {
     }
 
     fn join_parallel(&mut self) {
-        let mut groups: BTreeMap<(usize, usize), Vec<Edge>> = BTreeMap::new();
+        let mut groups: SortedMap<(usize, usize), Vec<Edge>> = SortedMap::new();
         for edge in self.edges.drain(..) {
             groups.entry((edge.from, edge.to)).or_default().push(edge);
         }
@@ -267,7 +267,7 @@ impl<'a> Circuit<'a> {
     }
 
     fn join_series(&mut self) {
-        let mut degrees: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+        let mut degrees: SortedMap<usize, (usize, usize)> = SortedMap::new();
         for edge in &self.edges {
             degrees.entry(edge.from).or_default().1 += 1;
             degrees.entry(edge.to).or_default().0 += 1;
@@ -277,7 +277,7 @@ impl<'a> Circuit<'a> {
                 && !self.outputs.contains_key(&wire)
                 && wire != self.drawn.rail
         };
-        let mut next: BTreeMap<usize, Edge> = BTreeMap::new();
+        let mut next: SortedMap<usize, Edge> = SortedMap::new();
         let mut starts = Vec::new();
         for edge in self.edges.drain(..) {
             match passes(edge.from) {

@@ -9,24 +9,24 @@ use super::{FREE, Fault, Reader, called, children, expression, flag, list, text,
 use roxmltree::Node;
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass};
+use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// The most divergences and convergences between a step and a transition.
 const DEEPEST: usize = 50;
 
 /// A chart while it is read.
 struct Chart<'a, 'i> {
-    by_id: BTreeMap<&'a str, Node<'a, 'i>>,
+    by_id: SortedMap<&'a str, Node<'a, 'i>>,
     /// What an element's outputs lead to.
-    uses: BTreeMap<&'a str, Vec<&'a str>>,
+    uses: SortedMap<&'a str, Vec<&'a str>>,
     /// By name in upper case.
-    steps: BTreeMap<String, Device>,
+    steps: SortedMap<String, Device>,
 }
 
 /// A transition: the steps around it and the relay of its condition.
 struct Transition<'a> {
-    before: BTreeSet<&'a str>,
+    before: SortedSet<&'a str>,
     relay: Device,
     reset: Vec<Device>,
     set: Vec<Device>,
@@ -35,9 +35,9 @@ struct Transition<'a> {
 /// Reads the chart of a program.
 pub(super) fn read(reader: &mut Reader, pou: Node, body: Node) -> Result<(), Fault> {
     let mut chart = Chart {
-        by_id: BTreeMap::new(),
-        uses: BTreeMap::new(),
-        steps: BTreeMap::new(),
+        by_id: SortedMap::new(),
+        uses: SortedMap::new(),
+        steps: SortedMap::new(),
     };
     for node in body.children().filter(Node::is_element) {
         let Some(id) = node.attribute("localId") else {
@@ -207,7 +207,7 @@ impl<'a, 'i> Chart<'a, 'i> {
     }
 
     fn transition(&self, node: Node<'a, 'i>, relay: Device) -> Result<Transition<'a>, Fault> {
-        let mut before = BTreeSet::new();
+        let mut before = SortedSet::new();
         for from in sources(node) {
             self.before(from, node, 0, &mut before)?;
         }
@@ -233,7 +233,7 @@ impl<'a, 'i> Chart<'a, 'i> {
         id: &'a str,
         to: Node,
         depth: usize,
-        steps: &mut BTreeSet<&'a str>,
+        steps: &mut SortedSet<&'a str>,
     ) -> Result<(), Fault> {
         let missing = || {
             Fault::at(
@@ -297,7 +297,7 @@ impl<'a, 'i> Chart<'a, 'i> {
     /// The actions of steps: variables that are on while a step is active, or that it sets and resets, and bodies whose
     /// networks begin with their step.
     fn actions(&self, reader: &mut Reader, pou: Node, body: Node<'a, 'i>) -> Result<(), Fault> {
-        let mut uses: BTreeMap<Device, Vec<Use>> = BTreeMap::new();
+        let mut uses: SortedMap<Device, Vec<Use>> = SortedMap::new();
         let mut bodies = Vec::new();
         for block in children(body, "actionBlock") {
             let steps = sources(block);
@@ -413,9 +413,9 @@ fn coil(line: &str, mnemonic: &str) -> Option<Device> {
 }
 
 /// Takes the coils that several actions drive out of their bodies: one network drives each.
-fn share(bodies: &mut [Vec<Part>], uses: &mut BTreeMap<Device, Vec<Use>>) {
-    let mut count: BTreeMap<Device, usize> = BTreeMap::new();
-    let mut stored = BTreeSet::new();
+fn share(bodies: &mut [Vec<Part>], uses: &mut SortedMap<Device, Vec<Use>>) {
+    let mut count: SortedMap<Device, usize> = SortedMap::new();
+    let mut stored = SortedSet::new();
     let lines = bodies.iter().flatten().flat_map(|part| match part {
         Part::Output(output) => output.lines.as_slice(),
         Part::Line(_) => &[],

@@ -6,8 +6,8 @@ use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
+use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// The most elements on one way.
 const DEEPEST: usize = 200;
@@ -43,17 +43,17 @@ pub(super) struct Word {
 /// A drawing while it is read.
 pub(super) struct Drawing<'a, 'i, 'r> {
     pub reader: &'r mut Reader,
-    by_id: BTreeMap<&'a str, Node<'a, 'i>>,
+    by_id: SortedMap<&'a str, Node<'a, 'i>>,
     /// By name.
-    connectors: BTreeMap<&'a str, Node<'a, 'i>>,
+    connectors: SortedMap<&'a str, Node<'a, 'i>>,
     /// Where an element's outputs lead: the output as the connection names it, and the element there.
-    uses: BTreeMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
+    uses: SortedMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
     /// What leads out of an element's output.
-    known: BTreeMap<(&'a str, &'a str), Logic>,
+    known: SortedMap<(&'a str, &'a str), Logic>,
     /// Outputs of the blocks that have been read.
-    done: BTreeMap<&'a str, BTreeMap<SmolStr, Value>>,
+    done: SortedMap<&'a str, SortedMap<SmolStr, Value>>,
     /// Blocks that could not be read, and were reported.
-    failed: BTreeSet<&'a str>,
+    failed: SortedSet<&'a str>,
     /// The elements on the way that is being followed.
     on_it: Vec<&'a str>,
 }
@@ -112,12 +112,12 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     pub fn new(reader: &'r mut Reader, body: Node<'a, 'i>) -> Self {
         let mut drawing = Drawing {
             reader,
-            by_id: BTreeMap::new(),
-            connectors: BTreeMap::new(),
-            uses: BTreeMap::new(),
-            known: BTreeMap::new(),
-            done: BTreeMap::new(),
-            failed: BTreeSet::new(),
+            by_id: SortedMap::new(),
+            connectors: SortedMap::new(),
+            uses: SortedMap::new(),
+            known: SortedMap::new(),
+            done: SortedMap::new(),
+            failed: SortedSet::new(),
             on_it: Vec::new(),
         };
         for node in body.children().filter(Node::is_element) {
@@ -380,8 +380,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
                     "" => first_output(node).to_uppercase(),
                     _ => output.to_uppercase(),
                 };
-                let found = outputs.get_key_value(name.as_str());
-                found.map(|(_, value)| value.clone()).ok_or_else(|| {
+                outputs.get(name.as_str()).cloned().ok_or_else(|| {
                     let what = format!("{} has no output `{output}` here", called(node));
                     Some(Fault::at(to, what, "connect another output"))
                 })
@@ -398,7 +397,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     /// The outputs of a block, which is read once.
-    fn block(&mut self, id: &'a str) -> Result<BTreeMap<SmolStr, Value>, Failure> {
+    fn block(&mut self, id: &'a str) -> Result<SortedMap<SmolStr, Value>, Failure> {
         if let Some(outputs) = self.done.get(id) {
             return Ok(outputs.clone());
         }

@@ -20,9 +20,9 @@ use crate::il;
 use crate::listing::Listing;
 use logic::{Logic, Output, Part};
 use roxmltree::{Document, Node, ParsingOptions};
+use rungc_syntax::SortedMap;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr};
-use std::collections::BTreeMap;
 use variables::{Found, Kind, Missing, Variables};
 
 pub use blocks::iec_timer_unit;
@@ -145,11 +145,11 @@ struct Reader {
     cpu: Option<String>,
     variables: Variables,
     /// Pointers by the labels of programs.
-    pointers: BTreeMap<String, u32>,
+    pointers: SortedMap<String, u32>,
     /// The devices of the blocks of the program that is being read, by the names of their instances.
-    instances: BTreeMap<String, blocks::Instance>,
+    instances: SortedMap<String, blocks::Instance>,
     /// The relays of steps, by name in upper case.
-    steps: BTreeMap<String, Device>,
+    steps: SortedMap<String, Device>,
     /// Whether what follows is driven by STL.
     in_state: bool,
     /// Contacts on all ways so far.

@@ -4,14 +4,14 @@ use super::{children, text};
 use crate::il;
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind};
+use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// The devices of variables of PLCopen XML.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// By the names of variables in upper case. They take precedence over addresses.
-    pub devices: BTreeMap<String, Device>,
+    pub devices: SortedMap<String, Device>,
     /// Devices for variables that have neither a row here nor an address: class, first and last number.
     pub free: Vec<(DeviceClass, u32, u32)>,
 }
@@ -109,20 +109,20 @@ struct Variable {
 pub(super) struct Variables {
     names: Names,
     /// Of all programs, by name.
-    global: BTreeMap<String, Variable>,
+    global: SortedMap<String, Variable>,
     /// Of the program that is being read.
-    local: BTreeMap<String, Variable>,
+    local: SortedMap<String, Variable>,
     program: String,
     /// Devices that are not free.
-    taken: BTreeSet<Device>,
+    taken: SortedSet<Device>,
     /// Devices of variables without an address, by key.
-    given: BTreeMap<String, Device>,
+    given: SortedMap<String, Device>,
     /// Devices of variables that have been used.
-    used: BTreeSet<Device>,
+    used: SortedSet<Device>,
     /// How many pointers labels have taken.
     pointers: u32,
     /// What the devices that were used are called.
-    pub comments: BTreeMap<Device, String>,
+    pub comments: SortedMap<Device, String>,
     /// What the first scan sets.
     pub first_scan: Vec<SmolStr>,
 }

@@ -4,7 +4,7 @@
 use super::{il_written, properties_without, spelled, statements};
 use crate::il::{device, windows};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, codes};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// The pointer that is the end of the program.
 const END: u32 = 63;
@@ -109,9 +109,9 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
 }
 
 /// What the routines are called: by the comments of their pointers, where those can be names.
-fn names(program: &Program, labels: &[Device]) -> BTreeMap<Device, String> {
-    let mut used = BTreeSet::new();
-    let mut names = BTreeMap::new();
+fn names(program: &Program, labels: &[Device]) -> SortedMap<Device, String> {
+    let mut used = SortedSet::new();
+    let mut names = SortedMap::new();
     for &label in labels {
         let comment = program.comments.get(&label).map(String::as_str);
         let usual = |label: Device| match label.class {
@@ -126,7 +126,7 @@ fn names(program: &Program, labels: &[Device]) -> BTreeMap<Device, String> {
     names
 }
 
-fn heading(out: &mut String, window: &Window, names: &BTreeMap<Device, String>) {
+fn heading(out: &mut String, window: &Window, names: &SortedMap<Device, String>) {
     let Some((pointer, head)) = window.label.zip(window.head) else {
         out.push_str("MAIN\n");
         return;
@@ -149,7 +149,7 @@ fn heading(out: &mut String, window: &Window, names: &BTreeMap<Device, String>) 
 fn write(
     out: &mut String,
     instr: &Instr,
-    names: &BTreeMap<Device, String>,
+    names: &SortedMap<Device, String>,
 ) -> Result<(), Box<Diagnostic>> {
     let mut line = |words: &[&str]| write_words(out, instr, words);
     if let Some(pointer) = label(instr) {

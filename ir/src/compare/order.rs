@@ -1,10 +1,11 @@
 //! Which atoms correspond to each other, and whose order matters.
 
 use super::atoms::{Atom, Run, Sequence, Uses};
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, align};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::ops::Range;
 
 /// An atom that both modules have.
@@ -104,8 +105,8 @@ pub(super) fn disorder(sequences: &[Sequence; 2], pairs: &[Pair]) -> Uses {
     let mut users: FxHashMap<usize, Vec<User>> = FxHashMap::default();
     let mut known: [FxHashMap<usize, Accesses>; 2] = Default::default();
     for pair in pairs {
-        let mut reads = BTreeSet::new();
-        let mut writes = BTreeSet::new();
+        let mut reads = SortedSet::new();
+        let mut writes = SortedSet::new();
         for side in [0, 1] {
             let sequence = &sequences[side];
             let atom = &sequence.atoms[pair.at[side]];
@@ -119,7 +120,7 @@ pub(super) fn disorder(sequences: &[Sequence; 2], pairs: &[Pair]) -> Uses {
                 writes.extend(&inside.writes);
             }
         }
-        for &place in reads.union(&writes) {
+        for &place in reads.iter().chain(writes.difference(&reads)) {
             users.entry(place).or_default().push(User {
                 at: pair.at,
                 reads: reads.contains(&place),
@@ -157,8 +158,8 @@ fn in_disorder(users: &mut [User]) -> bool {
 
 /// What a function uses, by places.
 struct Accesses {
-    reads: BTreeSet<usize>,
-    writes: BTreeSet<usize>,
+    reads: SortedSet<usize>,
+    writes: SortedSet<usize>,
 }
 
 /// What atoms that moved use: names, and runs of devices that no atom uses in part.
@@ -194,13 +195,13 @@ impl Places {
         for name in used.names {
             names.entry(name).or_insert_with(&mut next);
         }
-        let mut cuts: FxHashMap<DeviceClass, BTreeSet<u32>> = FxHashMap::default();
+        let mut cuts: FxHashMap<DeviceClass, SortedSet<u32>> = FxHashMap::default();
         for atom in sequences.iter().flat_map(|sequence| &sequence.atoms) {
             for &(class, first, last) in atom.reads.runs.iter().chain(&atom.writes.runs) {
                 cuts.entry(class).or_default().extend([first, last + 1]);
             }
         }
-        let mut firsts: BTreeSet<(DeviceClass, u32)> = BTreeSet::new();
+        let mut firsts: SortedSet<(DeviceClass, u32)> = SortedSet::new();
         for (class, first, last) in used.runs {
             let cuts = cuts.get(&class).into_iter();
             let inside = cuts.flat_map(|cuts| cuts.range(first..=last));
@@ -218,7 +219,7 @@ impl Places {
     }
 
     /// The places that something uses.
-    fn expand(&self, uses: &Uses, places: &mut BTreeSet<usize>) {
+    fn expand(&self, uses: &Uses, places: &mut SortedSet<usize>) {
         places.extend(uses.names.iter().filter_map(|name| self.names.get(name)));
         for (class, first, last) in &uses.runs {
             let Some(runs) = self.runs.get(class) else {
@@ -233,8 +234,8 @@ impl Places {
     /// The places that the functions which an atom calls use.
     fn inside(&self, sequence: &Sequence, atom: &Atom) -> Accesses {
         let mut accesses = Accesses {
-            reads: BTreeSet::new(),
-            writes: BTreeSet::new(),
+            reads: SortedSet::new(),
+            writes: SortedSet::new(),
         };
         for inner in called(sequence, atom).flat_map(|range| &sequence.atoms[range]) {
             self.expand(&inner.reads, &mut accesses.reads);

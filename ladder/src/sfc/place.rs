@@ -6,8 +6,9 @@
 
 use super::Chart;
 use crate::face::fold;
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use unicode_width::UnicodeWidthStr;
 
 /// Columns of a state's box.
@@ -488,7 +489,7 @@ impl Placer<'_> {
     /// Where most of some branches meet: the nearest state that selected ones lead to, or the nearest transition that
     /// leaves states of parallel ones together.
     fn meeting(&self, branches: &[Point], parallel: bool) -> Option<Point> {
-        let mut reached: BTreeMap<Point, (usize, usize)> = BTreeMap::new();
+        let mut reached: SortedMap<Point, (usize, usize)> = SortedMap::new();
         for &branch in branches {
             for (point, distance) in self.distances(branch) {
                 let (count, sum) = reached.entry(point).or_default();
@@ -511,9 +512,9 @@ impl Placer<'_> {
 
     /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
     /// they are.
-    fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
+    fn distances(&self, start: Point) -> SortedMap<Point, usize> {
         let stops = order::set(self.stops.iter().copied());
-        let mut found = BTreeMap::new();
+        let mut found = SortedMap::new();
         let mut open = VecDeque::from([(start, 0)]);
         while let Some((point, distance)) = open.pop_front() {
             let placed = match point {

@@ -34,9 +34,9 @@ use crate::wire::Signal;
 use rungc_models::{ModelId, Variant};
 use rungc_rt::Clock;
 use rungc_rt::modules::Kind;
+use rungc_syntax::SortedSet;
 use rungc_syntax::Source;
 use serde::Deserialize;
-use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -51,7 +51,7 @@ pub struct TestFile {
     /// A remark on the whole file.
     pub note: String,
     /// The files and folders that it was read from: itself, programs, machines, accepted traces, settings.
-    pub inputs: BTreeSet<PathBuf>,
+    pub inputs: SortedSet<PathBuf>,
     /// Its cases.
     pub cases: Vec<Case>,
 }

@@ -19,7 +19,7 @@ use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -166,7 +166,7 @@ pub(super) struct Running<'e> {
     pub(super) step: usize,
     now_ms: u32,
     /// State of the input terminals of each PLC, which a power cycle does not change.
-    inputs: BTreeMap<(usize, u32), bool>,
+    inputs: SortedMap<(usize, u32), bool>,
     /// The PLC of the case, and the others.
     pub(super) plcs: Vec<PlcInfo>,
     /// The PLC that the engine was asked last.
@@ -184,7 +184,7 @@ pub(super) struct Running<'e> {
     /// The servers over TCP.
     pub(super) servers: Servers,
     /// The PLCs that were put in STOP.
-    stopped: BTreeSet<usize>,
+    stopped: SortedSet<usize>,
 }
 
 fn run_case(
@@ -198,7 +198,7 @@ fn run_case(
         engine,
         step: 0,
         now_ms: 0,
-        inputs: BTreeMap::new(),
+        inputs: SortedMap::new(),
         plcs,
         current: 0,
         names: case.others.iter().map(|other| other.name.clone()).collect(),
@@ -207,7 +207,7 @@ fn run_case(
         plant: case.machine.as_deref().map(Description::plant),
         lines: Lines::new(&case.wires),
         servers,
-        stopped: BTreeSet::new(),
+        stopped: SortedSet::new(),
     };
     running.power_up()?;
     running.fit(case)?;

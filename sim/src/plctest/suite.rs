@@ -8,8 +8,8 @@ use rungc_lower::marks::Marks;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Which case of which file.
@@ -63,11 +63,11 @@ impl Suite {
     /// Compiles the programs of all cases; those that do not compile are a matter of their cases. Errors with the codes
     /// `warn` that can be eased are none.
     pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
-        Suite::compile_but(files, warn, &BTreeSet::new())
+        Suite::compile_but(files, warn, &SortedSet::new())
     }
 
     /// As [`Suite::compile`], but for cases that are known to pass.
-    pub fn compile_but(files: Vec<TestFile>, warn: &[&'static str], known: &BTreeSet<Id>) -> Self {
+    pub fn compile_but(files: Vec<TestFile>, warn: &[&'static str], known: &SortedSet<Id>) -> Self {
         let how = How { warn, marks: false };
         Suite::compile_as(files, how, known)
     }
@@ -75,16 +75,16 @@ impl Suite {
     /// As [`Suite::compile`], with marks that say where the parts of each program come from.
     pub fn compile_marked(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let how = How { warn, marks: true };
-        Suite::compile_as(files, how, &BTreeSet::new())
+        Suite::compile_as(files, how, &SortedSet::new())
     }
 
-    fn compile_as(files: Vec<TestFile>, how: How, known: &BTreeSet<Id>) -> Self {
+    fn compile_as(files: Vec<TestFile>, how: How, known: &SortedSet<Id>) -> Self {
         let mut lowered: Vec<Lowered> = Vec::new();
         let mut built = Vec::with_capacity(files.len());
         for (number, file) in files.iter().enumerate() {
             let shared = Shared::of(file);
             // Where cases share a program, by the first of them.
-            let mut done: BTreeMap<usize, Result<usize, Errors>> = BTreeMap::new();
+            let mut done: SortedMap<usize, Result<usize, Errors>> = SortedMap::new();
             let mut of_file = Vec::with_capacity(file.cases.len());
             for (i, case) in file.cases.iter().enumerate() {
                 if known.contains(&Id {
@@ -214,7 +214,7 @@ struct Shared {
 
 impl Shared {
     fn of(file: &TestFile) -> Self {
-        let mut known: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        let mut known: SortedMap<_, Vec<usize>> = SortedMap::new();
         for (i, case) in file.cases.iter().enumerate() {
             let alone =
                 !case.others.is_empty() || !case.serve.is_empty() || !opened(case, 0).is_empty();

@@ -2,7 +2,7 @@
 
 use super::decode::{Decoded, Decoder, Direction, Speech};
 use super::probe::{Devices, ranges};
-use std::collections::BTreeMap;
+use rungc_syntax::SortedMap;
 
 /// Where a frame was seen.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -45,7 +45,7 @@ struct Connection {
 #[derive(Debug)]
 pub struct Traffic {
     decoder: Decoder,
-    connections: BTreeMap<Place, Connection>,
+    connections: SortedMap<Place, Connection>,
 }
 
 impl Traffic {
@@ -53,7 +53,7 @@ impl Traffic {
     pub fn new(decoder: Decoder) -> Self {
         Traffic {
             decoder,
-            connections: BTreeMap::new(),
+            connections: SortedMap::new(),
         }
     }
 

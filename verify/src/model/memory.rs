@@ -10,8 +10,8 @@ use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
-use std::collections::BTreeSet;
 
 /// An operand that may reach more devices than this is not modelled.
 pub(super) const REACH: u32 = 256;
@@ -101,7 +101,7 @@ impl Encoder<'_> {
     /// Gives every piece of memory that the program names its bits.
     pub(super) fn find_memory(&mut self) {
         let (module, model) = (self.module, self.module.model);
-        let mut devices: BTreeSet<(DeviceClass, u32)> = self.world.observed.clone();
+        let mut devices: SortedSet<(DeviceClass, u32)> = self.world.observed.clone();
         let mut note = |used: Footprint| {
             let class = used.place.class;
             let runs = used.reach(model, &module.exprs);
@@ -304,7 +304,7 @@ impl Encoder<'_> {
             )
         };
         let mut open = self.functions_of(by_host);
-        let mut seen = BTreeSet::new();
+        let mut seen = SortedSet::new();
         while let Some(i) = open.pop() {
             if seen.insert(i) {
                 let body = &module.functions[i].body;

@@ -24,8 +24,8 @@ use rungc_ir::Module;
 use rungc_ir::node::{ExprId, FunctionKind, LabelId};
 use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::{SortedMap, SortedSet};
 use rustc_hash::FxHashMap;
-use std::collections::{BTreeMap, BTreeSet};
 use typed_index_collections::TiVec;
 
 /// A part of a timer's memory ([`rungc_rt::Timer`]).
@@ -132,12 +132,12 @@ pub struct World {
     /// Whether latched devices begin with 0, as on a new PLC.
     pub fresh: bool,
     /// Devices that something other than the program writes.
-    pub free: BTreeSet<(DeviceClass, u32)>,
+    pub free: SortedSet<(DeviceClass, u32)>,
     /// Whether a timer that runs may expire at any time, as far as nothing looks at its value: a proof holds for every
     /// preset then.
     pub any_preset: bool,
     /// Devices that properties look at, in addition to those of the program.
-    pub observed: BTreeSet<(DeviceClass, u32)>,
+    pub observed: SortedSet<(DeviceClass, u32)>,
 }
 
 impl Default for World {
@@ -145,9 +145,9 @@ impl Default for World {
         World {
             scan_ms: 200,
             fresh: false,
-            free: BTreeSet::new(),
+            free: SortedSet::new(),
             any_preset: false,
-            observed: BTreeSet::new(),
+            observed: SortedSet::new(),
         }
     }
 }
@@ -186,19 +186,19 @@ pub struct Encoder<'m> {
     pub gaps: Vec<Gap>,
     gap_numbers: FxHashMap<Gap, usize>,
     /// All memory, as it is before the scan.
-    before: BTreeMap<Key, Bits>,
+    before: SortedMap<Key, Bits>,
     /// All memory, as the scan has left it so far.
-    state: BTreeMap<Key, Bits>,
+    state: SortedMap<Key, Bits>,
     /// What the program may write.
-    written: BTreeSet<Key>,
+    written: SortedSet<Key>,
     /// What is written now is cleared, which leaves setting it to something else.
     clears: bool,
     /// What something outside the scan may write between two scans.
-    outside: BTreeSet<Key>,
+    outside: SortedSet<Key>,
     /// Flags that something outside the scan sets at any time.
-    events: BTreeSet<u32>,
+    events: SortedSet<u32>,
     /// Timers whose values something looks at or writes; `None`: all.
-    exact_timers: Option<BTreeSet<u32>>,
+    exact_timers: Option<SortedSet<u32>>,
     temps: TiVec<rungc_ir::node::TempId, Option<Bits>>,
     values: FxHashMap<ExprId, Bits>,
     /// Where jumps of the bodies that are being executed go, the innermost last.
@@ -209,7 +209,7 @@ pub struct Encoder<'m> {
     time: Option<Time>,
     scan_time: Option<Bits>,
     /// What special modules hold in this scan, word by word.
-    buffers: BTreeMap<Key, Bits>,
+    buffers: SortedMap<Key, Bits>,
     network: Option<u32>,
     statements: u32,
     watched: u64,
@@ -263,12 +263,12 @@ impl<'m> Encoder<'m> {
             first_wishes: Vec::new(),
             gap_numbers: gaps.iter().cloned().zip(0..).collect(),
             gaps,
-            before: BTreeMap::new(),
-            state: BTreeMap::new(),
-            written: BTreeSet::new(),
+            before: SortedMap::new(),
+            state: SortedMap::new(),
+            written: SortedSet::new(),
             clears: false,
-            outside: BTreeSet::new(),
-            events: BTreeSet::new(),
+            outside: SortedSet::new(),
+            events: SortedSet::new(),
             exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
             values: FxHashMap::default(),
@@ -277,7 +277,7 @@ impl<'m> Encoder<'m> {
             lost_gap: None,
             time: None,
             scan_time: None,
-            buffers: BTreeMap::new(),
+            buffers: SortedMap::new(),
             network: None,
             statements: 0,
             watched: 0,

@@ -10,7 +10,7 @@ use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Span};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// Programs that reach special registers through an index stay this near.
 const USUAL_INDEX: u32 = 256;
@@ -37,11 +37,11 @@ pub(super) struct Uinit {
 pub(super) struct Facts {
     model: &'static Model,
     /// By the register's or relay's device, in the order of the program.
-    writes: BTreeMap<Device, Vec<Write>>,
+    writes: SortedMap<Device, Vec<Write>>,
     /// Registers that are written through an index, where a set-up register is near, and the place of the operand.
     pub(super) indexed: Vec<(Device, Span)>,
     /// By port; `None` for one whose operands are not constant.
-    pub(super) uinit: BTreeMap<u8, Vec<Option<Uinit>>>,
+    pub(super) uinit: SortedMap<u8, Vec<Option<Uinit>>>,
 }
 
 /// What a register holds once the program has set it up.
@@ -87,9 +87,9 @@ impl Facts {
         let watched = order::set(words.chain(relays).chain(named));
         let mut facts = Facts {
             model: code.model(),
-            writes: BTreeMap::new(),
+            writes: SortedMap::new(),
             indexed: Vec::new(),
-            uinit: BTreeMap::new(),
+            uinit: SortedMap::new(),
         };
         let mut when = When::new(code);
         for i in 0..code.len {
@@ -100,7 +100,7 @@ impl Facts {
     }
 
     /// Notes what instruction `i` writes.
-    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &BTreeSet<Device>) {
+    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &SortedSet<Device>) {
         if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
             self.note_uinit(code, i);
         }
@@ -130,7 +130,7 @@ impl Facts {
     }
 
     /// Notes an access from a special register on, whose index may lead to a set-up register.
-    fn note_index(&mut self, access: &accesses::Access, watched: &BTreeSet<Device>) {
+    fn note_index(&mut self, access: &accesses::Access, watched: &SortedSet<Device>) {
         let Device { class, number } = access.first;
         let reached = |number| Device { class, number };
         let near = reached(number.saturating_sub(USUAL_INDEX))
@@ -261,8 +261,8 @@ fn constant(code: &Code, i: usize, n: usize) -> Option<i64> {
 }
 
 /// The constants that an instruction writes, by device.
-fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
-    let mut found = BTreeMap::new();
+fn constants(code: &Code, i: usize) -> SortedMap<Device, u16> {
+    let mut found = SortedMap::new();
     let device = |n: usize| code.device(i, n);
     let bit = |on: bool| device(0).map(|device| (device, u16::from(on)));
     match code.basic(i) {
@@ -390,8 +390,8 @@ fn is_on_first(code: &Code, i: usize) -> bool {
 
 /// The special devices of a port after its set-up; all others are 0.
 struct Memory {
-    words: BTreeMap<u32, u16>,
-    relays: BTreeSet<u32>,
+    words: SortedMap<u32, u16>,
+    relays: SortedSet<u32>,
     sys: Sys,
     state: State,
     ports: Ports,

@@ -18,10 +18,10 @@ use rungc_analysis::resolve::resolve;
 use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
 use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_lower::compile::{CompileOptions, model};
+use rungc_syntax::SortedMap;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
 use sheet::Sheet;
-use std::collections::BTreeMap;
 use words::Words;
 use xml::Xml;
 
@@ -341,9 +341,9 @@ fn instances(xml: &mut Xml, program: &Program, pous: &[Pou], words: &Words) {
 }
 
 /// The devices that elements name and those that have comments, with their types.
-fn types(program: &Program, words: &Words) -> BTreeMap<Device, &'static str> {
+fn types(program: &Program, words: &Words) -> SortedMap<Device, &'static str> {
     use DeviceClass::{C, D, M, S, T, X, Y};
-    let mut types: BTreeMap<Device, &str> = BTreeMap::new();
+    let mut types: SortedMap<Device, &str> = SortedMap::new();
     let commented = program.comments.keys();
     for device in commented.filter(|device| !words.steps.contains(device)) {
         match device.class {
@@ -352,7 +352,7 @@ fn types(program: &Program, words: &Words) -> BTreeMap<Device, &'static str> {
             _ => {}
         }
     }
-    types.extend(&words.variables);
+    types.extend(words.variables.iter().map(|(&device, &ty)| (device, ty)));
     types
 }
 

@@ -7,7 +7,7 @@ use rungc_runtime_sources::cache;
 use rungc_sim::engines::EngineKind;
 use rungc_sim::plctest::{Id, Report, Suite, TestFile};
 use rungc_syntax::order;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read};
@@ -18,9 +18,9 @@ use walkdir::WalkDir;
 /// Verdicts of earlier runs, and where those of this one go.
 pub struct Verdicts {
     /// The cases that passed on all engines that are asked for.
-    pub known: BTreeSet<Id>,
+    pub known: SortedSet<Id>,
     /// By file and engine: where they are kept, and a hash of all that they depend on.
-    places: BTreeMap<(usize, &'static str), (PathBuf, String)>,
+    places: SortedMap<(usize, &'static str), (PathBuf, String)>,
 }
 
 impl Verdicts {
@@ -32,8 +32,8 @@ impl Verdicts {
         warn: &[&'static str],
     ) -> Verdicts {
         let mut verdicts = Verdicts {
-            known: BTreeSet::new(),
-            places: BTreeMap::new(),
+            known: SortedSet::new(),
+            places: SortedMap::new(),
         };
         // Without a cache, nothing is known.
         let folder = cache::folder().map(|folder| folder.join("verdicts"));
@@ -44,14 +44,14 @@ impl Verdicts {
             let Ok(content) = content(file, args.machine.as_deref()) else {
                 continue;
             };
-            let mut passed: Option<BTreeSet<String>> = None;
+            let mut passed: Option<SortedSet<String>> = None;
             for kind in kinds {
                 let key = hash(&(executable, content, warn, kind.name()));
                 let place = std::path::absolute(&file.name).unwrap_or_default();
                 let place = folder.join(hash(&(place, kind.name())));
                 let on_engine = read(&place, &key);
                 passed = Some(match passed {
-                    Some(passed) => &passed & &on_engine,
+                    Some(passed) => passed.intersection(&on_engine).cloned().collect(),
                     None => on_engine,
                 });
                 verdicts.places.insert((number, kind.name()), (place, key));
@@ -83,14 +83,14 @@ impl Verdicts {
 }
 
 /// The cases that passed, if the verdicts are about the same content.
-fn read(place: &Path, key: &str) -> BTreeSet<String> {
+fn read(place: &Path, key: &str) -> SortedSet<String> {
     let Ok(text) = fs::read_to_string(place) else {
-        return BTreeSet::new();
+        return SortedSet::new();
     };
     let mut lines = text.lines();
     match lines.next() {
         Some(first) if first == key => order::set(lines.map(str::to_string)),
-        _ => BTreeSet::new(),
+        _ => SortedSet::new(),
     }
 }
 

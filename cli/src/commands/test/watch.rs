@@ -8,7 +8,7 @@ use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
 use rungc_syntax::order;
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
@@ -18,13 +18,13 @@ use walkdir::WalkDir;
 const PERIOD: Duration = Duration::from_millis(250);
 
 /// When each file was changed last, and its length.
-type Seen = BTreeMap<PathBuf, (Option<SystemTime>, u64)>;
+type Seen = SortedMap<PathBuf, (Option<SystemTime>, u64)>;
 
 /// Runs the tests, and again after each change, until interrupted.
 pub fn run(args: &TestArgs, cx: Context) -> Result {
     // What is wrong with the command line itself ends it.
     Chosen::of(args, cx)?;
-    let mut inputs: BTreeSet<PathBuf> = BTreeSet::new();
+    let mut inputs: SortedSet<PathBuf> = SortedSet::new();
     loop {
         let chosen = Chosen::of(args, cx);
         let loaded = chosen.and_then(|chosen| {
@@ -54,7 +54,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
 }
 
 /// All that the tests are read from.
-fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> BTreeSet<PathBuf> {
+fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> SortedSet<PathBuf> {
     let of_files = files.iter().flat_map(|file| file.inputs.iter().cloned());
     let settings = chosen.project.iter().map(|project| project.path.clone());
     let named = chosen.paths.iter().chain(&args.machine).cloned();
@@ -62,7 +62,7 @@ fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> BTreeSet<
 }
 
 /// The state of these files, of the files in program folders, and of all test files that there are now.
-fn look(args: &TestArgs, inputs: &BTreeSet<PathBuf>) -> Seen {
+fn look(args: &TestArgs, inputs: &SortedSet<PathBuf>) -> Seen {
     let folders: Vec<PathBuf> = args.files.iter().chain(inputs).cloned().collect();
     let tests = files::names(&folders).unwrap_or_default();
     let mut seen = Seen::new();

@@ -7,10 +7,10 @@ use crate::progress;
 use rungc_ir::Module;
 use rungc_sim::engines::{BuildError, EngineKind, build};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::SortedMap;
 use rungc_verify::engines::compare;
 use rungc_verify::prove::Why;
 use rungc_verify::search::Trace;
-use std::collections::BTreeMap;
 
 /// A run that the interpreter has shown.
 pub struct Shown<'a> {
@@ -34,8 +34,8 @@ pub fn replay(
     modules: &[Module],
     runs: &[Shown],
     cx: Context,
-) -> Result<BTreeMap<usize, Why>, Failure> {
-    let mut differing = BTreeMap::new();
+) -> Result<SortedMap<usize, Why>, Failure> {
+    let mut differing = SortedMap::new();
     let kinds = engines(choice.unwrap_or(EngineChoice::All)).into_iter();
     let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
     if runs.is_empty() || kinds.is_empty() {

@@ -5,7 +5,7 @@ use crate::board::{Board, InputPin, Uart};
 use crate::image::{comment, linker_script};
 use rungc_emit::OutFile;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeMap;
+use rungc_syntax::SortedMap;
 use std::fmt::Write;
 
 const PINS: &str = include_str!("../../../templates/pins.c");
@@ -124,7 +124,7 @@ pub fn project(board: &Board) -> Result<Vec<OutFile>, NoPins> {
         .replace("/* BOARD */", &title)
         .replace("/* CC */", board.target.cc)
         .replace("/* FLAGS */", board.target.flags);
-    let startup = startup_text(board, &BTreeMap::new());
+    let startup = startup_text(board, &SortedMap::new());
     Ok(vec![
         OutFile::new(
             "pins.c",

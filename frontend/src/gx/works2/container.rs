@@ -2,9 +2,9 @@
 //! stream, an inner file, whose streams have numbers for names.
 
 use cfb::CompoundFile;
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
 use std::io::{Cursor, Read as _};
 use std::path::PathBuf;
 
@@ -73,7 +73,7 @@ pub(super) fn rows(list: &[u8]) -> Option<Vec<Row>> {
     let rows = document
         .descendants()
         .filter(|node| node.has_tag_name("D_Projectdata"));
-    let mut known = BTreeSet::new();
+    let mut known = SortedSet::new();
     let rows: Vec<Row> = rows
         .filter_map(|row| {
             let field = |name| {

@@ -4,10 +4,10 @@ use crate::gx::program;
 use crate::gx::tokens::{self, Bare, Token};
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// The devices that structured text names, by themselves or through the devices of global labels.
-pub(super) fn of_text(text: &str, labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
+pub(super) fn of_text(text: &str, labels: &SortedMap<String, Device>) -> SortedSet<Device> {
     let code = without_comments(text);
     let words = code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c.is_ascii());
     order::set(words.filter_map(|word| {
@@ -17,7 +17,7 @@ pub(super) fn of_text(text: &str, labels: &BTreeMap<String, Device>) -> BTreeSet
 }
 
 /// The devices that the tokens of a ladder name, by themselves or through labels in ASCII.
-pub(super) fn of_ladder(code: &[u8], labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
+pub(super) fn of_ladder(code: &[u8], labels: &SortedMap<String, Device>) -> SortedSet<Device> {
     let operand = |body| match tokens::token(body)? {
         Token::Operand(Bare::Kind(OperandKind::Device(device, _))) => Some(device),
         Token::Operand(Bare::Name(name)) => {

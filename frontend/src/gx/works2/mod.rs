@@ -22,7 +22,7 @@ use memchr::memmem;
 use objects::{Compiled, Language, Pou, Project, Task};
 use rungc_syntax::order;
 use rungc_syntax::{Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// The stream of the outer file that holds the project's data.
 const DATA: &str = "_hdb";
@@ -366,7 +366,7 @@ impl<'o> Works<'o> {
             order::map(labels.filter_map(|(name, device)| {
                 Some((name.to_lowercase(), mentions::device(&device)?))
             }));
-        let has = mentions::of_ladder(code, &BTreeMap::new());
+        let has = mentions::of_ladder(code, &SortedMap::new());
         let missing: Vec<_> = sources
             .iter()
             .flat_map(|(part, pou)| {
@@ -376,7 +376,7 @@ impl<'o> Works<'o> {
                     Language::StructuredText => {
                         mentions::of_text(&UTF_16LE.decode_without_bom_handling(content).0, &labels)
                     }
-                    _ => BTreeSet::new(),
+                    _ => SortedSet::new(),
                 }
             })
             .filter(|device| !has.contains(device))
@@ -413,9 +413,9 @@ impl<'o> Works<'o> {
     }
 
     /// Which of these POUs the text or the labels of another POU name.
-    fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
+    fn named(&self, pous: &[&Part]) -> SortedSet<String> {
         let names = order::set(pous.iter().map(|part| part.stem()));
-        let mut named = BTreeSet::new();
+        let mut named = SortedSet::new();
         for part in self.sources.iter().chain(&self.labels) {
             // Texts in UTF-16 begin at even and at odd offsets.
             for bytes in [&part.bytes[..], part.bytes.get(1..).unwrap_or_default()] {

@@ -5,7 +5,7 @@ use rungc_catalogue::Basic;
 use rungc_frontend::iec_timer_unit;
 use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, order};
-use std::collections::{BTreeMap, BTreeSet};
+use rungc_syntax::{SortedMap, SortedSet};
 
 /// A contact or a comparison.
 pub(super) enum Gate {
@@ -58,22 +58,22 @@ pub(super) enum Drive {
 /// The words for the instructions of a program, and what has been named so far.
 pub(super) struct Words<'a> {
     /// Devices that elements name, and the types of their variables.
-    pub variables: BTreeMap<Device, &'static str>,
+    pub variables: SortedMap<Device, &'static str>,
     /// Instructions that no function or block of the standard stands for.
-    pub instructions: BTreeSet<String>,
+    pub instructions: SortedSet<String>,
     /// States that are steps of a chart.
-    pub steps: BTreeSet<Device>,
+    pub steps: SortedSet<Device>,
     resolved: &'a Resolved<'a>,
     /// Timers that are TON, with the milliseconds that they count to.
-    timers: BTreeMap<Device, u64>,
+    timers: SortedMap<Device, u64>,
 }
 
 impl<'a> Words<'a> {
     pub fn new(resolved: &'a Resolved<'a>) -> Self {
         Words {
-            variables: BTreeMap::new(),
-            instructions: BTreeSet::new(),
-            steps: BTreeSet::new(),
+            variables: SortedMap::new(),
+            instructions: SortedSet::new(),
+            steps: SortedSet::new(),
             resolved,
             timers: timers(resolved),
         }
@@ -268,8 +268,8 @@ fn sign(instr: &Instr) -> Option<&str> {
 }
 
 /// The timers that a TON stands for: driven once, by a constant, and of the same unit on all models.
-fn timers(resolved: &Resolved) -> BTreeMap<Device, u64> {
-    let mut found: BTreeMap<Device, Option<u64>> = BTreeMap::new();
+fn timers(resolved: &Resolved) -> SortedMap<Device, u64> {
+    let mut found: SortedMap<Device, Option<u64>> = SortedMap::new();
     let instrs = resolved.program.instrs.iter().zip(&resolved.instrs);
     for (instr, resolution) in instrs {
         let operands = &instr.operands;
