@@ -96,6 +96,7 @@ prop_compose! {
         instrs in vec(instr(), 0..20),
         comments in btree_map(device(), text().prop_filter("clean", |t| !t.is_empty() && t.trim() == t), 0..5),
     ) -> Program {
+        let comments = comments.into_iter().collect();
         Program { title, cpu, instrs, comments, ..Program::default() }
     }
 }

@@ -78,13 +78,5 @@ mod tests {
             expected.sort_by(|a, b| b.cmp(a));
             prop_assert_eq!(sorted, expected);
         }
-
-        #[test]
-        fn sets_and_maps_are_those_of_the_standard_library(
-            items in prop::collection::vec((0..20u8, any::<u16>()), 0..60),
-        ) {
-            prop_assert_eq!(set(items.clone()), items.iter().copied().collect());
-            prop_assert_eq!(map(items.clone()), items.into_iter().collect());
-        }
     }
 }

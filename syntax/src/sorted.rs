@@ -8,7 +8,7 @@ use crate::order;
 use serde_core::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use std::borrow::Borrow;
 use std::marker::PhantomData;
-use std::ops::{Bound, Index, RangeBounds};
+use std::ops::{Bound, Index, Range, RangeBounds};
 use std::{iter, slice, vec};
 
 /// A map in the order of its keys.
@@ -85,11 +85,6 @@ impl<K, V> SortedMap<K, V> {
         self.pairs.first().map(|(key, value)| (key, value))
     }
 
-    /// The pair with the largest key.
-    pub fn last_key_value(&self) -> Option<(&K, &V)> {
-        self.pairs.last().map(|(key, value)| (key, value))
-    }
-
     /// Keeps the pairs that are to stay.
     pub fn retain(&mut self, mut stays: impl FnMut(&K, &mut V) -> bool) {
         self.pairs.retain_mut(|(key, value)| stays(key, value));
@@ -163,29 +158,8 @@ impl<K: Ord, V> SortedMap<K, V> {
     where
         K: Borrow<Q>,
     {
-        let (from, to) = (
-            self.at(range.start_bound(), false),
-            self.at(range.end_bound(), true),
-        );
-        self.pairs[from..to.max(from)]
-            .iter()
-            .map(|(key, value)| (key, value))
-    }
-
-    /// How many keys come before the start of a range, or up to its end.
-    fn at<Q: Ord + ?Sized>(&self, bound: Bound<&Q>, is_end: bool) -> usize
-    where
-        K: Borrow<Q>,
-    {
-        let (key, includes) = match bound {
-            Bound::Unbounded => return if is_end { self.pairs.len() } else { 0 },
-            Bound::Included(key) => (key, is_end),
-            Bound::Excluded(key) => (key, !is_end),
-        };
-        match self.place(key) {
-            Ok(i) => i + usize::from(includes),
-            Err(i) => i,
-        }
+        let places = span(self.len(), &range, |key| self.place(key));
+        self.pairs[places].iter().map(|(key, value)| (key, value))
     }
 }
 
@@ -251,6 +225,38 @@ fn place(len: usize, mut compare: impl FnMut(usize) -> std::cmp::Ordering) -> Re
     Err(from)
 }
 
+/// The places of a range among `len` elements; `place` says where an element is, or would be inserted.
+fn span<Q: ?Sized>(
+    len: usize,
+    range: &impl RangeBounds<Q>,
+    place: impl Fn(&Q) -> Result<usize, usize>,
+) -> Range<usize> {
+    let before = |item, counts| match place(item) {
+        Ok(i) => i + usize::from(counts),
+        Err(i) => i,
+    };
+    let start = match range.start_bound() {
+        Bound::Unbounded => 0,
+        Bound::Included(first) => before(first, false),
+        Bound::Excluded(first) => before(first, true),
+    };
+    let end = match range.end_bound() {
+        Bound::Unbounded => len,
+        Bound::Included(last) => before(last, true),
+        Bound::Excluded(last) => before(last, false),
+    };
+    start..end.max(start)
+}
+
+/// The elements in a list. `collect` asks for their number first, for which each adapter brings code.
+fn list<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut list = Vec::new();
+    for item in items {
+        list.push(item);
+    }
+    list
+}
+
 impl<K, V> Default for SortedMap<K, V> {
     fn default() -> Self {
         Self::new()
@@ -281,7 +287,7 @@ impl<K: Ord, V> Extend<(K, V)> for SortedMap<K, V> {
 
 impl<K: Ord, V> FromIterator<(K, V)> for SortedMap<K, V> {
     fn from_iter<I: IntoIterator<Item = (K, V)>>(pairs: I) -> Self {
-        let mut pairs: Vec<(K, V)> = pairs.into_iter().collect();
+        let mut pairs = list(pairs);
         order::by(&mut pairs, |a, b| a.0.cmp(&b.0));
         // Of pairs with equal keys the last one counts.
         pairs.dedup_by(|later, earlier| {
@@ -404,16 +410,6 @@ impl<T> SortedSet<T> {
         self.items.last()
     }
 
-    /// Removes the smallest element, and returns it.
-    pub fn pop_first(&mut self) -> Option<T> {
-        (!self.items.is_empty()).then(|| self.items.remove(0))
-    }
-
-    /// Removes the largest element, and returns it.
-    pub fn pop_last(&mut self) -> Option<T> {
-        self.items.pop()
-    }
-
     /// Keeps the elements that are to stay.
     pub fn retain(&mut self, stays: impl FnMut(&T) -> bool) {
         self.items.retain(stays);
@@ -463,22 +459,8 @@ impl<T: Ord> SortedSet<T> {
     where
         T: Borrow<Q>,
     {
-        let before = |bound: Bound<&Q>, is_end: bool| {
-            let (item, includes) = match bound {
-                Bound::Unbounded => return if is_end { self.items.len() } else { 0 },
-                Bound::Included(item) => (item, is_end),
-                Bound::Excluded(item) => (item, !is_end),
-            };
-            match self.place(item) {
-                Ok(i) => i + usize::from(includes),
-                Err(i) => i,
-            }
-        };
-        let (from, to) = (
-            before(range.start_bound(), false),
-            before(range.end_bound(), true),
-        );
-        self.items[from..to.max(from)].iter()
+        let places = span(self.len(), &range, |item| self.place(item));
+        self.items[places].iter()
     }
 
     /// The elements that are in this set and not in the other.
@@ -500,11 +482,6 @@ impl<T: Ord> SortedSet<T> {
     /// Whether no element is in both sets.
     pub fn is_disjoint(&self, other: &Self) -> bool {
         self.intersection(other).next().is_none()
-    }
-
-    /// Whether each element is in the other set.
-    pub fn is_subset(&self, other: &Self) -> bool {
-        self.difference(other).next().is_none()
     }
 }
 
@@ -538,7 +515,7 @@ impl<'a, T: Ord + Copy> Extend<&'a T> for SortedSet<T> {
 
 impl<T: Ord> FromIterator<T> for SortedSet<T> {
     fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
-        let mut items: Vec<T> = items.into_iter().collect();
+        let mut items = list(items);
         order::sort(&mut items);
         items.dedup();
         SortedSet { items }
@@ -566,5 +543,76 @@ impl<'a, T> IntoIterator for &'a SortedSet<T> {
 
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// What is done to a map: a key, and the value that it is given, or none if it is removed.
+    type Steps = Vec<(u8, Option<u16>)>;
+
+    fn steps() -> impl Strategy<Value = Steps> {
+        prop::collection::vec((0..30u8, any::<Option<u16>>()), 0..80)
+    }
+
+    proptest! {
+        #[test]
+        fn maps_are_those_of_the_standard_library(steps in steps(), from in 0..30u8, to in 0..30u8) {
+            let (mut map, mut expected) = (SortedMap::new(), BTreeMap::new());
+            for &(key, value) in &steps {
+                match value {
+                    Some(value) => prop_assert_eq!(map.insert(key, value), expected.insert(key, value)),
+                    None => prop_assert_eq!(map.remove(&key), expected.remove(&key)),
+                }
+                prop_assert_eq!(map.get(&from), expected.get(&from));
+            }
+            for (key, value) in steps.into_iter().take(9) {
+                *map.entry(key).and_modify(|value| *value /= 2).or_default() |= value.unwrap_or(1);
+                *expected.entry(key).and_modify(|value| *value /= 2).or_default() |= value.unwrap_or(1);
+            }
+            prop_assert!(map.iter().eq(&expected) && map.iter().rev().eq(expected.iter().rev()));
+            prop_assert_eq!(map.first_key_value(), expected.first_key_value());
+            prop_assert_eq!(format!("{map:?}"), format!("{expected:?}"));
+            let to = to.max(from);
+            prop_assert!(map.range(from..to).eq(expected.range(from..to)));
+            prop_assert!(map.range(from..=to).eq(expected.range(from..=to)));
+            prop_assert!(map.range(..to).eq(expected.range(..to)));
+            let after = (Bound::Excluded(from), Bound::Unbounded);
+            prop_assert!(map.range(after).eq(expected.range(after)));
+            map.retain(|key, value| *value > 9 && *key != from);
+            expected.retain(|key, value| *value > 9 && *key != from);
+            prop_assert!(map.into_iter().eq(expected));
+        }
+
+        #[test]
+        fn sets_are_those_of_the_standard_library(steps in steps(), from in 0..30u8) {
+            let (mut set, mut expected) = (SortedSet::new(), BTreeSet::new());
+            for &(item, stays) in &steps {
+                match stays {
+                    Some(_) => prop_assert_eq!(set.insert(item), expected.insert(item)),
+                    None => prop_assert_eq!(set.remove(&item), expected.remove(&item)),
+                }
+            }
+            prop_assert!(set.iter().eq(&expected) && set.range(from..).eq(expected.range(from..)));
+            let (other, others): (SortedSet<u8>, BTreeSet<u8>) =
+                (steps.iter().map(|step| step.0 / 2).collect(), steps.iter().map(|step| step.0 / 2).collect());
+            prop_assert!(set.difference(&other).eq(expected.difference(&others)));
+            prop_assert!(set.intersection(&other).eq(expected.intersection(&others)));
+            prop_assert_eq!(set.is_disjoint(&other), expected.is_disjoint(&others));
+            set.extend(&other);
+            expected.extend(&others);
+            prop_assert!(set.into_iter().eq(expected));
+        }
+
+        #[test]
+        fn of_equal_keys_the_last_counts(pairs in prop::collection::vec((0..20u8, any::<u16>()), 0..60)) {
+            let map: SortedMap<u8, u16> = pairs.iter().copied().collect();
+            let expected: BTreeMap<u8, u16> = pairs.into_iter().collect();
+            prop_assert!(map.iter().eq(&expected));
+        }
     }
 }
