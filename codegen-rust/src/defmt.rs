@@ -1,6 +1,6 @@
 //! What a crate has for [defmt](https://defmt.ferrous-systems.com), the logger of small microcontrollers.
 
-use crate::OutFile;
+use crate::{OutFile, template};
 use syn::Ident;
 
 /// The line of the manifest's dependencies.
@@ -15,7 +15,7 @@ pub const MODULE: &str = "#[cfg(feature = \"defmt\")]\nmod format;\n";
 
 /// The file with the program's [`defmt::Format`](https://docs.rs/defmt/1/defmt/trait.Format.html).
 pub fn file(type_name: &Ident, crate_name: &str) -> OutFile {
-    let text = include_str!("../templates/format.rs")
+    let text = template("format.rs")
         .replace("MACHINE", &type_name.to_string())
         .replace("NAME", crate_name);
     OutFile::new("src/format.rs", text)

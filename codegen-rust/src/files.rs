@@ -2,7 +2,7 @@
 
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
-use crate::{Options, OutFile, Runtime, defmt, host};
+use crate::{Options, OutFile, Runtime, defmt, host, template};
 use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
@@ -424,10 +424,10 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
                 profile,
             ),
         ),
-        OutFile::new("src/main.rs", include_str!("../templates/batch/main.rs")),
-        OutFile::new("src/lib.rs", include_str!("../templates/batch/lib.rs")),
-        OutFile::new("src/port.rs", include_str!("../templates/batch/port.rs")),
-        OutFile::new("src/bare.rs", include_str!("../templates/batch/bare.rs")),
+        OutFile::new("src/main.rs", template("batch/main.rs")),
+        OutFile::new("src/lib.rs", template("batch/lib.rs")),
+        OutFile::new("src/port.rs", template("batch/port.rs")),
+        OutFile::new("src/bare.rs", template("batch/bare.rs")),
     ];
     let mut models: SortedMap<&str, &Module> = SortedMap::new();
     let mut cases = String::from(

@@ -2,6 +2,7 @@
 
 use crate::Options;
 use crate::generate::Generator;
+use crate::template;
 use rungc_emit::cycle;
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
@@ -13,21 +14,6 @@ use rungc_syntax::order;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, NetworkRequest};
 use std::fmt::Write;
-
-/// The program around a PLC.
-const HOST: &str = include_str!("../templates/host.rs");
-
-/// What connects serial ports.
-const LINES: &str = include_str!("../templates/lines.rs");
-
-/// What opens servers.
-const SERVERS: &str = include_str!("../templates/servers.rs");
-
-/// What lets a run end in order when it is interrupted.
-const SIGNALS: &str = include_str!("../templates/signals.rs");
-
-/// What connections and the log share with the program.
-const OUTSIDE: &str = include_str!("../templates/outside.rs");
 
 /// What a host with serial ports uses of the standard library and of the runtime.
 const LINES_USES: [&str; 5] = [
@@ -45,13 +31,10 @@ const USES: [&str; 3] = [
     "std::time::{Duration, Instant}",
 ];
 
-/// What reports operation errors of a program that may fail.
-const ON_ERROR: &str = include_str!("../templates/host_errors.rs");
-
-/// How it is asked to.
+/// What makes a program that may fail report its operation errors.
 const REPORT: &str = "    plc.on_error = Some(report_error);\n";
 
-/// What it uses.
+/// What reporting them uses.
 const ERROR_USES: [&str; 2] = ["std::collections::BTreeSet", MUTEX];
 
 /// What the error reports and connections use.
@@ -113,7 +96,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let names = usage::options(module, &host).into_iter();
     let names: Vec<_> = names.map(|option| format!("{:?}", option.name)).collect();
     let (report, on_error) = match module.may_fail() {
-        true => (REPORT, ON_ERROR),
+        true => (REPORT, template("host_errors.rs")),
         false => ("", ""),
     };
     let mut code = outside(io)
@@ -124,10 +107,10 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let in_order = servers || keeps || io;
     let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
     let parts = [
-        (module.has_ports(), LINES),
-        (servers, SERVERS),
-        (io, OUTSIDE),
-        (in_order, SIGNALS),
+        (module.has_ports(), template("lines.rs")),
+        (servers, template("servers.rs")),
+        (io, template("outside.rs")),
+        (in_order, template("signals.rs")),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
     code.extend(asks.then(|| requests(module)));
@@ -170,7 +153,8 @@ fn outside(io: bool) -> String {
         true => CONNECTED,
         false => ALONE,
     };
-    HOST.replace("        SERVE;\n", &format!("        SERVE;\n{take}"))
+    template("host.rs")
+        .replace("        SERVE;\n", &format!("        SERVE;\n{take}"))
         .replace("        GIVE;\n", give)
         .replace("COMMANDS;", commands)
         .replace("    REPORT_LINE;\n", report_line)

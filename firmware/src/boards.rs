@@ -1,6 +1,7 @@
 //! Descriptions of boards that come with rungc.
 
 use crate::board::{self, Board, BoardError};
+use crate::template;
 use rungc_syntax::Source;
 use std::path::Path;
 
@@ -9,41 +10,37 @@ use std::path::Path;
 pub struct Known {
     /// The name.
     pub name: &'static str,
-    /// The description, in TOML.
-    pub text: &'static str,
 }
 
 /// All of them.
 pub static ALL: [Known; 5] = [
     Known {
         name: "fx3u-f103vc",
-        text: include_str!("../boards/fx3u-f103vc.toml"),
     },
     Known {
         name: "fx1n-10mt-f103rc",
-        text: include_str!("../boards/fx1n-10mt-f103rc.toml"),
     },
     Known {
         name: "fx1n-14-f103rb",
-        text: include_str!("../boards/fx1n-14-f103rb.toml"),
     },
     Known {
         name: "fx2n-10mr-f030c8",
-        text: include_str!("../boards/fx2n-10mr-f030c8.toml"),
     },
-    Known {
-        name: "pico",
-        text: include_str!("../boards/pico.toml"),
-    },
+    Known { name: "pico" },
 ];
 
 impl Known {
+    /// The description, in TOML.
+    pub fn text(&self) -> &'static str {
+        template(&format!("boards/{}.toml", self.name))
+    }
+
     /// Reads the description.
     ///
     /// # Errors
     /// None, as the tests of this crate show.
     pub fn board(&self) -> Result<Board, BoardError> {
-        let source = Source::new(format!("{}.toml", self.name), self.text.to_string());
+        let source = Source::new(format!("{}.toml", self.name), self.text().to_string());
         board::parse(&source, Path::new(""))
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! The crate must not know what the texts are. Start reading at [`Packed`].
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::OnceLock;
 use std::{fs, io};
@@ -40,6 +41,11 @@ impl Packed {
         })
     }
 
+    /// The names of all texts.
+    pub fn names(&self) -> BTreeSet<String> {
+        self.texts().iter().map(|(name, _)| name.clone()).collect()
+    }
+
     /// The text of this name.
     ///
     /// # Panics
@@ -50,6 +56,19 @@ impl Packed {
         text.map(|(_, text)| text.as_str())
             .unwrap_or_else(|| panic!("`{name}` is not packed"))
     }
+}
+
+/// The names that the sources in a folder ask for by calls of `function` with a literal, each once and in order: for
+/// tests, which compare them with [`Packed::names`].
+pub fn used(sources: &Path, function: &str) -> io::Result<BTreeSet<String>> {
+    let call = format!("{function}(");
+    let mut names = BTreeSet::new();
+    for (_, source) in folder(sources, "")? {
+        let arguments = source.split(call.as_str()).skip(1);
+        let literals = arguments.filter_map(|rest| rest.trim_start().strip_prefix('"'));
+        names.extend(literals.filter_map(|rest| Some(rest.split_once('"')?.0.to_string())));
+    }
+    Ok(names)
 }
 
 /// Packs texts with their names: a deflated sequence of names and texts, each ended by NUL. A text that holds NUL is an
@@ -105,6 +124,13 @@ mod tests {
         assert_eq!(packed.texts(), texts);
         assert_eq!(packed.text("ü"), "ö\r\n");
         assert!(pack([("a".to_string(), "\0".to_string())]).is_err());
+    }
+
+    #[test]
+    fn names_that_sources_use_are_found() {
+        let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let names = used(&own, "packed.text").unwrap();
+        assert_eq!(names, BTreeSet::from(["ü".to_string()]));
     }
 
     #[test]

@@ -8,21 +8,13 @@ mod serial;
 
 use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
+use crate::template;
 use rungc_emit::OutFile;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::SortedMap;
 use std::fmt::Write;
 
 pub use pins::{NoPins, project as pins_project};
-
-const MAIN: &str = include_str!("../../templates/main.c");
-const STARTUP: &str = include_str!("../../templates/startup.c");
-const BITS: &str = include_str!("../../templates/bits.c");
-const PULSES: &str = include_str!("../../templates/pulses.c");
-const SEMIHOSTING: &str = include_str!("../../templates/semihosting.c");
-const CONSOLE: &str = include_str!("../../templates/console.c");
-const SCRIPT: &str = include_str!("../../templates/script.c");
-const EDGES: &str = include_str!("../../templates/edges.c");
 
 /// What drives the pins of pulse outputs in the tick.
 const DUE: &str = "    if (armed && (int32_t)(microseconds - due) >= 0) {
@@ -110,7 +102,7 @@ fn startup_text(board: &Board, interrupts: &SortedMap<u32, String>) -> String {
         let _ = writeln!(prototypes, "void {handler}(void);");
     }
     let count = 16 + last.map_or(0, |last| last + 1);
-    STARTUP
+    template("startup.c")
         .replace("/* PROTOTYPES */\n", &format!("{prototypes}\n"))
         .replace("/* BOOT2 */", &boot2::in_c(board))
         .replace("/* COUNT */", &count.to_string())
@@ -130,7 +122,7 @@ fn main(image: &Image) -> String {
     };
     let (lines, lines_declared) = serial::in_tick(image);
     let timers = match (sends, timer) {
-        (true, true) => PULSES.to_string(),
+        (true, true) => template("pulses.c").to_string(),
         (true, false) => ON_TIMER.replace("/* CALL */", "    PROGRAM_on_timer(&plc, &board);\n"),
         (false, _) if !own("wake_in") => ON_TIMER.replace("/* CALL */", ""),
         (false, _) => String::new(),
@@ -159,7 +151,7 @@ fn main(image: &Image) -> String {
     if let Some(ms) = image.script.until_ms {
         show.push_str(&END.replace("MS", &ms.to_string()));
     }
-    let text = MAIN
+    let text = template("main.c")
         .replace("/* INCLUDE */", include)
         .replace(
             "/* LOAD */",
@@ -219,12 +211,12 @@ fn pins(image: &Image) -> String {
         for (ms, number, on) in &image.script.inputs {
             let _ = writeln!(lines, "    {{{ms}u, {number}u, {on}}},");
         }
-        text.push_str(&SCRIPT.replace("/* SCRIPT */", &lines));
+        text.push_str(&template("script.c").replace("/* SCRIPT */", &lines));
     }
     let drivers = image.serial().into_iter();
     let mut drivers = drivers.filter_map(|serial| serial.driver.as_ref());
     if changes_bits(image.board) || drivers.any(is_bit) {
-        text.push_str(BITS);
+        text.push_str(template("bits.c"));
     }
     if let Some(function) = input_function(image) {
         text.push_str(&inputs(image));
@@ -234,7 +226,7 @@ fn pins(image: &Image) -> String {
                 Edges::InTick => "",
                 Edges::InPoll => NOTE_EDGES,
             };
-            let edges = EDGES.replace("/* WATCHED */", &list.join(", "));
+            let edges = template("edges.c").replace("/* WATCHED */", &list.join(", "));
             let edges = edges.replace("/* NOTE */", note);
             text.push_str(&edges.replace("INPUT", &function));
         }
@@ -401,10 +393,11 @@ fn console(image: &Image) -> String {
     let ends = image.script.until_ms.is_some();
     match (image.board.console, ends) {
         (true, _) => format!(
-            "{SEMIHOSTING}{}",
-            CONSOLE.replace("/* OUTPUTS */", &printed(image))
+            "{}{}",
+            template("semihosting.c"),
+            template("console.c").replace("/* OUTPUTS */", &printed(image))
         ),
-        (false, true) => SEMIHOSTING.to_string(),
+        (false, true) => template("semihosting.c").to_string(),
         (false, false) => String::new(),
     }
 }
@@ -499,7 +492,7 @@ fn makefile(image: &Image, runtime: bool) -> String {
         ),
         false => String::new(),
     };
-    include_str!("../../templates/Makefile")
+    template("Makefile")
         .replace("/* BOARD */", &comment(&image.board.name))
         .replace("/* CC */", target.cc)
         .replace("/* AR */", target.ar)

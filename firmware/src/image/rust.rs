@@ -7,16 +7,12 @@ mod serial;
 
 use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{OutputPin, Setup, Uart};
+use crate::template;
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
 use std::fmt::Write;
-
-const MAIN: &str = include_str!("../../templates/main.rs");
-const STARTUP: &str = include_str!("../../templates/startup.s");
-const SEMIHOSTING: &str = include_str!("../../templates/console.rs");
-const OUTPUTS: &str = include_str!("../../templates/outputs.rs");
 
 /// What switches the floating point unit on: CPACR.
 const FPU: &str = "    ldr r0, =0xE000ED88
@@ -86,7 +82,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
         ("image.ld", linker_script(image.board)),
         (
             "src/startup.s",
-            STARTUP
+            template("startup.s")
                 .replace("/* FPU */", fpu)
                 .replace("/* VECTORS */", &serial::vectors(image))
                 + &boot2::in_assembler(image.board),
@@ -147,7 +143,7 @@ fn main(image: &Image) -> String {
             .unwrap_or(0)
     };
     let (fields, pins) = fields(image);
-    let text = MAIN
+    let text = template("main.rs")
         .replace(
             "/* EDGE TYPE */",
             if watched.is_empty() {
@@ -414,7 +410,7 @@ fn setup(image: &Image) -> String {
 fn console(image: &Image) -> String {
     if !image.board.console {
         return match image.script.until_ms {
-            Some(_) => SEMIHOSTING.to_string(),
+            Some(_) => template("console.rs").to_string(),
             None => String::new(),
         };
     }
@@ -423,8 +419,8 @@ fn console(image: &Image) -> String {
     for (number, name, text) in &rows {
         let _ = writeln!(table, "    ({number}, c{name:?}, c{text:?}),");
     }
-    let outputs = OUTPUTS
+    let outputs = template("outputs.rs")
         .replace("/* COUNT */", &rows.len().to_string())
         .replace("/* TABLE */", &table);
-    format!("{SEMIHOSTING}{outputs}")
+    template("console.rs").to_string() + &outputs
 }

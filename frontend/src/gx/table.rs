@@ -3,12 +3,15 @@
 //! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02
 //! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
 
+use crate::TABLES;
 use rungc_syntax::order;
 use std::sync::LazyLock;
 
-/// Columns: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a text), evidence,
-/// note.
-const ROWS: &str = include_str!("tokens.tsv");
+/// The rows of `tokens.tsv`: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a
+/// text), evidence. The file's last column, notes, is not packed.
+fn rows() -> impl Iterator<Item = &'static str> {
+    TABLES.text("tokens.tsv").lines().skip(1)
+}
 
 /// How sure it is what a code means.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,7 +75,7 @@ pub fn has_code(mnemonic: &str) -> bool {
 
 /// The rows, ordered by their bodies.
 static TABLE: LazyLock<Vec<Code>> = LazyLock::new(|| {
-    let mut table: Vec<_> = ROWS.lines().skip(1).filter_map(code).collect();
+    let mut table: Vec<_> = rows().filter_map(code).collect();
     order::by(&mut table, |a, b| a.body.cmp(&b.body));
     table
 });
@@ -109,8 +112,8 @@ mod tests {
 
     #[test]
     fn every_row_is_read_and_states_the_steps_of_its_body() {
-        assert_eq!(TABLE.len(), ROWS.lines().count() - 1);
-        for row in ROWS.lines().skip(1) {
+        assert_eq!(TABLE.len(), rows().count());
+        for row in rows() {
             let code = code(row).unwrap();
             let stated = row.split('\t').nth(2).unwrap().trim_end_matches('+');
             assert_eq!(stated, steps(&code.body).to_string(), "{row}");

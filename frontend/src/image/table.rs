@@ -1,11 +1,15 @@
 //! Which instructions have which words.
 
+use crate::TABLES;
 use rungc_syntax::order;
 use std::sync::LazyLock;
 
-/// Applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse form, number of operands,
-/// evidence (`seen`: a published image or download holds it; `derived`: by the rule that all of those follow).
-const ROWS: &str = include_str!("applied.tsv");
+/// The rows of `applied.tsv`, applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse
+/// form, number of operands, evidence (`seen`: a published image or download holds it; `derived`: by the rule that all
+/// of those follow).
+fn rows() -> impl Iterator<Item = &'static str> {
+    TABLES.text("applied.tsv").lines().skip(1)
+}
 
 /// Contacts: the upper nibble of one word from 2 on, or 01C2h and up before a wide point.
 pub(super) const CONTACTS: [&str; 6] = ["LD", "LDI", "AND", "ANI", "OR", "ORI"];
@@ -70,7 +74,7 @@ pub(super) fn named(mnemonic: &str) -> Option<&'static Applied> {
 
 /// The rows in all their forms, ordered by their words.
 static TABLE: LazyLock<Vec<Applied>> = LazyLock::new(|| {
-    let mut table: Vec<_> = ROWS.lines().skip(1).filter_map(forms).flatten().collect();
+    let mut table: Vec<_> = rows().filter_map(forms).flatten().collect();
     order::by_key(&mut table, |row| row.word);
     table
 });
@@ -110,7 +114,7 @@ mod tests {
 
     #[test]
     fn every_row_is_read_and_each_word_means_one_thing() {
-        let unread = ROWS.lines().skip(1).find(|row| forms(row).is_none());
+        let unread = rows().find(|row| forms(row).is_none());
         assert_eq!(unread, None);
         for pair in TABLE.windows(2) {
             assert_ne!(pair[0].word, pair[1].word, "{:?}", pair);

@@ -2,10 +2,8 @@
 
 use crate::board::AnalogPin;
 use crate::image::Image;
+use crate::template;
 use std::fmt::Write;
-
-const MODULES: &str = include_str!("../../../templates/modules.c");
-const ANALOG: &str = include_str!("../../../templates/analog.c");
 
 /// Fields of `rungc_hal` that the modules are.
 pub(super) const FIELDS: [&str; 2] = ["read_bfm", "write_bfm"];
@@ -40,7 +38,7 @@ pub(super) fn drivers(image: &Image) -> String {
                 measured(pin)
             );
         }
-        text.push_str(&ANALOG.replace("/* CASES */\n", &cases));
+        text.push_str(&template("analog.c").replace("/* CASES */\n", &cases));
     }
     let outputs = match are_own(image) {
         true => image.own_outputs(),
@@ -113,7 +111,7 @@ fn modules(image: &Image, outputs: &[(u8, AnalogPin)]) -> String {
         true => "",
         false => "    if (unit == 0u) {\n        return put_out(address, value);\n    }\n",
     };
-    MODULES
+    template("modules.c")
         .replace("/* BOARD */", board)
         .replace("/* UNITS */", units.trim_end_matches(", "))
         .replace("/* NUMBER */", &modules.len().to_string())

@@ -2,14 +2,9 @@
 
 use super::super::Image;
 use crate::board::{InputPin, Retain, RetainMemory};
+use crate::template;
 use rungc_rt::retain::f4_sectors;
 use std::fmt::Write;
-
-const RAM: &str = include_str!("../../../templates/retain_ram.c");
-const STM32: &str = include_str!("../../../templates/retain_stm32.c");
-const RP2040: &str = include_str!("../../../templates/retain_rp2040.c");
-const ERASE_F1: &str = include_str!("../../../templates/retain_erase_f1.c");
-const ERASE_F4: &str = include_str!("../../../templates/retain_erase_f4.c");
 
 /// How the drivers reach memory.
 const REACH: &str = "\
@@ -46,18 +41,18 @@ pub(super) fn driver(retain: &Retain) -> String {
         a.length, a.origin, b.origin
     );
     let body = match retain.memory {
-        RetainMemory::Ram => RAM.to_string(),
+        RetainMemory::Ram => template("retain_ram.c").to_string(),
         RetainMemory::Stm32f1 => {
             let _ = writeln!(text, "#define KEPT_PAGE {}u", retain.page);
             text.push_str("typedef uint16_t flash_unit; /* half a word at a time is written */\n");
             stm32(
                 "STM32F1",
                 ["0x40022000", "1u", "0x14u", "(1u << 7)"],
-                ERASE_F1,
+                template("retain_erase_f1.c"),
                 "1u",
             )
         }
-        RetainMemory::Rp2040 => RP2040.to_string(),
+        RetainMemory::Rp2040 => template("retain_rp2040.c").to_string(),
         RetainMemory::Stm32f4 => {
             let sectors = retain.slots.map(|slot| {
                 let sectors = f4_sectors(&(slot.origin..slot.origin + slot.length));
@@ -71,14 +66,19 @@ pub(super) fn driver(retain: &Retain) -> String {
             );
             text.push_str("typedef uint32_t flash_unit; /* a word at a time is written */\n");
             let bits = ["0x40023C00", "(1u << 16)", "0xF2u", "(1u << 31)"];
-            stm32("STM32F4", bits, ERASE_F4, "2u << 8 | 1u")
+            stm32(
+                "STM32F4",
+                bits,
+                template("retain_erase_f4.c"),
+                "2u << 8 | 1u",
+            )
         }
     };
     format!("{text}\n{body}\n")
 }
 
 fn stm32(part: &str, [base, busy, errors, lock]: [&str; 4], erase: &str, program: &str) -> String {
-    STM32
+    template("retain_stm32.c")
         .replace("/* PART */", part)
         .replace("/* BASE */", base)
         .replace("/* BUSY */", busy)

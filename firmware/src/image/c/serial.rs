@@ -2,13 +2,8 @@
 
 use super::{Image, switch};
 use crate::board::{Serial, Uart};
+use crate::template;
 use std::fmt::Write;
-
-const SERIAL: &str = include_str!("../../../templates/serial.c");
-const FINE_US: &str = include_str!("../../../templates/fine_us.c");
-const STM32: &str = include_str!("../../../templates/uart_stm32.c");
-const PL011: &str = include_str!("../../../templates/uart_pl011.c");
-const CMSDK: &str = include_str!("../../../templates/uart_cmsdk.c");
 
 /// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
 const STM32_REGISTERS: &str = "STATE = 0x00, IN = 0x04, OUT = 0x04, RATE = 0x08, CONTROL_1 = 0x0C, CONTROL_2 = 0x10, ENABLE = 13";
@@ -87,7 +82,7 @@ pub(super) fn drivers(image: &Image) -> String {
         return String::new();
     };
     let stm32 = |kind: &str, registers: &str, clear: &str| {
-        STM32
+        template("uart_stm32.c")
             .replace("/* KIND */", kind)
             .replace("/* REGISTERS */", registers)
             .replace("/* CLEAR */", clear)
@@ -95,16 +90,16 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
-        Uart::Pl011 => PL011.to_string(),
-        Uart::Cmsdk => CMSDK.to_string(),
+        Uart::Pl011 => template("uart_pl011.c").to_string(),
+        Uart::Cmsdk => template("uart_cmsdk.c").to_string(),
     };
     // A function of the board's own has the finest resolution.
     let time = match image.board.functions.get("now_us") {
         Some(own) => format!("static uint32_t fine_us(void)\n{{\n    return {own}(NULL);\n}}\n\n"),
-        None => FINE_US.to_string(),
+        None => template("fine_us.c").to_string(),
     };
     let room = ports.iter().map(|serial| serial.send).max();
-    let text = SERIAL
+    let text = template("serial.c")
         .replace("/* TIME */", &time)
         .replace("/* UART */", &uart)
         .replace("/* TABLE */", &table(&ports));

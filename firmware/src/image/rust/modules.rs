@@ -2,11 +2,9 @@
 
 use crate::board::AnalogPin;
 use crate::image::Image;
+use crate::template;
 use rungc_rt::modules::Quantity;
 use std::fmt::Write;
-
-const MODULES: &str = include_str!("../../../templates/modules.rs");
-const BUFFER: &str = include_str!("../../../templates/buffer.rs");
 
 /// What reads a converter.
 const COUNT: &str = "/// What a converter holds.
@@ -76,7 +74,7 @@ pub(super) fn drivers(image: &Image) -> String {
     let units: Vec<_> = units
         .map(|(n, module)| format!("            {} => Some({n}),\n", module.unit))
         .collect();
-    let text = MODULES
+    let text = template("modules.rs")
         .replace("/* UNITS */\n", &units.concat())
         .replace("/* NUMBER */", &modules.len().to_string())
         .replace("/* TAKE */\n", &take)
@@ -144,7 +142,7 @@ pub(super) fn hal(image: &Image) -> String {
     let mut text = String::new();
     let outputs = own_outputs(image);
     let buffer = match (image.modules().is_empty(), outputs.is_empty()) {
-        (false, _) => BUFFER,
+        (false, _) => template("buffer.rs"),
         (true, false) => WRITE,
         (true, true) => "",
     };

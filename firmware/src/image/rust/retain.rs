@@ -2,9 +2,8 @@
 
 use super::super::Image;
 use crate::board::{InputPin, Retain, RetainMemory};
+use crate::template;
 use std::fmt::Write;
-
-const RP2040: &str = include_str!("../../../templates/retain_rp2040.rs");
 
 /// How the drivers of the runtime reach memory.
 const BUS: &str = "/// Memory that holds latched devices, and its controller.
@@ -69,7 +68,8 @@ pub(super) fn drivers(image: &Image) -> String {
     if retain.memory == RetainMemory::Rp2040 {
         let slots = slots.join(", ");
         return format!(
-            "{supply}{RP2040}/// The memory that holds latched devices.\nconst fn kept() -> Rp2040 {{\n    Rp2040 {{ slots: [{slots}] }}\n}}\n\n"
+            "{supply}{}/// The memory that holds latched devices.\nconst fn kept() -> Rp2040 {{\n    Rp2040 {{ slots: [{slots}] }}\n}}\n\n",
+            template("retain_rp2040.rs")
         );
     }
     let (name, slots) = (name(retain.memory), slots.join(", "));

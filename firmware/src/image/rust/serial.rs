@@ -2,13 +2,9 @@
 
 use super::{Image, switch};
 use crate::board::{Serial, Uart};
+use crate::template;
 use rungc_syntax::order;
 use std::fmt::Write;
-
-const SERIAL: &str = include_str!("../../../templates/serial.rs");
-const STM32: &str = include_str!("../../../templates/uart_stm32.rs");
-const PL011: &str = include_str!("../../../templates/uart_pl011.rs");
-const CMSDK: &str = include_str!("../../../templates/uart_cmsdk.rs");
 
 /// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
 const STM32_REGISTERS: &str = "\
@@ -98,7 +94,7 @@ pub(super) fn drivers(image: &Image) -> String {
         return String::new();
     };
     let stm32 = |kind: &str, registers: &str, clear: &str| {
-        STM32
+        template("uart_stm32.rs")
             .replace("/* KIND */", kind)
             .replace("/* REGISTERS */", registers)
             .replace("/* CLEAR */", clear)
@@ -106,8 +102,8 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
-        Uart::Pl011 => PL011.to_string(),
-        Uart::Cmsdk => CMSDK.to_string(),
+        Uart::Pl011 => template("uart_pl011.rs").to_string(),
+        Uart::Cmsdk => template("uart_cmsdk.rs").to_string(),
     };
     let most = |room: fn(&Serial) -> u16| ports.iter().map(|serial| room(serial)).max();
     let [receive, send] = [most(|serial| serial.receive), most(|serial| serial.send)];
@@ -120,7 +116,7 @@ pub(super) fn drivers(image: &Image) -> String {
         ),
         false => ("", format!("{receive}, {send}")),
     };
-    SERIAL
+    template("serial.rs")
         .replace("/* HOW */", how)
         .replace("/* QUEUE */", &format!("{}<{room}>", queue(image)))
         .replace("/* UART */", &uart)
