@@ -1,15 +1,20 @@
-//! Texts that an executable carries deflated: build scripts pack them, and [`Packed`] unpacks them when one is first
-//! asked for.
+//! Texts that an executable carries compressed, as LZMA: build scripts pack them, and [`Packed`] unpacks them when one is
+//! first asked for.
 //!
 //! The crate must not know what the texts are. Start reading at [`Packed`].
 
+use lzma_rust2::{LzmaOptions, LzmaReader, LzmaWriter};
 use std::collections::BTreeSet;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::sync::OnceLock;
 use std::{fs, io};
 
-/// How hard to compress: the best ratio.
-const LEVEL: u8 = 9;
+/// Enough memory for the largest dictionary, in KiB.
+const MEMORY: u32 = 16 << 10;
+
+/// How hard to compress: a dictionary of 4 MiB, which no texts exceed.
+const PRESET: u32 = 5;
 
 /// Packed texts with their names.
 pub struct Packed {
@@ -32,9 +37,10 @@ impl Packed {
     /// All texts with their names, in the order in which they were packed.
     pub fn texts(&self) -> &[(String, String)] {
         self.texts.get_or_init(|| {
-            let text = miniz_oxide::inflate::decompress_to_vec(self.bytes);
-            let text = text.expect("the build script deflated it");
-            let text = String::from_utf8(text).expect("the build script packs text");
+            let mut text = String::new();
+            let unpacked = LzmaReader::new_mem_limit(self.bytes, MEMORY, None)
+                .and_then(|mut reader| reader.read_to_string(&mut text));
+            unpacked.expect("the build script packs text");
             let parts: Vec<&str> = text.split_terminator('\0').collect();
             let texts = parts.chunks_exact(2);
             texts.map(|text| (text[0].into(), text[1].into())).collect()
@@ -71,7 +77,7 @@ pub fn used(sources: &Path, function: &str) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// Packs texts with their names: a deflated sequence of names and texts, each ended by NUL. A text that holds NUL is an
+/// Packs texts with their names: a compressed sequence of names and texts, each ended by NUL. A text that holds NUL is an
 /// error.
 pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec<u8>> {
     let mut sequence = String::new();
@@ -84,10 +90,11 @@ pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec
             sequence.push('\0');
         }
     }
-    Ok(miniz_oxide::deflate::compress_to_vec(
-        sequence.as_bytes(),
-        LEVEL,
-    ))
+    let options = LzmaOptions::with_preset(PRESET);
+    let length = Some(sequence.len() as u64);
+    let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, length)?;
+    writer.write_all(sequence.as_bytes())?;
+    writer.finish()
 }
 
 /// The texts in a folder and its folders, named by `prefix` and their paths in it, in the order of their names. Files
