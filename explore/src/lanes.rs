@@ -6,6 +6,7 @@ use crate::task::{Input, Step, Task};
 use crate::wide::{Bit, Change, Items, LANES, Stride};
 use rungc_codegen_c::{Members, Options};
 use rungc_models::runs::{is_counter32, name_class};
+use rungc_packed::Packed;
 use rungc_rt::Class;
 use rungc_sim::Target;
 use rungc_sim::engines::{BuildError, Piped, build_with_main};
@@ -14,8 +15,12 @@ use std::fmt::Write as _;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// What runs them: `main`, with the name of the program as `NAME`.
-const MAIN: &str = include_str!("lanes.c");
+/// What runs them: `lanes.c`, a `main` with the name of the program as `NAME`, packed by the build script.
+static MAIN: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/main.bin")));
+
+fn main_text() -> &'static str {
+    MAIN.text("lanes.c")
+}
 
 /// The lanes of a program.
 pub struct Lanes {
@@ -75,7 +80,8 @@ fn main_file(task: &Task) -> String {
         .inputs
         .iter()
         .map(|input| input_line(input, name, &members));
-    MAIN.replace("BITS", &bits)
+    main_text()
+        .replace("BITS", &bits)
         .replace("WORDS", &words)
         .replace("INPUTS", &inputs.collect::<String>())
         .replace("NAME", name)
@@ -225,4 +231,14 @@ fn request(run: &[Step], strides: &[Stride], terminals: &[bool]) -> Vec<u32> {
         }
     }
     request
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn main_is_packed() {
+        assert!(main_text().contains("int main("));
+    }
 }

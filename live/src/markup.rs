@@ -1,14 +1,11 @@
 //! The page itself: the networks of a program, and the places for what changes. What changes comes as events.
 
+use crate::asset;
 use crate::scene::Scene;
 use rungc_analysis::resolve::Resolved;
 use rungc_ladder::Ladder;
 use rungc_ladder::html::{self, Escaped};
 use std::fmt::{self, Write as _};
-
-/// The panels beside the ladder: their element, title, and contents.
-const PANELS: &str = include_str!("../assets/panels.html");
-const CONTROLS: &str = include_str!("../assets/controls.html");
 
 /// The page of a program, and what says where power flows in it.
 pub fn page(title: &str, resolved: &Resolved, ladder: &Ladder, read_only: bool) -> (String, Scene) {
@@ -30,6 +27,7 @@ fn write_page(
     let title = Escaped(title);
     let model = resolved.model.name.to_uppercase();
     let (steps, count) = (resolved.steps, ladder.networks.len());
+    let (controls, panels) = (asset("controls.html"), asset("panels.html"));
     let class = if read_only {
         " class=\"read-only\""
     } else {
@@ -42,11 +40,11 @@ fn write_page(
          <link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"ladder.css\">\n\
          <link rel=\"stylesheet\" href=\"live.css\">\n<script type=\"module\" src=\"live.js\"></script>\n</head>\n\
          <body{class}>\n<a class=\"skip\" href=\"#ladder\">Skip to the ladder</a>\n<header>\n<h1>{title}</h1>\n\
-         <p>{model}, {steps} steps, {count} networks</p>\n{CONTROLS}</header>"
+         <p>{model}, {steps} steps, {count} networks</p>\n{controls}</header>"
     )?;
     writeln!(out, "<nav aria-label=\"Networks\">")?;
     html::write_networks(out, resolved, ladder)?;
-    writeln!(out, "</nav>\n{PANELS}<main id=\"ladder\" tabindex=\"-1\">")?;
+    writeln!(out, "</nav>\n{panels}<main id=\"ladder\" tabindex=\"-1\">")?;
     for ((number, network), picture) in (1..).zip(&ladder.networks).zip(pictures) {
         html::write_section(out, resolved, (number, network), picture)?;
     }

@@ -4,6 +4,7 @@
 //! given (`Host`) must be this address, which defeats names that are made to lead here (DNS rebinding); a request from
 //! a page must come from this one (`Origin`); and without the token, nothing is answered but a rejection.
 
+use crate::asset;
 use crate::command::Command;
 use crate::frame::Frame;
 use crate::http::{PATIENCE, Rejection, Request, begin_events, respond};
@@ -24,30 +25,14 @@ const LINGER: Duration = Duration::from_millis(500);
 /// How long a command may take to be carried out.
 const ANSWER: Duration = Duration::from_secs(10);
 
-/// The modules and the style of the page.
-const ASSETS: [(&str, &str, &str); 6] = [
-    ("live.css", "text/css", include_str!("../assets/live.css")),
-    ("ladder.css", "text/css", rungc_ladder::html::STYLE),
-    (
-        "live.js",
-        "text/javascript",
-        include_str!("../assets/live.js"),
-    ),
-    (
-        "ladder.js",
-        "text/javascript",
-        include_str!("../assets/ladder.js"),
-    ),
-    (
-        "panels.js",
-        "text/javascript",
-        include_str!("../assets/panels.js"),
-    ),
-    (
-        "controls.js",
-        "text/javascript",
-        include_str!("../assets/controls.js"),
-    ),
+/// The modules and the style of the page: what they are called, their types, and their texts.
+const ASSETS: [(&str, &str, fn() -> &'static str); 6] = [
+    ("live.css", "text/css", || asset("live.css")),
+    ("ladder.css", "text/css", || rungc_ladder::html::STYLE),
+    ("live.js", "text/javascript", || asset("live.js")),
+    ("ladder.js", "text/javascript", || asset("ladder.js")),
+    ("panels.js", "text/javascript", || asset("panels.js")),
+    ("controls.js", "text/javascript", || asset("controls.js")),
 ];
 
 /// A command, and where its answer goes.
@@ -205,9 +190,9 @@ impl Shared {
             ("POST", "command") if self.read_only => Err(Rejection::Forbidden),
             ("POST", "command") => self.command(stream, &request, orders),
             ("GET", name) => {
-                let asset = ASSETS.iter().find(|asset| asset.0 == name);
-                let (_, kind, text) = asset.ok_or(Rejection::NotFound)?;
-                self.send(stream, kind, text)
+                let found = ASSETS.iter().find(|asset| asset.0 == name);
+                let (_, kind, text) = found.ok_or(Rejection::NotFound)?;
+                self.send(stream, kind, text())
             }
             _ => Err(Rejection::MethodNotAllowed),
         }
