@@ -91,6 +91,31 @@ fn settings_stay_as_they_are() {
 }
 
 #[test]
+fn codes_go_to_the_end_of_their_table() {
+    let folder = project(LIST);
+    let path = folder.path();
+    let learned = |before: &str| {
+        fs::write(path.join("rungc.toml"), before).unwrap();
+        let code = code(path, &["learn", "MAIN.wpg", "MAIN.csv"]);
+        (code, fs::read_to_string(path.join("rungc.toml")).unwrap())
+    };
+    let codes = "\"61 01 00\" = \"WDT\"\n\"63 07 78\" = \"PLSV\"\n\"63 09 77\" = \"DSZR\"\n";
+    for (before, between) in [
+        ("[project]", "\n\n[tokens]\n"),
+        ("[project]\n", "\n[tokens]\n"),
+        ("[tokens]", "\n"),
+        ("[project]\n[ tokens ] # read so far\n", ""),
+        ("[tokens]\n\"59 0b 14\" = \"ASC\"", "\n"),
+    ] {
+        assert_eq!(learned(before), (0, format!("{before}{between}{codes}")));
+    }
+    for before in ["tokens = {}\n", "tokens.\"59 0b 14\" = \"ASC\"\n"] {
+        assert_eq!(learned(before), (2, before.to_owned()));
+    }
+    insta::assert_snapshot!("codes_that_are_not_in_a_table", shown(path, &LEARN));
+}
+
+#[test]
 fn settings_go_where_the_project_is() {
     let folder = project(LIST);
     let path = folder.path();

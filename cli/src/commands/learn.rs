@@ -12,7 +12,7 @@ use rungc_project::FILE;
 use rungc_syntax::{SourceKind, text};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use toml_edit::DocumentMut;
+use toml::de::{DeTable, DeValue};
 
 /// Learns the codes of a project from its list, writes them to rungc.toml and prints a text to be sent in.
 pub fn run(args: &LearnArgs, cx: Context) -> Result {
@@ -146,16 +146,40 @@ fn write(path: &Path, lessons: &[Lesson]) -> std::result::Result<(), Failure> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
         Err(error) => return Err(because(error.to_string())),
     };
-    let mut document: DocumentMut = text
-        .parse()
-        .map_err(|e: toml_edit::TomlError| because(e.to_string()))?;
-    let tokens = document.entry("tokens").or_insert_with(toml_edit::table);
-    let tokens = tokens.as_table_like_mut();
-    let tokens = tokens.ok_or_else(|| because("`tokens` is not a table".to_owned()))?;
-    for lesson in lessons {
-        tokens.insert(&lesson.shown(), toml_edit::value(lesson.mnemonic.as_str()));
-    }
-    write_file(path, document.to_string().as_bytes(), true)
+    let text = with_tokens(&text, lessons).map_err(because)?;
+    write_file(path, text.as_bytes(), true)
+}
+
+/// Settings with codes after those of their table `[tokens]`.
+fn with_tokens(text: &str, lessons: &[Lesson]) -> std::result::Result<String, String> {
+    let settings = DeTable::parse(text).map_err(|error| error.to_string())?;
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let codes = lessons.iter().map(|lesson| {
+        let mnemonic = quoted(&lesson.mnemonic);
+        format!("{} = {mnemonic}\n", quoted(&lesson.shown()))
+    });
+    let codes: String = codes.collect();
+    let Some(tokens) = settings.get_ref().get("tokens") else {
+        let between = match text {
+            "" => "",
+            text if text.ends_with('\n') => "\n",
+            _ => "\n\n",
+        };
+        return Ok(format!("{text}{between}[tokens]\n{codes}"));
+    };
+    let (DeValue::Table(known), true) = (tokens.get_ref(), text[tokens.span()].starts_with('['))
+    else {
+        return Err("write `tokens` as a table `[tokens]`, which codes can be added to".to_owned());
+    };
+    let ends = known.iter().map(|(_, value)| value.span().end);
+    let end = ends.max().unwrap_or(0).max(tokens.span().end);
+    Ok(match text[end..].find('\n') {
+        Some(line) => {
+            let (before, after) = text.split_at(end + line + 1);
+            format!("{before}{codes}{after}")
+        }
+        None => format!("{text}\n{codes}"),
+    })
 }
 
 /// What others need to know to learn the same.

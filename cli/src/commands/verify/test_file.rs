@@ -73,7 +73,7 @@ pub fn table(values: &[(String, impl std::fmt::Display)]) -> String {
 
 /// A text as TOML has it.
 pub fn quoted(text: &str) -> String {
-    toml_edit::Value::from(text).to_string()
+    toml::Value::from(text).to_string()
 }
 
 /// The program as seen from the test file's folder.
