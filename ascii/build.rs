@@ -1,6 +1,9 @@
 //! Packs what characters of other scripts are in ASCII: a third of the size of the tables of `deunicode`, from which it
 //! is made.
 //!
+//! Beyond the Basic Multilingual Plane only letters of mathematics and pictographs are kept: no editor of PLC programs
+//! writes the others, such as cuneiform.
+//!
 //! From the character after ASCII on, the text has for each what it is, and a mark after that: U+0001 if it is known,
 //! U+0002 otherwise. Those that the text does not reach are not known. Syllables of Hangul have U+0002 too: the library
 //! composes them.
@@ -13,12 +16,22 @@ use std::{env, fs, io};
 /// The syllables of Hangul.
 const HANGUL: RangeInclusive<char> = '가'..='힣';
 
+/// Characters that are kept.
+const KEPT: [RangeInclusive<char>; 3] = [
+    '\u{80}'..='\u{ffff}',
+    '\u{1d400}'..='\u{1d7ff}',
+    '\u{1f000}'..='\u{1ffff}',
+];
+
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let mut text = String::new();
     for number in 0x80..=u32::from(char::MAX) {
-        let character = char::from_u32(number).filter(|character| !HANGUL.contains(character));
+        let is_kept = |character: &char| {
+            !HANGUL.contains(character) && KEPT.iter().any(|range| range.contains(character))
+        };
+        let character = char::from_u32(number).filter(is_kept);
         match character.and_then(deunicode_char) {
             Some(ascii) => {
                 text.push_str(ascii);

@@ -25,8 +25,11 @@ const LINGER: Duration = Duration::from_millis(500);
 /// How long a command may take to be carried out.
 const ANSWER: Duration = Duration::from_secs(10);
 
+/// What gives the text of a file.
+type Text = fn() -> &'static str;
+
 /// The modules and the style of the page: what they are called, their types, and their texts.
-const ASSETS: [(&str, &str, fn() -> &'static str); 6] = [
+const ASSETS: [(&str, &str, Text); 6] = [
     ("live.css", "text/css", || asset("live.css")),
     ("ladder.css", "text/css", || rungc_ladder::html::STYLE),
     ("live.js", "text/javascript", || asset("live.js")),
