@@ -1,4 +1,5 @@
-//! Packs the sources of the runtime and of libm, without their tests, into one compressed text, which the library embeds.
+//! Packs the sources of the runtime and of libm, without their tests, into one compressed text, which the library
+//! embeds.
 //!
 //! A published package has no neighbours to
 //! pack; it carries the packed text as `sources.bin`, which `cargo xtask package` makes.

@@ -11,8 +11,8 @@ static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/as
 /// What a character after ASCII is in it, as `deunicode` has it: `e` for `é`, `Wang ` for `往`, nothing for a mark that
 /// has no width. Those that stand for a word end with a space.
 ///
-/// `None` if the character is not known, or is in ASCII. Beyond the Basic Multilingual Plane only letters of mathematics
-/// (U+1D400 to U+1D7FF) and pictographs (U+1F000 to U+1FFFF) are known.
+/// `None` if the character is not known, or is in ASCII. Beyond the Basic Multilingual Plane only letters of
+/// mathematics (U+1D400 to U+1D7FF) and pictographs (U+1F000 to U+1FFFF) are known.
 pub fn of(character: char) -> Option<&'static str> {
     static ENTRIES: OnceLock<Vec<&'static str>> = OnceLock::new();
     static SYLLABLES: OnceLock<Vec<String>> = OnceLock::new();

@@ -1,5 +1,5 @@
-//! Texts that an executable carries compressed, as LZMA: build scripts pack them, and [`Packed`] unpacks them when one is
-//! first asked for.
+//! Texts that an executable carries compressed, as LZMA: build scripts pack them, and [`Packed`] unpacks them when one
+//! is first asked for.
 //!
 //! The crate must not know what the texts are. Start reading at [`Packed`].
 
@@ -77,8 +77,8 @@ pub fn used(sources: &Path, function: &str) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// Packs texts with their names: a compressed sequence of names and texts, each ended by NUL. A text that holds NUL is an
-/// error.
+/// Packs texts with their names: a compressed sequence of names and texts, each ended by NUL. A text that holds NUL is
+/// an error.
 pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec<u8>> {
     let mut sequence = String::new();
     for (name, text) in texts {
@@ -90,7 +90,12 @@ pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec
             sequence.push('\0');
         }
     }
-    let options = LzmaOptions::with_preset(PRESET);
+    // Text has no columns of words, and its letters depend on more than those just before them.
+    let options = LzmaOptions {
+        lc: 4,
+        pb: 0,
+        ..LzmaOptions::with_preset(PRESET)
+    };
     let length = Some(sequence.len() as u64);
     let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, length)?;
     writer.write_all(sequence.as_bytes())?;
