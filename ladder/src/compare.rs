@@ -2,9 +2,10 @@
 
 use crate::network::{Ladder, Network};
 use rungc_analysis::resolve::Resolved;
+use rungc_syntax::SortedSet;
 use rungc_syntax::order;
 use rungc_syntax::{Device, Parameters, Program, align};
-use rungc_syntax::{SortedMap, SortedSet};
+use std::collections::HashMap;
 
 /// A program with its ladder.
 #[derive(Clone, Copy, Debug)]
@@ -227,7 +228,7 @@ fn moved(
     new: &[Vec<String>],
 ) -> SortedSet<(usize, usize)> {
     let in_order: (SortedSet<usize>, SortedSet<usize>) = same.iter().copied().unzip();
-    let mut waiting: SortedMap<&[String], Vec<usize>> = SortedMap::new();
+    let mut waiting: HashMap<&[String], Vec<usize>> = HashMap::new();
     for (at, text) in old.iter().enumerate().rev() {
         if !in_order.0.contains(&at) {
             waiting.entry(text).or_default().push(at);
@@ -283,7 +284,7 @@ impl Pairing<'_> {
 
     /// All changes, where what was removed and what was added elsewhere, but writes the same, is one changed network.
     fn elsewhere(self) -> Vec<Change> {
-        let mut removed: SortedMap<Vec<String>, Vec<usize>> = SortedMap::new();
+        let mut removed: HashMap<Vec<String>, Vec<usize>> = HashMap::new();
         for change in self.changes.iter().rev() {
             if let Change::Removed { old } = *change {
                 removed.entry(self.old.outputs(old)).or_default().push(old);

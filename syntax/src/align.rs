@@ -10,12 +10,10 @@ use similar::{Algorithm, capture_diff_slices};
 /// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
     let in_old = order::set(old);
-    let mut numbers: SortedMap<&T, usize> = SortedMap::new();
-    for (number, element) in new.iter().enumerate() {
-        if in_old.contains(element) {
-            numbers.entry(element).or_insert(number);
-        }
-    }
+    // The first of equal ones counts.
+    let from_the_end = new.iter().enumerate().rev();
+    let shared = from_the_end.filter(|(_, element)| in_old.contains(element));
+    let numbers: SortedMap<&T, usize> = shared.map(|(number, element)| (element, number)).collect();
     let shared = |all: &[T]| -> Vec<(usize, usize)> {
         let numbered = all.iter().enumerate();
         numbered

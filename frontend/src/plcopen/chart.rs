@@ -11,17 +11,18 @@ use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass};
 use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::HashMap;
 
 /// The most divergences and convergences between a step and a transition.
 const DEEPEST: usize = 50;
 
 /// A chart while it is read.
 struct Chart<'a, 'i> {
-    by_id: SortedMap<&'a str, Node<'a, 'i>>,
+    by_id: HashMap<&'a str, Node<'a, 'i>>,
     /// What an element's outputs lead to.
-    uses: SortedMap<&'a str, Vec<&'a str>>,
+    uses: HashMap<&'a str, Vec<&'a str>>,
     /// By name in upper case.
-    steps: SortedMap<String, Device>,
+    steps: HashMap<String, Device>,
 }
 
 /// A transition: the steps around it and the relay of its condition.
@@ -35,9 +36,9 @@ struct Transition<'a> {
 /// Reads the chart of a program.
 pub(super) fn read(reader: &mut Reader, pou: Node, body: Node) -> Result<(), Fault> {
     let mut chart = Chart {
-        by_id: SortedMap::new(),
-        uses: SortedMap::new(),
-        steps: SortedMap::new(),
+        by_id: HashMap::new(),
+        uses: HashMap::new(),
+        steps: HashMap::new(),
     };
     for node in body.children().filter(Node::is_element) {
         let Some(id) = node.attribute("localId") else {

@@ -5,9 +5,10 @@ use super::variables::{Kind, constant};
 use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::SortedMap;
 use rungc_syntax::order;
-use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::{HashMap, HashSet};
 
 /// The most elements on one way.
 const DEEPEST: usize = 200;
@@ -43,17 +44,17 @@ pub(super) struct Word {
 /// A drawing while it is read.
 pub(super) struct Drawing<'a, 'i, 'r> {
     pub reader: &'r mut Reader,
-    by_id: SortedMap<&'a str, Node<'a, 'i>>,
+    by_id: HashMap<&'a str, Node<'a, 'i>>,
     /// By name.
-    connectors: SortedMap<&'a str, Node<'a, 'i>>,
+    connectors: HashMap<&'a str, Node<'a, 'i>>,
     /// Where an element's outputs lead: the output as the connection names it, and the element there.
-    uses: SortedMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
+    uses: HashMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
     /// What leads out of an element's output.
-    known: SortedMap<(&'a str, &'a str), Logic>,
+    known: HashMap<(&'a str, &'a str), Logic>,
     /// Outputs of the blocks that have been read.
-    done: SortedMap<&'a str, SortedMap<SmolStr, Value>>,
+    done: HashMap<&'a str, SortedMap<SmolStr, Value>>,
     /// Blocks that could not be read, and were reported.
-    failed: SortedSet<&'a str>,
+    failed: HashSet<&'a str>,
     /// The elements on the way that is being followed.
     on_it: Vec<&'a str>,
 }
@@ -112,12 +113,12 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     pub fn new(reader: &'r mut Reader, body: Node<'a, 'i>) -> Self {
         let mut drawing = Drawing {
             reader,
-            by_id: SortedMap::new(),
-            connectors: SortedMap::new(),
-            uses: SortedMap::new(),
-            known: SortedMap::new(),
-            done: SortedMap::new(),
-            failed: SortedSet::new(),
+            by_id: HashMap::new(),
+            connectors: HashMap::new(),
+            uses: HashMap::new(),
+            known: HashMap::new(),
+            done: HashMap::new(),
+            failed: HashSet::new(),
             on_it: Vec::new(),
         };
         for node in body.children().filter(Node::is_element) {

@@ -23,6 +23,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use rungc_syntax::SortedMap;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr};
+use std::collections::HashMap;
 use variables::{Found, Kind, Missing, Variables};
 
 pub use blocks::iec_timer_unit;
@@ -149,7 +150,7 @@ struct Reader {
     /// The devices of the blocks of the program that is being read, by the names of their instances.
     instances: SortedMap<String, blocks::Instance>,
     /// The relays of steps, by name in upper case.
-    steps: SortedMap<String, Device>,
+    steps: HashMap<String, Device>,
     /// Whether what follows is driven by STL.
     in_state: bool,
     /// Contacts on all ways so far.

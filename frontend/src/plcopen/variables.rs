@@ -6,6 +6,7 @@ use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind};
 use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::HashMap;
 
 /// The devices of variables of PLCopen XML.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -109,14 +110,14 @@ struct Variable {
 pub(super) struct Variables {
     names: Names,
     /// Of all programs, by name.
-    global: SortedMap<String, Variable>,
+    global: HashMap<String, Variable>,
     /// Of the program that is being read.
-    local: SortedMap<String, Variable>,
+    local: HashMap<String, Variable>,
     program: String,
     /// Devices that are not free.
     taken: SortedSet<Device>,
     /// Devices of variables without an address, by key.
-    given: SortedMap<String, Device>,
+    given: HashMap<String, Device>,
     /// Devices of variables that have been used.
     used: SortedSet<Device>,
     /// How many pointers labels have taken.
