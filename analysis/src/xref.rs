@@ -5,8 +5,7 @@ use crate::resolve::Resolved;
 use rungc_catalogue::{Basic, Role, Shape};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, SortedSet};
 
 /// What an instruction does with a device.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

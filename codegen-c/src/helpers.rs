@@ -6,8 +6,7 @@ use crate::fields::{PrintField, PrintStorage};
 use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::{Module, reach};
 use rungc_rt::TimerKind;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 use std::fmt::Write;
 
 /// A function.

@@ -9,9 +9,7 @@ use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet, order};
 use std::fmt::Write;
 
 /// How a program waits for its next scan that follows the time.

@@ -9,8 +9,7 @@ use rungc_emit::timers::Coils;
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, Function, FunctionKind, TempId};
 use rungc_rt::TimerKind;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 

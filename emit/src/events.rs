@@ -4,8 +4,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{Cell, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::EdgeKind;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
+use rungc_syntax::{SortedSet, order};
 
 /// The edges that mean something: function of the module, terminal X, which.
 pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {

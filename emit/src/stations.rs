@@ -5,8 +5,7 @@ use crate::plan::{Node, Stations};
 use crate::storage::{Kind, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, ExprId, Stmt};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 use std::collections::HashSet;
 
 /// Class and number.

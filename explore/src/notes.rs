@@ -6,8 +6,7 @@ use rungc_ir::node::{
     AccessKind, Body, Branch, Expr, ExprId, Flag, FlagId, FunctionKind, Place, Stmt,
 };
 use rungc_ir::walk::bodies_mut;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 
 /// What is noted of a coil.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -12,8 +12,7 @@ use crate::trains::cost;
 use crate::vary::Choices;
 use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
+use rungc_syntax::{SortedSet, order};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 

@@ -8,8 +8,7 @@ use rungc_models::runs::is_special;
 use rungc_rt::VirtualHal;
 use rungc_sim::Target;
 use rungc_sim::plant::Description;
-use rungc_syntax::SortedSet;
-use rungc_syntax::{DeviceClass, order};
+use rungc_syntax::{DeviceClass, SortedSet, order};
 use rungc_verify::model::{Encoder, Key, World};
 use rungc_verify::property::{Condition, Property};
 

@@ -13,8 +13,7 @@ use rungc_models::high_speed::Kind;
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
 use rungc_sim::wire::{self, Change, Signal};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 
 /// The most pulses in a millisecond: about what the fastest inputs of these PLCs count.
 pub const MOST_A_MS: u32 = 100;

@@ -5,8 +5,7 @@ use crate::trains::MOST_A_MS;
 use rungc_ir::node::Stmt;
 use rungc_ir::walk::statements;
 use rungc_rt::RtFn;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 
 /// What the program of a search depends on and the search does not vary, a sentence each; nothing if that is all.
 pub fn untried(task: &Task) -> Vec<String> {

@@ -14,8 +14,7 @@ pub use serial::{Serial, Uart};
 
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{DeviceClass, Source};
+use rungc_syntax::{DeviceClass, SortedMap, Source};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};

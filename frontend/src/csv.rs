@@ -5,9 +5,9 @@ use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
-use rungc_syntax::SortedMap;
 use rungc_syntax::{
-    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, codes,
+    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SortedMap,
+    SourceKind, codes,
 };
 use smol_str::SmolStr;
 

@@ -6,8 +6,7 @@
 use crate::Read;
 use crate::gx::hex;
 use crate::learned::{Reading, Unproven};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Instr, OperandKind, codes};
+use rungc_syntax::{Instr, OperandKind, SortedMap, codes};
 use smol_str::SmolStr;
 
 /// A code and its instruction, as a list shows it.

@@ -1,8 +1,7 @@
 //! Codes of instructions that nothing proves yet, and those that a user has learned from an export.
 
 use crate::gx::{hex, table};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Diagnostic, Operands, Span, codes};
+use rungc_syntax::{Diagnostic, Operands, SortedMap, Span, codes};
 use smol_str::SmolStr;
 
 /// Codes of instructions that an export of the editor has shown (`rungc learn`): the table `[tokens]` of `rungc.toml`.

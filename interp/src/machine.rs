@@ -22,8 +22,7 @@ use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
 };
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 use typed_index_collections::TiVec;
 
 /// The functions that a host calls, by their indexes in the module.

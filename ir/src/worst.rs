@@ -8,8 +8,7 @@ use crate::node::{
     Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
 };
 use crate::walk::{for_exprs, operands, statements};
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
+use rungc_syntax::{SortedMap, order};
 use typed_index_collections::TiVec;
 
 /// How much something does at most.

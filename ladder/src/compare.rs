@@ -2,9 +2,7 @@
 
 use crate::network::{Ladder, Network};
 use rungc_analysis::resolve::Resolved;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
-use rungc_syntax::{Device, Parameters, Program, align};
+use rungc_syntax::{Device, Parameters, Program, SortedSet, align, order};
 use std::collections::HashMap;
 
 /// A program with its ladder.

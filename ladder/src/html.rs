@@ -7,9 +7,8 @@ use crate::sfc::Chart;
 use crate::svg::Painter;
 use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
-use rungc_syntax::Device;
-use rungc_syntax::SortedMap;
 use rungc_syntax::text::one_line;
+use rungc_syntax::{Device, SortedMap};
 use std::fmt::{self, Write as _};
 
 mod comparison;

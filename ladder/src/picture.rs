@@ -5,8 +5,7 @@ use crate::face::{Face, masters, operand_text};
 use crate::layout::{Cell, Grid, Placed, lay_out};
 use crate::network::{InstrIndex, Network, NetworkBody, Shape};
 use rungc_analysis::resolve::Resolved;
-use rungc_syntax::Device;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{Device, SortedMap};
 
 /// Width of a character, in pixels; the font is 12 pixels high.
 pub(crate) const CHARACTER: f64 = 7.3;

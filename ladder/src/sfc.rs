@@ -11,8 +11,7 @@ use crate::face::Face;
 use crate::network::{InstrIndex, Item, Ladder, NetworkBody, Node, Output, Series};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Lower};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Device, DeviceClass};
+use rungc_syntax::{Device, DeviceClass, SortedMap};
 
 mod place;
 mod render;

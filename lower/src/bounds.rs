@@ -8,8 +8,7 @@ use rungc_ir::ranges::Bound;
 use rungc_ir::reach::Footprint;
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, SortedMap, Span, codes};
 
 /// From how many bytes on it is worth knowing what an operand makes a program store.
 const MUCH: u64 = 1024;

@@ -11,8 +11,7 @@ use rungc_models::high_speed::{self, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
 use rungc_rt::{CmpOp, EdgeKind, Relay};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, codes};
 use std::ops::RangeInclusive;
 
 /// More comparisons are driven than may be.

@@ -68,8 +68,7 @@ use flow::{Flow, Open};
 use marks::Marks;
 use parts::Item;
 use rungc_rt::{EdgeKind, RtFn, TimerKind};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, SortedMap};
 use special::Specials;
 use std::cell::OnceCell;
 

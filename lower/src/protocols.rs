@@ -8,9 +8,7 @@ use rungc_rt::comm::codec::Codec;
 use rungc_rt::comm::{Choice, PortWiring, Protocol, Protocols};
 use rungc_rt::special::Register;
 use rungc_rt::{Class, Plc, Ports, State, Sys};
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, SortedSet, order};
 
 /// The station number of a master on L01S, and one of a slave.
 const STATIONS: [u16; 2] = [1, 255];

@@ -8,8 +8,7 @@ use rungc_ir::node::{Access, Arg, Call, Expr, ExprId, Function, FunctionKind, St
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, X, Y};
-use rungc_syntax::SortedSet;
-use rungc_syntax::{Device, OperandKind};
+use rungc_syntax::{Device, OperandKind, SortedSet};
 
 /// An instruction that looks at inputs.
 struct Looker {

@@ -11,8 +11,7 @@ use rungc_ir::node::{
 };
 use rungc_ir::walk::{bodies_mut, statements};
 use rungc_ir::worst::lengths;
-use rungc_syntax::OperandKind;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{OperandKind, SortedMap};
 
 /// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some
 /// milliseconds.

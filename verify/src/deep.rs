@@ -16,8 +16,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 use std::time::{Duration, Instant};
 
 /// What was found.

@@ -7,8 +7,7 @@ use crate::search::{Scan, Trace};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 use std::time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.

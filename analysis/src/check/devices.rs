@@ -5,8 +5,7 @@ use crate::accesses;
 use crate::resolve::resolve;
 use rungc_catalogue::Shape;
 use rungc_models::Model;
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Device, DeviceClass, Program};
+use rungc_syntax::{Device, DeviceClass, Program, SortedMap};
 
 /// What a device holds, as the instructions that name it take it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]

@@ -6,9 +6,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, SortedMap, codes, order};
 
 /// Instructions whose result depends on what they have done before, whatever their operands are.
 const STEPPING: &[&str] = &[

@@ -2,9 +2,7 @@
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, Diagnostics, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, SortedMap, codes, order};
 
 /// Warns of a program that asks for more than there is.
 pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {

@@ -7,9 +7,7 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special};
 use rungc_rt::modules::Place;
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, SortedMap, Span, codes, order};
 
 /// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
 const MAX_RUN: u32 = 32;

@@ -1,9 +1,7 @@
 //! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedMap, codes, order};
 
 /// An instruction that may occur only once in a program with some operand.
 struct Limit {

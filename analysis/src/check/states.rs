@@ -3,9 +3,7 @@
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedMap, codes, order};
 use rustc_hash::FxHashMap;
 
 /// At most this many circuits may begin at one branch (h1u-h2u-programming §4.2.2).

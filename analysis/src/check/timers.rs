@@ -4,8 +4,7 @@ use super::Code;
 use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::Basic;
 use rungc_models::{Model, Timers};
-use rungc_syntax::SortedSet;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedSet, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Checks the places of timers.

@@ -3,8 +3,7 @@
 use super::Code;
 use crate::resolve::Resolved;
 use rungc_models::{Model, Variant};
-use rungc_syntax::SortedSet;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedSet, codes};
 
 /// Holds a program to a variant of its model.
 pub fn check(resolved: &Resolved, variant: &Variant) -> Diagnostics {

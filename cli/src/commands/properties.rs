@@ -13,8 +13,7 @@ use rungc_models::Model;
 use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
-use rungc_syntax::SortedMap;
-use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program, order};
+use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program, SortedMap, order};
 use rungc_verify::property::{Condition, Mistake, Property, parse};
 
 type Result<T> = std::result::Result<T, Failure>;

@@ -11,8 +11,7 @@ use rungc_ir::worst::worst;
 use rungc_ladder::build;
 use rungc_lower::compile;
 use rungc_models::times::InstructionTimes;
-use rungc_syntax::SortedMap;
-use rungc_syntax::{DeviceClass, OperandKind};
+use rungc_syntax::{DeviceClass, OperandKind, SortedMap};
 use serde::Serialize;
 use std::fmt::{self, Write};
 

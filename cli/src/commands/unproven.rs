@@ -4,8 +4,7 @@ use rungc_analysis::fitting::fitting;
 use rungc_frontend::{Read, Unproven, has_code};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Operands, codes};
+use rungc_syntax::{Operands, SortedMap, codes};
 use std::collections::HashMap;
 
 /// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a

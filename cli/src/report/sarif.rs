@@ -2,9 +2,8 @@
 
 use super::Findings;
 use super::location::Location;
-use rungc_syntax::SortedSet;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Diagnostic, Fix, Severity, Span};
+use rungc_syntax::{Diagnostic, Fix, Severity, SortedSet, Span};
 use serde_json::{Value, json};
 use std::io;
 use std::path::Path;

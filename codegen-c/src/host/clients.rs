@@ -4,8 +4,7 @@ use crate::include;
 use rungc_ir::Module;
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
-use rungc_syntax::NetworkRequest;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{NetworkRequest, SortedMap};
 use std::fmt::Write;
 use std::net::{IpAddr, SocketAddr};
 

@@ -8,9 +8,7 @@ use rungc_emit::temps::Home;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_ir::walk::{assigned, operands};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
+use rungc_syntax::{DeviceClass, SortedSet, order};
 
 /// What is known of a program's statements.
 pub(super) struct Classes<'a, 'm> {

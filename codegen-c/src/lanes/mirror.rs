@@ -8,8 +8,7 @@ use rungc_ir::node::{Edge, EdgeId, Expr, ExprId, FlagId, Place, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::operands;
 use rungc_models::runs::FIRST_SPECIAL;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 use std::fmt::Write;
 
 /// What code of one instance meets of what is stored in lanes.

@@ -17,8 +17,7 @@ use rungc_ir::node::{
 };
 use rungc_ir::walk::assigned;
 use rungc_rt::EdgeKind;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use rustc_hash::FxHashMap;
 
 /// Writes the functions of a program in lanes.

@@ -14,8 +14,7 @@ use rungc_emit::plan::Node;
 use rungc_ir::node::{Expr, Stmt, TimerCoil};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use std::fmt::Write;
 
 /// A timer that waits.

@@ -10,8 +10,7 @@ use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
 use crate::template;
 use rungc_emit::OutFile;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 use std::fmt::Write;
 
 pub use pins::{NoPins, project as pins_project};

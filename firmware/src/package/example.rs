@@ -3,8 +3,7 @@
 use super::Package;
 use crate::image::{comment, terminals};
 use rungc_emit::storage::Storage;
-use rungc_syntax::SortedSet;
-use rungc_syntax::{DeviceClass, order};
+use rungc_syntax::{DeviceClass, SortedSet, order};
 use std::fmt::Write;
 
 /// How the example of a build system is written.

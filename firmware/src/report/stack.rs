@@ -5,8 +5,7 @@
 use super::elf::Elf;
 use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
-use rungc_syntax::order;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{SortedMap, SortedSet, order};
 
 /// Why there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -10,9 +10,9 @@ use super::jumps::{instruction, words};
 use crate::text::clean;
 use rungc_syntax::diag::did_you_mean;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, Source, Span, codes,
+    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, SortedMap, SortedSet, Source,
+    Span, codes,
 };
-use rungc_syntax::{SortedMap, SortedSet};
 use smol_str::ToSmolStr;
 use std::ops::Range;
 

@@ -1,10 +1,8 @@
 //! What wires connect, as a list: contacts in series and parallel, and what they feed.
 
 use super::grid::{Drawn, Kind, Symbol};
-use rungc_syntax::Span;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::order;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{SortedMap, SortedSet, Span, order};
 
 /// A step on the way from a drawing to a list.
 pub(super) enum Step {

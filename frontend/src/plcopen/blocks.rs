@@ -5,8 +5,7 @@ use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant, milliseconds};
 use super::{FREE, Fault, Reader, called, children, flag, functions};
 use roxmltree::Node;
-use rungc_syntax::SortedMap;
-use rungc_syntax::{Device, DeviceClass};
+use rungc_syntax::{Device, DeviceClass, SortedMap};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
 /// What the types of blocks begin with that are instructions: `FX_ZRST`. Their operands are called `p1`, `p2`, ….

@@ -7,9 +7,7 @@ use super::drawing::Drawing;
 use super::logic::{Logic, Output, Part, Sense};
 use super::{FREE, Fault, Reader, called, children, expression, flag, list, text, variables};
 use roxmltree::Node;
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet, order};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::HashMap;
 

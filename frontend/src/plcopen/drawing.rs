@@ -4,9 +4,7 @@ use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant};
 use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
+use rungc_syntax::{DeviceClass, SortedMap, order};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::{HashMap, HashSet};
 

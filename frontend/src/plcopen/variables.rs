@@ -3,8 +3,7 @@
 use super::{children, text};
 use crate::il;
 use roxmltree::Node;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, SortedMap, SortedSet};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::HashMap;
 

@@ -3,8 +3,7 @@
 
 use super::{il_written, properties_without, spelled, statements};
 use crate::il::{device, windows};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, codes};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, SortedMap, SortedSet, codes};
 
 /// The pointer that is the end of the program.
 const END: u32 = 63;

@@ -1,9 +1,7 @@
 //! Which atoms correspond to each other, and whose order matters.
 
 use super::atoms::{Atom, Run, Sequence, Uses};
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, align};
+use rungc_syntax::{DeviceClass, SortedSet, align, order};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
 use std::ops::Range;

@@ -21,8 +21,7 @@ use eval::Eval;
 use interval::Interval;
 use rungc_models::runs::{FIRST_SPECIAL, is_special};
 use rungc_syntax::DeviceClass::{self, C, D, M, T};
-use rungc_syntax::SortedSet;
-use rungc_syntax::{Device, Index};
+use rungc_syntax::{Device, Index, SortedSet};
 use state::Words;
 use walk::Walk;
 

@@ -6,8 +6,7 @@
 
 use super::Chart;
 use crate::face::fold;
-use rungc_syntax::SortedMap;
-use rungc_syntax::order;
+use rungc_syntax::{SortedMap, order};
 use std::collections::VecDeque;
 use unicode_width::UnicodeWidthStr;
 

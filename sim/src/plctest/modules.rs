@@ -6,8 +6,7 @@ use super::{Case, CaseProgram, Failure};
 use crate::protocol::{Answer, Request};
 use crate::target::{self, Channel};
 use rungc_rt::modules::{KINDS, Kind};
-use rungc_syntax::SortedMap;
-use rungc_syntax::{FittedModule, Program, diag};
+use rungc_syntax::{FittedModule, Program, SortedMap, diag};
 use rungc_tables::Spanned;
 use std::borrow::Cow;
 

@@ -18,8 +18,7 @@ use crate::wire::{self, Change};
 use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use std::ops::ControlFlow;
 use std::time::Instant;
 

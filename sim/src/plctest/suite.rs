@@ -6,9 +6,9 @@ use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_lower::marks::Marks;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::order;
-use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{
+    DeviceClass, Diagnostic, Program, Severity, SortedMap, SortedSet, Source, codes, order,
+};
 use std::borrow::Cow;
 use std::sync::Arc;
 

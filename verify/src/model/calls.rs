@@ -7,8 +7,7 @@ use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Arg, Call, Fetch, Stmt};
 use rungc_ir::reach::of_stmt;
 use rungc_rt::RtFn;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 
 /// Special devices that an instruction of the runtime may write: all but those that the scan alone maintains, M8000 to
 /// M8003 and M8011 to M8014.

@@ -9,9 +9,7 @@ use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
+use rungc_syntax::{DeviceClass, SortedSet, order};
 
 /// An operand that may reach more devices than this is not modelled.
 pub(super) const REACH: u32 = 256;

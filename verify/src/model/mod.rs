@@ -23,8 +23,7 @@ use crate::system::{Latch, System};
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, FunctionKind, LabelId};
 use rungc_rt::special::D_WATCHDOG_MS;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 

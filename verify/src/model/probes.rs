@@ -4,8 +4,7 @@ use super::Encoder;
 use crate::aig::Lit;
 use rungc_ir::node::{Access, AccessKind, ExprId, Stmt};
 use rungc_rt::CmpOp;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 
 /// When a bit device is written.
 #[derive(Clone, Copy, Debug)]

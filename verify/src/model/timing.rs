@@ -7,8 +7,7 @@ use rungc_ir::node::Stmt;
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::TimerKind;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedSet;
+use rungc_syntax::{DeviceClass, SortedSet};
 
 /// How many bits the units of a step have: enough for the longest timer, and a unit more.
 const UNITS: usize = 17;

@@ -9,8 +9,7 @@ use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_models::runs::is_special;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
 use rustc_hash::FxHashSet;
 use std::time::Instant;
 

@@ -8,9 +8,7 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass, Span};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet, Span, order};
 
 /// Programs that reach special registers through an index stay this near.
 const USUAL_INDEX: u32 = 256;

@@ -18,9 +18,10 @@ use rungc_analysis::resolve::resolve;
 use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
 use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_lower::compile::{CompileOptions, model};
-use rungc_syntax::SortedMap;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostics, Instr, Program, Severity, SortedMap, Span, align,
+};
 use sheet::Sheet;
 use words::Words;
 use xml::Xml;

@@ -5,8 +5,7 @@ use crate::board::{Board, InputPin, Uart};
 use crate::image::{comment, linker_script};
 use crate::template;
 use rungc_emit::OutFile;
-use rungc_syntax::DeviceClass;
-use rungc_syntax::SortedMap;
+use rungc_syntax::{DeviceClass, SortedMap};
 use std::fmt::Write;
 
 /// What begins a line, sends and receives, by registers: there is room while the bits of `ROOM` are `SPACE`, and a

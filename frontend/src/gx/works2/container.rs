@@ -2,8 +2,7 @@
 //! stream, an inner file, whose streams have numbers for names.
 
 use cfb::CompoundFile;
-use rungc_syntax::SortedSet;
-use rungc_syntax::order;
+use rungc_syntax::{SortedSet, order};
 use std::cell::{Cell, RefCell};
 use std::io::{Cursor, Read as _};
 use std::path::PathBuf;

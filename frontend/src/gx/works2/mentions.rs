@@ -2,9 +2,7 @@
 
 use crate::gx::program;
 use crate::gx::tokens::{self, Bare, Token};
-use rungc_syntax::order;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, SortedSet, order};
 
 /// The devices that structured text names, by themselves or through the devices of global labels.
 pub(super) fn of_text(text: &str, labels: &SortedMap<String, Device>) -> SortedSet<Device> {

@@ -20,9 +20,9 @@ use container::{Container, Row};
 use encoding_rs::UTF_16LE;
 use memchr::memmem;
 use objects::{Compiled, Language, Pou, Project, Task};
-use rungc_syntax::order;
-use rungc_syntax::{Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{
+    Diagnostic, Diagnostics, Parameters, SortedMap, SortedSet, SourceKind, Span, codes, order,
+};
 
 /// The stream of the outer file that holds the project's data.
 const DATA: &str = "_hdb";

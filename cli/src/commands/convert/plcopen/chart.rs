@@ -8,8 +8,7 @@ use super::{Refused, xml};
 use rungc_ladder::list::Entry;
 use rungc_ladder::sfc::{Chart, Transition};
 use rungc_ladder::{InstrIndex, Item, Ladder, Network, NetworkBody, Node, Output, Part, Series};
-use rungc_syntax::{Device, DeviceClass};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet};
 
 /// Distance of columns and of rows.
 const GRID: (i64, i64) = (250, 160);

@@ -4,8 +4,7 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_frontend::iec_timer_unit;
 use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, order};
-use rungc_syntax::{SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, SortedMap, SortedSet, order};
 
 /// A contact or a comparison.
 pub(super) enum Gate {
