@@ -9,9 +9,8 @@
 //! composes them.
 
 use deunicode::deunicode_char;
+use std::io;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
-use std::{env, fs, io};
 
 /// The syllables of Hangul.
 const HANGUL: RangeInclusive<char> = '가'..='힣';
@@ -25,7 +24,6 @@ const KEPT: [RangeInclusive<char>; 3] = [
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
-    let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let mut text = String::new();
     for number in 0x80..=u32::from(char::MAX) {
         let is_kept = |character: &char| {
@@ -41,6 +39,5 @@ fn main() -> io::Result<()> {
         }
     }
     let known = text.trim_end_matches('\u{2}');
-    let packed = rungc_packed::pack([("ascii".to_string(), known.to_string())])?;
-    fs::write(PathBuf::from(out).join("ascii.bin"), packed)
+    rungc_packed::embed("ascii.bin", [("ascii".to_string(), known.to_string())])
 }

@@ -1,22 +1,19 @@
 //! Packs the tables of codes and words, which the library embeds.
 
-use std::path::PathBuf;
-use std::{env, fs, io};
+use std::{fs, io};
 
 /// The tables, and how many of their columns the library reads: what follows is a note.
 const TABLES: [(&str, usize); 2] = [("src/gx/tokens.tsv", 4), ("src/image/applied.tsv", 6)];
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
-    let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
     let mut texts = Vec::new();
     for (path, columns) in TABLES {
         println!("cargo::rerun-if-changed={path}");
         let (_, name) = path.rsplit_once('/').unwrap_or_default();
         texts.push((name.to_string(), first(columns, &fs::read_to_string(path)?)));
     }
-    let out = PathBuf::from(out).join("tables.bin");
-    fs::write(out, rungc_packed::pack(texts)?)
+    rungc_packed::embed("tables.bin", texts)
 }
 
 /// The first columns of a table.

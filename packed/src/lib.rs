@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::sync::OnceLock;
-use std::{fs, io};
+use std::{env, fs, io};
 
 /// Enough memory for the largest dictionary, in KiB.
 const MEMORY: u32 = 16 << 10;
@@ -100,6 +100,12 @@ pub fn pack(texts: impl IntoIterator<Item = (String, String)>) -> io::Result<Vec
     let mut writer = LzmaWriter::new_use_header(Vec::new(), &options, length)?;
     writer.write_all(sequence.as_bytes())?;
     writer.finish()
+}
+
+/// Packs texts for the library of a build script: into a file of this name in Cargo's `OUT_DIR`.
+pub fn embed(name: &str, texts: impl IntoIterator<Item = (String, String)>) -> io::Result<()> {
+    let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
+    fs::write(Path::new(&out).join(name), pack(texts)?)
 }
 
 /// The texts in a folder and its folders, named by `prefix` and their paths in it, in the order of their names. Files
