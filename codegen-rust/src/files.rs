@@ -413,7 +413,7 @@ fn lines(item: &Item) -> usize {
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     let profile = "\n[features]\n# For a machine without operating system: a static library with a `main`, and without the standard library.\nbare = []\n\n\
                    [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\ncodegen-units = 16\n\n\
-                   [profile.dev.package.rungc-rt]\nopt-level = 2\n";
+                   # The runtime, and for a machine without operating system the standard library's parts.\n[profile.dev.package.\"*\"]\nopt-level = 2\n";
     let mut files = vec![
         OutFile::new(
             "Cargo.toml",

@@ -34,6 +34,16 @@ impl<'m> Held<'m> {
             different: Vec::new(),
         }
     }
+
+    fn compare(&mut self, request: Request, answer: Answer, expected: Answer) {
+        if answer != expected {
+            self.different.push(format!(
+                "{}: {}: `{request}`: {answer:?}, not {expected:?}",
+                self.engine.name(),
+                self.running
+            ));
+        }
+    }
 }
 
 impl Engine for Held<'_> {
@@ -47,14 +57,21 @@ impl Engine for Held<'_> {
         }
         let expected = self.interpreter.ask(request)?;
         let answer = self.engine.ask(request)?;
-        if matches!(expected, Answer::Value(_)) && answer != expected {
-            self.different.push(format!(
-                "{}: {}: `{request}`: {answer:?}, not {expected:?}",
-                self.name(),
-                self.running
-            ));
+        if matches!(expected, Answer::Value(_)) {
+            self.compare(request, answer, expected);
         }
         Ok(answer)
+    }
+
+    // Each answer by itself would have QEMU wait for the next request.
+    fn ask_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+        let expected = self.interpreter.ask_all(requests)?;
+        let answers = self.engine.ask_all(requests)?;
+        assert_eq!(answers.len(), requests.len());
+        for ((&request, &answer), expected) in requests.iter().zip(&answers).zip(expected) {
+            self.compare(request, answer, expected);
+        }
+        Ok(answers)
     }
 }
 
