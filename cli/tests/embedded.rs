@@ -122,9 +122,11 @@ fn rust_image(example: &str, program: &Path, build: &Path) -> Option<PathBuf> {
         .arg(program)
         .output();
     assert!(emitted.unwrap().status.success());
+    // The examples share what they depend on.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples");
     let built = cargo
         .args(["build", "--release", "--locked", "--features", "demo"])
-        .env("CARGO_TARGET_DIR", build.join("target"))
+        .env("CARGO_TARGET_DIR", &target)
         .current_dir(&folder)
         .output()
         .unwrap();
@@ -135,7 +137,7 @@ fn rust_image(example: &str, program: &Path, build: &Path) -> Option<PathBuf> {
     );
     let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
     let name = manifest.split('"').nth(1).expect("it has a name");
-    Some(build.join("target").join(TARGET).join("release").join(name))
+    Some(target.join(TARGET).join("release").join(name))
 }
 
 /// Runs an image under QEMU.

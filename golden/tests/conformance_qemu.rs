@@ -109,17 +109,19 @@ fn run(board: &Board, kind: EngineKind) {
     );
 }
 
+// Tests start in the order of their names: the one that takes longest, and for the most part one core, is the first.
+
 #[test]
-fn c_on_cortex_m3() {
+fn built_by_cargo_on_cortex_m4() {
+    run(&CORTEX_M4, EngineKind::Rust);
+}
+
+#[test]
+fn built_by_make_on_cortex_m3() {
     run(&CORTEX_M3, EngineKind::C);
 }
 
 #[test]
-fn c_on_cortex_m4() {
+fn built_by_make_on_cortex_m4() {
     run(&CORTEX_M4, EngineKind::C);
-}
-
-#[test]
-fn rust_on_cortex_m4() {
-    run(&CORTEX_M4, EngineKind::Rust);
 }

@@ -2,8 +2,8 @@
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 #![allow(dead_code, unused_imports, reason = "not every test needs all of it")]
 
+use rungc_sim::engines::cortex_m::{BUILD_STD, builds_library};
 pub use rungc_sim::engines::cortex_m::{cargo, no_rust};
-use std::ffi::OsStr;
 use std::process::Command;
 
 fn is_there(program: &str) -> bool {
@@ -39,10 +39,8 @@ pub fn with_cargo(cargo: &Command) -> Command {
 
 /// The same cargo for what needs the standard library: a distribution's builds it from its sources, here quickly.
 pub fn with_library(mut cargo: Command) -> Command {
-    const BUILDS: &str = "CARGO_UNSTABLE_BUILD_STD";
-    let builds = |(name, value): (&OsStr, Option<&OsStr>)| name == BUILDS && value.is_some();
-    if cargo.get_envs().any(builds) {
-        cargo.env(BUILDS, "std,panic_abort");
+    if builds_library(&cargo) {
+        cargo.env(BUILD_STD, "std,panic_abort");
         cargo.env("RUSTFLAGS", "-Copt-level=0");
     }
     cargo

@@ -8,6 +8,7 @@ use super::{Engine, EngineKind, Interpreter, Process};
 use rungc_firmware::target;
 use rungc_ir::Module;
 use rungc_runtime_sources::library;
+use std::ffi::OsStr;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,6 +22,8 @@ pub struct Board {
     machine: &'static str,
     /// Rust's name of the target.
     pub target: &'static str,
+    /// How much the C compiler optimises: results must not depend on it.
+    optimisation: &'static str,
 }
 
 /// A Cortex-M3: no floating point.
@@ -28,6 +31,7 @@ pub const CORTEX_M3: Board = Board {
     core: "cortex-m3",
     machine: "mps2-an385",
     target: "thumbv7m-none-eabi",
+    optimisation: "-O0",
 };
 
 /// A Cortex-M4F: floating point in single precision.
@@ -35,6 +39,7 @@ pub const CORTEX_M4: Board = Board {
     core: "cortex-m4",
     machine: "mps2-an386",
     target: "thumbv7em-none-eabihf",
+    optimisation: "-O1",
 };
 
 impl Board {
@@ -67,6 +72,9 @@ const LINK: [&str; 6] = [
 
 const GCC: &str = "arm-none-eabi-gcc";
 const QEMU: &str = "qemu-system-arm";
+
+/// The variable that names the parts of the standard library that cargo builds from their sources.
+pub const BUILD_STD: &str = "CARGO_UNSTABLE_BUILD_STD";
 
 /// What is missing on this computer to build for a board and to run there; empty if nothing is.
 pub fn missing(board: &Board) -> Vec<String> {
@@ -103,7 +111,7 @@ pub fn cargo(target: &str) -> Option<Command> {
         cargo
             .env("RUSTC", "/usr/bin/rustc")
             .env("RUSTC_BOOTSTRAP", "1")
-            .env("CARGO_UNSTABLE_BUILD_STD", "core")
+            .env(BUILD_STD, "core")
             .env(
                 format!("CARGO_TARGET_{variable}_LINKER"),
                 "arm-none-eabi-ld",
@@ -116,6 +124,12 @@ pub fn cargo(target: &str) -> Option<Command> {
         cargo.env_remove(variable);
     }
     Some(cargo)
+}
+
+/// Whether a cargo builds the standard library from its sources.
+pub fn builds_library(cargo: &Command) -> bool {
+    let builds = |(name, value): (&OsStr, Option<&OsStr>)| name == BUILD_STD && value.is_some();
+    cargo.get_envs().any(builds)
 }
 
 /// Makes an engine that runs these programs on a board. The interpreter runs on the host only.
@@ -152,7 +166,10 @@ pub fn make_with(make: &mut Command, cargo: &Command) {
 fn find_cargo(target: &str) -> Result<Command, BuildError> {
     let none = || io_error(target, ErrorKind::NotFound.into());
     let mut cargo = cargo(target).ok_or_else(none)?;
-    cargo.env("CARGO_NET_OFFLINE", "true");
+    // A standard library that is built from its sources takes crates from the registry, the first time.
+    if !builds_library(&cargo) {
+        cargo.env("CARGO_NET_OFFLINE", "true");
+    }
     Ok(cargo)
 }
 
@@ -173,7 +190,8 @@ fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, 
         .arg(format!("TARGET={}", board.target))
         .arg(format!("LDFLAGS={}", LINK.join(" ")));
     make_with(&mut make, &find_cargo(board.target)?);
-    make_batch(&mut make, board.flags(), modules, folder)
+    let flags = format!("{} {}", board.flags(), board.optimisation);
+    make_batch(&mut make, &flags, modules, folder)
 }
 
 fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
@@ -181,6 +199,9 @@ fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBu
     build::write_rust(modules, folder)?;
     let target = folder.join("target");
     run(find_cargo(board.target)?
+        // The host checks arithmetic; here it goes as in a release.
+        .env("CARGO_PROFILE_DEV_DEBUG_ASSERTIONS", "false")
+        .env("CARGO_PROFILE_DEV_OVERFLOW_CHECKS", "false")
         .args(["rustc", "--quiet", "--lib", "--crate-type", "staticlib"])
         .args(["--features", "bare", "--target", board.target])
         .arg("--target-dir")

@@ -226,6 +226,16 @@ fn connected(stream: TcpStream) -> io::Result<Wire> {
     Ok(Wire::Tcp(stream))
 }
 
+fn closed() -> io::Error {
+    io::Error::new(ErrorKind::UnexpectedEof, "the line was closed")
+}
+
+/// A terminal whose other end has closed ends, or fails with EIO while it closes; so does an adapter that is pulled out.
+fn is_hangup(error: &io::Error) -> bool {
+    const EIO: i32 = 5;
+    cfg!(unix) && error.raw_os_error() == Some(EIO)
+}
+
 impl Wire {
     fn try_clone(&self) -> io::Result<Wire> {
         Ok(match self {
@@ -271,7 +281,8 @@ impl Wire {
     pub fn send(&mut self, mut bytes: &[u8], patience: Duration) -> io::Result<()> {
         let deadline = Instant::now() + patience;
         while !bytes.is_empty() {
-            let sent = self.write(bytes)?;
+            let sent = self.write(bytes);
+            let sent = sent.map_err(|error| if is_hangup(&error) { closed() } else { error })?;
             bytes = &bytes[sent..];
             if !bytes.is_empty() && Instant::now() > deadline {
                 let why = "the line takes no characters";
@@ -287,11 +298,9 @@ impl Wire {
     /// What the system says, or that the other end has closed.
     pub fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match self.read(buffer) {
-            Ok(0) => Err(io::Error::new(
-                ErrorKind::UnexpectedEof,
-                "the line was closed",
-            )),
+            Ok(0) => Err(closed()),
             Err(error) if is_patience(&error) => Ok(0),
+            Err(error) if is_hangup(&error) => Err(closed()),
             received => received,
         }
     }
