@@ -48,7 +48,6 @@ pub fn measure() -> Result<[Count; 2]> {
         make.arg(format!("CC={}", CORTEX_M4F.cc))
             .arg(format!("TARGET={}", CORTEX_M4F.triple))
             .arg(flags)
-            .env("CARGO_NET_OFFLINE", "true")
             .current_dir(folder),
     )?;
     let library = format!(

@@ -145,14 +145,7 @@ pub(super) fn make_batch(
 }
 
 fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
-    make_batch(&mut make(), "", modules, folder)
-}
-
-/// `make`, whose cargo needs no registry.
-fn make() -> Command {
-    let mut make = Command::new("make");
-    make.env("CARGO_NET_OFFLINE", "true");
-    make
+    make_batch(&mut Command::new("make"), "", modules, folder)
 }
 
 /// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`.
@@ -186,7 +179,7 @@ pub fn build_c_with<'m>(
     modules: &'m [Module],
     folder: &Path,
 ) -> Result<Box<dyn Engine + 'm>, BuildError> {
-    let mut make = make();
+    let mut make = Command::new("make");
     make.arg(format!("CC={compiler}"));
     let flags = format!("-Wno-error {flags}");
     let command = make_batch(
