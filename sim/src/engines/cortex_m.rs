@@ -73,6 +73,9 @@ const LINK: [&str; 6] = [
 const GCC: &str = "arm-none-eabi-gcc";
 const QEMU: &str = "qemu-system-arm";
 
+/// How many seconds an answer may take: `.ci/run` gives simulated machines what other tests leave of this one.
+const PATIENCE: u32 = 300;
+
 /// The variable that names the parts of the standard library that cargo builds from their sources.
 pub const BUILD_STD: &str = "CARGO_UNSTABLE_BUILD_STD";
 
@@ -153,7 +156,8 @@ pub fn build_for<'m>(
         .arg("-kernel")
         .arg(image);
     let name = format!("{} on {}", kind.name(), board.core);
-    Ok(Box::new(Process::new(name, simulate)))
+    let process = Process::new(name, simulate).with_patience(PATIENCE);
+    Ok(Box::new(process))
 }
 
 /// Lets `make` build the runtime library with this cargo.

@@ -8,14 +8,16 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How many seconds an answer may take. All scans of a case are answered within this time, which a loop in the program
-/// would exceed.
+/// How many seconds an answer may take, where nothing else is said. All scans of a case are answered within this time,
+/// which a loop in the program would exceed.
 const PATIENCE: u32 = 20;
 
 /// A batch executable. It is started at the first request and again after it was killed or has crashed.
 pub struct Process {
     name: String,
     command: Command,
+    /// How many seconds an answer may take.
+    patience: u32,
     running: Option<Running>,
 }
 
@@ -25,6 +27,7 @@ struct Running {
     answers: Receiver<String>,
     /// Requests not yet known to be answered.
     pending: VecDeque<Request>,
+    patience: u32,
 }
 
 impl Process {
@@ -33,8 +36,15 @@ impl Process {
         Process {
             name: name.into(),
             command,
+            patience: PATIENCE,
             running: None,
         }
+    }
+
+    /// Lets an answer take this many seconds: a simulated machine is slow, and others may use this one.
+    pub fn with_patience(mut self, patience: u32) -> Self {
+        self.patience = patience;
+        self
     }
 
     fn start(&mut self) -> Result<Running, EngineError> {
@@ -66,6 +76,7 @@ impl Process {
             requests: BufWriter::new(stdin),
             answers,
             pending: VecDeque::new(),
+            patience: self.patience,
         })
     }
 
@@ -92,7 +103,7 @@ impl Running {
     /// Waits second by second: whoever stops both programs for a while uses up one of the seconds.
     fn next_answer(&self) -> Result<String, RecvTimeoutError> {
         let wait = || self.answers.recv_timeout(Duration::from_secs(1));
-        let mut waits = (0..PATIENCE).map(|_| wait());
+        let mut waits = (0..self.patience).map(|_| wait());
         let answered = waits.find(|answer| *answer != Err(RecvTimeoutError::Timeout));
         answered.unwrap_or(Err(RecvTimeoutError::Timeout))
     }
