@@ -230,7 +230,7 @@ fn closed() -> io::Error {
     io::Error::new(ErrorKind::UnexpectedEof, "the line was closed")
 }
 
-/// A terminal whose other end has closed ends, or fails with EIO while it closes; so does an adapter that is pulled out.
+/// A terminal whose other end has closed ends, or fails with EIO while it closes; so does an adapter pulled out.
 fn is_hangup(error: &io::Error) -> bool {
     const EIO: i32 = 5;
     cfg!(unix) && error.raw_os_error() == Some(EIO)
