@@ -203,9 +203,6 @@ fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBu
     build::write_rust(modules, folder)?;
     let target = folder.join("target");
     run(find_cargo(board.target)?
-        // The host checks arithmetic; here it goes as in a release.
-        .env("CARGO_PROFILE_DEV_DEBUG_ASSERTIONS", "false")
-        .env("CARGO_PROFILE_DEV_OVERFLOW_CHECKS", "false")
         .args(["rustc", "--quiet", "--lib", "--crate-type", "staticlib"])
         .args(["--features", "bare", "--target", board.target])
         .arg("--target-dir")
