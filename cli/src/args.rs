@@ -70,10 +70,10 @@ Examples:
 Exit codes: 0: success; 1: errors in the program, a failed test, or a simulated machine that hit its end stop;
 2: incorrect usage or unreadable input; 3: `verify` has not decided; 130: interrupted with Ctrl-C.")]
 pub struct Cli {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
-    /// When to use colours.
+    /// Use of colours.
     #[arg(long, global = true, value_enum, default_value_t = ColorWhen::Auto, value_name = "WHEN")]
     pub color: ColorWhen,
     /// Print only diagnostics and results, no progress.
@@ -89,59 +89,58 @@ pub struct Cli {
 pub enum Command {
     /// Check a program without compiling it.
     Check(CheckArgs),
-    /// Compile a program to C, Rust, an executable, or show its IR.
+    /// Compile a program to C, Rust or an executable, or print its IR.
     Build(BuildArgs),
     /// Run a program in the interpreter with virtual time.
     Run(RunArgs),
     /// Run a program in real time with the servers and serial lines of `[serve]` in rungc.toml, until Ctrl-C.
     ///
-    /// Options add servers to those of rungc.toml; what they say of a protocol or of a serial port takes precedence. At
-    /// the end, a table shows the connections: frames, errors, and the devices that were written.
+    /// Options add servers to those of rungc.toml, and take precedence for a protocol or serial port that both name. At
+    /// the end, a table lists the connections: frames, errors, and devices written.
     Serve(RunArgs),
-    /// Run many PLCs in lock step, each with its ports or its topics of a broker, until Ctrl-C.
+    /// Run many PLCs in lock step, each with its own ports or MQTT topics, until Ctrl-C.
     ///
-    /// At the end, it says how many scans there were and how many were missed, how late they began, and what a PLC
-    /// takes in memory.
+    /// At the end, reports the number of scans, missed scans, the latency of their start, and memory per PLC.
     Fleet(FleetArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
     /// Prove that a program has a property, or show how it violates it.
     ///
-    /// A property is a condition over devices as they are after a scan, such as `Y000 & Y001`. Exit codes: 0: proved;
-    /// 1: violated; 2: incorrect usage; 3: not decided.
+    /// A property is a condition on the devices after a scan, such as `Y000 & Y001`. Exit codes: 0: proved; 1:
+    /// violated; 2: incorrect usage; 3: undecided.
     Verify(VerifyArgs),
-    /// Search runs of a program for violated properties, operation errors and outputs that coils drive differently.
+    /// Search for runs with property violations, operation errors, or coils that drive an output to conflicting states.
     ///
-    /// Tries sequences of inputs, and continues from those that show something new. Shows the shortest run that it
-    /// finds of each thing. Exit codes: 0: nothing found, which proves nothing; 1: found; 2: incorrect usage.
+    /// Tries sequences of inputs, and extends those that reach new behaviour. Prints the shortest run for each finding.
+    /// Exit codes: 0: nothing found, which is not a proof; 1: found; 2: incorrect usage.
     Explore(ExploreArgs),
-    /// Draw a program as ladder.
+    /// Draw a program as a ladder diagram.
     View(ViewArgs),
-    /// List who reads, writes, sets and resets each device.
+    /// List the instructions that read, write, set and reset each device.
     Xref(XrefArgs),
     /// Count steps, instructions and devices, and estimate the scan time of the real PLC.
     Stats(StatsArgs),
-    /// Lay out instruction lists in the usual way; comments stay.
+    /// Format instruction lists, preserving comments.
     Fmt(FmtArgs),
-    /// Compare two programs network by network, or what they do.
+    /// Compare two programs network by network, or by behaviour.
     Diff(DiffArgs),
-    /// Rewrite a program as an instruction list, a list export, drawn ladder or program memory.
+    /// Convert a program to an instruction list, list export, ladder drawing, PLCopen XML or program memory.
     Convert(ConvertArgs),
-    /// Read the program out of a PLC over its programming port.
+    /// Read the program from a PLC over its programming port.
     ///
-    /// The PLC keeps running, and nothing in it is changed. A PLC whose program is protected by a keyword is not read.
+    /// The PLC keeps running, and nothing in it changes. Programs protected by a keyword are not read.
     Read(ReadArgs),
-    /// List the boards that rungc has descriptions of, or show the pins of one.
+    /// List the supported boards, or show the pins of one.
     Boards(BoardsArgs),
-    /// Write an image into a microcontroller, over the boot loader in its ROM (STM32, AN3155) or with probe-rs.
+    /// Flash an image to a microcontroller through its ROM boot loader (STM32, AN3155) or with probe-rs.
     ///
-    /// Says what is erased, and asks. Exit codes: 0: the image is there, read back and compared; 1: the boot loader,
-    /// the part or the line does not allow it (E0850 and following); 2: incorrect usage or unreadable image; 130:
+    /// Lists what will be erased, and asks for confirmation. Exit codes: 0: written and verified; 1: failed because of
+    /// the boot loader, the part or the line (E0850 and following); 2: incorrect usage or unreadable image; 130:
     /// interrupted.
     Flash(FlashArgs),
-    /// Write rungc.toml, the settings of a project, with a comment on each.
+    /// Write rungc.toml, the commented settings of a project.
     Init(InitArgs),
-    /// Learn unknown instruction codes in a vendor project from the list that the editor exports.
+    /// Learn unknown instruction codes of a vendor project from the editor's list export.
     Learn(LearnArgs),
     /// Explain a diagnostic code, an instruction or a special device.
     Explain(ExplainArgs),
@@ -152,7 +151,7 @@ pub enum Command {
     },
 }
 
-/// A program and how to read it.
+/// A program and its reader options.
 #[derive(Args, Clone, Debug)]
 pub struct Input {
     /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2 project (.gxw) or
@@ -164,7 +163,7 @@ pub struct Input {
     pub reading: Reading,
 }
 
-/// Programs and how to read them.
+/// Programs and their reader options.
 #[derive(Args, Debug)]
 pub struct Inputs {
     /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw) and
@@ -183,14 +182,14 @@ pub struct FileKind {
     /// `rungc explain h2u-mtq` shows a variant.
     #[arg(long, value_parser = plc, value_name = "MODEL")]
     pub model: Option<Plc>,
-    /// Encoding of texts, such as windows-1252, gbk or shift_jis. Default: the one that a project states, or the most
-    /// likely one.
+    /// Text encoding, such as windows-1252, gbk or shift_jis. Default: the encoding that a project states, else the
+    /// most likely one.
     #[arg(long, value_parser = encoding, value_name = "NAME")]
     pub encoding: Option<&'static Encoding>,
     /// Read the compiled program of a GX Works2 project, not its source.
     #[arg(long)]
     pub compiled: bool,
-    /// What a file is, where its content does not show it.
+    /// Input format, if it cannot be detected.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub from: Option<ReadFrom>,
     /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`; `*,M100-M199` lists devices for
@@ -199,7 +198,7 @@ pub struct FileKind {
     pub names: Option<Names>,
 }
 
-/// How to read programs, and how to report what is found.
+/// Options for reading programs and reporting diagnostics.
 #[derive(Args, Clone, Debug, Default)]
 pub struct Reading {
     #[command(flatten)]
@@ -225,7 +224,7 @@ impl Reading {
     }
 }
 
-/// How to report diagnostics.
+/// Options for diagnostics.
 #[derive(Args, Clone, Debug)]
 pub struct Reporting {
     /// Format of diagnostics. Human-readable ones go to standard error, others to standard output, or to standard error
@@ -245,7 +244,7 @@ pub struct Reporting {
     /// rejects the program, but it can be compiled.
     #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit)]
     pub warn: Vec<&'static str>,
-    /// What rungc.toml says about codes; the command line takes precedence.
+    /// Levels of codes from rungc.toml; the command line takes precedence.
     #[arg(skip)]
     pub rules: Check,
     /// Maximum number of diagnostics to print in the human format; 0 prints all.
@@ -258,15 +257,15 @@ pub struct Reporting {
 pub struct CheckArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// Apply the fixes that are certain to instruction lists, and report what remains.
+    /// Apply safe fixes to instruction lists, and report the remaining diagnostics.
     #[arg(long)]
     pub fix: bool,
-    /// Draw the network that each diagnostic is about as ladder, with its place marked.
+    /// Draw the network of each diagnostic as a ladder diagram, with the place marked.
     #[arg(long)]
     pub draw: bool,
-    /// Also look for what can never happen, each with its proof: coils that are never on, rungs that never do anything,
-    /// steps that are never reached or left, comparisons with one result, timers that never expire; and for outputs
-    /// that change in every scan. At most 20 seconds a program. Draws.
+    /// Also report dead logic, with a proof of each: coils that are never on, rungs without effect, steps that are
+    /// never reached or left, comparisons with one result, timers that never expire; and outputs that change in every
+    /// scan. Takes at most 20 seconds per program. Implies --draw.
     #[arg(long)]
     pub deep: bool,
 }
@@ -280,7 +279,7 @@ pub struct BuildArgs {
     pub plan: Plan,
 }
 
-/// What to build; rungc.toml supplies what the command line omits.
+/// Build settings; rungc.toml supplies those that the command line omits.
 #[derive(Args, Clone, Debug)]
 pub struct Plan {
     /// Output form.
@@ -293,7 +292,7 @@ pub struct Plan {
     /// Target: `host` or a Rust target triple such as thumbv7em-none-eabihf. Images use the board's target.
     #[arg(long, value_parser = target, value_name = "TARGET")]
     pub target: Option<&'static Target>,
-    /// Language used to build an image.
+    /// Language of the image's sources.
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub backend: Option<Backend>,
     /// Board for an image: a name that `rungc boards` lists, or a description (docs/src/boards.md); with c or rust,
@@ -303,7 +302,7 @@ pub struct Plan {
     /// Scripted inputs for simulator images: `X000=1@2s`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "INPUT=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// When a simulator image exits: `30s`.
+    /// Run time of a simulator image, after which it exits: `30s`.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
     /// Extra argument for cargo, such as `-Zbuild-std=core`; may be repeated.
@@ -363,7 +362,7 @@ pub struct RunArgs {
     /// until Ctrl-C.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
-    /// How long a scan takes, in virtual time; a longer constant scan time of the program is waited for. Default: its
+    /// Scan time, in virtual time; a longer constant scan time of the program takes precedence. Default: the program's
     /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
@@ -383,23 +382,23 @@ pub struct RunArgs {
     /// overwrites an existing file.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
-    /// Write a test file (`*.plctest.toml`) that sets what this run sets, and expects what the outputs and the devices
-    /// of --watch do; it has passed once. Overwrites an existing file.
+    /// Record this run as a test file (`*.plctest.toml`): the devices set, and the outputs and the devices of --watch
+    /// as expectations. Overwrites an existing file.
     #[arg(long, value_name = "FILE", conflicts_with = "real_time")]
     pub record: Option<PathBuf>,
     /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites
     /// an existing file.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// With --plot: draw over this number instead of over time, such as a slave over its master.
+    /// With --plot: plot against this value instead of time, such as a slave axis against its master.
     #[arg(long, value_name = "DEVICE", requires = "plot")]
     pub over: Option<String>,
-    /// Draw what HM's oscilloscope has sampled last (D8030 to D8043) as an SVG, and write a table of the samples beside
-    /// it (`.csv`); overwrites existing files.
+    /// Draw the last samples of HM's oscilloscope (D8030 to D8043) as an SVG, and write them as a table to a `.csv`
+    /// file of the same name; overwrites existing files.
     #[arg(long, value_name = "FILE")]
     pub scope: Option<PathBuf>,
-    /// Keep latched devices in this file from run to run: their values are loaded when the run begins, and saved when
-    /// it ends, in real time also once a second if one has changed. Default: that of rungc.toml.
+    /// Store latched devices in this file: loaded at the start, saved at the end, and in real time also once a second
+    /// if one has changed. Default: the file named in rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub retain: Option<PathBuf>,
     /// Run in real time instead of as fast as possible.
@@ -413,13 +412,13 @@ pub struct RunArgs {
 }
 
 impl RunArgs {
-    /// How long it runs, in milliseconds; `None` until it is interrupted.
+    /// Duration of the run, in milliseconds; `None` until it is interrupted.
     pub fn end_ms(&self) -> Option<u64> {
         const USUAL_MS: u64 = 1000;
         self.duration.or((!self.serve.any()).then_some(USUAL_MS))
     }
 
-    /// Whether it keeps step with the clock.
+    /// Returns true if the run follows the clock.
     pub fn in_real_time(&self) -> bool {
         self.real_time || self.serve.any()
     }
@@ -430,26 +429,26 @@ impl RunArgs {
 pub struct ViewArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// Draw these networks only, by their numbers: `12` or `12..20`. Repeat it for more.
+    /// Draw only these networks, by number: `12` or `12..20`; may be repeated.
     #[arg(long, value_parser = networks, value_name = "RANGE")]
     pub network: Vec<RangeInclusive<usize>>,
-    /// Draw only networks that name this device: `M100`. Repeat it for more.
+    /// Draw only networks that contain this device: `M100`; may be repeated.
     #[arg(long, value_parser = device, value_name = "DEVICE")]
     pub device: Vec<Device>,
-    /// Draw only networks about which a check reports this code: `E0404`. Repeat it for more.
+    /// Draw only networks with a diagnostic of this code: `E0404`; may be repeated.
     #[arg(long, value_parser = code, value_name = "CODE")]
     pub around: Vec<&'static str>,
     /// Draw the sequential function chart of the step ladder instead of the networks.
     #[arg(long, conflicts_with_all = ["network", "device", "around"])]
     pub sfc: bool,
-    /// Characters on a line. Default: the width of the terminal, or 120.
+    /// Line width in characters. Default: the width of the terminal, or 120.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
-    /// Omit the comments of devices, in the terminal.
+    /// Omit device comments, in the terminal.
     #[arg(long)]
     pub no_comments: bool,
-    /// Write a file: a page (.html) or document (.pdf) of the whole program, or a picture (.svg) of the networks that
-    /// are drawn. With several programs, a folder for their pages.
+    /// Write a file: a page (.html) or document (.pdf) of the whole program, or a picture (.svg) of the selected
+    /// networks. With several programs, a folder for their pages.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Overwrite an existing file.
@@ -462,10 +461,10 @@ pub struct ViewArgs {
 pub struct XrefArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// List only these devices: `M100` or `D100..D199`. Repeat it for more.
+    /// List only these devices: `M100` or `D100..D199`; may be repeated.
     #[arg(long, value_parser = devices, value_name = "RANGE")]
     pub device: Vec<(DeviceClass, u32, u32)>,
-    /// List the general devices that no instruction names, too; the page and JSON always do.
+    /// Also list general devices that no instruction uses; the page and JSON always do.
     #[arg(long)]
     pub unused: bool,
     /// Output form.
@@ -494,7 +493,7 @@ pub struct StatsArgs {
 pub struct FmtArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// Change nothing: list the lines that are laid out differently, and fail (exit code 1) if there are any.
+    /// Change nothing: list the lines that are not formatted, and fail (exit code 1) if there are any.
     #[arg(long)]
     pub check: bool,
 }
@@ -513,11 +512,11 @@ pub struct LearnArgs {
     /// GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw).
     #[arg(value_name = "PROJECT")]
     pub file: PathBuf,
-    /// The list (CSV) that the editor exported from the same state of the project.
+    /// List export (CSV) of the same state of the project.
     #[arg(value_name = "EXPORT")]
     pub export: PathBuf,
     /// Settings file to write the codes to. Default: the nearest rungc.toml, in the project's folder or above it, else
-    /// a new one beside it.
+    /// a new one in that folder.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
     /// PLC model. Default: that of the settings, else the CPU type that the project names.
@@ -531,12 +530,12 @@ pub struct ExplainArgs {
     /// A diagnostic code (E0106), an instruction (ADD, LD>=), a special device (M8013), or a variant of a model
     /// (h2u-mtq).
     pub topic: String,
-    /// Model to show special devices for.
+    /// Model whose special devices are shown.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
 }
 
-/// When to use colours.
+/// Use of colours.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ColorWhen {
     /// On a terminal, unless NO_COLOR is set.

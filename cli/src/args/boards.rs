@@ -6,14 +6,14 @@ use std::path::PathBuf;
 /// Arguments of `boards`.
 #[derive(Args, Debug)]
 pub struct BoardsArgs {
-    /// Name of a board, or a description (docs/src/boards.md), whose pins are shown. Default: all boards are listed.
+    /// Board to show: a name, or a description (docs/src/boards.md). Default: list all boards.
     #[arg(value_name = "BOARD")]
     pub board: Option<PathBuf>,
-    /// Print the description itself, to be changed.
+    /// Print the description as TOML, as a template for your own board.
     #[arg(long, requires = "board", conflicts_with = "pins_only")]
     pub toml: bool,
-    /// Build an image that only reports inputs over a serial port and switches one output at a time when a key is sent
-    /// to it: to find out whether the pins are right.
+    /// Build an image that checks the wiring of pins: it reports inputs over a serial port, and switches one output at
+    /// a time when a key is sent to it.
     #[arg(long, requires = "board", requires = "output")]
     pub pins_only: bool,
     /// Image to write.

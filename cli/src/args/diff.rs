@@ -11,7 +11,7 @@ pub struct DiffArgs {
     /// arguments, those with which Git calls a diff driver (docs/src/diff.md).
     #[arg(value_name = "FILE", required = true, num_args = 2..=9)]
     pub files: Vec<PathBuf>,
-    /// Compare what the programs do: say which devices can have different values. The exit code is about that alone.
+    /// Compare behaviour: list the devices that can have different values. Determines the exit code.
     #[arg(long)]
     pub semantic: bool,
     /// Format of the comparison.
@@ -20,7 +20,8 @@ pub struct DiffArgs {
     /// File to write the comparison to, overwriting an existing one. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Characters on a line of ladder. Default: the width of the terminal, or 120; 100 with `--format md`.
+    /// Line width of ladder diagrams, in characters. Default: the width of the terminal, or 120; 100 with `--format
+    /// md`.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
     #[command(flatten)]
@@ -28,7 +29,7 @@ pub struct DiffArgs {
 }
 
 impl DiffArgs {
-    /// How to read both programs.
+    /// Reader options for both programs.
     pub fn reading(&self) -> Reading {
         Reading {
             kind: self.kind.clone(),
@@ -43,12 +44,12 @@ impl DiffArgs {
 pub enum DiffFormat {
     /// Human-readable: the lines of ladder that differ.
     Human,
-    /// A page with the old and the new picture of each network.
+    /// A page with the old and new drawing of each network.
     Html,
     /// JSON: one object (docs/src/diff.md).
     Json,
     /// Markdown, for a comment on a pull request.
     Md,
-    /// A picture of the networks that differ, before and now.
+    /// A picture of the networks that differ, before and after.
     Svg,
 }

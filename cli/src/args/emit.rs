@@ -18,19 +18,19 @@ pub enum Emit {
     Lib,
     /// An image for a board.
     Elf,
-    /// An image for a board with an RP2040, as its mass-storage volume takes it.
+    /// A UF2 image for a board with an RP2040.
     Uf2,
-    /// A library of Arduino: C, `library.properties`, a sketch.
+    /// An Arduino library: C, `library.properties`, a sketch.
     Arduino,
-    /// A library of PlatformIO: C, `library.json`, an example.
+    /// A PlatformIO library: C, `library.json`, an example.
     Platformio,
-    /// A module of Zephyr: C, `zephyr/module.yml`, a sample.
+    /// A Zephyr module: C, `zephyr/module.yml`, a sample.
     Zephyr,
-    /// A component of ESP-IDF: C, `idf_component.yml`, an example.
+    /// An ESP-IDF component: C, `idf_component.yml`, an example.
     EspIdf,
 }
 
-/// Language used to build an image.
+/// Language of the image's sources.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Backend {
     /// C: the default.

@@ -15,37 +15,37 @@ pub struct ExploreArgs {
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
-    /// What latched devices hold when a run begins.
+    /// Values of latched devices at the start of a run.
     #[arg(long, value_enum, default_value_t = Latched::Zero)]
     pub latched: Latched,
-    /// Do not search for this. Repeat it for more.
+    /// Do not search for this kind of finding; may be repeated.
     #[arg(long, value_enum, value_name = "KIND")]
     pub ignore: Vec<Ignored>,
-    /// How many scans to execute.
+    /// Number of scans to execute.
     #[arg(long, default_value_t = 200_000, value_name = "COUNT")]
     pub scans: u64,
-    /// How long to search, in real time: also stop then. What is found then depends on how fast the machine is.
+    /// Time limit of the search, in real time. With it, results depend on the speed of the machine.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
-    /// Stop at the first thing found.
+    /// Stop at the first finding.
     #[arg(long)]
     pub first: bool,
-    /// What random numbers begin with: another seed, another search.
+    /// Random seed: another seed searches differently.
     #[arg(long, default_value_t = 1, value_name = "NUMBER")]
     pub seed: u64,
-    /// How many threads search. Default: one for each processor. What they find does not depend on it.
+    /// Number of threads. Default: one per processor. Does not affect the results.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub threads: Option<u16>,
-    /// What executes the search. What is found does not depend on it.
+    /// Engine of the search. Does not affect the results.
     #[arg(long, value_enum, default_value_t = SearchEngine::Auto)]
     pub engine: SearchEngine,
-    /// Engines on which each run must show the same before it is reported; those of C and Rust are built first.
+    /// Engines that must confirm each finding before it is reported; those of C and Rust are built first.
     #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
     pub replay: EngineChoice,
-    /// Write the runs as a test file, which fails as long as the program does this: `rungc test FILE`.
+    /// Write the runs to a test file, which fails until the program is corrected: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,
-    /// Record the run of the first thing found as a value change dump; overwrites an existing file.
+    /// Record the run of the first finding as a value change dump; overwrites an existing file.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
     /// Overwrite an existing test file.
@@ -53,19 +53,19 @@ pub struct ExploreArgs {
     pub force: bool,
 }
 
-/// What latched devices hold when a run begins.
+/// Values of latched devices at the start of a run.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Latched {
     /// 0, as in a new PLC.
     Zero,
-    /// What an earlier run has saved: the search also switches the power off and on.
+    /// Values saved by an earlier run: the search also switches the power off and on.
     Saved,
 }
 
-/// What executes a search.
+/// Engine of a search.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SearchEngine {
-    /// Lanes from 1,000,000 scans on, if the program permits them and `cc` is there.
+    /// Lanes from 1,000,000 scans on, if the program allows them and `cc` is installed.
     Auto,
     /// The interpreter.
     Interp,
@@ -73,23 +73,23 @@ pub enum SearchEngine {
     Lanes,
 }
 
-/// What a search leaves out.
+/// Kinds of finding that a search can omit.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ignored {
     /// Operation errors (M8067).
     Errors,
-    /// Scans that do not end.
+    /// Endless scans.
     Watchdog,
-    /// Outputs that two coils drive differently in one scan.
+    /// Outputs that two coils drive to different values in one scan.
     Coils,
     /// Outputs that change in every scan.
     Oscillation,
-    /// Axes that run into an end of their travel.
+    /// Axes that reach an end of their travel.
     Collisions,
 }
 
 impl Ignored {
-    /// What it is to the search.
+    /// The search's kind of finding.
     pub fn kind(self) -> Kind {
         match self {
             Ignored::Errors => Kind::Errors,

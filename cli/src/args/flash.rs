@@ -9,42 +9,42 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(group(ArgGroup::new("way").required(true).args(["port", "probe", "volume"])))]
 pub struct FlashArgs {
-    /// Image to write: an ELF file of `rungc build --emit elf`, UF2 for `--volume`, or bytes as they are in flash.
+    /// Image to write: an ELF file of `rungc build --emit elf`, UF2 for `--volume`, or a raw binary.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The serial port that the boot loader's UART is connected to (`/dev/ttyUSB0`, `COM3`), or a serial device
-    /// server (`tcp:HOST:PORT`). The line has 8 data bits and even parity.
+    /// Serial port connected to the boot loader's UART (`/dev/ttyUSB0`, `COM3`), or a serial device server
+    /// (`tcp:HOST:PORT`). The line has 8 data bits and even parity.
     #[arg(long, value_parser = serial_end, value_name = "PORT")]
     pub port: Option<LineEnd>,
-    /// Use a debug probe through probe-rs, which must be installed, for this part: `STM32F103VC`.
+    /// Use a debug probe for this part, through probe-rs, which must be installed: `STM32F103VC`.
     #[arg(long, value_name = "CHIP")]
     pub probe: Option<String>,
-    /// The folder of the volume that the boot ROM of an RP2040 (Raspberry Pi Pico) shows over USB; `auto` looks for it.
+    /// Folder of the USB volume of an RP2040's boot ROM (Raspberry Pi Pico); `auto` searches for it.
     #[arg(long, value_name = "FOLDER")]
     pub volume: Option<PathBuf>,
     /// Bit rate; the boot loader measures it.
     #[arg(long, default_value_t = 115_200, value_parser = bit_rate, value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// How long to wait for the boot loader, in seconds: time to set BOOT0 and to reset the board, or for a volume to
-    /// vanish.
+    /// Time to wait for the boot loader, in seconds, while you set BOOT0 and reset the board; or for a volume to
+    /// disappear.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
     pub wait: u64,
     /// Address of the first byte, for files that are not ELF.
     #[arg(long, default_value = "0x08000000", value_parser = address, value_name = "ADDRESS")]
     pub at: u32,
-    /// Before anything is erased, save all of flash to a file. A read-protected part cannot be saved.
+    /// Save all of flash to a file before erasing. Not possible for a read-protected part.
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
     pub backup: Option<PathBuf>,
     /// Overwrite an existing backup.
     #[arg(long, requires = "backup")]
     pub force: bool,
-    /// Lift read and write protection. Lifting read protection erases all of flash, for ever.
+    /// Remove read and write protection. Removing read protection erases all of flash permanently.
     #[arg(long)]
     pub unprotect: bool,
     /// Do not ask before erasing.
     #[arg(long)]
     pub yes: bool,
-    /// Start the program afterwards. Its outputs switch at once.
+    /// Start the program afterwards. Its outputs switch immediately.
     #[arg(long)]
     pub start: bool,
 }

@@ -1,4 +1,4 @@
-//! How programs come in and go out in other forms: `convert`, `read`.
+//! Arguments of the commands for other forms of programs: `convert`, `read`.
 
 use super::{Inputs, Reporting};
 use clap::{Args, ValueEnum};
@@ -29,20 +29,20 @@ pub struct ConvertArgs {
 /// Arguments of `read`.
 #[derive(Args, Debug)]
 pub struct ReadArgs {
-    /// The serial port of this machine that the PLC's programming port is connected to (`/dev/ttyUSB0`, `COM3`), or a
-    /// serial device server (`tcp:HOST:PORT`).
+    /// Serial port connected to the PLC's programming port (`/dev/ttyUSB0`, `COM3`), or a serial device server
+    /// (`tcp:HOST:PORT`).
     #[arg(long, value_parser = serial_end, value_name = "PORT")]
     pub port: LineEnd,
     /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
     #[arg(long, default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// How long to wait for an answer, in milliseconds.
+    /// Time to wait for a response, in milliseconds.
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(10..=60_000), value_name = "MS")]
     pub timeout: u32,
-    /// How often to ask again when an answer is missing or damaged.
+    /// Number of retries if a response is missing or damaged.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
     pub retries: u32,
-    /// Output form; `image` is the program memory as it is.
+    /// Output format; `image` is the unchanged program memory.
     #[arg(long, value_enum, default_value_t = ConvertTo::Il)]
     pub to: ConvertTo,
     /// File to write. Default: standard output.
@@ -55,7 +55,7 @@ pub struct ReadArgs {
     pub reporting: Reporting,
 }
 
-/// Where a PLC or a board is.
+/// Address of a PLC or a board.
 pub(super) fn serial_end(text: &str) -> Result<LineEnd, String> {
     match LineEnd::parse(text)? {
         end @ (LineEnd::Path(_) | LineEnd::Tcp(_)) => Ok(end),
@@ -77,15 +77,15 @@ pub enum ConvertTo {
     Il,
     /// The editors' list export (UTF-16, tabs).
     Csv,
-    /// The comments of devices, as the editors export them beside the list (`COMMENT.csv`).
+    /// Device comments, as the editors export them (`COMMENT.csv`).
     Comments,
-    /// Ladder drawn in characters.
+    /// Ladder diagram drawn in characters.
     Ladder,
     /// Program memory of an FX PLC.
     Image,
-    /// A project of PLCopen XML (TC6 2.01).
+    /// PLCopen XML project (TC6 2.01).
     Plcopen,
-    /// The lists of AutoShop's windows, each after its heading (`MAIN`, `SBR name`, `INT name I001`).
+    /// Lists of AutoShop's windows, each with its heading (`MAIN`, `SBR name`, `INT name I001`).
     Autoshop,
 }
 
@@ -97,7 +97,7 @@ pub enum PlcopenBody {
     Ld,
     /// Instruction list of IEC 61131-3.
     Il,
-    /// Sequential function chart, of a program with states (STL).
+    /// Sequential function chart of a step ladder (STL) program.
     Sfc,
 }
 

@@ -12,38 +12,39 @@ use std::path::PathBuf;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Servers")]
 pub struct ServeArgs {
-    /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`).
-    /// Runs in real time. The protocol has no password: whoever reaches the address reads and writes every device.
+    /// Serve all devices over Modbus TCP at this address: `127.0.0.1:5020`, or a port on this machine only (`5020`).
+    /// Runs in real time. The protocol has no authentication: anyone who can reach the address can read and write every
+    /// device.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub modbus_tcp: Vec<SocketAddr>,
-    /// Serve all devices by MC protocol (frames 1E and 3E, binary), as --modbus-tcp does.
+    /// Serve all devices over the MC protocol (binary 1E and 3E frames), as --modbus-tcp does.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub mc: Vec<SocketAddr>,
-    /// Serve all devices by the programming port's protocol, as --modbus-tcp does; or, at the programming port itself,
-    /// on a line as after --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
+    /// Serve all devices over the programming port's protocol, as --modbus-tcp does; or connect the programming port to
+    /// a line, as with --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
     #[arg(long, value_name = "ADDRESS or DEVICE")]
     pub fx: Vec<FxEnd>,
     /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that
     /// clients open (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket
-    /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. What vanishes is
-    /// opened again.
+    /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. A lost device is
+    /// reopened.
     #[arg(long, value_name = "PORT=DEVICE")]
     pub serial: Vec<Line>,
-    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an adapter that
-    /// speaks SLCAN, with the bit rate in kbit/s (500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
+    /// Connect the CAN card of H1U and H2U to a CAN interface of this machine (`can0`, Linux), or to an SLCAN adapter,
+    /// with the bit rate in kbit/s (default 500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
     #[arg(long, value_parser = Line::can, value_name = "BUS")]
     pub can: Option<Line>,
     /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`
     /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
     pub trace_frames: Option<PathBuf>,
-    /// Connect terminals and registers as the tables `[io.NAME]` of this file say (rungc.toml, docs/src/linux.md): to
-    /// remote I/O by Modbus, to a broker by MQTT, to pins (Linux), to files, to standard input and output. Runs in real
-    /// time. `rungc serve` uses those of the project's rungc.toml.
+    /// Connect terminals and registers as described by the tables `[io.NAME]` of this file (rungc.toml,
+    /// docs/src/linux.md): Modbus remote I/O, an MQTT broker, pins (Linux), files, standard input and output. Runs in
+    /// real time. `rungc serve` uses the project's rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
-    /// Scan with this real-time priority (Linux: SCHED_FIFO, 1 to 99), with all memory locked. Where the system does
-    /// not allow it, this is reported and the run continues without. At its end, it reports how late scans began.
+    /// Scan with this real-time priority (Linux: SCHED_FIFO, 1 to 99), with all memory locked. If the system does not
+    /// permit this, a warning is printed and the run continues without. At the end, scan start latency is reported.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=99), value_name = "N")]
     pub priority: Option<u8>,
     /// Connect them as the project's settings say.
@@ -59,11 +60,11 @@ pub struct ServeArgs {
 /// The page of `run` and `serve`.
 #[derive(Args, Clone, Default, Debug)]
 pub struct PageArgs {
-    /// Serve a page that shows the ladder live and controls the run, at this port of this machine alone; default: a
-    /// free one. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
+    /// Serve a page that shows the ladder live and controls the run, at this port on this machine only; default: a free
+    /// port. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
     #[arg(long, value_parser = address, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "0")]
     pub page: Option<SocketAddr>,
-    /// The page shows the run, and takes no commands.
+    /// Make the page read-only: it shows the run, and accepts no commands.
     #[arg(long, requires = "page")]
     pub read_only: bool,
 }

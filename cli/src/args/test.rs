@@ -23,30 +23,29 @@ pub struct TestArgs {
     #[arg(long, alias = "only", value_name = "TEXT")]
     pub filter: Option<String>,
     /// Run only one part of the cases (with --mutants, of the mutants), to share the work between machines: `1/4` is
-    /// the first of four. Which part a case is in depends on its name alone.
+    /// the first of four. The part of a case depends on its name alone.
     #[arg(long, value_name = "PART/PARTS")]
     pub shard: Option<Shard>,
-    /// Show each trace that differs from the accepted one, and ask whether to accept it.
+    /// Show each trace that differs from the accepted one, and prompt to accept it.
     #[arg(long, conflicts_with_all = ["accept", "reject", "watch", "shard"])]
     pub review: bool,
-    /// Accept all traces as they are now.
+    /// Accept all current traces.
     #[arg(long, conflicts_with_all = ["reject", "watch"])]
     pub accept: bool,
-    /// Delete runs that earlier tests left beside accepted traces.
+    /// Delete pending traces of earlier tests.
     #[arg(long, conflicts_with = "watch")]
     pub reject: bool,
-    /// Run again each time that a test file, program, machine, trace or setting is saved, until Ctrl-C.
+    /// Rerun whenever a test file, program, machine, trace or setting is saved, until Ctrl-C.
     #[arg(long, conflicts_with = "output")]
     pub watch: bool,
-    /// Run all cases, also those that passed before with the same files and compiler.
+    /// Ignore cached results: also run cases that passed before with the same files and compiler.
     #[arg(long)]
     pub no_cache: bool,
-    /// Report what the cases execute of their programs: networks, contacts that decide, coils on and off, transitions,
-    /// timers (docs/src/coverage.md). The interpreter runs them all.
+    /// Report coverage: networks, decisive contacts, coils on and off, transitions, timers (docs/src/coverage.md). All
+    /// cases run in the interpreter.
     #[arg(long, value_enum, value_name = "FORMAT", conflicts_with_all = ["format", "mutants", "watch", "review", "accept", "reject"])]
     pub coverage: Option<CoverageFormat>,
-    /// Change the programs a little, again and again, and report the changes that no case notices
-    /// (docs/src/mutants.md).
+    /// Report surviving mutants: small changes to the programs that no case detects (docs/src/mutants.md).
     #[arg(long, conflicts_with_all = ["format", "watch", "review", "accept", "reject"])]
     pub mutants: bool,
     /// Format of the results.
@@ -58,7 +57,7 @@ pub struct TestArgs {
     pub output: Option<PathBuf>,
 }
 
-/// How `test` reports results.
+/// Formats of test results.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum TestFormat {
     /// Human-readable: failed cases and totals.
@@ -73,13 +72,13 @@ pub enum TestFormat {
     Github,
 }
 
-/// How `test` reports coverage.
+/// Formats of coverage.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CoverageFormat {
-    /// What was not reached, line by line.
+    /// Human-readable: whatever was not reached, line by line.
     Text,
-    /// A page with the ladder.
+    /// A page with the ladder diagram.
     Html,
-    /// A tracefile for genhtml and services.
+    /// An LCOV tracefile, for genhtml and coverage services.
     Lcov,
 }

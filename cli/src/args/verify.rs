@@ -18,35 +18,35 @@ pub struct VerifyArgs {
         conflicts_with_all = ["never", "always", "reachable", "aiger", "btor2", "write_test"],
     )]
     pub same_as: Option<PathBuf>,
-    /// The engines that must show a run before it is reported, beside the interpreter. Default: all that can be built
-    /// here.
+    /// Engines that must confirm a run before it is reported, in addition to the interpreter. Default: all that can be
+    /// built here.
     #[arg(long, value_enum, value_name = "ENGINE")]
     pub replay: Option<EngineChoice>,
-    /// Latched devices begin with 0, as on a new PLC. Default: with any value.
+    /// Latched devices start at 0, as in a new PLC. Default: at any value.
     #[arg(long)]
     pub cleared: bool,
-    /// How long to try, for each property. Default: that of rungc.toml, or 60s.
+    /// Time limit per property. Default: that of rungc.toml, or 60s.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub timeout: Option<u64>,
-    /// Write what is asked of the only property as a file that other model checkers read (AIGER): they find out whether
-    /// its output can be on.
+    /// Write the single property as a model for other model checkers (AIGER): the property is violated if the model's
+    /// output can be on.
     #[arg(long, value_name = "FILE")]
     pub aiger: Option<PathBuf>,
-    /// The same in another format (BTOR2), in which bits have the names of the devices that they belong to.
+    /// Write the same model in BTOR2, in which bits are named after their devices.
     #[arg(long, value_name = "FILE")]
     pub btor2: Option<PathBuf>,
-    /// Write the proof of the only property into this folder, or with --same-as the proofs of all outputs that are the
-    /// same, as formulas (`*.cnf`) that any SAT solver confirms to be unsatisfiable.
+    /// Write the proof of the single property, or with --same-as the proofs of all equal outputs, to this folder as
+    /// formulas (`*.cnf`) that any SAT solver can confirm to be unsatisfiable.
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<PathBuf>,
-    /// Also write a proof of each formula beside it (`*.drat`, DRAT), whose steps a proof checker can follow: made by
-    /// `cadical`, which must be installed.
+    /// Also write a proof of each formula (`*.drat`, DRAT) for a proof checker; made by `cadical`, which must be
+    /// installed.
     #[arg(long, requires = "certificate")]
     pub drat: bool,
-    /// Write the runs that were found as a test file, which shows them again: `rungc test FILE`.
+    /// Write the runs found to a test file, which reproduces them: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<PathBuf>,
-    /// File to write the verdicts to, in the format of --format, overwriting an existing one. Default: standard output.
+    /// Output file for the verdicts, in the format of --format; overwrites an existing one. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Overwrite an existing file.
