@@ -1,72 +1,66 @@
-//! The grammar of a whole field of a table.
+//! Grammar of a whole field of a table.
 
-use super::*;
+use super::super::fault::Kind;
+use super::operands::{device, operand, placed, text_operand};
+use super::tokens::separators;
+use super::{Matched, Rule, label, mnemonic, report, span};
+use chumsky::prelude::*;
+use rungc_syntax::{Device, Operand, OperandKind};
+use smol_str::{SmolStr, ToSmolStr};
 
 /// An operand that fills a whole field of a table.
-pub(in crate::il) fn operand_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    custom(|input| {
-        let stray = any()
-            .map_with(|_, e| {
-                report(e, Kind::Line);
-                span(e.span())
-            })
-            .then_ignore(any().repeated());
-        input.parse(
-            space()
-                .ignore_then(operand().or_not())
-                .then_ignore(space())
-                .then(stray.or_not())
-                .filter(|(operand, stray)| operand.is_some() || stray.is_some())
-                .map(|(operand, stray)| match (operand, stray) {
-                    (Some(operand), None) => operand,
-                    (_, stray) => Operand {
-                        span: stray.unwrap_or_default(),
-                        kind: OperandKind::Unreadable(None),
-                    },
-                }),
-        )
-    })
+pub(in crate::il) fn operand_field<'s>() -> impl Rule<'s, Operand> {
+    let stray = any()
+        .map_with(|_, e: &mut Matched| {
+            report(e, Kind::Line);
+            span(e.span())
+        })
+        .then_ignore(any().repeated());
+    let unreadable = |span| Operand {
+        span,
+        kind: OperandKind::Unreadable(None),
+    };
+    separators().ignore_then(choice((
+        operand()
+            .then_ignore(separators())
+            .then(stray.or_not())
+            .map(move |(operand, stray)| stray.map_or(operand, unreadable)),
+        stray.map(unreadable),
+    )))
 }
 
 /// The characters that ASC takes, filling a whole field of a table.
-pub(in crate::il) fn text_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
-    custom(|input| {
-        let bare = any()
-            .repeated()
-            .to_slice()
-            .map(|text: &str| OperandKind::Text(text.trim().into()));
-        input.parse(choice((
-            placed(text_operand()).then_ignore(end()),
-            bare.map_with(|kind, e| Operand {
-                span: span(e.span()),
-                kind,
-            }),
-        )))
-    })
+pub(in crate::il) fn text_field<'s>() -> impl Rule<'s, Operand> {
+    let quoted = placed(text_operand()).then_ignore(end());
+    let bare = any()
+        .repeated()
+        .to_slice()
+        .map_with(|text: &str, e| Operand {
+            span: span(e.span()),
+            kind: OperandKind::Text(text.trim().into()),
+        });
+    choice((quoted, bare))
 }
 
 /// A mnemonic or label that fills a whole field of a table.
-pub(in crate::il) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy
-{
-    custom(|input| {
-        let pointer = label().map(|(device, _)| device.to_smolstr());
-        let readable = choice((
-            pointer,
-            mnemonic().map(|(mnemonic, _)| SmolStr::from(mnemonic)),
-        ))
+pub(in crate::il) fn mnemonic_field<'s>() -> impl Rule<'s, Option<SmolStr>> {
+    let pointer = label().map(|(device, _)| device.to_smolstr());
+    let mnemonic = mnemonic().map(|(mnemonic, _)| mnemonic.into());
+    let readable = choice((pointer, mnemonic))
+        .then_ignore(separators())
+        .then_ignore(end())
         .map(Some);
-        let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
+    let unreadable = any()
+        .repeated()
+        .at_least(1)
+        .map_with(|(), e: &mut Matched| {
             report(e, Kind::Line);
             None
         });
-        input.parse(choice((
-            readable.then_ignore(space()).then_ignore(end()),
-            unreadable,
-        )))
-    })
+    choice((readable, unreadable))
 }
 
 /// A device by itself.
-pub(in crate::il) fn device_field<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
-    custom(|input| input.parse(device().padded().then_ignore(end())))
+pub(in crate::il) fn device_field<'s>() -> impl Rule<'s, Device> {
+    device().padded().then_ignore(end())
 }
