@@ -40,6 +40,12 @@ fn lines_that_are_no_instructions() {
     insta::assert_snapshot!(findings(&read_text("a.il", text)));
 }
 
+#[test]
+fn comments_of_other_languages() {
+    let text = "# by hash\nLD X0 # open\nOUT Y0 (* coil *)\n12 # step alone\nEND\n";
+    insta::assert_snapshot!(findings(&read_text("a.il", text)));
+}
+
 /// Windows of AutoShop: names that are missing, headings that name nothing. A pointer is none, whatever follows it.
 #[test]
 fn windows_without_their_names() {

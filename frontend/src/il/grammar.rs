@@ -239,11 +239,12 @@ fn nonsense<'s>() -> impl Rule<'s, ()> {
 
 /// A comment up to the end of the line; gives where its text starts.
 fn comment<'s>() -> impl Rule<'s, u32> {
+    let usual = comment_start().map_with(|(), e| e.span());
     let foreign = foreign_comment_start().map_with(|(), e| {
         report(e, Kind::CommentSign);
+        e.span()
     });
-    choice((comment_start(), foreign))
-        .to_span()
+    choice((usual, foreign))
         .then_ignore(any().repeated())
         .map(|sign: SimpleSpan| sign.end as u32)
 }
