@@ -326,6 +326,24 @@ impl Diagnostics {
     }
 }
 
+/// A number with its noun: `1 case`, `2 431 steps`.
+pub fn counted(n: usize, what: &str) -> String {
+    format!("{} {what}{}", grouped(n), if n == 1 { "" } else { "s" })
+}
+
+/// A number with its thousands set apart.
+pub fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 /// The closest of `candidates` to a misspelt `word`, if any is close enough to suggest.
 pub fn did_you_mean<'a>(
     word: &str,

@@ -101,6 +101,16 @@ pub enum PlcopenBody {
     Sfc,
 }
 
+impl From<PlcopenBody> for rungc_export::Body {
+    fn from(body: PlcopenBody) -> Self {
+        match body {
+            PlcopenBody::Ld => Self::Ladder,
+            PlcopenBody::Il => Self::List,
+            PlcopenBody::Sfc => Self::Chart,
+        }
+    }
+}
+
 impl ConvertTo {
     /// Whether it is a text that a terminal can show.
     pub const fn is_text(self) -> bool {

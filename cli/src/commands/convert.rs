@@ -1,7 +1,6 @@
 //! `rungc convert`.
 
 mod ladder;
-mod plcopen;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
@@ -9,8 +8,9 @@ use super::{
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::report::{Findings, Reporter};
+use rungc_export::to_plcopen;
 use rungc_frontend::{Read, image, print};
-use rungc_lower::compile::CompileOptions;
+use rungc_lower::compile::{CompileOptions, model};
 use rungc_syntax::{Diagnostics, codes};
 use std::io::{self, IsTerminal, Write};
 
@@ -106,7 +106,7 @@ pub fn written(
             .unwrap_or_default()
             .into_bytes(),
         ConvertTo::Plcopen if program.is_complete() => {
-            plcopen::to_plcopen(program, body, options, diagnostics).into_bytes()
+            to_plcopen(program, model(program, options), body.into(), diagnostics).into_bytes()
         }
         // What could not be read has been reported.
         ConvertTo::Image | ConvertTo::Plcopen | ConvertTo::Autoshop => Vec::new(),

@@ -35,6 +35,7 @@ use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::{self, CompileOptions, Compiled};
+pub use rungc_syntax::diag::{counted, grouped};
 use rungc_syntax::{SourceKind, Span, codes, text};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -220,24 +221,6 @@ pub fn put(
 /// Prints a line to standard error; a closed standard error does not stop the command.
 pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
-}
-
-/// A number with its noun: `1 case`, `2 431 steps`.
-pub fn counted(n: usize, what: &str) -> String {
-    format!("{} {what}{}", grouped(n), if n == 1 { "" } else { "s" })
-}
-
-/// A number with its thousands set apart.
-pub fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// What reading a program found.

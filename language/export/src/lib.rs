@@ -1,9 +1,12 @@
-//! `--to plcopen`: a project of PLCopen XML (TC6 2.01) with the program as a ladder, an instruction list or a
-//! sequential function chart.
+//! Writer of projects of PLCopen XML (TC6 2.01), with the program as a ladder, an instruction list or a sequential
+//! function chart.
 //!
 //! Contacts, coils, timers, comparisons, MOV, ADD and SUB are elements, functions and blocks of the standard; other
 //! instructions are blocks whose types begin with `FX_`. What is written reads back to the same list, unless this has
 //! blocks or stacks that the drawing does not need.
+//!
+//! Start reading at [`to_plcopen`], then `words` (what instructions are called in the standard) and the writers of the
+//! three languages: `sheet` (ladders), `lines` (lists), `chart` (charts).
 
 mod chart;
 mod lines;
@@ -11,14 +14,13 @@ mod sheet;
 mod words;
 mod xml;
 
-use super::super::counted;
-use crate::args::PlcopenBody;
 use lines::Lines;
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
 use rungc_ladder::{InstrIndex, Ladder, build};
-use rungc_lower::compile::{CompileOptions, model};
+use rungc_models::Model;
 use rungc_syntax::codes::{self, Code};
+use rungc_syntax::diag::counted;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostics, Instr, Program, Severity, SortedMap, Span, align,
 };
@@ -29,20 +31,32 @@ use xml::Xml;
 /// When projects are said to be made: the same program always becomes the same file.
 const MADE: &str = "2000-01-01T00:00:00";
 
-/// The program as a project; what has no structure, and what reads back differently, is added to the diagnostics.
+/// Language of a program in a project.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Body {
+    /// Ladder.
+    Ladder,
+    /// Instruction list of IEC 61131-3.
+    List,
+    /// Sequential function chart of a step ladder (STL) program.
+    Chart,
+}
+
+/// Writes the program as a project. What has no structure, and what reads back differently, is added to the
+/// diagnostics.
 pub fn to_plcopen(
     program: &Program,
-    body: PlcopenBody,
-    options: &CompileOptions,
+    model: &'static Model,
+    body: Body,
     diagnostics: &mut Diagnostics,
 ) -> String {
-    let (resolved, _) = resolve(program, model(program, options));
+    let (resolved, _) = resolve(program, model);
     let mut words = Words::new(&resolved);
     let ladder = build::ladder(&resolved);
     let written = match body {
-        PlcopenBody::Ld => as_ladder("main", &ladder, &mut words).map(|pou| vec![pou]),
-        PlcopenBody::Il => as_list(&ladder, &mut words).map(|pou| vec![pou]),
-        PlcopenBody::Sfc => as_chart(&ladder, &mut words),
+        Body::Ladder => as_ladder("main", &ladder, &mut words).map(|pou| vec![pou]),
+        Body::List => as_list(&ladder, &mut words).map(|pou| vec![pou]),
+        Body::Chart => as_chart(&ladder, &mut words),
     };
     let pous = match written {
         Ok(pous) => pous,
@@ -58,8 +72,8 @@ pub fn to_plcopen(
     if !words.instructions.is_empty() {
         let names: Vec<_> = words.instructions.iter().map(String::as_str).collect();
         let kind = match body {
-            PlcopenBody::Ld => "blocks",
-            PlcopenBody::Il | PlcopenBody::Sfc => "functions",
+            Body::Ladder => "blocks",
+            Body::List | Body::Chart => "functions",
         };
         let what = format!(
             "written as {kind} that only rungc knows, `FX_…`: {}",
@@ -69,8 +83,8 @@ pub fn to_plcopen(
     }
     let text = document(program, &pous, &words);
     match body {
-        PlcopenBody::Ld | PlcopenBody::Il => check_list(program, &text, diagnostics),
-        PlcopenBody::Sfc => check_chart(&text, diagnostics),
+        Body::Ladder | Body::List => check_list(program, &text, diagnostics),
+        Body::Chart => check_chart(&text, diagnostics),
     }
     text
 }
