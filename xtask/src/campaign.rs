@@ -239,11 +239,11 @@ impl Clock {
     }
 }
 
-/// The executable of the differential test, optimised.
+/// The executable with the differential test, optimised.
 fn build() -> Result<PathBuf, Problem> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
-        .args(["test", "-p", "rungc-golden", "--test", "differential"])
+        .args(["test", "-p", "rungc-golden", "--test", "it"])
         .args(["--profile", "thorough"])
         .args(["--no-run", "--message-format", "json"])
         .current_dir(root())
@@ -256,7 +256,7 @@ fn build() -> Result<PathBuf, Problem> {
         .lines()
         .filter_map(|line| serde_json::from_str(line).ok());
     let mut paths = lines.filter_map(|line: Value| {
-        let is_it = line["target"]["name"] == "differential";
+        let is_it = line["target"]["name"] == "it";
         line["executable"]
             .as_str()
             .filter(|_| is_it)
@@ -313,7 +313,7 @@ fn variables(args: &Args, batch: &Batch) -> [(&'static str, String); 5] {
 fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Outcome, Problem> {
     let output = Command::new(executable)
         .args([
-            "all_engines_agree_on_random_programs",
+            "differential::all_engines_agree_on_random_programs",
             "--exact",
             "--nocapture",
         ])
@@ -359,7 +359,7 @@ fn keep(folder: &Path, args: &Args, batch: &Batch, output: &str) -> Result<PathB
     let path = folder.join(format!("{name}-{}.txt", batch.seed));
     let variables = variables(args, batch);
     let variables = variables.map(|(name, value)| format!("{name}='{value}'"));
-    let command = "cargo test -p rungc-golden --test differential all_engines_agree";
+    let command = "cargo test -p rungc-golden --test it differential::all_engines_agree";
     fs::write(
         &path,
         format!("{} {command}\n\n{output}\n", variables.join(" ")),

@@ -63,11 +63,19 @@ pub fn screens(check: bool) -> Result<(), Problem> {
         fs::remove_dir_all(&taken)?;
     }
     fs::create_dir_all(&taken)?;
-    for (test, filter, picture, page) in [
-        ("live", "in_a_browser", "live-light.png", "live.png"),
-        ("browser", "coverage", "coverage-light.png", "coverage.png"),
+    for (filter, picture, page) in [
+        (
+            "live::a_live_page_works_in_a_browser",
+            "live-light.png",
+            "live.png",
+        ),
+        (
+            "browser::coverage_is_drawn",
+            "coverage-light.png",
+            "coverage.png",
+        ),
     ] {
-        let args = ["test", "-p", "rungc", "--test", test, filter];
+        let args = ["test", "-p", "rungc", "--test", "it", filter];
         run(cargo(&args).env("RUNGC_PICTURES", &taken))?;
         let (taken, stored) = (taken.join(picture), root().join("docs/src").join(page));
         let unseen = |error| format!("{}: {error}: is RUNGC_BROWSER set?", taken.display());

@@ -1,0 +1,6 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod inert;
+mod no_panic;
+mod resolve;
+mod variants;

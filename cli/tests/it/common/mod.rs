@@ -1,0 +1,163 @@
+//! Calling the command line and looking at what it does.
+#![cfg_attr(
+    not(all(unix, feature = "mqtt")),
+    allow(dead_code, reason = "tests with brokers and on Unix use the rest")
+)]
+
+pub mod chromium;
+#[cfg(unix)]
+pub mod hosts;
+pub mod mosquitto;
+pub mod running;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// A port of this machine that is free, or was a moment ago.
+pub fn free_port() -> u16 {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.local_addr().unwrap().port()
+}
+
+/// A start-stop circuit with a timer and a counted edge.
+pub const MOTOR: &str = "\
+LD X000      ; start
+OR M0
+ANI X001     ; stop
+OUT M0       ; motor latch
+LD M0
+OUT T0 K3
+LD T0
+OUT Y000     ; main contactor
+LDP X002
+ADD D0 K1 D0
+LD>= D0 K10
+OUT Y001
+END
+";
+
+/// A motor that runs forward and backward; `lock` is the contact before the second coil.
+pub fn reverser(lock: &str) -> String {
+    format!(
+        "\
+;! Y000 = forward contactor
+;! Y001 = reverse contactor
+LD X000
+OR Y000
+ANI X002
+ANI Y001
+OUT Y000
+LD X001
+OR Y001
+ANI X002
+{lock}
+OUT Y001
+END
+"
+    )
+}
+
+/// The number of the CPU type FX3U/FX3UC.
+pub const FX3U: u16 = 0x0208;
+
+/// A `MAIN.wpg` for the CPU type with this number, with these bodies of tokens.
+pub fn wpg(cpu: u16, bodies: &[&[u8]]) -> Vec<u8> {
+    let mut bytes = vec![0x40, 0x00, 0x22, 0x01];
+    bytes.resize(0x24, b' ');
+    bytes.extend([0x04, 0x02]);
+    bytes.extend(cpu.to_le_bytes());
+    bytes.resize(0x40, 0xFF);
+    bytes.extend([0x04, 0x00, 0xFF, 0xFF]);
+    for body in bodies {
+        let len = body.len() as u8 + 2;
+        bytes.push(len);
+        bytes.extend_from_slice(body);
+        bytes.push(len);
+    }
+    bytes.extend([0x02; 64]);
+    bytes
+}
+
+/// A separate folder with these files.
+pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+/// Where the runtime is kept once it is built, for all tests.
+pub fn cache() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
+pub fn rungc(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(args)
+        .current_dir(folder)
+        .env("RUNGC_CACHE_DIR", cache())
+        .output()
+        .unwrap()
+}
+
+/// What cargo builds of an emitted package.
+pub fn cargo_built(package: &Path, name: &str) -> PathBuf {
+    let output = Command::new("cargo")
+        .args(["build", "--quiet", "--offline"])
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .env("CARGO_TARGET_DIR", package.join("target"))
+        .current_dir(package)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    package.join("target/debug").join(name)
+}
+
+pub fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Times differ from run to run, paths and numbers of errors from system to system.
+pub fn normal(text: &str, folder: &Path) -> String {
+    let text = text.replace(&folder.display().to_string(), "FOLDER");
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let mut line = line.to_owned();
+        if let Some((before, rest)) = line.split_once(") in ") {
+            let rest = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            line = format!("{before}) in …{rest}");
+        }
+        if let Some((before, _)) = line.split_once(" failed (") {
+            line = format!("{before} failed (… s)");
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+/// What was called, what it printed and how it ended.
+pub fn shown(folder: &Path, args: &[&str]) -> String {
+    let output = rungc(folder, args);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    for printed in [&out, &err] {
+        assert!(
+            !printed.contains('\u{1b}'),
+            "colours without a terminal: {printed}"
+        );
+        assert!(!printed.contains("panicked"), "{printed}");
+    }
+    let code = output.status.code().unwrap();
+    let args = args.join(" ");
+    format!(
+        "$ rungc {args}\n{}\n--- standard error\n{}\n--- exit code {code}",
+        normal(&out, folder),
+        normal(&err, folder)
+    )
+}
+
+pub fn code(folder: &Path, args: &[&str]) -> i32 {
+    rungc(folder, args).status.code().unwrap()
+}

@@ -1,0 +1,125 @@
+//! Cross references, counts, and lists laid out.
+
+use crate::common::{MOTOR, code, folder, rungc, shown, text};
+
+const USES: &str = "\
+;! D10 = speed\n;! X000 = start\nLD X0\nDMOV K5 D10\nDMOV D11 D20\nMOV K2M0 D0Z1\nBMOV D100 D200 D0\nLDI T0\nOUT T0 D5\nOUT Y0\nLD M8013\n\
+MC N0 M50\nLD X1\nSET S20\nCALL P1\nMCR N0\nLD X2\nRST C0\nFEND\nP1\nLD M3\nINC D10\nSRET\nEND\n";
+
+#[test]
+fn uses_are_listed_by_device() {
+    let folder = folder(&[("uses.il", USES.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["xref", "uses.il", "--unused"]));
+}
+
+#[test]
+fn a_cross_reference_is_a_table_a_page_or_json() {
+    let folder = folder(&[("uses.il", USES.as_bytes())]);
+    let only = ["--device", "d10..d11", "--device", "M8013"];
+    let written = |to: &str| {
+        shown(
+            folder.path(),
+            &[&["xref", "uses.il", "--to", to], &only[..]].concat(),
+        )
+    };
+    insta::assert_snapshot!("xref_csv", written("csv"));
+    insta::assert_snapshot!("xref_json", written("json"));
+    let page = written("html");
+    for part in [
+        "<!DOCTYPE html>",
+        "speed",
+        "DMOV D11 D20",
+        "Areas that overlap",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http"), "the page needs the network");
+}
+
+#[test]
+fn what_a_cross_reference_cannot_do_is_said() {
+    let files: [(&str, &[u8]); 2] = [("a.il", USES.as_bytes()), ("b.il", MOTOR.as_bytes())];
+    let folder = folder(&files);
+    let said = |args: &[&str]| {
+        let out = rungc(folder.path(), args);
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        text(&out.stderr)
+    };
+    assert!(
+        said(&["xref", "a.il", "--device", "D7000"]).contains("no instruction names these devices")
+    );
+    assert!(said(&["xref", "a.il", "--device", "Q7"]).contains("devices are written"));
+    assert!(said(&["xref", "a.il", "b.il", "--to", "csv"]).contains("name one"));
+    assert_eq!(
+        code(
+            folder.path(),
+            &["xref", "a.il", "b.il", "--to", "csv", "-o", "tables"]
+        ),
+        0
+    );
+    assert!(folder.path().join("tables/b.csv").exists());
+}
+
+/// A name or comment of a hostile project acts in no page.
+#[test]
+fn comments_do_not_act_in_a_page() {
+    let list = ";! X000 = <script>alert(1)</script>\nLD X0\nOUT Y0\nEND\n";
+    let folder = folder(&[("a.il", list.as_bytes())]);
+    let page = shown(folder.path(), &["xref", "a.il", "--to", "html"]);
+    assert!(page.contains("&lt;script&gt;alert(1)"), "{page}");
+}
+
+#[test]
+fn a_program_is_counted() {
+    let folder = folder(&[("uses.il", USES.as_bytes())]);
+    for model in ["fx3u", "l01s", "h2u"] {
+        let args = ["stats", "uses.il", "--model", model];
+        insta::assert_snapshot!(format!("stats_{model}"), shown(folder.path(), &args));
+    }
+    let json = shown(folder.path(), &["stats", "uses.il", "--json"]);
+    insta::assert_snapshot!("stats_json", json);
+}
+
+#[test]
+fn lists_are_laid_out_in_place_or_checked() {
+    let ragged = "; motor\n\n\nld x0;start\n  OUT   Y0 // lamp\nend";
+    let folder = folder(&[
+        ("a.il", ragged.as_bytes()),
+        ("b.il", b"LD X0\nOUT Y0\nEND\n"),
+    ]);
+    let path = folder.path();
+    let on_disk = || std::fs::read_to_string(path.join("a.il")).unwrap();
+    insta::assert_snapshot!("fmt_check", shown(path, &["fmt", "a.il", "--check"]));
+    assert_eq!(code(path, &["fmt", ".", "--check"]), 1);
+    assert_eq!(on_disk(), ragged);
+    assert_eq!(code(path, &["fmt", "."]), 0);
+    assert_eq!(
+        on_disk(),
+        "; motor\n\nLD X000                  ;start\nOUT Y000                 // lamp\nEND\n"
+    );
+    assert_eq!(code(path, &["fmt", ".", "--check"]), 0);
+}
+
+/// What cannot be read is left as it is.
+#[test]
+fn a_broken_list_is_not_laid_out() {
+    let folder = folder(&[
+        ("a.il", b"ld x9\nout y0\nend"),
+        ("b.il", "LD X0 ; Geschwindigkeit \u{fc}\n".as_bytes()),
+    ]);
+    let path = folder.path();
+    assert_eq!(code(path, &["fmt", "a.il"]), 1);
+    assert_eq!(
+        std::fs::read(path.join("a.il")).unwrap(),
+        b"ld x9\nout y0\nend"
+    );
+    let latin = b"ld x0 ; Geschwindigkeit \xfc\xfc\n";
+    std::fs::write(path.join("b.il"), latin).unwrap();
+    let out = rungc(path, &["fmt", "b.il"]);
+    assert!(
+        text(&out.stderr).contains("is not UTF-8"),
+        "{}",
+        text(&out.stderr)
+    );
+    assert_eq!(std::fs::read(path.join("b.il")).unwrap(), latin);
+}

@@ -1,0 +1,59 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod boards;
+#[cfg(all(unix, feature = "mqtt"))]
+mod brokers;
+mod browser;
+mod builds;
+mod command_line;
+mod common;
+#[cfg(unix)]
+mod connected;
+mod conversions;
+mod coverage;
+mod diff;
+mod documents;
+mod embedded;
+#[cfg(unix)]
+mod executables;
+mod explore;
+mod firmware;
+#[cfg(unix)]
+mod flash;
+#[cfg(unix)]
+mod fleet;
+mod hostile;
+mod images;
+mod large;
+mod learn;
+#[cfg(unix)]
+mod lines;
+#[cfg(unix)]
+mod linux;
+mod listings;
+mod live;
+mod offline;
+#[cfg(unix)]
+mod peers;
+mod plcopen;
+mod port_cost;
+mod project;
+mod projects;
+#[cfg(unix)]
+mod read;
+mod reports;
+mod results;
+mod retain;
+mod run;
+#[cfg(unix)]
+mod serve;
+mod servers;
+mod sessions;
+mod several;
+mod together;
+mod tools;
+#[cfg(unix)]
+mod uart;
+mod vendor;
+mod verify;
+mod view;

@@ -1,0 +1,71 @@
+//! Programs that call the runtime: built from sources that are complete, once for each target.
+
+use crate::common::{folder, text};
+use std::path::Path;
+use std::process::{Command, Output};
+
+const PROGRAM: &[u8] = b"LD X000\nPID D0 D1 D100 D150\nEND\n";
+
+/// Calls rungc without a registry, and with variables that have led builds astray.
+fn rungc(folder: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    command
+        .args(args)
+        .current_dir(folder)
+        .env("RUNGC_CACHE_DIR", folder.join("cache"))
+        .env("CARGO_HOME", folder.join("no-registry"))
+        .env("CARGO_NET_OFFLINE", "true")
+        .env("CARGO_TARGET_DIR", folder.join("elsewhere"))
+        .env("CFLAGS", "-O1");
+    command.output().unwrap()
+}
+
+#[test]
+fn the_runtime_needs_no_registry_and_is_built_once() {
+    let folder = folder(&[("heating.il", PROGRAM)]);
+    let build = |name: &str| {
+        let output = rungc(
+            folder.path(),
+            &["build", "heating.il", "--emit", "bin", "-o", name],
+        );
+        let said = text(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        assert!(folder.path().join(name).is_file());
+        said.contains("Building the runtime")
+    };
+    assert!(build("first"));
+    assert!(!build("second"), "it is in the cache");
+    assert!(!folder.path().join("elsewhere").exists());
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("first"), bytes("second"));
+}
+
+#[test]
+fn emitted_crates_come_with_all_they_depend_on() {
+    let folder = folder(&[("heating.il", PROGRAM)]);
+    let args = ["build", "heating.il", "--emit", "rust", "-o", "plc"];
+    let output = rungc(folder.path(), &args);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let cargo = Command::new(env!("CARGO"))
+        .args(["check", "--locked", "--offline"])
+        .current_dir(folder.path().join("plc"))
+        .env("CARGO_HOME", folder.path().join("no-registry"))
+        .env("CARGO_TARGET_DIR", folder.path().join("plc/target"))
+        .output()
+        .unwrap();
+    assert!(cargo.status.success(), "{}", text(&cargo.stderr));
+}
+
+#[test]
+fn a_missing_compiler_is_named() {
+    let folder = folder(&[("motor.il", b"LD X000\nOUT Y000\nEND\n")]);
+    let output = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["build", "motor.il", "--emit", "bin", "-o", "motor"])
+        .current_dir(folder.path())
+        .env("CC", "no-such-compiler")
+        .output()
+        .unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("no-such-compiler not found"), "{said}");
+}

@@ -1,0 +1,193 @@
+//! How findings are shown: places as their reader knows them, bounded drawings, and nothing that a terminal would act
+//! on.
+
+use crate::common::{code, folder, rungc, shown, text};
+use serde_json::Value;
+
+/// A `MAIN.wpg` for FX3U: LD X000, OUT T0 K30, OUT X001, an unknown instruction, END.
+fn wpg() -> Vec<u8> {
+    let mut bytes = vec![0x40, 0x00, 0x22, 0x01];
+    bytes.resize(0x24, b' ');
+    bytes.extend([0x04, 0x02, 0x08, 0x02]);
+    bytes.resize(0x40, 0xFF);
+    bytes.extend([0x04, 0x00, 0xFF, 0xFF]);
+    bytes.extend([3, 0x00, 3, 4, 0x9C, 0, 4]);
+    bytes.extend([3, 0x20, 3, 4, 0x9D, 0, 4]);
+    bytes.extend([3, 0x00, 3, 4, 0x9C, 2, 4]);
+    bytes.extend([3, 0x20, 3, 4, 0x9C, 1, 4]);
+    bytes.extend([3, 0x34, 3]);
+    bytes.extend([0x02; 64]);
+    bytes
+}
+
+/// A list export with a wrong operand in its third instruction, and a row that is none.
+const EXPORT: &str = "\"Press\"\r\n\"PLC Information:\"\t\"FXCPU FX3U/FX3UC\"\r\n\
+    \"Step No.\"\t\"Line Statement\"\t\"Instruction\"\t\"I/O(Device)\"\t\"Blank\"\t\"PI Statement\"\t\"Note\"\r\n\
+    \"0\"\t\"\"\t\"LD\"\t\"X000\"\r\n\
+    \"1\"\t\"\"\t\"OUT\"\t\"T0\"\r\n\
+    \"\"\t\"\"\t\"\"\t\"K30\"\r\n\
+    \"4\"\t\"\"\t\"MOV\"\t\"K5\"\r\n\
+    \"\"\t\"\"\t\"\"\t\"X1\"\r\n\
+    \"9\"\t\"\"\t\"=\"\t\"Y0\"\r\n\
+    \"10\"\t\"\"\t\"END\"\r\n";
+
+#[test]
+fn places_in_projects_and_exports_are_steps() {
+    let folder = folder(&[("MAIN.wpg", &wpg()), ("press.csv", EXPORT.as_bytes())]);
+    for (name, file) in [("project", "MAIN.wpg"), ("export", "press.csv")] {
+        let plain = shown(folder.path(), &["check", file]);
+        insta::assert_snapshot!(format!("places_{name}"), plain);
+        for format in ["json", "sarif"] {
+            let args = ["check", file, "--format", format];
+            insta::assert_snapshot!(
+                format!("places_{name}_{format}"),
+                shown(folder.path(), &args)
+            );
+        }
+    }
+}
+
+/// A line of a megabyte: each finding draws the part of it that it is about.
+#[test]
+fn long_lines_are_drawn_in_part() {
+    let line = format!("LD X0{}\nEND\n", " X009".repeat(20_000));
+    let folder = folder(&[("long.il", line.as_bytes())]);
+    let output = rungc(folder.path(), &["check", "long.il", "--limit", "3"]);
+    let said = text(&output.stderr);
+    assert!(said.lines().all(|line| line.chars().count() < 200));
+    insta::assert_snapshot!(said);
+    // Whatever the number of findings, the text grows with it alone.
+    let all = rungc(folder.path(), &["check", "long.il", "--limit", "0"]);
+    let (lines, most) = (text(&all.stderr).lines().count(), 13 * 20_010);
+    assert!(lines > 20_000 && lines < most, "{lines}");
+}
+
+#[cfg(unix)]
+/// Each of these characters makes a terminal do something, or shows the text in another order.
+const HOSTILE: &str = "\u{1b}]0;x\u{7}\u{9b}2J\u{202e}\u{2066}";
+
+#[cfg(unix)]
+fn is_harmless(said: &str) -> bool {
+    let acts = |c: char| c.is_control() && c != '\n' && c != '\t';
+    !said
+        .chars()
+        .any(|c| acts(c) || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
+}
+
+#[cfg(unix)]
+/// A text without the escape sequences that set colours.
+fn without_colours(said: &str) -> String {
+    let mut parts = said.split("\u{1b}[");
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (code, rest) = part.split_once('m').expect("a colour");
+        assert!(
+            code.chars().all(|c| c.is_ascii_digit() || c == ';'),
+            "{code:?}"
+        );
+        plain.push_str(rest);
+    }
+    plain
+}
+
+/// Names of files with such characters exist on Unix only.
+#[cfg(unix)]
+#[test]
+fn nothing_hostile_reaches_the_terminal() {
+    let padding = "; a text holds few control characters\n".repeat(20);
+    let program = format!(
+        "{padding}LD X0 ; {HOSTILE}\nFOO{HOSTILE} D0\nMOV {HOSTILE} D0\n$MOV \"{HOSTILE}\" X0\nEND\n"
+    );
+    let name = "a\u{1b}[31mred\u{202e}.il";
+    let tests = format!(
+        "model = \"fx3u\"\ntopic = \"OUT\"\n\n[[case]]\nname = \"a{}\"\nsource = \"{0}\"\nnote = \"{0}\"\n\
+         program = \"LD X0\\nOUT Y0\\nEND\\n\"\n[[case.step]]\nexpect = {{ Y000 = 1 }}\n",
+        "\\u001b[2J\\u009b\\u202e"
+    );
+    let folder = folder(&[
+        (name, program.as_bytes()),
+        ("ok\u{1b}[2J.il", b"LD X0\nOUT Y0\nEND\n"),
+        ("bad.plctest.toml", tests.as_bytes()),
+    ]);
+    for args in [
+        &["check", name][..],
+        &["check", "ok\u{1b}[2J.il"],
+        &["check", "missing\u{1b}[2J\u{202e}.il"],
+        &["build", "ok\u{1b}[2J.il", "--emit", "ir"],
+        &["check", name, "--format", "json"],
+        &["check", name, "--format", "sarif"],
+        &["explain", HOSTILE],
+        &["test", "bad.plctest.toml"],
+    ] {
+        let output = rungc(folder.path(), args);
+        for said in [&output.stdout, &output.stderr] {
+            let said = text(said);
+            assert!(is_harmless(&said), "{args:?}: {said:?}");
+        }
+    }
+    let coloured = rungc(folder.path(), &["check", name, "--color", "always"]);
+    let said = text(&coloured.stderr);
+    assert!(said.contains("\u{1b}[31m"), "{said}");
+    assert!(is_harmless(&without_colours(&said)), "{said:?}");
+    insta::assert_snapshot!(
+        "hostile_text",
+        text(&rungc(folder.path(), &["check", name]).stderr)
+    );
+}
+
+/// Devices that are driven and never read, and places of a coil: some in the human format, all for tools.
+#[test]
+fn lists_are_complete_for_tools() {
+    let mut list = String::new();
+    for m in 0..30 {
+        list.push_str(&format!("LD X0\nOUT M{m}\nLD X1\nOUT Y0\n"));
+    }
+    list.push_str("END\n");
+    let folder = folder(&[("many.il", list.as_bytes())]);
+    insta::assert_snapshot!("many", shown(folder.path(), &["check", "many.il"]));
+    let document = |format| -> Value {
+        let args = ["check", "many.il", "--format", format];
+        serde_json::from_slice(&rungc(folder.path(), &args).stdout).unwrap()
+    };
+    let json = document("json");
+    let of = |code: &str| {
+        let found = json["diagnostics"].as_array().unwrap();
+        found.iter().find(|d| d["code"] == code).unwrap().clone()
+    };
+    let length = |value: &Value| value.as_array().map_or(0, Vec::len);
+    assert_eq!(length(&of("W0201")["devices"]), 30);
+    assert_eq!(length(&of("W0201")["related"]), 29);
+    assert_eq!(length(&of("W0203")["related"]), 29);
+    let sarif = document("sarif");
+    let results = sarif["runs"][0]["results"].as_array().unwrap();
+    let unread = results.iter().find(|r| r["ruleId"] == "W0201").unwrap();
+    assert_eq!(length(&unread["properties"]["devices"]), 30);
+    assert_eq!(length(&unread["relatedLocations"]), 29);
+}
+
+/// A list has no way to write a line break in a text; an export has.
+#[test]
+fn a_text_that_a_list_cannot_hold_is_refused() {
+    let export = EXPORT
+        .replace("\"MOV\"\t\"K5\"", "\"$MOV\"\t\"\"\"a\tb\nc\"\"\"")
+        .replace("\"X1\"", "\"D0\"")
+        .replace("\"=\"\t\"Y0\"", "\"OUT\"\t\"Y0\"");
+    let folder = folder(&[("text.csv", export.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["convert", "text.csv", "--to", "il"]));
+    let args = ["convert", "text.csv", "--to", "csv", "-o", "again.csv"];
+    assert_eq!(code(folder.path(), &args), 0);
+    let again = std::fs::read(folder.path().join("again.csv")).unwrap();
+    let units = again
+        .chunks_exact(2)
+        .map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
+    let again = String::from_utf16(&units.collect::<Vec<_>>()).unwrap();
+    assert!(again.contains("\"\"\"a\tb\nc\"\"\""), "{again}");
+}
+
+/// A program with labels has one thing wrong with it.
+#[test]
+fn labels_are_one_error() {
+    let list = "LD bStart\nANI bStop\nOUT qMotor_on\nLD X0\nOUT Y0\nEND\n";
+    let folder = folder(&[("labels.il", list.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["check", "labels.il"]));
+}

@@ -1,0 +1,8 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod access;
+mod build;
+mod emit;
+mod errors;
+mod retain;
+mod shapes;

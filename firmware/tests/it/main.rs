@@ -1,0 +1,4 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod board;
+mod retain;

@@ -1,0 +1,13 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod corpus;
+mod diagnostics;
+mod fixture;
+mod formats;
+mod image;
+mod ladder_text;
+mod learn;
+mod plcopen;
+mod print;
+mod robust;
+mod works2;

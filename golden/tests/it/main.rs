@@ -1,0 +1,34 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod architecture;
+mod behaviour;
+mod board;
+mod conformance;
+mod conformance_qemu;
+mod corpus;
+mod counters;
+mod differential;
+mod explore_faults;
+mod faults;
+mod inlined;
+mod lanes;
+mod licences;
+mod links;
+mod machine_code;
+mod machines;
+mod motion;
+mod pipeline;
+mod plcopen;
+mod port_errors;
+mod ports;
+mod pulse_pins;
+mod pulses;
+mod saved;
+mod scan_time;
+mod shape;
+mod snapshots;
+mod suite;
+mod verify;
+mod verify_faults;
+mod wires;
+mod wording;

@@ -1,0 +1,93 @@
+//! Planted faults: each is found, with a run that the interpreter confirms, and the repaired program is proved. Each
+//! proof is a certificate that a SAT solver confirms, if cadical is installed.
+
+use crate::faults;
+use rungc_verify::certificate::certificate;
+use rungc_verify::model::World;
+use rungc_verify::proof::{Method, Proof};
+use rungc_verify::prove::{Options, Verdict, decide};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+/// Has a solver that others wrote confirm that no formula of a proof can be satisfied; what is wrong.
+fn unconfirmed(proof: &Proof, folder: &Path) -> Vec<String> {
+    let formulas = certificate(proof).into_iter();
+    let wrong = formulas.filter_map(|(name, text)| {
+        let path = folder.join(&name);
+        std::fs::write(&path, text).unwrap();
+        // The time for one is bounded; solvers agree on the exit code of what cannot be satisfied.
+        let solver = Command::new("cadical")
+            .args(["-q", "-t", "60"])
+            .arg(&path)
+            .output();
+        let code = solver.unwrap().status.code();
+        (code != Some(20)).then(|| format!("{name}: exit code {code:?}"))
+    });
+    wrong.collect()
+}
+
+/// Whether the solver is there; where `.ci/run` has installed it, it must be.
+fn has_solver() -> bool {
+    let found = Command::new("cadical").arg("--version").output().is_ok();
+    let required = std::env::var_os("RUNGC_REQUIRE_PEERS").is_some();
+    assert!(
+        found || !required,
+        "RUNGC_REQUIRE_PEERS is set, but there is no cadical"
+    );
+    if !found {
+        eprintln!("certificates are not confirmed: there is no cadical");
+    }
+    found
+}
+
+#[test]
+fn planted_faults_are_found_and_repaired_programs_are_proved() {
+    let (mut count, mut undecided, mut wrong) = (0, Vec::new(), Vec::new());
+    let (has_solver, folder) = (has_solver(), tempfile::tempdir().unwrap());
+    let mut methods: BTreeMap<&str, usize> = BTreeMap::new();
+    for fault in faults::all() {
+        count += 1;
+        let property = fault.property();
+        let options = Options {
+            world: World::default(),
+            assumed: fault.assumed(),
+            time: Duration::from_secs(30),
+        };
+        let found = decide(
+            &faults::module(&fault.faulty, &property),
+            &property,
+            &options,
+        );
+        if !matches!(found.verdict, Verdict::Found(_)) {
+            wrong.push(format!("{}: the fault is not found: {found:?}", fault.name));
+        }
+        let found = decide(
+            &faults::module(&fault.repaired, &property),
+            &property,
+            &options,
+        );
+        match found.verdict {
+            Verdict::Proved => match &found.proof {
+                Some(proof) => {
+                    let method = match proof.method {
+                        Method::Induction(_) => "induction",
+                        Method::Invariant(_) => "invariant",
+                    };
+                    *methods.entry(method).or_default() += 1;
+                    if has_solver {
+                        let unconfirmed = unconfirmed(proof, folder.path()).into_iter();
+                        wrong.extend(unconfirmed.map(|why| format!("{}: {why}", fault.name)));
+                    }
+                }
+                None => wrong.push(format!("{}: proved without a proof", fault.name)),
+            },
+            Verdict::Undecided(_) => undecided.push(fault.name),
+            Verdict::Found(_) => wrong.push(format!("{}: repaired, {found:?}", fault.name)),
+        }
+    }
+    println!("{count} faults; proofs: {methods:?}; repaired, but not decided: {undecided:?}");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(undecided.len() * 10 <= count, "{undecided:?} of {count}");
+}

@@ -1,0 +1,14 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod conformance;
+mod corpus;
+mod diagnostics;
+mod lower;
+mod mistakes;
+mod parameters;
+mod passes;
+mod ports;
+mod ranges;
+mod rendered;
+mod warnings;
+mod worst;

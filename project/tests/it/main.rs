@@ -1,0 +1,6 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod common;
+mod connections;
+mod read;
+mod requests;

@@ -1,0 +1,640 @@
+//! What a file says, and what is said about its mistakes.
+
+use crate::common::{mistakes, parse};
+use proptest::prelude::*;
+use rungc_models::{Model, ModelId};
+use rungc_project::{Error, FILE, Project};
+use rungc_syntax::DeviceClass;
+use std::path::Path;
+
+/// A file with every setting.
+const EVERY_SETTING: &str = r#"
+[project]
+program = "Packer.gxw"
+model = "FX3U"
+name = "packer"
+encoding = "windows-1252"
+
+[check]
+allow = ["W0201", "double-coil"]
+warn = ["E0105"]
+deny = ["W0204"]
+
+[build]
+target = "host"
+board = "board.toml"
+emit = "c"
+output = "firmware/plc"
+
+[test]
+files = ["tests", "extra.plctest.toml"]
+engine = "all"
+
+[tokens]
+"56 09 02" = "TO"
+"5609" = "from"
+
+[index]
+"D100Z0" = "D100-D163"
+"x0v" = "X000-X017"
+
+[latched]
+D = "D200-D511"
+M = ["M500-M600", "M700"]
+
+[serve]
+modbus-tcp = 5020
+mc = ["127.0.0.1:5001", "[::1]:5001"]
+fx = "5556"
+serial = { COM1 = "/dev/ttyUSB0", COM2 = "tcp:gateway:4001" }
+D = "D0-D511"
+Y = ["Y000-Y017"]
+"#;
+
+fn every_setting() -> Project {
+    parse(EVERY_SETTING).unwrap()
+}
+
+#[test]
+fn settings_of_the_project_and_of_commands_are_read() {
+    let project = every_setting();
+    assert_eq!(project.model, Some(ModelId::Fx3u));
+    assert_eq!(project.name.as_deref(), Some("packer"));
+    assert_eq!(project.encoding.unwrap().name(), "windows-1252");
+    assert_eq!(project.program().unwrap(), Path::new("plant/Packer.gxw"));
+    assert_eq!(project.check.allow, ["W0201", "W0203"]);
+    assert_eq!(project.check.warn, ["E0105"]);
+    assert_eq!(project.check.deny, ["W0204"]);
+    assert_eq!(project.build.emit.as_ref().unwrap().text, "c");
+    assert_eq!(
+        project.build.output.as_deref(),
+        Some(Path::new("firmware/plc"))
+    );
+    assert_eq!(project.test.files.len(), 2);
+}
+
+#[test]
+fn settings_of_the_program_are_read() {
+    let project = every_setting();
+    let reading = project.reading();
+    let learned = |body: &[u8]| reading.learned.get(body).map(ToString::to_string);
+    assert_eq!(learned(&[0x56, 9]).as_deref(), Some("FROM"));
+    assert_eq!(learned(&[0x56, 9, 2]).as_deref(), Some("TO"));
+    assert_eq!(learned(&[0x56, 9, 0]), None);
+    assert_eq!(reading.encoding, project.encoding);
+    let bounds: Vec<_> = project
+        .index
+        .iter()
+        .map(|b| (b.class, b.number, b.first, b.last))
+        .collect();
+    assert_eq!(
+        bounds,
+        [(DeviceClass::D, 100, 100, 163), (DeviceClass::X, 0, 0, 15)]
+    );
+    let latched: Vec<_> = project
+        .latched
+        .iter()
+        .map(|l| (l.class, l.first, l.last))
+        .collect();
+    let expected = [
+        (DeviceClass::M, 500, 600),
+        (DeviceClass::M, 700, 700),
+        (DeviceClass::D, 200, 511),
+    ];
+    assert_eq!(latched, expected);
+}
+
+#[test]
+fn settings_of_servers_are_read() {
+    let project = every_setting();
+    let serve = &project.serve;
+    assert_eq!(serve.modbus_tcp, ["127.0.0.1:5020".parse().unwrap()]);
+    assert_eq!((serve.mc.len(), serve.fx.len()), (2, 1));
+    let lines: Vec<_> = serve.serial.iter().map(|s| s.line.clone()).collect();
+    let expected = ["COM1=/dev/ttyUSB0", "COM2=tcp:gateway:4001"];
+    assert_eq!(lines, expected.map(|line| line.parse().unwrap()));
+    assert_eq!(serve.stored().count(), 512 + 16);
+}
+
+#[test]
+fn what_is_served_has_to_be_there() {
+    insta::assert_snapshot!(
+        "serve",
+        mistakes(
+            r#"
+[serve]
+modbus = 5020
+modbus-tcp = 99999
+mc = "plc:5001"
+fx = [5556, true]
+serial = { COMM1 = "pty", COM1 = "tcp:gateway", COM2 = 3 }
+D = "M0-M10"
+K = "K0"
+"#
+        )
+    );
+    insta::assert_snapshot!("serve_lines", mistakes("[serve]\nserial = 'COM1=pty'\n"));
+    let why = |text: &str, model| {
+        let project = parse(text).unwrap();
+        let mut program = rungc_syntax::Program::default();
+        let path = Path::new("p.il");
+        match project.complete(path, &mut program, Model::get(model)) {
+            Err(Error::Mistakes {
+                text, diagnostics, ..
+            }) => {
+                let d = diagnostics.sorted().remove(0);
+                let help = d.help.unwrap_or_default();
+                format!("{} {}; {help}", text.slice(d.span), d.message)
+            }
+            _ => panic!("{text} is taken"),
+        }
+    };
+    let fx1s = ModelId::Fx1s;
+    insta::assert_snapshot!(
+        "serve_model",
+        [
+            why("[serve]\nserial = { COM3 = 'pty' }\n", fx1s),
+            why("[serve]\nD = ['D0', 'D200-D300']\n", fx1s),
+        ]
+        .join("\n")
+    );
+}
+
+#[test]
+fn an_empty_file_sets_nothing() {
+    for text in [
+        "",
+        "\u{feff}",
+        "# nothing\n",
+        "[project]\n[check]\nallow = []\n",
+    ] {
+        let project = parse(text).unwrap();
+        assert!(project.model.is_none() && project.check.allow.is_empty());
+    }
+}
+
+#[test]
+fn unknown_tables_and_keys() {
+    insta::assert_snapshot!(
+        "unknown",
+        mistakes(
+            "[projekt]\nprogram = 'a.il'\n\n[check]\nalow = []\n\n[io]\nX0 = 1\n\nmodel = 'fx3u'\n[latched]\nY = 'Y0-Y7'\n"
+        )
+    );
+    insta::assert_snapshot!(
+        "unknown_at_top",
+        mistakes("model = 'fx3u'\n[[device]]\nat = 0\n")
+    );
+}
+
+#[test]
+fn values_that_do_not_fit() {
+    insta::assert_snapshot!(
+        "values",
+        mistakes(
+            r#"
+build = "c"
+[project]
+program = 3
+model = "fx3uu"
+name = "packer"
+encoding = "klingon"
+
+[check]
+allow = ["W0203", "E0106", "W9999", "duoble-coil"]
+warn = ["W0201", "E0106"]
+deny = "W0203"
+
+[test]
+files = "tests"
+
+[tokens]
+"56 0" = "TO"
+"56" = "TOO"
+"57 01" = "TO"
+"5701" = "FROM"
+
+[index]
+"D100" = "D100-D163"
+"D100Z0" = "M0-M10"
+"D100Z" = "D163-D100"
+
+[latched]
+D = "200-511"
+M = ["M5-M1", 7]
+"#
+        )
+    );
+    insta::assert_snapshot!(
+        "allowed_and_denied",
+        mistakes("[check]\nallow = ['W0203']\ndeny = ['double-coil']\n")
+    );
+    insta::assert_snapshot!("empty", mistakes("[project]\nprogram = ''\n"));
+}
+
+#[test]
+fn lines_that_are_not_toml() {
+    insta::assert_snapshot!(
+        "not_toml",
+        mistakes("[project]\nprogram = Packer.gxw\n[check\nallow = ['W0203]\n")
+    );
+    insta::assert_snapshot!(
+        "twice",
+        mistakes("[project]\nmodel = 'fx3u'\nmodel = 'fx2n'\n")
+    );
+}
+
+#[test]
+fn latched_devices_are_those_that_can_be() {
+    let mut program = rungc_syntax::Program::default();
+    let project = parse("[latched]\nD = 'D200-D299'\n").unwrap();
+    project
+        .complete(Path::new("p.il"), &mut program, Model::get(ModelId::Fx3u))
+        .unwrap();
+    let latched = program.parameters.clone().unwrap().latched.unwrap();
+    let of = |class| {
+        let runs = latched.iter().filter(|run| run.class == class);
+        runs.map(|run| (run.first, run.count)).collect::<Vec<_>>()
+    };
+    assert_eq!(of(DeviceClass::D), [(200, 100)]);
+    assert_eq!(of(DeviceClass::M), [(500, 524)], "as usual");
+    let why = |text: &str, model| {
+        let project = parse(text).unwrap();
+        let Err(Error::Mistakes {
+            text, diagnostics, ..
+        }) = project.complete(
+            Path::new("p.il"),
+            &mut rungc_syntax::Program::default(),
+            Model::get(model),
+        )
+        else {
+            panic!("{text} is taken");
+        };
+        let d = diagnostics.sorted().remove(0);
+        format!("{} {}; {}", text.slice(d.span), d.message, d.help.unwrap())
+    };
+    insta::assert_snapshot!(
+        "latched",
+        [
+            why("[latched]\nD = 'D100-D8005'\n", ModelId::Fx3u),
+            why("[latched]\nM = ['M500-M510', 'M3-M4']\n", ModelId::Fx3g),
+        ]
+        .join("\n")
+    );
+}
+
+#[test]
+fn the_nearest_file_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().canonicalize().unwrap();
+    let inner = root.join("a/b");
+    std::fs::create_dir_all(&inner).unwrap();
+    std::fs::write(root.join(FILE), "").unwrap();
+    std::fs::write(inner.join("x.il"), "END\n").unwrap();
+    assert_eq!(Project::find(&inner.join("x.il")), Some(root.join(FILE)));
+    assert_eq!(Project::find(&inner), Some(root.join(FILE)));
+    std::fs::write(inner.join(FILE), "").unwrap();
+    assert_eq!(Project::find(&inner.join("x.il")), Some(inner.join(FILE)));
+    assert_eq!(
+        Project::find(&inner.join("not/there.il")),
+        Some(inner.join(FILE))
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let why = |path: &Path| Project::load(path).unwrap_err().to_string();
+    assert!(why(&path).starts_with("cannot read"), "{}", why(&path));
+    std::fs::write(&path, [0xff, 0xfe, 0x41]).unwrap();
+    assert!(why(&path).ends_with("it is not UTF-8"), "{}", why(&path));
+    std::fs::write(&path, vec![b'#'; (rungc_project::MAX_SIZE + 1) as usize]).unwrap();
+    assert!(
+        why(&path).ends_with("it is larger than 1 MiB"),
+        "{}",
+        why(&path)
+    );
+}
+
+/// Pieces of files, put together at random.
+fn piece() -> impl Strategy<Value = String> {
+    let known = prop::sample::select(vec![
+        "[project]\n",
+        "[check]\n",
+        "[tokens]\n",
+        "[index]\n",
+        "[latched]\n",
+        "[build]\n",
+        "[test]\n",
+        "[serve]\n",
+        "serial = { COM1 = \"pty\" }",
+        "mc = ",
+        "model = ",
+        "allow = ",
+        "warn = ",
+        "D = ",
+        "\"D0Z0\" = ",
+        "\"56 09\" = ",
+        "files = ",
+        "\"W0203\"",
+        "\"D0-D9\"",
+        "\"fx3u\"",
+        "[",
+        "]",
+        "{",
+        "}",
+        ",",
+        "\n",
+        "=",
+        "\"",
+        "'",
+        "\u{feff}",
+        "\"D0-D4294967296\"",
+    ]);
+    prop_oneof![known.prop_map(str::to_string), ".{0,4}"]
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_it_panic(text in "\\PC{0,200}") {
+        let _ = parse(&text);
+    }
+
+    #[test]
+    fn no_pieces_make_it_panic(pieces in prop::collection::vec(piece(), 0..40)) {
+        if let Err(Error::Mistakes { text, diagnostics, .. }) = parse(&pieces.concat()) {
+            for d in diagnostics.iter() {
+                prop_assert!(d.span.start <= d.span.end && d.span.end as usize <= text.text.len());
+            }
+        }
+    }
+}
+
+/// Instructions as a list shows them.
+fn shown(program: &rungc_syntax::Program) -> Vec<String> {
+    let shown = |instr: &rungc_syntax::Instr| {
+        let operands = instr
+            .operands
+            .iter()
+            .map(|operand| operand.kind.to_string());
+        let words = std::iter::once(instr.mnemonic.to_string()).chain(operands);
+        words.collect::<Vec<_>>().join(" ")
+    };
+    program.instrs.iter().map(shown).collect()
+}
+
+#[test]
+fn rows_of_the_modbus_table_become_instructions() {
+    let text = r#"[project]
+program = "read.rs"
+
+[[modbus]]
+station = 2
+read = "registers"
+address = 0x1001
+buffer = "D20"
+
+[[modbus]]
+port = "COM2"
+station = 0
+write = "coils"
+address = 0xE000
+count = 20
+buffer = "d10"
+trigger = "M10"
+"#;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "LD X000\nOUT Y000\nEND\n").program;
+    let (file, model) = (folder.join("read.rs"), Model::get(ModelId::H2u));
+    project.complete(&file, &mut program, model).unwrap();
+    let shown = shown(&program);
+    assert_eq!(
+        shown,
+        [
+            "LD X000",
+            "OUT Y000",
+            "LD M8000",
+            "MODBUS2 H203 H1001 H1 D20 H1",
+            "LD M10",
+            "MODBUS2 HF HE000 H14 D10 H2",
+            "END"
+        ]
+    );
+    let other = folder.join("snapshots");
+    project.complete(&other, &mut program, model).unwrap();
+    assert_eq!(program.instrs.len(), shown.len());
+    let fx3u = project.complete(&file, &mut program, Model::get(ModelId::Fx3u));
+    let Err(Error::Mistakes { diagnostics, .. }) = fx3u else {
+        panic!("FX3U has no Modbus table");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no Modbus table"]);
+}
+
+#[test]
+fn mistakes_in_rows_of_the_modbus_table() {
+    let rows = [
+        "host = \"plc-b\"\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "host = \"0.0.0.0\"\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "host = \"::1\"\nport = \"COM1\"\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "host = \"::1\"\nstation = 256\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"coil\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 0\nread = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"coils\"\nwrite = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nwrite = \"registers\"\naddress = 0\ncount = 121\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 65536\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 0",
+        "station = 1\nread = \"registers\"\naddress = 0\nbuffer = \"M0\"",
+        "port = \"COM0\"\nstation = 1\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"\ntrigger = \"X0\"",
+        "station = 1\nread = \"registers\"\nadress = 0\nbuffer = \"D0\"",
+    ];
+    let mut found = String::new();
+    for row in rows {
+        let text = format!("[project]\nprogram = \"p.il\"\n\n[[modbus]]\n{row}\n");
+        let parsed = Project::parse(Path::new("rungc.toml"), &text);
+        let Err(Error::Mistakes { diagnostics, .. }) = parsed else {
+            panic!("{row}: no mistake");
+        };
+        for diagnostic in diagnostics.iter() {
+            found += &format!("{}: {}\n", diagnostic.code, diagnostic.message);
+        }
+    }
+    for text in [
+        "modbus = 1",
+        "modbus = [1]",
+        "[[modbus]]\nstation = 1\nread = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+    ] {
+        let Err(Error::Mistakes { diagnostics, .. }) =
+            Project::parse(Path::new("rungc.toml"), text)
+        else {
+            panic!("{text}: no mistake");
+        };
+        for diagnostic in diagnostics.iter() {
+            found += &format!("{}: {}\n", diagnostic.code, diagnostic.message);
+        }
+    }
+    insta::assert_snapshot!(found);
+}
+
+#[test]
+fn modules_are_fitted_to_the_plc() {
+    let text = "[[module]]\nat = 0\nkind = \"fx2n-4ad\"\n\n[[module]]\nat = 101\nkind = \"H2U-4DAR\"\nanswers-after = 20\n";
+    let project = parse(text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "LD X0\nOUT Y0\nEND\n").program;
+    let path = Path::new("plant/p.il");
+    let h2u = Model::get(ModelId::H2u);
+    project.complete(path, &mut program, h2u).unwrap();
+    let fitted = program.parameters.unwrap().modules;
+    let fitted: Vec<_> = fitted
+        .iter()
+        .map(|m| (m.unit, m.kind, m.delay_ms))
+        .collect();
+    assert_eq!(fitted, [(0, "FX2N-4AD", 0), (101, "H2U-4DA", 20)]);
+    let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+    let of_fx = project.complete(path, &mut program, Model::get(ModelId::Fx3u));
+    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+        panic!("FX3U has no remote modules");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no remote modules"]);
+    for (at, kind, id, message) in [
+        ("\"board\"", "H2U-6A-BD", ModelId::H2u, None),
+        ("3", "EX1-4AD", ModelId::Hm, None),
+        (
+            "3",
+            "EX1-4AD",
+            ModelId::H2u,
+            Some("EX1-4AD does not fit Inovance H2U"),
+        ),
+        (
+            "\"board\"",
+            "H1U-4A-BD",
+            ModelId::Fx3u,
+            Some("H1U-4A-BD does not fit Mitsubishi FX3U"),
+        ),
+    ] {
+        let project = parse(&format!("[[module]]\nat = {at}\nkind = \"{kind}\"\n")).unwrap();
+        let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+        let fits = project.complete(path, &mut program, Model::get(id));
+        let why = match fits {
+            Err(Error::Mistakes { diagnostics, .. }) => {
+                diagnostics.iter().next().map(|d| d.message.clone())
+            }
+            _ => None,
+        };
+        assert_eq!(why.as_deref(), message, "{at} {kind}");
+    }
+    insta::assert_snapshot!(
+        "modules",
+        mistakes(
+            "[[module]]\nat = 0\nkind = \"FX2N-4AB\"\n[[module]]\nat = 8\nkind = \"FX2N-4AD\"\n[[module]]\nat = 1\n\
+             [[module]]\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4DA\"\n\
+             [[module]]\nat = 3\nkind = \"FX2N-4DA\"\nid = 1\n\
+             [[module]]\nat = 4\nkind = \"H2U-6A-BD\"\n[[module]]\nat = \"board\"\nkind = \"H2U-4AD\"\n[[module]]\nat = 5\n\
+             kind = \"H2U-0808ERDR\"\n[[module]]\nat = 6\nkind = \"EX1-4AD\"\n\
+             [[module]]\nat = 7\nkind = \"FX2N-4AD\"\nanswers-after = 5\n\
+             [[module]]\nat = 103\nkind = \"H2U-4AD\"\nanswers-after = 60_001\n"
+        )
+    );
+}
+
+#[test]
+fn plcopen() {
+    let project = parse(
+        "[plcopen]\nfree = ['M100-M199', 'T5']\n[plcopen.names]\nStart = 'X010'\n\"main.Level\" = 'D10'\n",
+    )
+    .unwrap();
+    let names = project.reading().names;
+    let shown = names
+        .devices
+        .iter()
+        .map(|(name, device)| format!("{name} {device}"));
+    assert_eq!(shown.collect::<Vec<_>>(), ["MAIN.LEVEL D10", "START X010"]);
+    assert_eq!(names.free.len(), 2);
+    insta::assert_snapshot!(
+        "plcopen",
+        [
+            mistakes("[plcopen]\nfree = ['M5-D6', 7]\nnames = 'names.csv'\n"),
+            mistakes("[plcopen.names]\nStart = 'X9'\nStop = 1\n[plcopen.devices]\n"),
+        ]
+        .concat()
+    );
+}
+
+#[test]
+fn a_station_of_canlink_becomes_instructions() {
+    let entry = |keys: &str| format!("[[canlink.send]]\nfrom = \"D10\"\n{keys}\n");
+    let master = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 1\nheartbeat = 500\nslaves = [2, 3]\nlisten = [3]\n";
+    let entries = [
+        "together = \"M1\"\nto = 2\nregister = 5\ncount = 2",
+        "event = \"M100\"\nto = 3",
+        "every = 50",
+        "event = \"M100\"\nto = 2",
+        "sync = true\nto = 2",
+    ];
+    let text = master.to_string() + &entries.map(entry).concat();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    let completed = |text: &str| {
+        let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+        let mut program = rungc_frontend::read_text("p.il", "LD X000\nOUT Y000\nEND\n").program;
+        let (file, model) = (folder.join("read.rs"), Model::get(ModelId::H2u));
+        project.complete(&file, &mut program, model).unwrap();
+        shown(&program)
+    };
+    insta::assert_snapshot!("canlink_master", completed(&text).join("\n"));
+    let slave = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 2\n";
+    insta::assert_snapshot!("canlink_slave", completed(slave).join("\n"));
+}
+
+#[test]
+fn mistakes_in_a_network_of_canlink() {
+    let of_slave = |entry: &str| format!("[canlink]\nstation = 2\n[[canlink.send]]\n{entry}\n");
+    let many = "[[canlink.send]]\nevery = 5\nfrom = \"D0\"\n".repeat(17);
+    let relays = |count: usize, each: usize| {
+        let relay = |n| format!("[[canlink.send]]\ntogether = \"M{n}\"\nfrom = \"D0\"\n");
+        let all: Vec<_> = (0..count).map(|n| relay(n).repeat(each)).collect();
+        format!("[canlink]\nstation = 1\n{}", all.concat())
+    };
+    let texts = [
+        "[canlink]\nmaster = 1".to_string(),
+        "[canlink]\nstation = 64\nheartbeat = 5".to_string(),
+        "[canlink]\nstation = 2\nslaves = [3]\nlisten = [2]".to_string(),
+        "[canlink]\nstation = 1\nslaves = [0]\nlisten = 3".to_string(),
+        "[canlink]\nstation = 1\nlisten = [2, 3, 4, 5, 6, 7, 8, 9, 10]".to_string(),
+        of_slave("from = \"D0\""),
+        of_slave("every = 5\nsync = true\nfrom = \"D0\""),
+        of_slave("sync = false\nfrom = \"D0\""),
+        of_slave("event = \"X0\"\nfrom = \"D0\""),
+        of_slave("every = 5"),
+        of_slave("every = 5\nfrom = \"D7799\"\ncount = 2"),
+        of_slave("every = 5\nfrom = \"D0\"\nregister = 7800"),
+        of_slave("together = \"M0\"\nfrom = \"D0\""),
+        format!("[canlink]\nstation = 2\n{many}"),
+        relays(9, 1),
+        relays(1, 17),
+    ];
+    let mut found = String::new();
+    for text in texts {
+        let text = format!("[project]\nprogram = \"p.il\"\n{text}\n");
+        found += &mistakes(text.trim_end());
+    }
+    insta::assert_snapshot!(found);
+    let text = "[project]\nprogram = \"read.rs\"\n[canlink]\nstation = 2\n";
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+    let of_fx = project.complete(
+        &folder.join("read.rs"),
+        &mut program,
+        Model::get(ModelId::Fx3u),
+    );
+    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+        panic!("FX3U has no CANlink");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no CANlink"]);
+}

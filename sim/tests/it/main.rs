@@ -1,0 +1,5 @@
+//! Tests of the crate from outside, one module for each area.
+
+mod plant;
+mod program_files;
+mod runner;
