@@ -6,7 +6,6 @@ use crate::pulses;
 use crate::table::{Cell, Table};
 use crate::tools;
 use rungc_firmware::target::CORTEX_M4F;
-use rungc_sim::engines::cortex_m;
 use std::process::Command;
 
 /// The program that counts.
@@ -30,7 +29,7 @@ pub struct Count {
 /// Instructions of a tick, and of a call of the timer at an edge, with four outputs at 100 kHz.
 pub fn measure() -> Result<[Count; 2]> {
     tools::need(&["make", CORTEX_M4F.cc, tools::QEMU])?;
-    let cargo = tools::embedded_cargo(CORTEX_M4F.triple)?;
+    let runtime = tools::runtime(Some(&CORTEX_M4F))?;
     let folder = board_folder()?;
     let folder = folder.path();
     let options = rungc_codegen_c::Options::default();
@@ -38,28 +37,24 @@ pub fn measure() -> Result<[Count; 2]> {
         tools::write(&folder.join(&file.path), &file.contents)?;
     }
     tools::write(&folder.join("main.c"), PULSES_C)?;
-    let mut make = Command::new("make");
-    cortex_m::make_with(&mut make, &cargo);
     let flags = format!(
         "CFLAGS=-std=c99 -Os -ffunction-sections {}",
         CORTEX_M4F.flags
     );
     tools::run(
-        make.arg(format!("CC={}", CORTEX_M4F.cc))
-            .arg(format!("TARGET={}", CORTEX_M4F.triple))
+        Command::new("make")
+            .arg(format!("CC={}", CORTEX_M4F.cc))
+            .arg(format!("RUNGC_RT={}", runtime.display()))
             .arg(flags)
             .current_dir(folder),
     )?;
-    let library = format!(
-        "rungc-rt/target/{}/release/librungc_rt.a",
-        CORTEX_M4F.triple
-    );
     let image = folder.join("counted.elf");
-    let parts = ["main.c", "startup.c", "board.c", "libpulses.a", &library];
+    let parts = ["main.c", "startup.c", "board.c", "libpulses.a"];
     tools::run(
         linker(folder, &image)
             .arg(format!("-DMILLISECONDS={MILLISECONDS}"))
             .args(parts.map(|part| folder.join(part)))
+            .arg(runtime)
             .arg("-Wl,--gc-sections,-z,noexecstack"),
     )?;
     read(&tools::qemu(&image)?)

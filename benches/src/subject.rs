@@ -8,6 +8,7 @@ use rungc_codegen_c::lanes::LANES;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
+use rungc_runtime_sources::cache::{self, Slot};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -388,9 +389,16 @@ impl RustSubject {
         Ok(RustSubject { folder, name })
     }
 
-    /// Builds it as a static library. With a target, what is needed to build for that is in `cargo`.
+    /// Builds it as a static library, in a folder that other subjects wait for. With a target, what is needed to build
+    /// for that is in `cargo`.
     pub fn build(&self, mut cargo: Command, target: Option<&str>, level: &str) -> Result<PathBuf> {
         let output = Path::new(RUST_OUTPUT).join(level);
+        let _slot = Slot::wait(output.clone()).map_err(at(&output))?;
+        // Cargo takes crates with the same name for one, and compiles those again that are newer.
+        for root in ["lib.rs", "program/src/lib.rs"] {
+            let root = self.folder.join(root);
+            cache::touch(&root).map_err(at(&root))?;
+        }
         cargo
             .args(["build", "--release", "--quiet"])
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
@@ -402,7 +410,17 @@ impl RustSubject {
             library.push(target);
         }
         tools::run(&mut cargo)?;
-        Ok(library.join(format!("release/lib{}.a", self.name)))
+        let name = format!("lib{}.a", self.name);
+        let own = self.folder.join(&name);
+        std::fs::copy(library.join("release").join(name), &own).map_err(at(&own))?;
+        Ok(own)
+    }
+}
+
+fn at(path: &Path) -> impl FnOnce(std::io::Error) -> Problem + '_ {
+    |error| Problem::File {
+        path: path.to_path_buf(),
+        error,
     }
 }
 

@@ -345,6 +345,10 @@ pub struct Plan {
     /// (docs/src/builds.md).
     #[arg(long)]
     pub defmt: bool,
+    /// Make emitted Rust depend on the runtime in this folder, which several crates can share, instead of a copy inside
+    /// the crate; the runtime is written there unless the folder has it (docs/src/embedding.md).
+    #[arg(long, value_name = "FOLDER")]
+    pub runtime: Option<PathBuf>,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,

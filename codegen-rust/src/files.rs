@@ -41,9 +41,21 @@ fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
-/// The dependency on the runtime.
-fn runtime_at(path: &str, features: &str) -> String {
-    format!("rungc-rt = {{ path = {}{features} }}\n", quoted(path))
+impl Runtime {
+    /// The line of a manifest that depends on it. The emitted crate, which may have its sources, is in `folder`: empty,
+    /// or with a slash at its end.
+    pub fn dependency(&self, folder: &str) -> String {
+        self.with_features(folder, "")
+    }
+
+    /// The same with more keys after the path, each after a comma.
+    fn with_features(&self, folder: &str, features: &str) -> String {
+        let path = match self {
+            Runtime::Included => &format!("{folder}{RUNTIME_FOLDER}"),
+            Runtime::At(path) => path,
+        };
+        format!("rungc-rt = {{ path = {}{features} }}\n", quoted(path))
+    }
 }
 
 fn manifest(name: &str, description: &str, dependencies: &str, profile: &str) -> String {
@@ -61,15 +73,6 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     generator.functions();
     let functions = std::mem::take(&mut generator.items);
     let crate_name = crate_name(&module.name);
-    let (runtime_path, runtime): (_, Vec<_>) = match &options.runtime {
-        // What else is locked with defmt, the registry knows.
-        Runtime::Included if options.defmt => (RUNTIME_FOLDER, runtime().collect()),
-        Runtime::Included => (
-            RUNTIME_FOLDER,
-            runtime().chain([lock_file(&crate_name)]).collect(),
-        ),
-        Runtime::At(path) => (path.as_str(), Vec::new()),
-    };
     let asks = cycle::keeps_any(module) || cycle::asks_clock(module);
     let needs_std = options.main && (options.servers || options.io || asks);
     let runtime_features = if needs_std {
@@ -77,7 +80,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     } else {
         ""
     };
-    let mut dependencies = runtime_at(runtime_path, runtime_features);
+    let mut dependencies = options.runtime.with_features("", runtime_features);
     let mut features = "";
     if options.defmt {
         dependencies.push_str(defmt::DEPENDENCY);
@@ -102,7 +105,13 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
             host::main_file(&generator, &crate_name, options),
         ));
     }
-    files.extend(runtime);
+    if options.runtime == Runtime::Included {
+        files.extend(runtime());
+    }
+    // What else is locked with defmt, the registry knows.
+    if !options.defmt {
+        files.push(lock_file(&crate_name));
+    }
     files
 }
 
@@ -420,7 +429,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             manifest(
                 "batch",
                 "PLC programs for tests",
-                &runtime_at(RUNTIME_FOLDER, ""),
+                &Runtime::Included.dependency(""),
                 profile,
             ),
         ),

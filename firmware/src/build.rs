@@ -1,11 +1,13 @@
 //! Calls of the compilers for another machine, and what to say where one is missing.
 
+use crate::image::{self, Image};
 use crate::package::Library;
 use crate::target::Target;
+use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_ir::node::{Function, FunctionKind};
-use rungc_runtime_sources::cache;
+use rungc_runtime_sources::cache::{self, Slot};
 use rungc_runtime_sources::library::{self, Recipe};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -168,23 +170,34 @@ impl Tools {
         self.check_rust()?;
         // Without a cache it is built each time.
         let cache = cache::folder().unwrap_or_else(|_| folder.join("cache"));
-        let recipe = Recipe {
-            cargo: &Command::new(&self.cargo),
+        let cargo = Command::new(&self.cargo);
+        library::build(&cache, &self.recipe(&cargo), || self.announce()).map_err(
+            |error| match error {
+                library::Error::Cargo { .. } => BuildError::Missing(error.to_string()),
+                library::Error::Failed { said } => BuildError::Failed {
+                    what: "cargo".to_string(),
+                    said,
+                },
+                library::Error::Io { path, error } => BuildError::Io { path, error },
+            },
+        )
+    }
+
+    /// How to compile the runtime with this cargo.
+    fn recipe<'a>(&'a self, cargo: &'a Command) -> Recipe<'a> {
+        Recipe {
+            cargo,
             rustc: &self.rustc,
             target: self.target.rustc_name(),
             optimise: self.target.optimise(),
             std: self.std,
             cargo_args: &self.cargo_args,
-        };
-        let announce = || (self.announce)(&format!("the runtime for {}", self.target.title));
-        library::build(&cache, &recipe, announce).map_err(|error| match error {
-            library::Error::Cargo { .. } => BuildError::Missing(error.to_string()),
-            library::Error::Failed { said } => BuildError::Failed {
-                what: "cargo".to_string(),
-                said,
-            },
-            library::Error::Io { path, error } => BuildError::Io { path, error },
-        })
+        }
+    }
+
+    /// Says that the runtime is compiled.
+    fn announce(&self) {
+        (self.announce)(&format!("the runtime for {}", self.target.title));
     }
 
     /// The runtime as a static library, for a package that needs it.
@@ -303,25 +316,49 @@ impl Built {
 }
 
 impl Tools {
-    /// Builds the sources of an image in Rust.
-    pub fn rust_image(&self, files: &[OutFile]) -> Result<Vec<u8>, BuildError> {
+    /// Builds an image in Rust, in a folder of the cache where the runtime is compiled once for each target and
+    /// toolchain; images wait for one another there. Where there is no cache, all is built in a temporary folder.
+    ///
+    /// # Errors
+    /// The toolchain is missing or fails, or files cannot be written.
+    pub fn rust_image(&self, image: &Image) -> Result<Vec<u8>, BuildError> {
         self.check_rust()?;
-        let folder = write(files)?;
+        let temporary = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
+        let cache = cache::folder().unwrap_or_else(|_| temporary.path().to_owned());
         let mut cargo = Command::new(&self.cargo);
+        let folder = cache.join("images").join(self.recipe(&cargo).key());
+        let _slot = Slot::wait(folder.clone()).map_err(io(&folder))?;
+        let objects = folder.join("target");
+        if !objects.exists() {
+            self.announce();
+        }
+        write_image(image, &cache, &folder).map_err(io(&folder))?;
         cargo
             .args(["build", "--release"])
             .args(library::strictly(&self.cargo_args))
             .args(&self.cargo_args)
-            .env("CARGO_TARGET_DIR", folder.path().join("target"))
+            .env("CARGO_TARGET_DIR", &objects)
             .env_remove("RUSTFLAGS")
-            .current_dir(folder.path());
+            .current_dir(&folder);
         let output = cargo.output().map_err(|error| {
             BuildError::Missing(format!("cannot run {}: {error}", self.cargo.display()))
         })?;
         succeeded("cargo", output)?;
-        let built = folder.path().join("target").join(self.target.triple);
-        read(&built.join("release/image"))
+        read(&objects.join(self.target.triple).join("release/image"))
     }
+}
+
+/// Writes the sources of an image in Rust, which take the runtime from the cache.
+fn write_image(image: &Image, cache: &Path, folder: &Path) -> std::io::Result<()> {
+    let runtime = library::unpacked(cache)?;
+    let runtime = Runtime::At(runtime.to_string_lossy().into_owned());
+    let files = image::rust_project(image, &runtime).into_iter();
+    let files: Vec<_> = files.map(|file| (file.path, file.contents)).collect();
+    if cache::write_all(folder, &files)? {
+        // Cargo does not know that the linker script is part of it.
+        cache::touch(&folder.join("src/main.rs"))?;
+    }
+    Ok(())
 }
 
 /// What calls all of a program that a host calls.

@@ -1,14 +1,19 @@
 //! Where what is built once is kept: a folder of the user's cache, which may be deleted at any time.
 
 use etcetera::BaseStrategy;
+use std::collections::HashSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::time::SystemTime;
 
 /// Names the folder to use instead of `rungc` in the user's cache folder.
 pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
+
+/// File by which a folder is locked.
+const LOCK: &str = ".lock";
 
 /// How many folders of one kind are used at the same time at most.
 const SLOTS: usize = 64;
@@ -26,6 +31,14 @@ pub fn folder() -> io::Result<PathBuf> {
             .cache_dir()
             .join("rungc"),
     };
+    inside(&folder)
+}
+
+/// The cache of these sources in a folder.
+///
+/// # Errors
+/// It cannot be written.
+pub fn inside(folder: &Path) -> io::Result<PathBuf> {
     let folder = std::path::absolute(folder)?.join(of_sources());
     fs::create_dir_all(&folder)?;
     Ok(folder)
@@ -93,7 +106,7 @@ impl Slot {
 fn lock_file(folder: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.create(true).truncate(false).write(true);
-    options.open(folder.join(".lock"))
+    options.open(folder.join(LOCK))
 }
 
 /// Writes a file unless it has this text already, so that build tools see only what changed.
@@ -110,9 +123,74 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
     fs::write(path, text)
 }
 
+/// Gives a folder these files, by their paths in it, and no others in the folders that they lie in. Returns true if
+/// one of them has changed.
+///
+/// # Errors
+/// The files or their folders cannot be written.
+pub fn write_all(folder: &Path, files: &[(String, String)]) -> io::Result<bool> {
+    let paths: HashSet<PathBuf> = files.iter().map(|(path, _)| folder.join(path)).collect();
+    let folders: HashSet<&Path> = paths.iter().filter_map(|path| path.parent()).collect();
+    let mut changed = false;
+    for inner in folders.into_iter().filter(|inner| inner.is_dir()) {
+        for entry in fs::read_dir(inner)? {
+            let path = entry?.path();
+            if path.is_file() && !paths.contains(&path) && !path.ends_with(LOCK) {
+                fs::remove_file(path)?;
+                changed = true;
+            }
+        }
+    }
+    for (path, text) in files {
+        let path = folder.join(path);
+        changed |= !fs::read_to_string(&path).is_ok_and(|old| old == *text);
+        write(&path, text)?;
+    }
+    Ok(changed)
+}
+
+/// Gives a file the time of now, so that build tools compile it again.
+///
+/// # Errors
+/// The file is not there, or cannot be written.
+pub fn touch(path: &Path) -> io::Result<()> {
+    let file = OpenOptions::new().append(true).open(path)?;
+    file.set_modified(SystemTime::now())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_is_written_where_it_differs() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |path: &str, text: &str| (path.to_string(), text.to_string());
+        let first = [
+            file("a.rs", "a"),
+            file("src/b.rs", "b"),
+            file("src/c.rs", "c"),
+        ];
+        assert!(write_all(folder.path(), &first).unwrap());
+        let kept = folder.path().join("target");
+        fs::create_dir(&kept).unwrap();
+        fs::write(kept.join("object"), "").unwrap();
+        let long_ago = SystemTime::UNIX_EPOCH;
+        let unchanged = folder.path().join("src/b.rs");
+        let opened = OpenOptions::new().append(true).open(&unchanged).unwrap();
+        opened.set_modified(long_ago).unwrap();
+        assert!(!write_all(folder.path(), &first).unwrap());
+        assert!(
+            write_all(folder.path(), &first[..2]).unwrap(),
+            "a file goes"
+        );
+        assert!(!folder.path().join("src/c.rs").exists());
+        assert!(kept.join("object").exists());
+        let modified = |path: &Path| path.metadata().unwrap().modified().unwrap();
+        assert_eq!(modified(&unchanged), long_ago);
+        touch(&unchanged).unwrap();
+        assert!(modified(&unchanged) > long_ago);
+    }
 
     #[test]
     fn two_users_never_share_a_folder() {

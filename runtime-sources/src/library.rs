@@ -101,22 +101,40 @@ pub fn sources() -> Vec<(String, String)> {
     files
 }
 
+/// The folder of the cache with the sources. It is always the same one, so that cargo finds again what it has compiled
+/// of them for another crate.
+///
+/// # Errors
+/// The cache cannot be written.
+pub fn unpacked(cache: &Path) -> io::Result<PathBuf> {
+    let slot = Slot::wait(cache.join("sources"))?;
+    let folder = slot.path().join("rungc-rt");
+    cache::write_all(&folder, &sources())?;
+    Ok(folder)
+}
+
+impl Recipe<'_> {
+    /// A name for what is built like this with this toolchain.
+    pub fn key(&self) -> String {
+        let hash = cache::hash(&(
+            self.target,
+            self.optimise.level(),
+            self.std,
+            self.cargo_args,
+            toolchain(self.rustc),
+            env::var_os("RUSTFLAGS"),
+        ));
+        format!("{}-{hash:016x}", self.target.unwrap_or("host"))
+    }
+}
+
 /// The library for a target, from the cache if it is there. `building` is called before it is built, which takes
 /// seconds to minutes.
 ///
 /// # Errors
 /// The toolchain cannot build it, or the cache cannot be written.
 pub fn build(cache: &Path, recipe: &Recipe, building: impl FnOnce()) -> Result<PathBuf, Error> {
-    let key = cache::hash(&(
-        recipe.target,
-        recipe.optimise.level(),
-        recipe.std,
-        recipe.cargo_args,
-        toolchain(recipe.rustc),
-        env::var_os("RUSTFLAGS"),
-    ));
-    let target = recipe.target.unwrap_or("host");
-    let folder = cache.join("runtime").join(format!("{target}-{key:016x}"));
+    let folder = cache.join("runtime").join(recipe.key());
     let library = folder.join(FILE);
     if library.is_file() {
         return Ok(library);
@@ -125,22 +143,20 @@ pub fn build(cache: &Path, recipe: &Recipe, building: impl FnOnce()) -> Result<P
         path: folder.clone(),
         error,
     };
-    let slot = Slot::wait(folder.clone()).map_err(io)?;
+    let _slot = Slot::wait(folder.clone()).map_err(io)?;
     // Another process has built it in the meantime.
     if library.is_file() {
         return Ok(library);
     }
     building();
-    let sources = slot.path().join("rungc-rt");
-    for (path, text) in self::sources() {
-        cache::write(&sources.join(path), &text).map_err(io)?;
-    }
-    let built = run_cargo(recipe, &sources)?;
+    let sources = unpacked(cache).map_err(io)?;
+    let objects = folder.join("target");
+    let built = run_cargo(recipe, &sources, &objects)?;
     // It appears whole or not at all.
     let whole = folder.join("whole.a");
     fs::copy(built, &whole).map_err(io)?;
     fs::rename(&whole, &library).map_err(io)?;
-    fs::remove_dir_all(&sources).map_err(io)?;
+    fs::remove_dir_all(&objects).map_err(io)?;
     Ok(library)
 }
 
@@ -154,9 +170,8 @@ pub fn copy_environment(from: &Command, to: &mut Command) {
     }
 }
 
-/// Runs cargo in the folder of the sources; gives the library's place.
-fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
-    let folder = sources.join("target");
+/// Runs cargo in the folder of the sources; objects go to another one. Gives the library's place.
+fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf, Error> {
     let mut cargo = Command::new(recipe.cargo.get_program());
     copy_environment(recipe.cargo, &mut cargo);
     cargo
@@ -169,7 +184,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
             "staticlib"
         })
         .arg("--target-dir")
-        .arg(&folder)
+        .arg(objects)
         .args(recipe.cargo_args)
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", recipe.optimise.level())
         .current_dir(sources);
@@ -191,9 +206,10 @@ fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
             said: String::from_utf8_lossy(&output.stderr).into_owned(),
         });
     }
-    let built = recipe
-        .target
-        .map_or(folder.clone(), |target| folder.join(target));
+    let built = match recipe.target {
+        Some(target) => objects.join(target),
+        None => objects.to_owned(),
+    };
     Ok(built.join("release").join(FILE))
 }
 

@@ -1,6 +1,7 @@
 //! `rungc build`.
 
 mod fitting;
+mod runtime;
 
 use super::setting::setting;
 use super::subject::{self, OutputPaths, Subject};
@@ -14,6 +15,7 @@ use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
 use rungc_codegen_c::lanes;
+use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;
 use rungc_firmware::board::{Board, Chip, Retain, RetainMemory};
 use rungc_firmware::boards;
@@ -240,12 +242,8 @@ impl ForImage {
         }
     }
 
-    /// The sources of the image. Reports terminals that the board has no pin for.
-    fn sources(
-        &self,
-        module: &Module,
-        backend: Backend,
-    ) -> std::result::Result<Vec<OutFile>, Failure> {
+    /// The image, if it can be built by this backend. Reports terminals that the board has no pin for.
+    fn checked<'a>(&'a self, module: &'a Module, backend: Backend) -> Built<Image<'a>> {
         let image = self.image(module);
         let board = &self.board;
         let own = !board.functions.is_empty() || !board.interrupts.is_empty();
@@ -275,10 +273,7 @@ impl ForImage {
             ));
         }
         self.check_slots(&image)?;
-        match backend {
-            Backend::C => image::c_project(&image).map_err(Failure::from),
-            Backend::Rust => Ok(image::rust_project(&image)),
-        }
+        Ok(image)
     }
 }
 
@@ -359,14 +354,22 @@ impl Job<'_> {
     }
 
     /// What to emit in Rust.
-    fn rust_options(&self) -> sources::RustOptions {
+    fn rust_options(&self, runtime: Runtime) -> sources::RustOptions {
         sources::RustOptions {
             main: self.plan.main,
             servers: self.plan.servers,
             io: self.plan.io,
             unsaved: self.unsaved,
             defmt: self.plan.defmt,
-            ..Default::default()
+            runtime,
+        }
+    }
+
+    /// Where an emitted crate finds the runtime.
+    fn runtime(&self) -> Built<Runtime> {
+        match &self.plan.runtime {
+            Some(folder) => runtime::shared(folder, &self.output(Emit::Rust), self.plan.force),
+            None => Ok(Runtime::Included),
         }
     }
 
@@ -401,15 +404,18 @@ impl Job<'_> {
             Emit::Ir => return self.ir(),
             Emit::C => {
                 let files = match self.image {
-                    Some(image) => image.sources(module, Backend::C)?,
+                    Some(image) => image::c_project(&image.checked(module, Backend::C)?)?,
                     None => sources::c(module, self.target, &self.options(main)),
                 };
                 self.folder(what, || Ok(bytes(files)))?
             }
             Emit::Rust => {
+                let runtime = self.runtime()?;
                 let files = match self.image {
-                    Some(image) => image.sources(module, Backend::Rust)?,
-                    None => sources::rust(module, self.target, &self.rust_options()),
+                    Some(image) => {
+                        image::rust_project(&image.checked(module, Backend::Rust)?, &runtime)
+                    }
+                    None => sources::rust(module, self.target, &self.rust_options(runtime)),
                 };
                 self.folder(what, || Ok(bytes(files)))?
             }
@@ -506,12 +512,16 @@ impl Job<'_> {
     fn elf(&self) -> Built<Vec<u8>> {
         let image = self.image.ok_or_else(|| because("an image needs a board"));
         let backend = self.plan.backend.unwrap_or(Backend::C);
-        let files = image?.sources(self.module, backend)?;
-        let file = format!("{}.elf", self.module.name);
-        let built = progress::spin("building", || match backend {
-            Backend::C => self.tools().c_program(&files, &file),
-            Backend::Rust => self.tools().rust_image(&files),
-        });
+        let image = image?.checked(self.module, backend)?;
+        let tools = self.tools();
+        let built = match backend {
+            Backend::C => {
+                let files = image::c_project(&image)?;
+                let file = format!("{}.elf", self.module.name);
+                progress::spin("building", || tools.c_program(&files, &file))
+            }
+            Backend::Rust => progress::spin("building", || tools.rust_image(&image)),
+        };
         built.map_err(because)
     }
 

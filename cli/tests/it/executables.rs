@@ -1,7 +1,7 @@
 //! Serial ports of executables: `NAME --serial COM1=pty`, in C, and `--serial COM1=/dev/pts/1`, in Rust, with mbpoll as
 //! their master; and their servers over TCP.
 
-use crate::common::{cargo_built, folder, rungc, text};
+use crate::common::{built_in_rust, folder, rungc, text};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
@@ -127,11 +127,8 @@ fn an_executable_in_c_answers_on_a_pseudo_terminal() {
 
 /// The emitted package, built as it is.
 fn rust_program(folder: &Path, option: &[&str]) -> PathBuf {
-    built(
-        folder,
-        &[&["--emit", "rust", "--main", "-o", "slave"], option].concat(),
-    );
-    cargo_built(&folder.join("slave"), "slave")
+    let args = [&["build", "slave.il", "--model", "h2u"], option].concat();
+    built_in_rust(folder, &args, "slave", "slave")
 }
 
 /// Two pseudo-terminals that are joined.
@@ -500,8 +497,7 @@ fn executables_connect_terminals() {
     build(&["--emit", "bin", "-o", "p"]);
     let in_c = folder.join("p");
     connects(folder, &in_c);
-    build(&["--emit", "rust", "--main", "-o", "rust"]);
-    let in_rust = cargo_built(&folder.join("rust"), "p");
+    let in_rust = built_in_rust(folder, &["build", "p.il", "--io"], "rust", "p");
     std::fs::remove_file(folder.join("log")).unwrap();
     connects(folder, &in_rust);
     let said = refusals(folder, &in_c);

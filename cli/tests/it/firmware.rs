@@ -181,8 +181,43 @@ fn images_in_rust_run() {
     }
 }
 
-/// Counts go out to a converter and come back from one, in images from C and from Rust: at power-on the converter holds
-/// 0, which is -10 V.
+/// Images in Rust are built in one place after the other, and none sees the program, the board or the linker script of
+/// the one before.
+#[test]
+fn images_in_rust_do_not_see_each_other() {
+    if !tools(&["arm-none-eabi-ld"]) {
+        return;
+    }
+    let target = "thumbv7m-none-eabi";
+    let Some(cargo) = cargo(target) else {
+        return leave_out(&no_rust(target));
+    };
+    let described = std::fs::read_to_string(board("boards/mps2-an385.toml")).unwrap();
+    let moved = described.replace("origin = 0x2000_0000", "origin = 0x2000_1000");
+    assert_ne!(described, moved);
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("lamp.il", b"LD X000\nOUT Y001\nEND\n"),
+        ("board.toml", described.as_bytes()),
+        ("moved.toml", moved.as_bytes()),
+    ]);
+    let build = |program: &str, board: &str, output: &str| {
+        let built = with_cargo(&cargo)
+            .args(["build", program, "--name", "plc", "--emit", "elf"])
+            .args(["--backend", "rust", "--board", board, "-o", output])
+            .current_dir(folder.path())
+            .output();
+        quiet(&built.unwrap());
+        std::fs::read(folder.path().join(output)).unwrap()
+    };
+    let motor = build("motor.il", "board.toml", "a.elf");
+    let lamp = build("lamp.il", "board.toml", "b.elf");
+    let lamp_moved = build("lamp.il", "moved.toml", "c.elf");
+    assert!(motor != lamp && lamp != lamp_moved);
+    assert!(motor == build("motor.il", "board.toml", "d.elf"));
+    assert!(lamp == build("lamp.il", "board.toml", "e.elf"));
+}
+
 /// Times of a trace in tenths of a second: in which scan a script's input is seen depends on how long a scan takes.
 fn to_tenths(trace: &str) -> String {
     let line = |line: &str| match line.trim().split_once(" s  ") {
@@ -192,6 +227,8 @@ fn to_tenths(trace: &str) -> String {
     trace.lines().map(line).collect()
 }
 
+/// Counts go out to a converter and come back from one, in images from C and from Rust: at power-on the converter holds
+/// 0, which is -10 V.
 #[test]
 fn channels_of_modules_are_pins() {
     if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {

@@ -1,6 +1,6 @@
 //! Programs that call the runtime: built from sources that are complete, once for each target.
 
-use crate::common::{folder, text};
+use crate::common::{MOTOR, folder, text};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -54,6 +54,54 @@ fn emitted_crates_come_with_all_they_depend_on() {
         .output()
         .unwrap();
     assert!(cargo.status.success(), "{}", text(&cargo.stderr));
+}
+
+#[test]
+fn emitted_crates_share_a_runtime() {
+    let folder = folder(&[("heating.il", PROGRAM), ("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    let build = |more: &[&str]| {
+        let args = [
+            "build",
+            "heating.il",
+            "motor.il",
+            "--emit",
+            "rust",
+            "-o",
+            "plc",
+        ];
+        rungc(path, &[&args[..], &["--runtime", "rt"], more].concat())
+    };
+    let output = build(&[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let check = |package: &str| {
+        let checked = Command::new(env!("CARGO"))
+            .args(["check", "--locked", "--offline"])
+            .current_dir(path.join("plc").join(package))
+            .env("CARGO_HOME", path.join("no-registry"))
+            .env("CARGO_TARGET_DIR", path.join("target"))
+            .output()
+            .unwrap();
+        let said = text(&checked.stderr);
+        assert!(checked.status.success(), "{said}");
+        assert!(!path.join("plc").join(package).join("rungc-rt").exists());
+        said.contains("Checking rungc-rt")
+    };
+    assert!(check("heating"));
+    assert!(!check("motor"), "it is compiled");
+    // Another version, or something else, is not overwritten unless that is asked for.
+    let source = path.join("rt/src/lib.rs");
+    std::fs::write(&source, "// Changed.").unwrap();
+    std::fs::remove_dir_all(path.join("plc")).unwrap();
+    let refused = build(&[]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = text(&refused.stderr);
+    assert!(
+        said.contains("rt already exists and is not empty"),
+        "{said}"
+    );
+    assert!(build(&["--force"]).status.success());
+    assert_ne!(std::fs::read_to_string(source).unwrap(), "// Changed.");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Emitted crates, built by cargo and run.
 
 use crate::common;
-use crate::common::{cargo, runtime_path, write};
-use rungc_codegen_rust::{Options, Runtime, batch, emit};
+use crate::common::{cargo, write};
+use rungc_codegen_rust::{Options, batch, emit};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
@@ -15,7 +15,7 @@ fn a_program_builds_without_warnings() {
         io: false,
         unsaved: None,
         defmt: false,
-        runtime: Runtime::At(runtime_path()),
+        runtime: common::runtime(),
     };
     write(folder.path(), &emit(&common::motor(), &options));
     cargo(folder.path(), &["clippy"]);
@@ -59,7 +59,7 @@ fn a_program_keeps_its_last_error() {
         io: false,
         unsaved: None,
         defmt: false,
-        runtime: Runtime::At(runtime_path()),
+        runtime: common::runtime(),
     };
     let list = "LD X0\nMOV K30000 Z0\nMOV K1 D500Z0\nLD X1\nDIV D0 D1 D2\nP0\nLD X2\nCJ P0\nEND\n";
     write(
@@ -71,7 +71,7 @@ fn a_program_keeps_its_last_error() {
     std::fs::write(example.join("errors.rs"), ERRORS).unwrap();
     cargo(folder.path(), &["run", "--example", "errors"]);
     let target = cargo(folder.path(), &["build"]);
-    let mut host = Command::new(target.join("debug/errors"))
+    let mut host = Command::new(target.path().join("debug/errors"))
         .stdin(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -107,7 +107,7 @@ fn a_batch_answers_requests() {
         &batch(&[common::motor(), common::motor(), endless]),
     );
     let target = cargo(folder.path(), &["build"]);
-    let mut child = Command::new(target.join("debug/batch"))
+    let mut child = Command::new(target.path().join("debug/batch"))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()

@@ -1,7 +1,7 @@
 //! Names and comments with characters that would act on the emitted crate, its documentation or its manifest.
 
 use crate::common;
-use rungc_codegen_rust::{Options, Runtime, emit};
+use rungc_codegen_rust::{Options, emit};
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::text::acts;
@@ -38,7 +38,7 @@ fn options() -> Options {
         io: false,
         unsaved: None,
         defmt: false,
-        runtime: Runtime::At(common::runtime_path()),
+        runtime: common::runtime(),
     }
 }
 

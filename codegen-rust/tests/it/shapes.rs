@@ -52,7 +52,7 @@ fn options() -> Options {
         io: false,
         unsaved: None,
         defmt: false,
-        runtime: Runtime::At(common::runtime_path()),
+        runtime: common::runtime(),
     }
 }
 

@@ -8,11 +8,13 @@ mod serial;
 use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{OutputPin, Setup, Uart};
 use crate::template;
+use rungc_codegen_rust::{Options, Runtime};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
 use std::fmt::Write;
+use std::path::Path;
 
 /// What switches the floating point unit on: CPACR.
 const FPU: &str = "    ldr r0, =0xE000ED88
@@ -63,9 +65,17 @@ const NEXT_EDGE: &str = "
     }
 ";
 
-/// All sources of an image, a package that `cargo build --release` builds. The program is in `plc/`.
-pub fn project(image: &Image) -> Vec<OutFile> {
-    let emitted = rungc_codegen_rust::emit(image.module, &Default::default());
+/// All sources of an image, a package that `cargo build --release` builds. The program is in `plc/`. A path of the
+/// runtime is relative to the package.
+pub fn project(image: &Image, runtime: &Runtime) -> Vec<OutFile> {
+    let options = Options {
+        runtime: match runtime {
+            Runtime::At(path) if Path::new(path).is_relative() => Runtime::At(format!("../{path}")),
+            other => other.clone(),
+        },
+        ..Options::default()
+    };
+    let emitted = rungc_codegen_rust::emit(image.module, &options);
     let mut files: Vec<OutFile> = emitted.into_iter().map(|file| file.inside("plc")).collect();
     let (package, _) = rungc_codegen_rust::names(image.module);
     let lock = lock_file(&package);
@@ -76,7 +86,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
         ""
     };
     let own = [
-        ("Cargo.toml", manifest(&package)),
+        ("Cargo.toml", manifest(&package, runtime)),
         ("Cargo.lock", lock),
         (".cargo/config.toml", config(triple)),
         ("image.ld", linker_script(image.board)),
@@ -99,10 +109,11 @@ fn lock_file(package: &str) -> String {
     rungc_runtime_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
 }
 
-fn manifest(package: &str) -> String {
+fn manifest(package: &str, runtime: &Runtime) -> String {
+    let runtime = runtime.dependency("plc/");
     format!(
         "[package]\nname = \"image\"\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n[workspace]\nexclude = [\"plc\"]\n\n\
-         [dependencies]\nrungc-rt = {{ path = \"plc/rungc-rt\" }}\n{package} = {{ path = \"plc\" }}\n\n\
+         [dependencies]\n{runtime}{package} = {{ path = \"plc\" }}\n\n\
          [profile.release]\nopt-level = \"s\"\nlto = true\ncodegen-units = 1\npanic = \"abort\"\n"
     )
 }

@@ -71,6 +71,9 @@ pub(super) fn fitting(
         _ if args.defmt && (emit != Emit::Rust || args.board.is_some()) => {
             wrong("--defmt only applies to --emit rust without --board (docs/src/builds.md)")
         }
+        _ if args.runtime.is_some() && emit != Emit::Rust => {
+            wrong("--runtime only applies to --emit rust (docs/src/embedding.md)")
+        }
         _ => main_fits(emit, args, target),
     }
 }

@@ -250,7 +250,7 @@ impl Published {
             .args(["build", "p.il", "--model", self.model])
             .args(["--emit", emit, "--backend", backend])
             .args(["--board", "own.toml", "-o", &image, "--force"])
-            .env("XDG_CACHE_HOME", common::cache())
+            .env("RUNGC_CACHE_DIR", common::cache())
             .current_dir(folder)
             .output()
             .unwrap();

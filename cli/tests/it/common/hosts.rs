@@ -1,6 +1,7 @@
 //! A program in real time, as each host runs it: executables in C and in Rust, and `rungc serve`.
 
-use super::{cargo_built, rungc, text};
+use super::{built_in_rust, rungc, text};
+use rungc_runtime_sources::cache::Slot;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -72,23 +73,23 @@ pub enum Host {
     Serve,
 }
 
-/// The executables in C and in Rust, built once.
+/// The executables in C and in Rust, built once in a folder that no other process uses.
 pub fn executables() -> &'static [PathBuf; 2] {
-    static BUILT: OnceLock<[PathBuf; 2]> = OnceLock::new();
-    BUILT.get_or_init(|| {
-        let at = &Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts");
-        fs::create_dir_all(at).unwrap();
+    static BUILT: OnceLock<(Slot, [PathBuf; 2])> = OnceLock::new();
+    let (_, built) = BUILT.get_or_init(|| {
+        let slot = Slot::take(Path::new(env!("CARGO_TARGET_TMPDIR")), "hosts").unwrap();
+        let at = slot.path();
         fs::write(at.join("starts.il"), PROGRAM).unwrap();
         fs::write(at.join("rungc.toml"), SETTINGS).unwrap();
-        for emit in [
-            &["--emit", "bin", "-o", "in-c", "--force"][..],
-            &["--emit", "rust", "--main", "-o", "rust", "--force"],
-        ] {
-            let built = rungc(at, &[&["build", "starts.il"], emit].concat());
-            assert!(built.status.success(), "{}", text(&built.stderr));
-        }
-        [at.join("in-c"), cargo_built(&at.join("rust"), "starts")]
-    })
+        let build = ["build", "starts.il", "--force"];
+        let in_c = ["--emit", "bin", "-o", "in-c"];
+        let built = rungc(at, &[&build[..], &in_c].concat());
+        assert!(built.status.success(), "{}", text(&built.stderr));
+        let in_rust = built_in_rust(at, &build, "rust", "starts");
+        let in_c = at.join("in-c");
+        (slot, [in_c, in_rust])
+    });
+    built
 }
 
 impl Host {

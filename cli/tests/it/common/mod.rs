@@ -10,6 +10,8 @@ pub mod hosts;
 pub mod mosquitto;
 pub mod running;
 
+use rungc_runtime_sources::cache::{self, Slot};
+use rungc_runtime_sources::library;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -103,17 +105,35 @@ pub fn rungc(folder: &Path, args: &[&str]) -> Output {
         .unwrap()
 }
 
-/// What cargo builds of an emitted package.
-pub fn cargo_built(package: &Path, name: &str) -> PathBuf {
-    let output = Command::new("cargo")
+/// Builds a program in Rust: emits a package with these arguments into a folder and lets cargo build it, with the
+/// runtime that all tests share and in a folder where that is compiled once. Returns its executable `name`.
+pub fn built_in_rust(folder: &Path, args: &[&str], output: &str, name: &str) -> PathBuf {
+    let kept = cache::inside(&cache()).unwrap();
+    let runtime = library::unpacked(&kept).unwrap();
+    let form = ["--emit", "rust", "--main", "-o", output, "--runtime"];
+    let emitted = rungc(
+        folder,
+        &[args, &form, &[runtime.to_str().unwrap()]].concat(),
+    );
+    assert!(emitted.status.success(), "{}", text(&emitted.stderr));
+    let package = folder.join(output);
+    let objects = Slot::wait(kept.join("packages")).unwrap();
+    // Cargo takes packages with the same name for one, and compiles those again that are newer.
+    for root in ["src/lib.rs", "src/main.rs"] {
+        cache::touch(&package.join(root)).unwrap();
+    }
+    let built = Command::new("cargo")
         .args(["build", "--quiet", "--offline"])
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
-        .env("CARGO_TARGET_DIR", package.join("target"))
-        .current_dir(package)
+        .env("CARGO_INCREMENTAL", "0")
+        .env("CARGO_TARGET_DIR", objects.path())
+        .current_dir(&package)
         .output()
         .unwrap();
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    package.join("target/debug").join(name)
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    let executable = package.join(name);
+    fs::copy(objects.path().join("debug").join(name), &executable).unwrap();
+    executable
 }
 
 pub fn text(bytes: &[u8]) -> String {

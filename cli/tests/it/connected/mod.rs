@@ -1,6 +1,6 @@
 //! A program with connections in the forms in which it runs: by `rungc serve`, and as an executable of C or Rust.
 
-use crate::common::{cache, cargo_built, rungc, text};
+use crate::common::{built_in_rust, cache, rungc, text};
 use crate::tools::{self, cargo, leave_out, no_rust, with_cargo, with_library};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -48,9 +48,7 @@ impl Form {
                 run.arg(program);
             }
             Form::Rust => {
-                args.extend(["--emit", "rust", "--main", "-o", "p"]);
-                succeeds(&rungc(folder, &args));
-                run.arg(cargo_built(&program, "p"));
+                run.arg(built_in_rust(folder, &args, "p", "p"));
             }
             Form::Arm => {
                 args.extend(["--emit", "bin", "--target", ARM, "-o", "p"]);

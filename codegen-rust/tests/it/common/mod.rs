@@ -1,11 +1,13 @@
 //! A module made by hand, and what builds emitted crates.
 
-use rungc_codegen_rust::OutFile;
+use rungc_codegen_rust::{OutFile, Runtime};
 use rungc_ir::layout::Area;
 use rungc_ir::node::*;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::{Model, ModelId};
 use rungc_rt::{CmpOp, EdgeKind, TimerKind};
+use rungc_runtime_sources::cache::{self, Slot};
+use rungc_runtime_sources::library;
 use rungc_syntax::{DeviceClass, Span};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -196,9 +198,15 @@ pub fn compiled(name: &str, text: &str) -> Module {
         .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
 }
 
-/// Where the runtime is.
-pub fn runtime_path() -> String {
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../runtime-rt").to_string()
+/// Where the runtime and what is compiled of it are kept, for the tests of all crates.
+fn kept() -> PathBuf {
+    cache::inside(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")).unwrap()
+}
+
+/// The runtime that all emitted crates share.
+pub fn runtime() -> Runtime {
+    let folder = library::unpacked(&kept()).unwrap();
+    Runtime::At(folder.to_string_lossy().into_owned())
 }
 
 /// Writes emitted files.
@@ -210,19 +218,30 @@ pub fn write(folder: &Path, files: &[OutFile]) {
     }
 }
 
-/// Runs cargo in an emitted crate with warnings forbidden; returns the folder of what it built.
-pub fn cargo(folder: &Path, arguments: &[&str]) -> PathBuf {
-    let target = folder.join("target");
+/// Runs cargo in an emitted crate with warnings forbidden, in a folder where the runtime is compiled once; that folder,
+/// which is the crate's until it is dropped.
+pub fn cargo(folder: &Path, arguments: &[&str]) -> Slot {
+    let objects = Slot::wait(kept().join("linted")).unwrap();
+    // Cargo takes crates with the same name for one, and compiles those again that are newer.
+    let files = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    for package in files.chain([folder.to_owned()]) {
+        let roots = ["src/lib.rs", "src/main.rs"].map(|root| package.join(root));
+        let mut roots = roots.iter().filter(|root| root.exists());
+        roots.try_for_each(|root| cache::touch(root)).unwrap();
+    }
     let output = Command::new(env!("CARGO"))
         .args(arguments)
         .arg("--offline")
         .current_dir(folder)
-        .env("CARGO_TARGET_DIR", &target)
+        .env("CARGO_TARGET_DIR", objects.path())
+        .env("CARGO_INCREMENTAL", "0")
         .env("RUSTFLAGS", "-D warnings")
         .env("RUSTDOCFLAGS", "-D warnings")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "cargo {arguments:?}: {errors}");
-    target
+    objects
 }
