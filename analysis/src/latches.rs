@@ -3,7 +3,6 @@
 use rungc_models::runs::is_border;
 use rungc_models::{Model, Range};
 use rungc_syntax::DeviceClass::{C, D, M, S};
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, Diagnostics, Program, Span, codes};
 use std::borrow::Cow;
 
@@ -70,7 +69,7 @@ fn borders(range: Range, model: &Model, latched: &[DeviceRun]) -> Vec<u32> {
         .filter(|number| (range.first + 1..=range.last).contains(number))
         .chain([range.first])
         .collect();
-    order::sort(&mut borders);
+    borders.sort();
     borders.dedup();
     borders
 }

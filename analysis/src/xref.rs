@@ -5,7 +5,8 @@ use crate::resolve::Resolved;
 use rungc_catalogue::{Basic, Role, Shape};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
-use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, OperandKind};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What an instruction does with a device.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -113,7 +114,7 @@ impl CrossReference {
     pub fn new(resolved: &Resolved) -> CrossReference {
         let count = resolved.program.instrs.len();
         let mut uses: Vec<Use> = (0..count).flat_map(|i| uses_of(resolved, i)).collect();
-        let mut seen = SortedSet::new();
+        let mut seen = BTreeSet::new();
         uses.retain(|one| seen.insert(*one));
         let rows = rows(&uses);
         CrossReference { uses, rows }
@@ -156,7 +157,7 @@ impl CrossReference {
     /// Areas that share some of their devices, neither within the other, as positions in `uses`: each with the nearest
     /// before it.
     pub fn overlaps(&self) -> Vec<(usize, usize)> {
-        let mut areas: SortedMap<(DeviceClass, u32, u32), usize> = SortedMap::new();
+        let mut areas: BTreeMap<(DeviceClass, u32, u32), usize> = BTreeMap::new();
         for (i, one) in self.uses.iter().enumerate() {
             if matches!(one.reach, Reach::Count(2..)) {
                 // Wide areas first among those that begin together.
@@ -270,7 +271,7 @@ fn index(kind: &OperandKind) -> Option<Device> {
 
 /// Devices and the uses that concern them, by class and number.
 fn rows(uses: &[Use]) -> Vec<Row> {
-    let mut borders: SortedMap<(DeviceClass, u32), (Vec<usize>, Vec<usize>)> = SortedMap::new();
+    let mut borders: BTreeMap<(DeviceClass, u32), (Vec<usize>, Vec<usize>)> = BTreeMap::new();
     for (i, one) in uses.iter().enumerate() {
         let class = one.first.class;
         borders
@@ -281,7 +282,7 @@ fn rows(uses: &[Use]) -> Vec<Row> {
         borders.entry((class, one.end())).or_default().1.push(i);
     }
     let mut rows = Vec::new();
-    let mut open = SortedSet::new();
+    let mut open = BTreeSet::new();
     let mut borders = borders.into_iter().peekable();
     while let Some(((class, number), (begin, end))) = borders.next() {
         for i in end {

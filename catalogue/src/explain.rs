@@ -7,7 +7,6 @@ use crate::Form;
 use rungc_models::special::{self, Access, Status};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use std::fmt::Write;
 
 /// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special
@@ -408,7 +407,7 @@ pub fn special_table(model: ModelId) -> String {
     let mut text =
         "| device | access | at power-on | meaning | |\n|---|---|--:|---|---|\n".to_owned();
     let mut rows: Vec<_> = Model::get(model).specials().collect();
-    order::by_key(&mut rows, |row| (row.class, row.first));
+    rows.sort_by_key(|row| (row.class, row.first));
     for row in rows {
         let first = row.class.number(row.first);
         let device = match row.first == row.last {

@@ -6,7 +6,8 @@ use crate::fields::{PrintField, PrintStorage};
 use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::{Module, reach};
 use rungc_rt::TimerKind;
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A function.
@@ -31,7 +32,7 @@ enum Helper {
 /// The functions that a program needs.
 #[derive(Default)]
 pub struct Helpers {
-    needed: SortedSet<(Helper, DeviceClass)>,
+    needed: BTreeSet<(Helper, DeviceClass)>,
 }
 
 impl Helpers {

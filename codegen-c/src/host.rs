@@ -9,7 +9,8 @@ use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
 use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet, order};
+use rungc_syntax::DeviceClass;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// How a program waits for its next scan that follows the time.
@@ -316,7 +317,7 @@ fn headers(module: &Module, servers: bool, retain: bool) -> String {
     let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
     let usual = HEADERS.iter().chain(of_lines);
     let all = usual.chain(of_servers).chain(of_clients).chain(of_retain);
-    let all = order::set(all);
+    let all = BTreeSet::from_iter(all);
     let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
     lines.collect()
 }
@@ -472,7 +473,7 @@ static bool is_missing(char *name, size_t size, const char *letter, long first, 
 /// The function that names the device which an instruction with an index has not found.
 fn missing_device(module: &Module, fields: &Storage) -> String {
     let mut cases = String::new();
-    let mut classes = SortedSet::new();
+    let mut classes = BTreeSet::new();
     for origin in &module.origins {
         let mut checks = Vec::new();
         for (device, index) in &origin.indexed {
@@ -514,8 +515,8 @@ static bool missing_device(const PROGRAM_plc *plc, unsigned step, char *name, si
 }
 
 /// The input terminals, and the effect of each turning on or off.
-fn inputs_of(module: &Module, fields: &Storage) -> SortedMap<u32, String> {
-    let mut inputs: SortedMap<u32, String> = SortedMap::new();
+fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
+    let mut inputs: BTreeMap<u32, String> = BTreeMap::new();
     for (number, access) in terminals(fields, DeviceClass::X) {
         inputs.insert(number, format!("        {access} = on;\n"));
     }

@@ -17,8 +17,8 @@ use rungc_emit::timers::Coils;
 use rungc_ir::Module;
 use rungc_ir::node::{Edge, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_rt::EdgeKind;
-use rungc_syntax::SortedSet;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// How much of an expression stands in one place.
@@ -64,9 +64,9 @@ pub struct Writer<'a, 'm> {
     /// How many iterations that has.
     pub(crate) iterations: u32,
     /// Devices that it reads before its first iteration.
-    pub(crate) invariants: SortedSet<Device>,
+    pub(crate) invariants: BTreeSet<Device>,
     /// Devices that a loop of this function reads so.
-    pub(crate) invariants_named: SortedSet<Device>,
+    pub(crate) invariants_named: BTreeSet<Device>,
     /// Parts that have been given a name in this function.
     names: u32,
 }
@@ -92,8 +92,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             numbers: false,
             iteration: String::new(),
             iterations: 0,
-            invariants: SortedSet::new(),
-            invariants_named: SortedSet::new(),
+            invariants: BTreeSet::new(),
+            invariants_named: BTreeSet::new(),
             names: 0,
         }
     }

@@ -7,8 +7,8 @@ use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
 use rungc_runtime_sources::EMITTED_VERSION;
-use rungc_syntax::SortedMap;
 use rungc_syntax::text::one_line;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Lines of functions that one file holds.
@@ -205,7 +205,7 @@ fn fill(out: &mut String, names: &[&str]) {
 }
 
 /// The constants of the kinds of timers that are used.
-fn timer_constants(timers: &SortedMap<String, TimerKind>, visibility: &str) -> String {
+fn timer_constants(timers: &BTreeMap<String, TimerKind>, visibility: &str) -> String {
     let mut out = String::new();
     for (name, kind) in timers {
         let TimerKind {
@@ -438,7 +438,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         OutFile::new("src/port.rs", template("batch/port.rs")),
         OutFile::new("src/bare.rs", template("batch/bare.rs")),
     ];
-    let mut models: SortedMap<&str, &Module> = SortedMap::new();
+    let mut models: BTreeMap<&str, &Module> = BTreeMap::new();
     let mut cases = String::from(
         "//! The programs of the batch.\n#![allow(warnings, clippy::all, reason = \"not made to be read\")]\n\n",
     );

@@ -9,8 +9,8 @@ use rungc_emit::timers::Coils;
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, Function, FunctionKind, TempId};
 use rungc_rt::TimerKind;
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
-use std::collections::{HashMap, HashSet};
+use rungc_syntax::DeviceClass;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
 
 /// A function of the emitted program.
@@ -26,15 +26,15 @@ pub struct Item {
 #[derive(Default)]
 pub struct Uses {
     /// Names used from `rungc_rt`.
-    pub imports: SortedSet<&'static str>,
+    pub imports: BTreeSet<&'static str>,
     /// Names used from `rungc_rt::word`.
-    pub word_imports: SortedSet<&'static str>,
+    pub word_imports: BTreeSet<&'static str>,
     /// Modules used from `rungc_rt::fnc`.
-    pub fnc_imports: SortedSet<&'static str>,
+    pub fnc_imports: BTreeSet<&'static str>,
     /// Whether `DEVICES` is used.
     pub devices: bool,
     /// Kinds of timers used, by their constants' names.
-    pub timers: SortedMap<String, TimerKind>,
+    pub timers: BTreeMap<String, TimerKind>,
     /// Whether the struct is named.
     pub plc: bool,
 }
@@ -104,13 +104,13 @@ pub struct Generator<'m> {
     /// Temporaries that are numbers, 0 or 1, since they are made of bits that are.
     pub numeric_temps: HashSet<TempId>,
     /// Bits that the loop over stations around the statement being written has read before its first iteration.
-    pub invariants: SortedSet<Device>,
+    pub invariants: BTreeSet<Device>,
     /// Whether the statement being written is in a loop over rungs.
     pub in_station_loop: bool,
     /// How many iterations that has.
     pub iterations: u32,
     /// Kinds of timers that coils run, by the functions for them.
-    pub timer_coils: SortedMap<String, TimerKind>,
+    pub timer_coils: BTreeMap<String, TimerKind>,
 }
 
 impl<'m> Generator<'m> {
@@ -131,10 +131,10 @@ impl<'m> Generator<'m> {
             named: HashMap::new(),
             leaves: false,
             numeric_temps: HashSet::new(),
-            invariants: SortedSet::new(),
+            invariants: BTreeSet::new(),
             in_station_loop: false,
             iterations: 0,
-            timer_coils: SortedMap::new(),
+            timer_coils: BTreeMap::new(),
         }
     }
 

@@ -10,9 +10,9 @@ use rungc_ir::node::Origin;
 use rungc_models::plc_errors::{self, PlcError};
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
-use rungc_syntax::order;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, NetworkRequest};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// What a host with serial ports uses of the standard library and of the runtime.
@@ -209,7 +209,7 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
         .chain(of_retain)
         .chain(of_clock)
         .chain(OUTSIDE_USES.iter().chain([&MUTEX]).filter(|_| io));
-    let mut all = order::set(all.map(|name| (*name).to_string()));
+    let mut all = BTreeSet::from_iter(all.map(|name| (*name).to_string()));
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
         all.extend(ERROR_USES.map(String::from));

@@ -4,7 +4,7 @@
 
 use crate::Covered;
 use crate::goals::What;
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 /// The tracefile; programs without a file of lines are left out.
@@ -26,8 +26,8 @@ fn write(out: &mut String, program: &Covered) -> fmt::Result {
     let Some(path) = program.path.as_ref().filter(|_| has_lines(program)) else {
         return Ok(());
     };
-    let mut lines: SortedMap<u32, Vec<bool>> = SortedMap::new();
-    let mut executed: SortedMap<u32, bool> = SortedMap::new();
+    let mut lines: BTreeMap<u32, Vec<bool>> = BTreeMap::new();
+    let mut executed: BTreeMap<u32, bool> = BTreeMap::new();
     for goal in &program.goals {
         let (line, reached) = (program.line(goal.instr), program.is_reached(goal));
         let was = executed.entry(line).or_default();

@@ -12,6 +12,7 @@ mod observe;
 pub mod text;
 
 pub use goals::{Goal, What};
+use std::collections::BTreeMap;
 
 use goals::goals;
 use observe::{Seen, Watcher};
@@ -22,7 +23,7 @@ use rungc_lower::marks::Marks;
 use rungc_models::Model;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{self, CaseProgram, Id, Outcome, Report, Suite};
-use rungc_syntax::{Program, SortedMap};
+use rungc_syntax::Program;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -118,7 +119,7 @@ struct Programs {
 impl Programs {
     /// Finds the programs of all cases; of each module, which of them it is. Programs of other PLCs are not looked at.
     fn find(&mut self, suite: &Suite) -> Vec<Option<usize>> {
-        let mut known: SortedMap<Key, usize> = SortedMap::new();
+        let mut known: BTreeMap<Key, usize> = BTreeMap::new();
         let mut of_module = vec![None; suite.modules().len()];
         for (id, case) in suite.cases() {
             let Some(&module) = suite.modules_of(id).first() else {

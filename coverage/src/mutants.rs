@@ -18,7 +18,8 @@ use rungc_lower::{LowerOptions, lower};
 use rungc_rt::special::M_RUNNING;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{Case, Suite, run_steps};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, Program, SortedMap};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, Program};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::thread;
@@ -311,7 +312,7 @@ fn write_network(out: &mut String, covered: &Covered, number: usize, here: &[(&M
             &format!("  network {number}, line {first}: no case executes it ({count} mutants)\n");
         return;
     }
-    let mut gaps: SortedMap<usize, Vec<String>> = SortedMap::new();
+    let mut gaps: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for (mutant, fate) in here {
         let what = match fate {
             Fate::Noticed | Fate::Invalid => continue,
@@ -387,7 +388,7 @@ struct Court<'s> {
 impl<'s> Court<'s> {
     fn new(suite: &'s Suite, covered: &'s Covered) -> Self {
         let (mut judges, mut ways) = (Vec::new(), Vec::new());
-        let mut known: SortedMap<usize, usize> = SortedMap::new();
+        let mut known: BTreeMap<usize, usize> = BTreeMap::new();
         for (id, seen) in &covered.cases {
             let Some((own, others)) = suite.modules_of(*id).split_first() else {
                 continue;

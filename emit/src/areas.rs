@@ -3,7 +3,6 @@
 use crate::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 
 /// The runtime's order of classes, in which it searches: as the values of its enum. `None`: it has no such devices.
 fn rank(class: DeviceClass) -> Option<usize> {
@@ -24,7 +23,7 @@ pub struct Area<'a> {
 /// The areas of a program, in the runtime's order: arrays, and relays or words that follow each other.
 pub fn areas<'a>(storage: &'a Storage<'_>) -> Vec<Area<'a>> {
     let mut order: Vec<(usize, &Field)> = storage.in_sections().into_iter().enumerate().collect();
-    order::by_key(&mut order, |(_, f)| (rank(f.class), f.first));
+    order.sort_by_key(|(_, f)| (rank(f.class), f.first));
     let mut areas: Vec<(usize, Area)> = Vec::new();
     for (place, field) in order {
         match areas.last_mut() {
@@ -73,7 +72,7 @@ pub fn named(areas: &[Area], class: DeviceClass, number: u32) -> Option<u8> {
 pub fn ranges(module: &Module) -> Vec<(DeviceClass, u32, u32)> {
     let ranges = module.model.ranges.iter();
     let mut sorted: Vec<_> = ranges.filter(|r| rank(r.class).is_some()).collect();
-    order::by_key(&mut sorted, |r| (rank(r.class), r.first));
+    sorted.sort_by_key(|r| (rank(r.class), r.first));
     let mut joined: Vec<(DeviceClass, u32, u32)> = Vec::new();
     for range in sorted {
         match joined.last_mut() {

@@ -4,7 +4,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{Cell, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::EdgeKind;
-use rungc_syntax::{SortedSet, order};
+use std::collections::BTreeSet;
 
 /// The edges that mean something: function of the module, terminal X, which.
 pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
@@ -19,8 +19,8 @@ pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
 }
 
 /// The input terminals whose edges mean something, each once.
-pub fn inputs(module: &Module) -> SortedSet<u32> {
-    order::set(edges(module).map(|(_, input, _)| input))
+pub fn inputs(module: &Module) -> BTreeSet<u32> {
+    BTreeSet::from_iter(edges(module).map(|(_, input, _)| input))
 }
 
 /// The cells that follow the time.
@@ -37,8 +37,8 @@ pub fn follows_time(module: &Module) -> bool {
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.
-pub fn set_outside(module: &Module) -> SortedSet<usize> {
-    let mut found: SortedSet<usize> = SortedSet::new();
+pub fn set_outside(module: &Module) -> BTreeSet<usize> {
+    let mut found: BTreeSet<usize> = BTreeSet::new();
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {
             if let Stmt::SetFlag(flag, _) = stmt {

@@ -3,7 +3,6 @@
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, TempId};
 use rungc_ir::walk::operands;
-use rungc_syntax::order;
 use typed_index_collections::TiVec;
 
 /// Size and depth of every expression as it is written out.
@@ -64,7 +63,7 @@ pub fn below(module: &Module, expr: ExprId, found: &mut Vec<ExprId>) {
             todo.extend(operands(module.expr(e)));
         }
     }
-    order::sort(found);
+    found.sort();
 }
 
 /// Calls `f` with each temporary that an expression uses: once for each use, but in a large expression once for each

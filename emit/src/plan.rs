@@ -5,9 +5,8 @@ use crate::temps::{self, Temp};
 use rungc_ir::Module;
 use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Stmt, TempId};
 use rungc_ir::walk::{called_functions, calls_runtime, for_exprs};
-use rungc_syntax::SortedSet;
 use smallvec::SmallVec;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use typed_index_collections::TiVec;
 
 /// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear
@@ -170,7 +169,7 @@ pub fn statements<'m>(nodes: &[Node<'m>], visit: &mut dyn FnMut(&'m Stmt)) {
 #[derive(Clone, Default)]
 struct Leaves {
     returns: bool,
-    labels: SortedSet<LabelId>,
+    labels: BTreeSet<LabelId>,
 }
 
 impl Leaves {

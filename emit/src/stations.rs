@@ -5,18 +5,18 @@ use crate::plan::{Node, Stations};
 use crate::storage::{Kind, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, ExprId, Stmt};
-use rungc_syntax::{DeviceClass, SortedSet};
-use std::collections::HashSet;
+use rungc_syntax::DeviceClass;
+use std::collections::{BTreeSet, HashSet};
 
 /// Class and number.
 pub type Device = (DeviceClass, u32);
 
 /// Bits that a loop only reads, and that are the same in all of its iterations. They are read before it: compilers make
 /// no vectors if these bits are after an array in memory to which the loop writes.
-pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> SortedSet<Device> {
+pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BTreeSet<Device> {
     let (mut roots, mut written) = (Vec::new(), HashSet::new());
     collect(&stations.body, &mut roots, &mut written);
-    let mut found = SortedSet::new();
+    let mut found = BTreeSet::new();
     let mut below = Vec::new();
     for root in roots {
         measure::below(module, root, &mut below);

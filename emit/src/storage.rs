@@ -5,7 +5,6 @@ use rungc_ir::layout::{Area, Grid};
 use rungc_models::Model;
 use rungc_models::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use std::collections::HashMap;
 
 /// What a device is stored as.
@@ -325,7 +324,7 @@ impl<'m> Storage<'m> {
     /// bytes only if few others lie between what a loop reads and what it writes.
     pub fn in_sections(&self) -> Vec<&Field> {
         let mut fields: Vec<&Field> = self.fields.iter().collect();
-        order::by_key(&mut fields, |f| match f.section {
+        fields.sort_by_key(|f| match f.section {
             Section::Inputs | Section::Mixed => (f.section, f.grid.is_some()),
             Section::General | Section::Latched | Section::Special | Section::Records => {
                 (f.section, f.grid.is_none())

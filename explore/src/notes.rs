@@ -6,7 +6,8 @@ use rungc_ir::node::{
     AccessKind, Body, Branch, Expr, ExprId, Flag, FlagId, FunctionKind, Place, Stmt,
 };
 use rungc_ir::walk::bodies_mut;
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 
 /// What is noted of a coil.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -34,7 +35,7 @@ struct Noting {
     on: ExprId,
     notes: Notes,
     /// By output: its coils so far.
-    coils: SortedMap<u32, Vec<Coil>>,
+    coils: BTreeMap<u32, Vec<Coil>>,
 }
 
 impl Notes {
@@ -48,7 +49,7 @@ impl Notes {
             module,
             on,
             notes: Notes::default(),
-            coils: SortedMap::new(),
+            coils: BTreeMap::new(),
         };
         for function in &mut functions {
             let of_program = matches!(

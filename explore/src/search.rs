@@ -12,7 +12,7 @@ use crate::trains::cost;
 use crate::vary::Choices;
 use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
-use rungc_syntax::{SortedSet, order};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -106,7 +106,7 @@ pub fn search(
     }];
     let mut report = Report::default();
     let mut spent = 0;
-    let mut known: SortedSet<What> = SortedSet::new();
+    let mut known: BTreeSet<What> = BTreeSet::new();
     let mut rng = Rng::with_seed(limits.seed);
     let items = Items::new(task, &view);
     let may_sweep = refusal(task).is_none();
@@ -190,7 +190,7 @@ struct Round<'r, 't> {
     view: &'r View<'t>,
     choices: &'r Choices<'t>,
     seen: &'r Seen,
-    known: &'r SortedSet<What>,
+    known: &'r BTreeSet<What>,
     kept: &'r [Kept<'t>],
     /// Of each part.
     scans: u32,
@@ -241,7 +241,7 @@ impl<'t> Round<'_, 't> {
                 Ok::<(), String>(())
             })?;
         }
-        order::by_key(&mut all, |(i, _)| *i);
+        all.sort_by_key(|(i, _)| *i);
         Ok(all.into_iter().map(|(_, brought)| brought).collect())
     }
 
@@ -317,7 +317,7 @@ impl<'t> Round<'_, 't> {
     ) -> Result<(), String> {
         let mut judge = sweep.judge(&mut worker.runner);
         let mut is_new = |feature| self.seen.lacks(feature) && own.add(feature);
-        let mut met = SortedSet::new();
+        let mut met = BTreeSet::new();
         let mut is_searched = |what: &What| !self.known.contains(what) && met.insert(what.clone());
         let mut row = |changes: &[_]| judge.scan(changes, &mut is_new, &mut is_searched);
         match &mut worker.lanes {

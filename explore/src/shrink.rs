@@ -3,7 +3,7 @@
 use crate::run::{Moment, Runner, follow};
 use crate::task::{Found, Input, Step, Task, What};
 use crate::trains::{MOST_A_MS, are_possible, cost, left_off};
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 
 /// How many scans may be executed to shrink a run.
 const BUDGET: u64 = 400_000;
@@ -283,7 +283,7 @@ fn measure(run: &[Step]) -> (u64, usize, u64, u64, usize) {
 
 /// Leaves out what changes nothing, and joins scans that are alike.
 fn tidy(task: &Task, run: &mut Vec<Step>) {
-    let mut values: SortedMap<usize, i32> = SortedMap::new();
+    let mut values: BTreeMap<usize, i32> = BTreeMap::new();
     for step in run.iter_mut() {
         step.set
             .retain(|&(input, value)| values.insert(input, value).unwrap_or(0) != value);

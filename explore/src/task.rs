@@ -8,9 +8,10 @@ use rungc_models::runs::is_special;
 use rungc_rt::VirtualHal;
 use rungc_sim::Target;
 use rungc_sim::plant::Description;
-use rungc_syntax::{DeviceClass, SortedSet, order};
+use rungc_syntax::DeviceClass;
 use rungc_verify::model::{Encoder, Key, World};
 use rungc_verify::property::{Condition, Property};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is searched for beside properties.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -129,7 +130,7 @@ pub struct Task<'a> {
     /// What the machine sees to.
     pub assumed: &'a [Condition],
     /// What else is searched for.
-    pub kinds: SortedSet<Kind>,
+    pub kinds: BTreeSet<Kind>,
     /// What the search changes.
     pub inputs: Vec<Input>,
     /// Where it lets pulses come in.
@@ -166,13 +167,15 @@ impl<'a> Task<'a> {
             .filter(|&device| !driven(device))
             .filter_map(|(class, n)| target(class, n).map(|target| ((class, n), target)));
         let values = constants(module);
-        let inputs = order::map(targets).into_values().map(|target| Input {
-            values: match target {
-                Target::Bit(..) => Vec::new(),
-                _ => values.clone(),
-            },
-            target,
-        });
+        let inputs = BTreeMap::from_iter(targets)
+            .into_values()
+            .map(|target| Input {
+                values: match target {
+                    Target::Bit(..) => Vec::new(),
+                    _ => values.clone(),
+                },
+                target,
+            });
         let inputs = inputs.collect();
         let (noting, notes) = Notes::of(module);
         Task {
@@ -247,7 +250,7 @@ fn constants(module: &Module) -> Vec<i32> {
     let near = named
         .take(MOST)
         .flat_map(|v: i32| [v, v.wrapping_add(1), v.wrapping_sub(1)]);
-    order::set(borders.into_iter().chain(near))
+    BTreeSet::from_iter(borders.into_iter().chain(near))
         .into_iter()
         .collect()
 }

@@ -13,7 +13,8 @@ use rungc_models::high_speed::Kind;
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
 use rungc_sim::wire::{self, Change, Signal};
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 
 /// The most pulses in a millisecond: about what the fastest inputs of these PLCs count.
 pub const MOST_A_MS: u32 = 100;
@@ -112,8 +113,8 @@ pub fn are_possible(task: &Task, step: &Step) -> bool {
 /// The terminals at which a program notices each edge, and encoders of its counters; without those that a machine
 /// drives.
 pub fn sources(module: &Module, driven: &dyn Fn((DeviceClass, u32)) -> bool) -> Vec<Source> {
-    let mut inputs: SortedSet<u32> = SortedSet::new();
-    let mut counted: SortedSet<(u32, u32)> = SortedSet::new();
+    let mut inputs: BTreeSet<u32> = BTreeSet::new();
+    let mut counted: BTreeSet<(u32, u32)> = BTreeSet::new();
     for function in &module.functions {
         let FunctionKind::InputEdge { input, .. } = function.kind else {
             continue;
@@ -310,7 +311,7 @@ fn register(machine: &Machine, (class, n): (DeviceClass, u32), wide: bool) -> Op
 /// What a program compares its high-speed counters with, by counter.
 fn goals(module: &Module) -> Vec<(u32, Goal)> {
     let cells = Cells::of(module);
-    let mut found = SortedSet::new();
+    let mut found = BTreeSet::new();
     let mut add = |counter: u32, id: ExprId| {
         let goals = cells.behind(module, id).filter_map(|id| goal(module, id));
         found.extend(goals.map(|goal| (counter, goal)));

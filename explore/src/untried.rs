@@ -5,14 +5,15 @@ use crate::trains::MOST_A_MS;
 use rungc_ir::node::Stmt;
 use rungc_ir::walk::statements;
 use rungc_rt::RtFn;
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 
 /// What the program of a search depends on and the search does not vary, a sentence each; nothing if that is all.
 pub fn untried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();
     let inputs = task.sources.iter().flat_map(|source| source.at.inputs());
-    let inputs: SortedSet<u32> = inputs.collect();
+    let inputs: BTreeSet<u32> = inputs.collect();
     if !inputs.is_empty() {
         let names = inputs.iter().map(|&n| DeviceClass::X.number(n).to_string());
         let names = names.collect::<Vec<_>>().join(", ");
@@ -25,7 +26,7 @@ pub fn untried(task: &Task) -> Vec<String> {
     if !ports.is_empty() {
         found.push(format!("characters that {ports} receives"));
     }
-    let mut others = SortedSet::new();
+    let mut others = BTreeSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             if let Stmt::Call(call) = stmt {

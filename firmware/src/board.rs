@@ -11,10 +11,11 @@ pub use control::Control;
 pub use pins::{Chip, NamedPin};
 pub use retain::{Retain, RetainMemory};
 pub use serial::{Serial, Uart};
+use std::collections::BTreeMap;
 
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
-use rungc_syntax::{DeviceClass, SortedMap, Source};
+use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -49,9 +50,9 @@ pub struct Board {
     /// What is written to registers before anything else, in this order.
     pub setup: Vec<Setup>,
     /// Pins of inputs X, by plain numbers.
-    pub inputs: SortedMap<u32, InputPin>,
+    pub inputs: BTreeMap<u32, InputPin>,
     /// Pins of outputs Y.
-    pub outputs: SortedMap<u32, OutputPin>,
+    pub outputs: BTreeMap<u32, OutputPin>,
     /// The switch, the lamps and the watchdog.
     pub control: Control,
     /// Analog pins.
@@ -62,11 +63,11 @@ pub struct Board {
     pub retain: Option<Retain>,
     /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields'
     /// names.
-    pub functions: SortedMap<String, String>,
+    pub functions: BTreeMap<String, String>,
     /// C sources and headers with these functions: as named, and where they are.
     pub sources: Vec<(String, PathBuf)>,
     /// Handlers of the device's interrupts among these functions, by numbers.
-    pub interrupts: SortedMap<u32, String>,
+    pub interrupts: BTreeMap<u32, String>,
 }
 
 /// A run of memory.
@@ -204,9 +205,9 @@ struct Format {
     #[serde(default)]
     setup: Vec<SetupFormat>,
     #[serde(default)]
-    inputs: SortedMap<rungc_tables::Spanned<String>, InputFormat>,
+    inputs: BTreeMap<rungc_tables::Spanned<String>, InputFormat>,
     #[serde(default)]
-    outputs: SortedMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<Output>>,
+    outputs: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<Output>>,
     #[serde(default)]
     run: control::Run,
     watchdog: Option<control::Watchdog>,
@@ -216,11 +217,11 @@ struct Format {
     serial: Vec<serial::Format>,
     retain: Option<retain::Format>,
     #[serde(default)]
-    functions: SortedMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
+    functions: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
     #[serde(default)]
     sources: Vec<rungc_tables::Spanned<String>>,
     #[serde(default)]
-    interrupts: SortedMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
+    interrupts: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -520,11 +521,11 @@ impl Reader<'_> {
     /// Pins by their terminals, each of which occurs once, however it is written.
     fn terminals<T, P>(
         &self,
-        pins: SortedMap<Spanned, T>,
+        pins: BTreeMap<Spanned, T>,
         class: DeviceClass,
         read: impl Fn(usize, &str, T) -> Result<P, BoardError>,
-    ) -> Result<SortedMap<u32, P>, BoardError> {
-        let mut known = SortedMap::new();
+    ) -> Result<BTreeMap<u32, P>, BoardError> {
+        let mut known = BTreeMap::new();
         for (name, pin) in pins {
             let number = self.terminal(&name, class)?;
             let terminal = class.number(number).to_string();
@@ -554,9 +555,9 @@ impl Reader<'_> {
 
     fn functions(
         &self,
-        functions: SortedMap<Spanned, Spanned>,
-    ) -> Result<SortedMap<String, String>, BoardError> {
-        let mut known = SortedMap::new();
+        functions: BTreeMap<Spanned, Spanned>,
+    ) -> Result<BTreeMap<String, String>, BoardError> {
+        let mut known = BTreeMap::new();
         for (field, function) in functions {
             let name = field.get_ref().clone();
             if !FUNCTIONS.iter().any(|(known, _)| *known == name) {
@@ -571,9 +572,9 @@ impl Reader<'_> {
 
     fn interrupts(
         &self,
-        interrupts: SortedMap<Spanned, Spanned>,
-    ) -> Result<SortedMap<u32, String>, BoardError> {
-        let mut known = SortedMap::new();
+        interrupts: BTreeMap<Spanned, Spanned>,
+    ) -> Result<BTreeMap<u32, String>, BoardError> {
+        let mut known = BTreeMap::new();
         for (number, handler) in interrupts {
             let at: Option<u32> = number.get_ref().parse().ok().filter(|n| *n < 480);
             let at = at.ok_or_else(|| {

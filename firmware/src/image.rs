@@ -10,7 +10,6 @@ use crate::template;
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_rt::comm::Protocol;
-use rungc_syntax::order;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::fmt::Write;
@@ -55,7 +54,7 @@ impl Image<'_> {
             _ => None,
         });
         let mut watched: Vec<u32> = edges.collect();
-        order::sort(&mut watched);
+        watched.sort();
         watched.dedup();
         watched
     }

@@ -6,10 +6,10 @@ use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 use rungc_syntax::{
-    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SortedMap,
-    SourceKind, codes,
+    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, codes,
 };
 use smol_str::SmolStr;
+use std::collections::BTreeMap;
 
 /// The columns in the editors' order, by their English names.
 pub(crate) const HEADERS: [&str; 7] = [
@@ -362,10 +362,10 @@ impl Reader {
 }
 
 /// Reads an export of device comments: rows of device and comment. Rows that name no device are headings.
-pub(crate) fn comments(text: &str) -> SortedMap<Device, String> {
+pub(crate) fn comments(text: &str) -> BTreeMap<Device, String> {
     let delimiter = if text.contains('\t') { b'\t' } else { b',' };
     let mut rows = table(text, delimiter);
-    let mut comments = SortedMap::new();
+    let mut comments = BTreeMap::new();
     let mut record = StringRecord::new();
     while rows.read_record(&mut record).unwrap_or(false) {
         let device = record.get(0).and_then(il::device);

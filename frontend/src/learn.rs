@@ -6,8 +6,9 @@
 use crate::Read;
 use crate::gx::hex;
 use crate::learned::{Reading, Unproven};
-use rungc_syntax::{Instr, OperandKind, SortedMap, codes};
+use rungc_syntax::{Instr, OperandKind, codes};
 use smol_str::SmolStr;
+use std::collections::BTreeMap;
 
 /// A code and its instruction, as a list shows it.
 #[derive(Clone, PartialEq, Debug)]
@@ -120,7 +121,7 @@ pub fn learn(
     same: impl Fn(&str, &str) -> bool,
 ) -> Result<Vec<Lesson>, Mismatch> {
     readable(project, export)?;
-    let mut lessons = SortedMap::new();
+    let mut lessons = BTreeMap::new();
     let mut listed = export.program.instrs.iter().enumerate().peekable();
     for item in items(project) {
         let place = place(item.step());
@@ -308,7 +309,7 @@ fn length(
 }
 
 fn add(
-    lessons: &mut SortedMap<Vec<u8>, Lesson>,
+    lessons: &mut BTreeMap<Vec<u8>, Lesson>,
     unproven: &Unproven,
     instr: &Instr,
 ) -> Result<(), Mismatch> {

@@ -1,12 +1,13 @@
 //! Codes of instructions that nothing proves yet, and those that a user has learned from an export.
 
 use crate::gx::{hex, table};
-use rungc_syntax::{Diagnostic, Operands, SortedMap, Span, codes};
+use rungc_syntax::{Diagnostic, Operands, Span, codes};
 use smol_str::SmolStr;
+use std::collections::BTreeMap;
 
 /// Codes of instructions that an export of the editor has shown (`rungc learn`): the table `[tokens]` of `rungc.toml`.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct LearnedCodes(SortedMap<Vec<u8>, SmolStr>);
+pub struct LearnedCodes(BTreeMap<Vec<u8>, SmolStr>);
 
 /// Why a code cannot be learned.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]

@@ -20,7 +20,6 @@ mod search;
 mod text;
 
 use rungc_packed::Packed;
-use rungc_syntax::order;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -328,7 +327,7 @@ fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
         folder
     };
     let mut entries: Vec<_> = std::fs::read_dir(folder).ok()?.flatten().collect();
-    order::by_key(&mut entries, std::fs::DirEntry::file_name);
+    entries.sort_by_key(std::fs::DirEntry::file_name);
     entries
         .into_iter()
         .filter(|e| e.file_name().eq_ignore_ascii_case(name))

@@ -22,7 +22,8 @@ use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
 };
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 /// The functions that a host calls, by their indexes in the module.
@@ -81,7 +82,7 @@ pub struct Machine<'m> {
     pub(crate) last_error: LastError,
     pub(crate) errors: Vec<OperationError>,
     /// By step and code: the index of the error in `errors`.
-    pub(crate) errors_by_site: SortedMap<(u32, u16), usize>,
+    pub(crate) errors_by_site: BTreeMap<(u32, u16), usize>,
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     pub(crate) states: Vec<State>,
@@ -127,7 +128,7 @@ impl<'m> Machine<'m> {
             steps_left: 0,
             last_error: LastError::NONE,
             errors: Vec::new(),
-            errors_by_site: SortedMap::new(),
+            errors_by_site: BTreeMap::new(),
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
             axes: vec![Axis::new(); module.pulse_outputs.len()],

@@ -6,7 +6,7 @@ use crate::eval::Value;
 use crate::machine::Machine;
 use rungc_ir::node::{CellId, EdgeId, FlagId, TableId, TempId};
 use rungc_rt::{Axis, LastError, Port, State, Sys};
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 /// The state of a [`Machine`] at one moment: its devices, and all that its program remembers.
@@ -23,7 +23,7 @@ pub struct Saved {
     steps_left: u32,
     last_error: LastError,
     errors: Vec<OperationError>,
-    errors_by_site: SortedMap<(u32, u16), usize>,
+    errors_by_site: BTreeMap<(u32, u16), usize>,
     states: Vec<State>,
     axes: Vec<Axis>,
     ports: Vec<Port>,

@@ -18,7 +18,6 @@ mod order;
 use crate::node::Module;
 use atoms::{Atom, ERRORS, Names, Sequence, Uses};
 use rungc_rt::special::D_FIRST_ERROR_STEP;
-use rungc_syntax::order as sorting;
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -104,7 +103,7 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
                     alone || side == 1 && taint.reaches(atom)
                 });
                 let mut steps: Vec<u32> = steps.filter_map(|(_, atom)| atom.vague).collect();
-                sorting::sort(&mut steps);
+                steps.sort();
                 steps.dedup();
                 steps
             }),
@@ -212,7 +211,7 @@ impl Taint {
             found.extend(differ.map(|number| (area.class, number)));
         }
         found.retain(|(class, _)| *class != DeviceClass::X);
-        sorting::sort(&mut found);
+        found.sort();
         found.dedup();
         let mut runs: Vec<DeviceRun> = Vec::new();
         for (class, number) in found {

@@ -10,7 +10,6 @@ use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_rt::special::{D_FIRST_ERROR_STEP, M_FIRST_ERROR};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 
 /// A run of stored devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -255,7 +254,7 @@ impl<'m> Builder<'m> {
                 open = array;
             }
         }
-        order::by_key(&mut areas, |area| (area.class, area.first));
+        areas.sort_by_key(|area| (area.class, area.first));
         Layout {
             areas,
             grids: Vec::new(),

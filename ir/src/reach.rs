@@ -15,7 +15,6 @@ use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use typed_index_collections::TiSlice;
 
 /// Devices that an expression or a statement uses: one, or several in a row.
@@ -198,7 +197,7 @@ pub fn by_index(module: &Module, class: DeviceClass) -> Vec<(u32, u32)> {
             of_stmt(module.model, stmt, &mut note)
         });
     }
-    order::sort(&mut runs);
+    runs.sort();
     let mut joined: Vec<(u32, u32)> = Vec::new();
     for (first, last) in runs {
         match joined.last_mut() {

@@ -7,7 +7,7 @@ use crate::node::{
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
 use rungc_models::runs::is_special;
-use rungc_syntax::{DeviceClass, order};
+use rungc_syntax::DeviceClass;
 use typed_index_collections::TiVec;
 
 /// Checks every rule; the first one that is broken.
@@ -48,7 +48,7 @@ fn one_meaning_each(module: &Module) -> Result<(), String> {
     let flags = module.flags.iter().map(|flag| flag.name.as_str());
     let cells = module.cells.iter().map(|cell| cell.name.as_str());
     let mut names: Vec<&str> = flags.chain(cells).collect();
-    order::sort(&mut names);
+    names.sort();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         Some(pair) => Err(format!("two flags or cells are called {}", pair[0])),
         None => Ok(()),

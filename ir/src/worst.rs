@@ -8,7 +8,7 @@ use crate::node::{
     Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
 };
 use crate::walk::{for_exprs, operands, statements};
-use rungc_syntax::{SortedMap, order};
+use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 /// How much something does at most.
@@ -111,7 +111,7 @@ pub fn worst(module: &Module) -> Worst {
         .map(|(step, iteration)| OpenLoop { step, iteration })
         .collect();
     worst.jumps_back = finder.jumps_back;
-    order::sort(&mut worst.jumps_back);
+    worst.jumps_back.sort();
     worst.jumps_back.dedup();
     worst
 }
@@ -123,12 +123,12 @@ struct Finder<'m> {
     /// Operations of each expression.
     sizes: TiVec<ExprId, u64>,
     /// What functions cost that were looked at.
-    known: SortedMap<usize, Cost>,
+    known: BTreeMap<usize, Cost>,
     /// Whether interrupts are left aside.
     aside: bool,
     /// Step of the network that is looked at.
     step: u32,
-    open_loops: SortedMap<u32, Cost>,
+    open_loops: BTreeMap<u32, Cost>,
     jumps_back: Vec<u32>,
 }
 
@@ -144,10 +144,10 @@ impl<'m> Finder<'m> {
             module,
             lengths: lengths(module),
             sizes,
-            known: SortedMap::new(),
+            known: BTreeMap::new(),
             aside: true,
             step: 0,
-            open_loops: SortedMap::new(),
+            open_loops: BTreeMap::new(),
             jumps_back: Vec::new(),
         }
     }
@@ -306,7 +306,7 @@ fn own(expr: &Expr) -> u64 {
 pub fn lengths(module: &Module) -> Vec<u64> {
     let mut begins: Vec<u32> = module.networks.iter().map(|network| network.step).collect();
     begins.push(module.steps);
-    order::sort(&mut begins);
+    begins.sort();
     begins.dedup();
     let next = |step: u32| {
         begins

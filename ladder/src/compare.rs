@@ -2,8 +2,8 @@
 
 use crate::network::{Ladder, Network};
 use rungc_analysis::resolve::Resolved;
-use rungc_syntax::{Device, Parameters, Program, SortedSet, align, order};
-use std::collections::HashMap;
+use rungc_syntax::{Device, Parameters, Program, align};
+use std::collections::{BTreeSet, HashMap};
 
 /// A program with its ladder.
 #[derive(Clone, Copy, Debug)]
@@ -224,8 +224,8 @@ fn moved(
     same: &[(usize, usize)],
     old: &[Vec<String>],
     new: &[Vec<String>],
-) -> SortedSet<(usize, usize)> {
-    let in_order: (SortedSet<usize>, SortedSet<usize>) = same.iter().copied().unzip();
+) -> BTreeSet<(usize, usize)> {
+    let in_order: (BTreeSet<usize>, BTreeSet<usize>) = same.iter().copied().unzip();
     let mut waiting: HashMap<&[String], Vec<usize>> = HashMap::new();
     for (at, text) in old.iter().enumerate().rev() {
         if !in_order.0.contains(&at) {
@@ -234,12 +234,12 @@ fn moved(
     }
     let rest = new.iter().enumerate();
     let rest = rest.filter(|(at, _)| !in_order.1.contains(at));
-    order::set(rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at))))
+    BTreeSet::from_iter(rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at))))
 }
 
 /// Sorts changes as a reader of the new program meets them; what was removed comes after what was before it.
 fn in_order(changes: &mut [Change], same: &[(usize, usize)]) {
-    order::by_key(changes, |change| match change.places() {
+    changes.sort_by_key(|change| match change.places() {
         [_, Some(new)] => (new + 1, 1, 0),
         [Some(old), None] => {
             let before = same.partition_point(|pair| pair.0 < old);
@@ -257,7 +257,7 @@ struct Pairing<'a> {
     old_texts: &'a [Vec<String>],
     new_texts: &'a [Vec<String>],
     /// Networks that moved, in the old and in the new program.
-    moved: (SortedSet<usize>, SortedSet<usize>),
+    moved: (BTreeSet<usize>, BTreeSet<usize>),
     changes: Vec<Change>,
 }
 
@@ -288,7 +288,7 @@ impl Pairing<'_> {
                 removed.entry(self.old.outputs(old)).or_default().push(old);
             }
         }
-        let mut paired = SortedSet::new();
+        let mut paired = BTreeSet::new();
         let mut changes = self.changes;
         for change in &mut changes {
             if let Change::Added { new } = *change {
@@ -332,7 +332,7 @@ fn comments(programs: [&Program; 2]) -> Vec<Differing<Device>> {
     let devices = programs
         .iter()
         .flat_map(|program| program.comments.keys().copied());
-    let differing = order::set(devices).into_iter().map(|key| {
+    let differing = BTreeSet::from_iter(devices).into_iter().map(|key| {
         let [old, new] = programs.map(|program| program.comments.get(&key).cloned());
         Differing { key, old, new }
     });

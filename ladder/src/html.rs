@@ -7,8 +7,9 @@ use crate::sfc::Chart;
 use crate::svg::Painter;
 use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
+use rungc_syntax::Device;
 use rungc_syntax::text::one_line;
-use rungc_syntax::{Device, SortedMap};
+use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 mod comparison;
@@ -96,8 +97,8 @@ fn write_picture(out: &mut String, picture: &str, list: &[String]) -> fmt::Resul
 }
 
 /// The networks that name each device, by their numbers.
-pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> SortedMap<Device, Vec<usize>> {
-    let mut uses: SortedMap<Device, Vec<usize>> = SortedMap::new();
+pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> BTreeMap<Device, Vec<usize>> {
+    let mut uses: BTreeMap<Device, Vec<usize>> = BTreeMap::new();
     for (number, network) in (1..).zip(&ladder.networks) {
         let instrs = &resolved.program.instrs[network.instrs.clone()];
         for operand in instrs.iter().flat_map(|instr| &instr.operands) {
@@ -115,7 +116,7 @@ pub(crate) fn uses(resolved: &Resolved, ladder: &Ladder) -> SortedMap<Device, Ve
 fn write_devices(
     out: &mut String,
     resolved: &Resolved,
-    uses: &SortedMap<Device, Vec<usize>>,
+    uses: &BTreeMap<Device, Vec<usize>>,
 ) -> fmt::Result {
     writeln!(
         out,

@@ -4,7 +4,6 @@
 //! What is wider than the page continues on the rows below.
 
 use crate::network::{Branch, Contact, InstrIndex, Item, Node, Output, Part};
-use rungc_syntax::order;
 
 /// How many columns the contents of cells take.
 pub trait Measure {
@@ -271,7 +270,8 @@ impl<M: Measure> Sheet<'_, M> {
             self.wires.push((row, from, columns - span));
             self.put(row, columns - span, span, Cell::Output(output));
         }
-        order::by_key(&mut self.placed, |placed| (placed.row, placed.column));
+        self.placed
+            .sort_by_key(|placed| (placed.row, placed.column));
         let mut grid = Grid {
             rows,
             columns,

@@ -5,7 +5,8 @@ use crate::face::{Face, masters, operand_text};
 use crate::layout::{Cell, Grid, Placed, lay_out};
 use crate::network::{InstrIndex, Network, NetworkBody, Shape};
 use rungc_analysis::resolve::Resolved;
-use rungc_syntax::{Device, SortedMap};
+use rungc_syntax::Device;
+use std::collections::BTreeMap;
 
 /// Width of a character, in pixels; the font is 12 pixels high.
 pub(crate) const CHARACTER: f64 = 7.3;
@@ -239,7 +240,7 @@ impl<'a> Draft<'a> {
 
     /// All wires as one path, or those of each net.
     fn wires(&self) -> Vec<Mark> {
-        let mut wires: SortedMap<Option<usize>, Vec<_>> = SortedMap::new();
+        let mut wires: BTreeMap<Option<usize>, Vec<_>> = BTreeMap::new();
         let mut add = |row, boundary, wire| {
             let net = self.circuit.map(|circuit| circuit.net(row, boundary));
             wires.entry(net).or_default().push(wire);

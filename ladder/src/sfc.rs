@@ -11,7 +11,8 @@ use crate::face::Face;
 use crate::network::{InstrIndex, Item, Ladder, NetworkBody, Node, Output, Series};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Lower};
-use rungc_syntax::{Device, DeviceClass, SortedMap};
+use rungc_syntax::{Device, DeviceClass};
+use std::collections::BTreeMap;
 
 mod place;
 mod render;
@@ -106,7 +107,7 @@ impl Chart {
         let mut reader = Reader {
             face: Face::of(resolved, &[], false),
             chart: Chart::default(),
-            position: SortedMap::new(),
+            position: BTreeMap::new(),
             current: Vec::new(),
             in_row: false,
             network: 0,
@@ -143,7 +144,7 @@ struct Reader<'a> {
     face: Face<'a>,
     chart: Chart,
     /// Where each state is in the chart.
-    position: SortedMap<Device, usize>,
+    position: BTreeMap<Device, usize>,
     /// The states of the section at hand; none outside.
     current: Vec<usize>,
     /// Whether the instruction before was STL.

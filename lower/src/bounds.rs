@@ -8,7 +8,8 @@ use rungc_ir::ranges::Bound;
 use rungc_ir::reach::Footprint;
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, SortedMap, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes};
+use std::collections::BTreeMap;
 
 /// From how many bytes on it is worth knowing what an operand makes a program store.
 const MUCH: u64 = 1024;
@@ -98,7 +99,7 @@ fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
 
 /// Reports operands that make a program store many devices because little is known about their index.
 pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagnostics) {
-    let mut told: SortedMap<(DeviceClass, u32, DeviceClass, u32), ()> = SortedMap::new();
+    let mut told: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
     for used in uses {
         let footprint = Footprint {
             place: Place {

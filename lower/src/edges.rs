@@ -8,15 +8,15 @@ use rungc_ir::node::{
 };
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass::X;
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 
 /// Code of edges, and the levels that it asks for.
 #[derive(Default)]
 pub(super) struct Edges {
     /// By terminal and whether it rises.
-    bodies: SortedMap<(u32, bool), Body>,
+    bodies: BTreeMap<(u32, bool), Body>,
     /// Flags that follow a terminal.
-    levels: SortedMap<u32, FlagId>,
+    levels: BTreeMap<u32, FlagId>,
     /// A cell that follows the time.
     clock: Option<CellId>,
 }

@@ -8,7 +8,6 @@ use rungc_rt::RtFn;
 use rungc_rt::modules::{BOARD, Kind, Place, Role};
 use rungc_rt::special::*;
 use rungc_syntax::DeviceClass::D;
-use rungc_syntax::order;
 
 /// The first X and Y of the extension modules of HM.
 const FIRST_TERMINAL: u32 = 0o20;
@@ -50,7 +49,7 @@ impl Lowerer<'_> {
         let kinds = modules.iter();
         let kinds = kinds.filter_map(|module| Some((module.unit, Kind::find(module.kind)?)));
         let mut fitted: Vec<_> = kinds.collect();
-        order::by_key(&mut fitted, |(unit, _)| *unit);
+        fitted.sort_by_key(|(unit, _)| *unit);
         fitted
     }
 

@@ -7,7 +7,6 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Stmt, TempId};
 use rungc_rt::CmpOp;
-use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -312,7 +311,7 @@ impl Flow {
             .chain(region.runs_into)
             .filter_map(|pointer| self.subroutines.get(&pointer).copied())
             .collect();
-        order::sort(&mut calls);
+        calls.sort();
         calls.dedup();
         calls
     }
@@ -588,7 +587,7 @@ impl Lowerer<'_> {
         let index = self.index(index, false);
         let index = self.settled(index);
         let mut pointers: Vec<u32> = self.flow.subroutines.keys().copied().collect();
-        order::sort(&mut pointers);
+        pointers.sort();
         let mut none = self.bit_const(true);
         for pointer in pointers {
             let offset = self.add(Expr::I32(pointer as i32 - base as i32));

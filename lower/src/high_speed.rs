@@ -11,7 +11,8 @@ use rungc_models::high_speed::{self, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
 use rungc_rt::{CmpOp, EdgeKind, Relay};
-use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, codes};
+use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 /// More comparisons are driven than may be.
@@ -67,7 +68,7 @@ pub(super) enum Action {
 pub(super) struct HighSpeed {
     pub(super) used: Vec<Used>,
     /// Of input axes, by their inputs: the millisecond that it was last, and the count when it began.
-    pub(super) milliseconds: SortedMap<u32, [CellId; 2]>,
+    pub(super) milliseconds: BTreeMap<u32, [CellId; 2]>,
     pub(super) compares: Vec<Compare>,
     /// Tables that begin when a scan ends.
     pub(super) tables: Vec<Rows>,

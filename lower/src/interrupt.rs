@@ -11,7 +11,6 @@ use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, Pu
 use rungc_rt::special::D_SCOPE_STATE;
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::DeviceClass::M;
-use rungc_syntax::order;
 use rungc_syntax::{Device, codes};
 
 /// Name of the flag that EI sets.
@@ -134,7 +133,7 @@ impl Lowerer<'_> {
             }
         }
         keep_last_of_relays(&mut requests);
-        order::by_key(&mut requests, |request| request.what.pointer());
+        requests.sort_by_key(|request| request.what.pointer());
         if let Some(catch) = self.model.interrupts.pulse_catch {
             requests.extend(self.caught(catch));
         }
@@ -203,7 +202,7 @@ impl Lowerer<'_> {
         }
         let precedence = self.model.interrupts.precedence;
         // Those of one rank stay in the order of their pointers.
-        order::by_key(&mut flags, |&(source, _)| precedence.rank(source));
+        flags.sort_by_key(|&(source, _)| precedence.rank(source));
         flags
     }
 

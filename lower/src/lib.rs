@@ -62,13 +62,14 @@ use rungc_ir::layout::{self, Wanted};
 use rungc_ir::node::{CellId, ExprId, Function, FunctionKind, Module, Network, Stmt};
 use rungc_ir::ranges::{self, Bound, Reached};
 use rungc_models::Model;
+use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
 use flow::{Flow, Open};
 use marks::Marks;
 use parts::Item;
 use rungc_rt::{EdgeKind, RtFn, TimerKind};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, SortedMap};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
 use special::Specials;
 use std::cell::OnceCell;
 
@@ -184,7 +185,7 @@ struct Lowerer<'a> {
     steps: stl::Steps,
     interrupts: interrupt::Interrupts,
     /// Timers that continue in scans that do not execute their coils.
-    free_running: SortedMap<u32, TimerKind>,
+    free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
     signals: signals::Signals,
@@ -240,7 +241,7 @@ impl<'a> Lowerer<'a> {
             logic: logic::Logic::of(resolved),
             steps: stl::Steps::of(resolved),
             interrupts: interrupt::Interrupts::default(),
-            free_running: SortedMap::new(),
+            free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
             signals: signals::Signals::default(),

@@ -4,7 +4,7 @@
 
 use super::Lowerer;
 use rungc_ir::node::{EdgeId, ExprId, Network, Stmt};
-use rungc_syntax::SortedSet;
+use std::collections::BTreeSet;
 use typed_index_collections::TiVec;
 
 /// Where the parts of a module come from. Instructions are positions in [`rungc_syntax::Program::instrs`].
@@ -17,7 +17,7 @@ pub struct Marks {
     /// By instruction: whether it is a contact or a comparison. Those after the last one are not in it.
     pub contacts: Vec<bool>,
     /// The memories of contacts that conduct for one scan, such as LDP. What they look at is not itself a contact.
-    pub edges: SortedSet<EdgeId>,
+    pub edges: BTreeSet<EdgeId>,
 }
 
 /// What a [`Stmt::Network`] of a marked module stands before.

@@ -4,11 +4,11 @@ use super::operand::indexed;
 use rungc_analysis::resolve::Resolved;
 use rungc_ir::node::{Module, Origin};
 use rungc_ir::walk::{fault_step, statements};
-use rungc_syntax::SortedSet;
+use std::collections::BTreeSet;
 
 /// Finds them in a program that is lowered.
 pub(super) fn find(module: &Module, resolved: &Resolved) -> Vec<Origin> {
-    let mut steps = SortedSet::new();
+    let mut steps = BTreeSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             steps.extend(fault_step(stmt));

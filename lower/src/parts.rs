@@ -3,7 +3,6 @@
 use super::advanced::FIRST_PLACE;
 use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Stmt};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Jumps nested deeper than this become parts, so that bodies do not nest too deep.
@@ -124,9 +123,7 @@ fn leaps(items: &[Item], labels: &FxHashMap<u32, usize>) -> (Vec<Leap>, Vec<Jump
             Item::Code(_) | Item::Label(_) => {}
         }
     }
-    order::by_key(&mut leaps, |leap| {
-        (leap.first(), std::cmp::Reverse(leap.last()))
-    });
+    leaps.sort_by_key(|leap| (leap.first(), std::cmp::Reverse(leap.last())));
     (leaps, escapes)
 }
 

@@ -3,7 +3,6 @@
 use super::Lowerer;
 use rungc_rt::comm::{CAN_PORT, PortWiring, canlink};
 use rungc_rt::{Needs, RtFn};
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 /// Relays of the errors of programming ports and of other ports, and registers of their codes.
@@ -54,7 +53,7 @@ impl Lowerer<'_> {
                 self.module.ports.push(wiring.number);
             }
         }
-        order::sort(&mut self.module.ports);
+        self.module.ports.sort();
         self.module.ports.dedup();
         if !self.module.has_ports() {
             return;

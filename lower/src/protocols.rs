@@ -8,7 +8,8 @@ use rungc_rt::comm::codec::Codec;
 use rungc_rt::comm::{Choice, PortWiring, Protocol, Protocols};
 use rungc_rt::special::Register;
 use rungc_rt::{Class, Plc, Ports, State, Sys};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, SortedSet, order};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
+use std::collections::BTreeSet;
 
 /// The station number of a master on L01S, and one of a slave.
 const STATIONS: [u16; 2] = [1, 255];
@@ -112,9 +113,9 @@ impl Lowerer<'_> {
     }
 
     /// All values that a register may have; `None` if they are not known.
-    fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<SortedSet<u16>> {
+    fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<BTreeSet<u16>> {
         let Some(register) = register else {
-            return Some(order::set([0]));
+            return Some(BTreeSet::from_iter([0]));
         };
         let number = register.number();
         if wanted.observes(self.model, DeviceClass::D, number) {
@@ -122,7 +123,7 @@ impl Lowerer<'_> {
         }
         let initial = self.module.initial_words.iter();
         let initial = initial.filter(|(of, _)| *of == register);
-        let mut values = order::set(initial.map(|&(_, value)| value as u16));
+        let mut values = BTreeSet::from_iter(initial.map(|&(_, value)| value as u16));
         values.insert(0);
         for instr in &self.resolved.program.instrs {
             match writes(instr, number) {

@@ -6,7 +6,7 @@
 
 use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};
-use rungc_syntax::SortedSet;
+use std::collections::BTreeSet;
 
 /// How often a scan executes something at most: not at all, once, or more often.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -44,7 +44,7 @@ pub(super) fn mark(module: &mut Module) {
         return;
     }
     let times = function_times(module);
-    let (mut seen, mut shared, mut indexed) = (SortedSet::new(), SortedSet::new(), false);
+    let (mut seen, mut shared, mut indexed) = (BTreeSet::new(), BTreeSet::new(), false);
     for (function, &times) in module.functions.iter().zip(&times) {
         executed(&function.body, times, &mut |stmt, times| {
             if let Stmt::Timer(TimerCoil { number, .. }) = *stmt

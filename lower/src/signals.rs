@@ -8,7 +8,8 @@ use rungc_ir::node::{Access, Arg, Call, Expr, ExprId, Function, FunctionKind, St
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, X, Y};
-use rungc_syntax::{Device, OperandKind, SortedSet};
+use rungc_syntax::{Device, OperandKind};
+use std::collections::BTreeSet;
 
 /// An instruction that looks at inputs.
 struct Looker {
@@ -23,7 +24,7 @@ struct Looker {
 #[derive(Default)]
 pub(super) struct Signals {
     lookers: Vec<Looker>,
-    inputs: SortedSet<u32>,
+    inputs: BTreeSet<u32>,
     /// A relay of the program may give a signal.
     relays: bool,
     /// The function that calls the instructions.

@@ -11,7 +11,8 @@ use rungc_ir::node::{
 };
 use rungc_ir::walk::{bodies_mut, statements};
 use rungc_ir::worst::lengths;
-use rungc_syntax::{OperandKind, SortedMap};
+use rungc_syntax::OperandKind;
+use std::collections::BTreeMap;
 
 /// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some
 /// milliseconds.
@@ -32,7 +33,7 @@ pub(super) fn watch(module: &mut Module, resolved: &Resolved) {
         lengths: lengths(module),
         module,
         resolved,
-        known: SortedMap::new(),
+        known: BTreeMap::new(),
         step: 0,
         watches: false,
     };
@@ -56,7 +57,7 @@ struct Watcher<'m> {
     /// Steps of each network.
     lengths: Vec<u64>,
     /// Functions that were looked at.
-    known: SortedMap<usize, Known>,
+    known: BTreeMap<usize, Known>,
     /// Step of the network at hand.
     step: u32,
     /// Whether the function at hand may be cut short.

@@ -9,7 +9,6 @@ use rungc_models::Model;
 use rungc_rt::Ports;
 use rungc_rt::comm::canlink::{HEARD, M_SYNCHRONOUS, WATCHED};
 use rungc_rt::special::M_RUNNING;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind, Program, Span, codes};
 
 /// Stations are 1 to 63.
@@ -183,7 +182,7 @@ impl Station {
         let mut triggers: Vec<_> = self.sends.iter().map(|entry| entry.when).collect();
         // The master passes M8291 on, whether or not it sends something itself.
         triggers.push(When::Sync);
-        order::sort(&mut triggers);
+        triggers.sort();
         triggers.dedup();
         for when in triggers {
             let (relay, effect, command) = match when {

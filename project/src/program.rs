@@ -3,8 +3,8 @@
 use crate::{Error, Project, Range};
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceRun, Instr, Program, Span, codes};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 impl Project {
@@ -40,7 +40,7 @@ impl Project {
         for run in &self.latched {
             self.can_latch(run, model)?;
         }
-        let named = order::set(self.latched.iter().map(|run| run.class));
+        let named = BTreeSet::from_iter(self.latched.iter().map(|run| run.class));
         let parameters = program.parameters.get_or_insert_default();
         let others = parameters.latched.take().unwrap_or_else(|| usual(model));
         let others = others.into_iter().filter(|run| !named.contains(&run.class));

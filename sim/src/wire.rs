@@ -1,7 +1,5 @@
 //! What comes in at input terminals during a step: pulses and encoders, as edges in virtual time.
 
-use rungc_syntax::order;
-
 /// A change of an input terminal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Change {
@@ -81,7 +79,7 @@ impl Signal {
 /// The changes of all signals, in order.
 pub fn changes(signals: &[Signal]) -> Vec<Change> {
     let mut changes: Vec<Change> = signals.iter().flat_map(|signal| signal.changes()).collect();
-    order::by(&mut changes, Ord::cmp);
+    changes.sort_by(Ord::cmp);
     changes
 }
 

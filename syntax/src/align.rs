@@ -1,19 +1,18 @@
 //! Aligning two sequences: what they have in common, in order.
 
-use crate::SortedMap;
-use crate::order;
 use similar::{Algorithm, capture_diff_slices};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Positions of elements that two sequences have in common, in order in both: as many as a good alignment finds.
 ///
 /// Elements that only one of them has are left out first, so that long sequences with little in common take no longer
 /// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
-    let in_old = order::set(old);
+    let in_old = BTreeSet::from_iter(old);
     // The first of equal ones counts.
     let from_the_end = new.iter().enumerate().rev();
     let shared = from_the_end.filter(|(_, element)| in_old.contains(element));
-    let numbers: SortedMap<&T, usize> = shared.map(|(number, element)| (element, number)).collect();
+    let numbers: BTreeMap<&T, usize> = shared.map(|(number, element)| (element, number)).collect();
     let shared = |all: &[T]| -> Vec<(usize, usize)> {
         let numbered = all.iter().enumerate();
         numbered

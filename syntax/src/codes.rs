@@ -22,7 +22,6 @@
 
 use crate::Span;
 use crate::diag::{Diagnostic, Severity};
-use crate::order;
 
 mod boards;
 mod explore;
@@ -160,7 +159,7 @@ pub fn all() -> Vec<&'static Code> {
         fleets::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
-    order::by_key(&mut all, |code| code.id);
+    all.sort_by_key(|code| code.id);
     all
 }
 

@@ -1,6 +1,5 @@
 //! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
 
-use crate::order;
 use crate::{Device, Span, codes};
 use std::borrow::Cow;
 
@@ -106,7 +105,7 @@ pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
     for (n, fix) in fixes.iter().enumerate() {
         order.extend(reach(fix).map(|span| (span, n)));
     }
-    order::sort(&mut order);
+    order.sort();
     let mut applied = vec![false; fixes.len()];
     let mut edits: Vec<&Edit> = Vec::new();
     // Up to where the text is taken; two insertions at one place would depend on their order.
@@ -118,7 +117,7 @@ pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
             edits.extend(&fixes[n].edits);
         }
     }
-    order::by_key(&mut edits, |edit| edit.span);
+    edits.sort_by_key(|edit| edit.span);
     let mut result = String::with_capacity(text.len());
     let mut at = 0;
     for Edit { span, text: new } in edits {
@@ -260,11 +259,11 @@ impl Diagnostics {
     pub fn refine(&mut self, compiled: &Diagnostics) {
         let errors = || compiled.iter().filter(|d| d.severity == Severity::Error);
         let mut places: Vec<_> = errors().map(|d| (d.span.start, d.span.end)).collect();
-        order::sort(&mut places);
+        places.sort();
         let mut lines: Vec<_> = errors()
             .filter(|d| d.code == codes::ONE_PER_LINE.id)
             .collect();
-        order::by_key(&mut lines, |d| d.span);
+        lines.sort_by_key(|d| d.span);
         self.0.retain(|d| {
             let at = places.partition_point(|&(start, _)| start < d.span.start);
             let same = places[at..]
@@ -311,7 +310,8 @@ impl Diagnostics {
 
     /// Ordered by place, then by code.
     pub fn sorted(mut self) -> Vec<Diagnostic> {
-        order::by(&mut self.0, |a, b| (a.span, a.code).cmp(&(b.span, b.code)));
+        self.0
+            .sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         self.0
     }
 

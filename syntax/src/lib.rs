@@ -9,9 +9,7 @@ mod classes;
 pub mod codes;
 mod device;
 pub mod diag;
-pub mod order;
 mod program;
-mod sorted;
 mod source;
 pub mod text;
 
@@ -22,5 +20,4 @@ pub use program::{
     Device, DeviceRun, FittedModule, Index, Instr, NetworkRequest, Operand, OperandKind, Operands,
     Parameters, Program, Remarks, SourceKind,
 };
-pub use sorted::{Entry, SortedMap, SortedSet};
 pub use source::{Source, Span};

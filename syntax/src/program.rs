@@ -1,9 +1,9 @@
 //! The program as its author wrote it: instructions, operands, comments. No instruction is understood yet.
 
-use crate::SortedMap;
 use crate::{DeviceClass, Source, Span};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::net::SocketAddr;
 
@@ -27,7 +27,7 @@ pub struct Program {
     /// For each line that does not name an instruction, how many of `instrs` precede it; ascending.
     pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
-    pub comments: SortedMap<Device, String>,
+    pub comments: BTreeMap<Device, String>,
     /// What the project sets for its PLC, where the source says so.
     pub parameters: Option<Parameters>,
 }

@@ -16,7 +16,8 @@ use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// What was found.
@@ -160,7 +161,7 @@ pub fn look(module: &Module, time: Duration) -> Report {
             Answer::Open => report.open += 1,
         }
     }
-    rungc_syntax::order::by(&mut report.findings, |a, b| a.network.cmp(&b.network));
+    report.findings.sort_by_key(|finding| finding.network);
     report
 }
 
@@ -224,8 +225,8 @@ fn bits(encoder: &Encoder, probes: &Probes, reached: &impl Fn(u32) -> Lit) -> Ve
 }
 
 /// Timers with presets that are set up while the program runs: before that they expire at once, which does no harm.
-fn timers_that_are_set_up(module: &Module) -> SortedSet<u32> {
-    let mut found = SortedSet::new();
+fn timers_that_are_set_up(module: &Module) -> BTreeSet<u32> {
+    let mut found = BTreeSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             if let Stmt::Timer(coil) = stmt

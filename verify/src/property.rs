@@ -14,7 +14,6 @@ use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_sim::Target;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 
 /// A condition over devices, as they are after a scan.
 #[derive(Clone, PartialEq, Debug)]
@@ -78,7 +77,7 @@ impl Condition {
             let (class, first, count) = target.devices(0);
             found.extend((first..first + count).map(|number| (class, number)));
         });
-        order::sort(&mut found);
+        found.sort();
         found.dedup();
         found
     }

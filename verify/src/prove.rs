@@ -9,8 +9,8 @@ use crate::replay;
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
-use rungc_syntax::order;
 use std::cell::LazyCell;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// How to decide.
@@ -184,7 +184,7 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         property,
         options,
     };
-    let gaps = order::set(gaps).into_iter().collect();
+    let gaps = BTreeSet::from_iter(gaps).into_iter().collect();
     let latches = system.latches.len();
     let answer = search(&question, &options.world, &system.into(), deadline);
     Decision {

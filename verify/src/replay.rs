@@ -7,7 +7,8 @@ use crate::search::{Scan, Trace};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.
@@ -248,11 +249,11 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
     let start = trace.start.iter().filter(|(_, value)| **value != 0);
     let start: Vec<Setting> = start.filter_map(named).collect();
     let mut changes: Vec<Change> = Vec::new();
-    let mut known: SortedMap<Key, i64> = SortedMap::new();
+    let mut known: BTreeMap<Key, i64> = BTreeMap::new();
     let mut now_ms = 0u64;
     for (n, scan) in trace.scans.iter().enumerate() {
         now_ms += u64::from(scan.ms);
-        let mut set_now = SortedMap::new();
+        let mut set_now = BTreeMap::new();
         for (&key, &value) in &scan.set {
             set(&mut machine, &mut hal, key, value);
             // A module is there as soon as its memory is set, if only to 0.

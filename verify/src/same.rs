@@ -17,7 +17,7 @@ use product::Product;
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// What was found of an output of two programs.
@@ -89,7 +89,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         let Answer { verdict, proof } = search(&question, &options.world, &posed, deadline);
         Output {
             number,
-            gaps: order::set(gaps.map(|(_, gap)| gap.clone()))
+            gaps: BTreeSet::from_iter(gaps.map(|(_, gap)| gap.clone()))
                 .into_iter()
                 .collect(),
             verdict,
@@ -101,7 +101,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         outputs: outputs.collect(),
         same_outside: product.same_outside(),
         apart: product.apart(&names),
-        functions: order::set(product.encoder().gaps.iter().cloned())
+        functions: BTreeSet::from_iter(product.encoder().gaps.iter().cloned())
             .into_iter()
             .collect(),
     }

@@ -5,14 +5,14 @@ use crate::sat::{Answer, Solver};
 use crate::system::System;
 use crate::unroll::Unroller;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// A run that the model allows: what it begins with, and the inputs of each scan.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Trace {
     /// What latched memory holds at first.
-    pub start: SortedMap<Key, i64>,
+    pub start: BTreeMap<Key, i64>,
     /// What happens before each scan.
     pub scans: Vec<Scan>,
 }
@@ -25,7 +25,7 @@ pub struct Scan {
     /// How long the scan before took, in units of 0.1 ms.
     pub scan_time: u32,
     /// Devices that something other than the program sets.
-    pub set: SortedMap<Key, i64>,
+    pub set: BTreeMap<Key, i64>,
 }
 
 /// Searches from power-on, scan by scan.

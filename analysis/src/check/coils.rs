@@ -4,7 +4,6 @@ use super::Code;
 use super::skips::Skips;
 use super::structure::{NONE, Nesting};
 use rungc_catalogue::Basic;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -26,7 +25,7 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             };
             (state, skips.mark(i))
         };
-        order::by_key(&mut coils, condition);
+        coils.sort_by_key(condition);
         let same = coils
             .chunk_by(|a, b| condition(a) == condition(b))
             .find_map(|same| same.split_last().filter(|(_, earlier)| !earlier.is_empty()));
@@ -34,7 +33,7 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             found.push(driven_twice(code, device, earlier, last));
         }
     }
-    order::by_key(&mut found, |diagnostic| diagnostic.span);
+    found.sort_by_key(|diagnostic| diagnostic.span);
     out.extend(found);
 }
 

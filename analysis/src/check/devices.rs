@@ -5,7 +5,8 @@ use crate::accesses;
 use crate::resolve::resolve;
 use rungc_catalogue::Shape;
 use rungc_models::Model;
-use rungc_syntax::{Device, DeviceClass, Program, SortedMap};
+use rungc_syntax::{Device, DeviceClass, Program};
+use std::collections::BTreeMap;
 
 /// What a device holds, as the instructions that name it take it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -33,10 +34,10 @@ pub struct Use {
 const RUN: u32 = 16;
 
 /// The devices that a program names, without those that only an index leads to. Of a 32-bit value it is the first.
-pub fn uses(program: &Program, model: &'static Model) -> SortedMap<Device, Use> {
+pub fn uses(program: &Program, model: &'static Model) -> BTreeMap<Device, Use> {
     let (resolved, _) = resolve(program, model);
     let code = Code::new(&resolved);
-    let mut uses = SortedMap::new();
+    let mut uses = BTreeMap::new();
     for i in 0..code.len {
         let operands = &code.instr(i).operands;
         for access in accesses::of(code.resolved, i) {

@@ -6,7 +6,8 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, SortedMap, codes, order};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
+use std::collections::BTreeMap;
 
 /// Instructions whose result depends on what they have done before, whatever their operands are.
 const STEPPING: &[&str] = &[
@@ -18,7 +19,7 @@ const STEPPING: &[&str] = &[
 #[derive(Default)]
 pub(super) struct EveryScan {
     /// By what is changed.
-    found: SortedMap<Device, Vec<Change>>,
+    found: BTreeMap<Device, Vec<Change>>,
 }
 
 /// An instruction that changes its own operand.
@@ -65,9 +66,7 @@ impl EveryScan {
     pub(super) fn report(mut self, code: &Code, out: &mut Diagnostics) {
         self.leave_out_computed(code);
         let mut found: Vec<_> = self.found.into_iter().collect();
-        order::by_key(&mut found, |(_, changes)| {
-            changes.first().map(|change| change.at)
-        });
+        found.sort_by_key(|(_, changes)| changes.first().map(|change| change.at));
         for (device, changes) in &found {
             out.extend(report(code, *device, changes));
         }

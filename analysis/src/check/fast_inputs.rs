@@ -8,7 +8,6 @@ use rungc_models::Model;
 use rungc_models::high_speed::{self, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::Wiring;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
 /// Checks who uses the fast inputs.
@@ -63,7 +62,7 @@ fn interrupts(model: &Model, pointers: &Pointers) -> Vec<Interrupt> {
             })
         })
         .collect();
-    order::by_key(&mut found, |interrupt| interrupt.label);
+    found.sort_by_key(|interrupt| interrupt.label);
     found
 }
 

@@ -2,7 +2,8 @@
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
-use rungc_syntax::{DeviceClass, Diagnostics, SortedMap, codes, order};
+use rungc_syntax::{DeviceClass, Diagnostics, codes};
+use std::collections::BTreeMap;
 
 /// Warns of a program that asks for more than there is.
 pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
@@ -10,7 +11,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         return;
     };
     let outputs = outputs(code).into_values().map(|at| (at, of.output));
-    let inputs = order::map(measured(code).map(|(i, input)| (input.number, i)));
+    let inputs = BTreeMap::from_iter(measured(code).map(|(i, input)| (input.number, i)));
     let inputs = inputs.into_values().map(|at| (at, of.density));
     let others = others.iter().map(|other| (other.at, of.edge));
     let counters = counters.iter().map(|c| (c.coil, of.counter(c.kind)));
@@ -19,7 +20,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         .chain(others)
         .chain(counters)
         .collect();
-    order::sort(&mut uses);
+    uses.sort();
     let asked: u32 = uses.iter().map(|&(_, units)| units).sum();
     let mut so_far = 0;
     let beyond = uses.iter().find(|&&(_, units)| {
@@ -40,8 +41,8 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
 }
 
 /// The outputs that send pulses, and where they are first named.
-fn outputs(code: &Code) -> SortedMap<u32, usize> {
-    let mut found = SortedMap::new();
+fn outputs(code: &Code) -> BTreeMap<u32, usize> {
+    let mut found = BTreeMap::new();
     for i in 0..code.len {
         for (n, param) in code.params(i).iter().enumerate() {
             let output = code.device(i, n).filter(|_| param.sends_pulses);

@@ -7,7 +7,8 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special};
 use rungc_rt::modules::Place;
-use rungc_syntax::{Device, Diagnostic, Diagnostics, SortedMap, Span, codes, order};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
+use std::collections::BTreeMap;
 
 /// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
 const MAX_RUN: u32 = 32;
@@ -18,7 +19,7 @@ const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.
 pub(super) struct Inert {
-    used: SortedMap<Device, Used>,
+    used: BTreeMap<Device, Used>,
     /// Where the PLC has special modules.
     places: Vec<Place>,
 }
@@ -35,7 +36,7 @@ struct Used {
 impl Inert {
     pub(super) fn new(modules: &Modules) -> Self {
         Inert {
-            used: SortedMap::new(),
+            used: BTreeMap::new(),
             places: modules.places().collect(),
         }
     }
@@ -83,9 +84,7 @@ impl Inert {
             }
         }
         for (reason, mut same) in by_reason {
-            order::by_key(&mut same, |(_, used)| {
-                used.places.first().map(|&(span, _)| span)
-            });
+            same.sort_by_key(|(_, used)| used.places.first().map(|&(span, _)| span));
             if same.len() > MAX_SINGLE {
                 out.extend(report(reason, &same));
             } else {

@@ -3,7 +3,6 @@
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Nesting, Routine};
 use super::{Basic, Code};
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Fix, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -218,7 +217,7 @@ impl Calls {
             }
         }
         for made in calls.values_mut() {
-            order::sort(made);
+            made.sort();
         }
         let depths = FxHashMap::default();
         Calls { calls, depths }
@@ -226,7 +225,7 @@ impl Calls {
 
     fn check(mut self, code: &Code, out: &mut Diagnostics) {
         let mut roots: Vec<_> = self.calls.keys().copied().collect();
-        order::sort(&mut roots);
+        roots.sort();
         for root in roots {
             self.walk(code, root, out);
         }
@@ -237,7 +236,7 @@ impl Calls {
             .iter()
             .filter(|&(routine, &depth)| begins(routine) && depth > max)
             .collect();
-        order::sort(&mut deep);
+        deep.sort();
         for (&routine, &depth) in deep {
             let chain = self.deepest(routine);
             let (Some(&first), Some(&beyond)) = (chain.first(), chain.get(max as usize)) else {

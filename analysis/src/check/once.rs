@@ -1,7 +1,8 @@
 //! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedMap, codes, order};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use std::collections::BTreeMap;
 
 /// An instruction that may occur only once in a program with some operand.
 struct Limit {
@@ -43,7 +44,7 @@ const LIMITS: &[Limit] = &[
 
 /// Checks how often a program uses instructions.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
-    let mut by_name: SortedMap<&str, (usize, Vec<usize>)> = SortedMap::new();
+    let mut by_name: BTreeMap<&str, (usize, Vec<usize>)> = BTreeMap::new();
     let mut by_operand: Vec<Vec<(usize, Device)>> = LIMITS.iter().map(|_| Vec::new()).collect();
     for i in 0..code.len {
         let Some(inst) = code.inst(i).filter(|inst| inst.fnc.is_some()) else {
@@ -70,7 +71,7 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
         report(code, *max, places, None, out);
     }
     for mut places in by_operand {
-        order::by_key(&mut places, |&(_, device)| device);
+        places.sort_by_key(|&(_, device)| device);
         for same in places.chunk_by(|a, b| a.1 == b.1) {
             let at: Vec<_> = same.iter().map(|&(i, _)| i).collect();
             report(code, 1, &at, same.first().map(|&(_, device)| device), out);

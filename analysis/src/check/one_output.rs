@@ -4,7 +4,6 @@ use super::Code;
 use super::drives::{Drive, Lasts};
 use super::skips::Skips;
 use super::structure::{Nesting, Routine};
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -73,7 +72,7 @@ impl Outputs {
     pub(super) fn report(self, code: &Code, out: &mut Diagnostics) {
         let together = |(output, senders): (_, Senders)| Some((senders.together?, output));
         let mut found: Vec<_> = self.0.into_iter().filter_map(together).collect();
-        order::sort(&mut found);
+        found.sort();
         for ((first, second), output) in found {
             let message =
                 format!("two instructions send pulses through `{output}` at the same time");

@@ -6,7 +6,6 @@ use super::Code;
 use crate::accesses::Access;
 use rungc_catalogue::{ArithOp, Basic, Lower};
 use rungc_models::runs::is_special;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -110,7 +109,7 @@ impl Overlaps {
                 ));
             }
         }
-        order::by_key(&mut found, |diagnostic| diagnostic.span);
+        found.sort_by_key(|diagnostic| diagnostic.span);
         out.extend(found);
     }
 

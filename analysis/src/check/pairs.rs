@@ -2,7 +2,6 @@
 
 use crate::accesses::Access;
 use rungc_models::runs::is_special;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -56,7 +55,7 @@ impl Pairs {
                 .help("leave one register between the two values");
             found.push(diagnostic);
         }
-        order::by_key(&mut found, |diagnostic| diagnostic.span);
+        found.sort_by_key(|diagnostic| diagnostic.span);
         out.extend(found);
     }
 }

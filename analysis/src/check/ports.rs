@@ -12,7 +12,8 @@ pub(super) use findings::check;
 use rungc_catalogue::Lower;
 use rungc_rt::RtFn;
 use rungc_rt::comm::{Choice, D_ADPRW_PORT, LineFormat, Parity, PortWiring, Protocol};
-use rungc_syntax::{Device, order};
+use rungc_syntax::Device;
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// What a program makes of a serial port.
@@ -67,7 +68,7 @@ impl Setup {
 pub fn setups(resolved: &Resolved) -> Vec<Setup> {
     let code = Code::new(resolved);
     let facts = facts::Facts::new(&code);
-    let used = order::set((0..code.len).flat_map(|i| port_of(&code, i, &facts)));
+    let used = BTreeSet::from_iter((0..code.len).flat_map(|i| port_of(&code, i, &facts)));
     let wirings = code.model().ports.all().iter();
     let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
     let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));

@@ -4,7 +4,6 @@ use super::Code;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Drive};
 use rungc_syntax::codes::Code as Finding;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -80,7 +79,7 @@ impl Resets {
             });
             let stuck = stuck.filter_map(|(device, known)| Some((known.driven?, *device, known)));
             let mut stuck: Vec<_> = stuck.collect();
-            order::by_key(&mut stuck, |&(span, device, _)| (span, device));
+            stuck.sort_by_key(|&(span, device, _)| (span, device));
             stuck
         };
         let counters = never(DeviceClass::C)

@@ -4,7 +4,6 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -54,7 +53,7 @@ pub(super) fn check(code: &Code, nesting: &Nesting, skips: &Skips, out: &mut Dia
         .iter()
         .filter_map(|(&device, uses)| in_vain(code, device, uses, &rungs, condition))
         .collect();
-    order::by_key(&mut found, |diagnostic| diagnostic.span);
+    found.sort_by_key(|diagnostic| diagnostic.span);
     out.extend(found);
 }
 
@@ -115,7 +114,7 @@ fn in_vain(
         .other(code.span(out), "… is lost here");
     let rest = uses.set.iter().chain(&uses.rst).chain(&uses.out);
     let mut rest: Vec<_> = rest.filter(|&&i| i != set && i != out).collect();
-    order::sort(&mut rest);
+    rest.sort();
     for &i in rest {
         diagnostic = diagnostic.other(code.span(i), "written here too");
     }

@@ -3,8 +3,9 @@
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedMap, codes, order};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// At most this many circuits may begin at one branch (h1u-h2u-programming §4.2.2).
 const MAX_BRANCH: usize = 8;
@@ -63,7 +64,7 @@ fn acts(code: &Code, stl: usize) -> bool {
 /// The states to which SET leads from each state, with the first transition; OUT only jumps to a state that others lead
 /// to.
 fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
-    let mut leads: SortedMap<Device, SortedMap<Device, usize>> = SortedMap::new();
+    let mut leads: BTreeMap<Device, BTreeMap<Device, usize>> = BTreeMap::new();
     for i in 0..code.len {
         let from = match nesting.of(i).state {
             NONE => continue,
@@ -76,7 +77,7 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     }
     for (from, to) in &leads {
         let mut transitions: Vec<_> = to.values().copied().collect();
-        order::sort(&mut transitions);
+        transitions.sort();
         if let (Some(&beyond), Some(&first)) = (transitions.get(MAX_BRANCH), transitions.first()) {
             let message = format!(
                 "`{from}` branches into {} states, the PLC follows {MAX_BRANCH}",
@@ -106,11 +107,11 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
 
 /// How many circuits branch off in the flow of an initial state, and the last transition to one.
 fn flow_branches(
-    leads: &SortedMap<Device, SortedMap<Device, usize>>,
+    leads: &BTreeMap<Device, BTreeMap<Device, usize>>,
     initial: Device,
 ) -> (usize, usize) {
     let (mut count, mut last) = (0, 0);
-    let mut seen = order::set([initial]);
+    let mut seen = BTreeSet::from_iter([initial]);
     let mut open = vec![initial];
     while let Some(state) = open.pop() {
         let Some(to) = leads.get(&state) else {

@@ -4,8 +4,9 @@ use super::Code;
 use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::Basic;
 use rungc_models::{Model, Timers};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedSet, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 
 /// Checks the places of timers.
 pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
@@ -88,7 +89,7 @@ fn in_next_states(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         NONE => None,
         stl => code.device(stl as usize, 0),
     };
-    let mut transitions: FxHashMap<Device, SortedSet<Device>> = FxHashMap::default();
+    let mut transitions: FxHashMap<Device, BTreeSet<Device>> = FxHashMap::default();
     let mut driven: FxHashMap<(Device, Device), usize> = FxHashMap::default();
     let mut order = Vec::new();
     for i in 0..code.len {

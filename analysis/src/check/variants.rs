@@ -3,13 +3,14 @@
 use super::Code;
 use crate::resolve::Resolved;
 use rungc_models::{Model, Variant};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedSet, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use std::collections::BTreeSet;
 
 /// Holds a program to a variant of its model.
 pub fn check(resolved: &Resolved, variant: &Variant) -> Diagnostics {
     let code = Code::new(resolved);
     let mut out = Diagnostics::new();
-    let mut beyond = SortedSet::new();
+    let mut beyond = BTreeSet::new();
     for i in 0..code.len {
         if code.is_meant(i) {
             continue;
@@ -37,7 +38,7 @@ fn devices(
     code: &Code,
     i: usize,
     variant: &Variant,
-    beyond: &mut SortedSet<Device>,
+    beyond: &mut BTreeSet<Device>,
     out: &mut Diagnostics,
 ) {
     let operands = code.instr(i).operands.iter().enumerate();

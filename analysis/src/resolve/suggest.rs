@@ -6,7 +6,6 @@
 use super::operands::takes;
 use rungc_catalogue::{Basic, Found, Inst};
 use rungc_models::{Model, ModelSet};
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
 use std::sync::OnceLock;
 
@@ -300,7 +299,7 @@ fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant
             Some((misfit, near.as_str(), found))
         })
         .collect();
-    order::by_key(&mut fitting, |&(misfit, name, _)| (misfit, name));
+    fitting.sort_by_key(|&(misfit, name, _)| (misfit, name));
     fitting.dedup_by_key(|&mut (_, name, _)| name);
     let best = fitting.first()?.0;
     fitting.retain(|&(misfit, ..)| misfit == best);
@@ -378,6 +377,6 @@ fn misfit(
 /// The letters of a name in alphabetical order.
 fn letters(name: &str) -> Vec<u8> {
     let mut letters = name.as_bytes().to_vec();
-    order::sort(&mut letters);
+    letters.sort();
     letters
 }

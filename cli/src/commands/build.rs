@@ -30,7 +30,6 @@ use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
 use rungc_syntax::codes;
-use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, FittedModule, Program, text};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -196,7 +195,7 @@ impl ForImage {
         }
         let settings = args.set.iter().map(|text| setting(text));
         let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-        order::by_key(&mut settings, |setting| setting.at_ms);
+        settings.sort_by_key(|setting| setting.at_ms);
         let inputs = settings.iter().map(|setting| match setting.target {
             Device::Bit(DeviceClass::X, number) => {
                 Ok((milliseconds(setting.at_ms)?, number, setting.value != 0.0))

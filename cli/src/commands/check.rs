@@ -9,8 +9,8 @@ use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_lower::compile;
 use rungc_models::Model;
-use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, OperandKind, Parameters, Program};
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Reports everything that is wrong with programs.
@@ -102,5 +102,5 @@ fn devices(program: &Program) -> usize {
     });
     let is_device =
         |d: &Device| !matches!(d.class, DeviceClass::P | DeviceClass::I | DeviceClass::N);
-    order::set(named.filter(is_device)).len()
+    BTreeSet::from_iter(named.filter(is_device)).len()
 }

@@ -13,8 +13,9 @@ use rungc_models::Model;
 use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
-use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program, SortedMap, order};
+use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
 use rungc_verify::property::{Condition, Mistake, Property, parse};
+use std::collections::{BTreeMap, BTreeSet};
 
 type Result<T> = std::result::Result<T, Failure>;
 
@@ -25,7 +26,7 @@ const SCAN_MS: u64 = 200;
 #[derive(Default)]
 pub struct Outside {
     /// Devices, with what says so: an option or a table of the settings.
-    pub devices: SortedMap<(DeviceClass, u32), &'static str>,
+    pub devices: BTreeMap<(DeviceClass, u32), &'static str>,
     /// Whether the settings name servers, whose clients could write other devices, too.
     pub has_clients: bool,
 }
@@ -33,7 +34,7 @@ pub struct Outside {
 impl Outside {
     /// What names the devices, each once.
     pub fn sources(&self) -> Vec<&'static str> {
-        order::set(self.devices.values().copied())
+        BTreeSet::from_iter(self.devices.values().copied())
             .into_iter()
             .collect()
     }

@@ -39,7 +39,6 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
-use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Program, codes};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -181,7 +180,7 @@ fn repeatable(
 fn settings(args: &RunArgs) -> std::result::Result<Vec<Setting>, Failure> {
     let settings = args.set.iter().map(|text| setting(text));
     let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-    order::by_key(&mut settings, |s| s.at_ms);
+    settings.sort_by_key(|s| s.at_ms);
     Ok(settings)
 }
 

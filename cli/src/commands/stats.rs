@@ -11,8 +11,9 @@ use rungc_ir::worst::worst;
 use rungc_ladder::build;
 use rungc_lower::compile;
 use rungc_models::times::InstructionTimes;
-use rungc_syntax::{DeviceClass, OperandKind, SortedMap};
+use rungc_syntax::{DeviceClass, OperandKind};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 /// What `--json` prints.
@@ -127,7 +128,7 @@ fn stats(
 
 /// How many instructions of each family there are.
 fn instructions(resolved: &Resolved) -> Vec<Count> {
-    let mut of_row: SortedMap<&str, usize> = SortedMap::new();
+    let mut of_row: BTreeMap<&str, usize> = BTreeMap::new();
     for inst in resolved.instrs.iter().filter_map(|instr| instr.inst) {
         *of_row.entry(inst.name).or_default() += 1;
     }

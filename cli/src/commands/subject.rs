@@ -8,7 +8,8 @@ use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
-use rungc_syntax::{DeviceClass, Program, SortedMap, SortedSet, codes};
+use rungc_syntax::{DeviceClass, Program, codes};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -74,7 +75,7 @@ impl Subject {
 struct Projects<'a> {
     reading: &'a Reading,
     cx: Context,
-    loaded: SortedMap<PathBuf, Rc<Project>>,
+    loaded: BTreeMap<PathBuf, Rc<Project>>,
 }
 
 impl Projects<'_> {
@@ -211,7 +212,7 @@ pub fn one(input: &Input, cx: Context) -> std::result::Result<Subject, Failure> 
     let mut projects = Projects {
         reading,
         cx,
-        loaded: SortedMap::new(),
+        loaded: BTreeMap::new(),
     };
     let file = match &input.file {
         Some(file) => file.clone(),
@@ -234,7 +235,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     let mut projects = Projects {
         reading: &inputs.reading,
         cx,
-        loaded: SortedMap::new(),
+        loaded: BTreeMap::new(),
     };
     let mut many = inputs.files.len() > 1;
     let mut files = Vec::new();
@@ -258,7 +259,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     if inputs.files.is_empty() {
         files.push(projects.own()?);
     }
-    let mut seen = SortedSet::new();
+    let mut seen = BTreeSet::new();
     files.retain(|file| seen.insert(file.clone()));
     let subjects = files.into_iter().map(|file| projects.subject(file));
     Ok((subjects.collect::<std::result::Result<_, _>>()?, many))
@@ -327,7 +328,7 @@ pub fn source(
 
 /// Which path each program of a command is written to, with the file that it was read from.
 #[derive(Default)]
-pub struct OutputPaths(SortedMap<PathBuf, PathBuf>);
+pub struct OutputPaths(BTreeMap<PathBuf, PathBuf>);
 
 impl OutputPaths {
     /// Claims a path for a program; no other program of this command may have it.

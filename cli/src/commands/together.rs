@@ -4,7 +4,7 @@ use super::build::vacant;
 use super::{Context, Failure, counted, write_file};
 use rungc_firmware::sources::{self, Recipe};
 use rungc_firmware::target::Target;
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Where a program is written.
@@ -20,7 +20,7 @@ pub struct Place {
 
 /// The programs written by now, by their folder.
 #[derive(Default)]
-pub struct Together(SortedMap<PathBuf, (Place, Vec<Recipe>)>);
+pub struct Together(BTreeMap<PathBuf, (Place, Vec<Recipe>)>);
 
 impl Together {
     /// The recipes of a folder, to which that of one more program is added. Fails where its Makefile cannot be written,

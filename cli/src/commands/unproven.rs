@@ -4,8 +4,8 @@ use rungc_analysis::fitting::fitting;
 use rungc_frontend::{Read, Unproven, has_code};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Operands, SortedMap, codes};
-use std::collections::HashMap;
+use rungc_syntax::{Operands, codes};
+use std::collections::{BTreeMap, HashMap};
 
 /// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a
 /// program.
@@ -23,7 +23,7 @@ pub fn suggest(read: &mut Read, chosen: Option<ModelId>) {
         ..CompileOptions::default()
     };
     let model = compile::model(&read.program, &options);
-    let mut codes: SortedMap<&[u8], Vec<&Unproven>> = SortedMap::new();
+    let mut codes: BTreeMap<&[u8], Vec<&Unproven>> = BTreeMap::new();
     for unproven in read.unproven.iter().filter(|unproven| !unproven.is_read()) {
         codes.entry(&unproven.code).or_default().push(unproven);
     }

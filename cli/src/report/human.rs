@@ -11,7 +11,6 @@ use super::location::{Location, instr_at};
 use super::visible::visible_line;
 use super::window::Window;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
-use rungc_syntax::order;
 use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 use std::ops::Range;
@@ -83,7 +82,7 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Res
         text: &other.text,
         color: Color::Blue,
     }));
-    order::by_key(&mut marks, |mark| mark.span.start);
+    marks.sort_by_key(|mark| mark.span.start);
     let rows = rows(findings, &marks);
     let (source, labels) = excerpt(&rows);
     let head = Location::of(findings, d.span)

@@ -93,9 +93,8 @@ impl<'a> Findings<'a> {
         };
         let more = Findings::new(self.path, program, more, reporting);
         self.diagnostics.extend(more.diagnostics);
-        rungc_syntax::order::by(&mut self.diagnostics, |a, b| {
-            a.span.start.cmp(&b.span.start)
-        });
+        self.diagnostics
+            .sort_by(|a, b| a.span.start.cmp(&b.span.start));
     }
 
     /// Of a file that could not be read at all, and why.

@@ -3,15 +3,16 @@
 use super::Findings;
 use super::location::Location;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Diagnostic, Fix, Severity, SortedSet, Span};
+use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
 /// A log in the making.
 #[derive(Default)]
 pub struct Log {
-    used: SortedSet<&'static str>,
+    used: BTreeSet<&'static str>,
     results: Vec<Value>,
     artifacts: Vec<Value>,
     /// Whether anything was added.

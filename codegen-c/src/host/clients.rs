@@ -4,7 +4,8 @@ use crate::include;
 use rungc_ir::Module;
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::Speaks;
-use rungc_syntax::{NetworkRequest, SortedMap};
+use rungc_syntax::NetworkRequest;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::net::{IpAddr, SocketAddr};
 
@@ -33,7 +34,7 @@ pub fn calls(module: &Module, servers: bool) -> [&'static str; 3] {
 
 /// The tables of what a host asks, and what asks it.
 pub fn code(module: &Module) -> String {
-    let mut by_server: SortedMap<SocketAddr, Vec<&NetworkRequest>> = SortedMap::new();
+    let mut by_server: BTreeMap<SocketAddr, Vec<&NetworkRequest>> = BTreeMap::new();
     for request in &module.requests {
         by_server.entry(request.server).or_default().push(request);
     }

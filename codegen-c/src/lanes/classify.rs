@@ -8,7 +8,8 @@ use rungc_emit::temps::Home;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_ir::walk::{assigned, operands};
-use rungc_syntax::{DeviceClass, SortedSet, order};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 
 /// What is known of a program's statements.
 pub(super) struct Classes<'a, 'm> {
@@ -16,9 +17,9 @@ pub(super) struct Classes<'a, 'm> {
     pub plan: &'a Plan<'m>,
     pub fields: &'a Storage<'m>,
     /// Temporaries that one instance has, not all in lanes.
-    single: SortedSet<TempId>,
+    single: BTreeSet<TempId>,
     /// Timers and counters whose coils always run, since something else writes their values.
-    pub forced: SortedSet<(DeviceClass, u32)>,
+    pub forced: BTreeSet<(DeviceClass, u32)>,
 }
 
 impl<'a, 'm> Classes<'a, 'm> {
@@ -32,7 +33,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             plan,
             fields,
             single: single.map(|(id, _)| id).collect(),
-            forced: SortedSet::new(),
+            forced: BTreeSet::new(),
         };
         let mut meeting = classes.meeting();
         (0..plan.functions.len()).for_each(|function| meeting.function(function));
@@ -102,16 +103,16 @@ impl<'a, 'm> Classes<'a, 'm> {
     /// use together.
     pub fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
         let mut sliced: Vec<bool> = nodes.iter().map(|node| self.slices(node)).collect();
-        let mut uses: Vec<SortedSet<TempId>> = Vec::with_capacity(nodes.len());
+        let mut uses: Vec<BTreeSet<TempId>> = Vec::with_capacity(nodes.len());
         for node in nodes {
-            let mut found = SortedSet::new();
+            let mut found = BTreeSet::new();
             self.temps_of(node, &mut found);
             found.retain(|temp| {
                 self.single.contains(temp) && self.plan.temp(*temp).home() != Home::Field
             });
             uses.push(found);
         }
-        let all = order::set(uses.iter().flatten().copied());
+        let all = BTreeSet::from_iter(uses.iter().flatten().copied());
         for temp in all {
             let first = uses.iter().position(|uses| uses.contains(&temp));
             let last = uses.iter().rposition(|uses| uses.contains(&temp));
@@ -125,7 +126,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// All temporaries that a node assigns or reads.
-    fn temps_of(&self, node: &Node, found: &mut SortedSet<TempId>) {
+    fn temps_of(&self, node: &Node, found: &mut BTreeSet<TempId>) {
         for root in node.roots() {
             self.temps_read(root, found);
         }
@@ -138,7 +139,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// The temporaries that an expression reads.
-    pub fn temps_read(&self, id: ExprId, found: &mut SortedSet<TempId>) {
+    pub fn temps_read(&self, id: ExprId, found: &mut BTreeSet<TempId>) {
         let expr = self.module.expr(id);
         if let Expr::Temp(temp) = *expr {
             found.insert(temp);
@@ -258,7 +259,7 @@ impl<'a, 'm> Classes<'a, 'm> {
 
     /// Whether an expression looks at nothing that is in lanes, so that each instance has all of it.
     fn is_single(&self, id: ExprId) -> bool {
-        let mut temps = SortedSet::new();
+        let mut temps = BTreeSet::new();
         self.temps_read(id, &mut temps);
         let mut meeting = self.meeting();
         meeting.expr(id);

@@ -8,20 +8,21 @@ use rungc_ir::node::{Edge, EdgeId, Expr, ExprId, FlagId, Place, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::operands;
 use rungc_models::runs::FIRST_SPECIAL;
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// What code of one instance meets of what is stored in lanes.
 #[derive(Default)]
 pub(super) struct Met {
     /// Stored bit devices, timers and counters.
-    pub devices: SortedSet<(DeviceClass, u32)>,
+    pub devices: BTreeSet<(DeviceClass, u32)>,
     /// Those of them that it may write.
-    pub written: SortedSet<(DeviceClass, u32)>,
+    pub written: BTreeSet<(DeviceClass, u32)>,
     /// Timers and counters whose values are written other than by their coils and by RST.
-    pub forced: SortedSet<(DeviceClass, u32)>,
-    pub edges: SortedSet<EdgeId>,
-    pub flags: SortedSet<FlagId>,
+    pub forced: BTreeSet<(DeviceClass, u32)>,
+    pub edges: BTreeSet<EdgeId>,
+    pub flags: BTreeSet<FlagId>,
 }
 
 /// Finds out what nodes meet.

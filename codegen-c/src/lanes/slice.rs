@@ -17,8 +17,9 @@ use rungc_ir::node::{
 };
 use rungc_ir::walk::assigned;
 use rungc_rt::EdgeKind;
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Writes the functions of a program in lanes.
 pub(super) struct Slicer<'a, 'm> {
@@ -26,7 +27,7 @@ pub(super) struct Slicer<'a, 'm> {
     /// Writes the code of one instance.
     pub writer: Writer<'a, 'm>,
     /// The timers that wait, by number.
-    pub waiting: SortedMap<u32, Waiting>,
+    pub waiting: BTreeMap<u32, Waiting>,
     /// The instances that execute what is being written; `None`: all.
     mask: Option<String>,
     /// Whether any code of one instance was written.
@@ -132,11 +133,11 @@ impl<'a, 'm> Slicer<'a, 'm> {
         let classes = &self.classes;
         let (module, fields) = (classes.module, classes.fields);
         let met = classes.met(nodes);
-        let (mut read, mut assigns) = (SortedSet::new(), SortedSet::new());
+        let (mut read, mut assigns) = (BTreeSet::new(), BTreeSet::new());
         for node in nodes {
             temps(classes, node, &mut read, &mut assigns);
         }
-        let (mut kept, mut others) = (SortedSet::new(), SortedSet::new());
+        let (mut kept, mut others) = (BTreeSet::new(), BTreeSet::new());
         for node in later {
             temps(classes, node, &mut kept, &mut others);
         }
@@ -597,8 +598,8 @@ impl<'a, 'm> Slicer<'a, 'm> {
 fn temps(
     classes: &Classes,
     node: &Node,
-    read: &mut SortedSet<TempId>,
-    assigns: &mut SortedSet<TempId>,
+    read: &mut BTreeSet<TempId>,
+    assigns: &mut BTreeSet<TempId>,
 ) {
     for root in node.roots() {
         classes.temps_read(root, read);

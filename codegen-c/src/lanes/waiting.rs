@@ -14,7 +14,8 @@ use rungc_emit::plan::Node;
 use rungc_ir::node::{Expr, Stmt, TimerCoil};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// A timer that waits.
@@ -37,8 +38,8 @@ pub(super) struct Waiting {
 }
 
 /// The timers that wait, by number.
-pub(super) fn waiting(classes: &Classes, writer: &mut Writer) -> SortedMap<u32, Waiting> {
-    let mut coils = SortedMap::new();
+pub(super) fn waiting(classes: &Classes, writer: &mut Writer) -> BTreeMap<u32, Waiting> {
+    let mut coils = BTreeMap::new();
     let plan = classes.plan;
     for (index, function) in plan.functions.iter().enumerate() {
         if function.root < 3 && function.is_whole() && !classes.is_left_early(index) {
@@ -46,7 +47,7 @@ pub(super) fn waiting(classes: &Classes, writer: &mut Writer) -> SortedMap<u32, 
         }
     }
     let Some(seen) = seen(classes) else {
-        return SortedMap::new();
+        return BTreeMap::new();
     };
     coils.retain(|number, _| !seen.contains(number));
     let timers = coils.into_iter();
@@ -56,7 +57,7 @@ pub(super) fn waiting(classes: &Classes, writer: &mut Writer) -> SortedMap<u32, 
 }
 
 /// The coils that run in every scan of all instances, on whole lanes.
-fn always(classes: &Classes, nodes: &[Node], found: &mut SortedMap<u32, TimerCoil>) {
+fn always(classes: &Classes, nodes: &[Node], found: &mut BTreeMap<u32, TimerCoil>) {
     for (node, sliced) in nodes.iter().zip(classes.of_nodes(nodes)) {
         match node {
             Node::Stmt(Stmt::Timer(coil)) if sliced => {
@@ -77,9 +78,9 @@ fn always(classes: &Classes, nodes: &[Node], found: &mut SortedMap<u32, TimerCoi
 
 /// The timers whose value something reads, or changes other than by their only coil; `None` if all are cleared at
 /// times.
-fn seen(classes: &Classes) -> Option<SortedSet<u32>> {
+fn seen(classes: &Classes) -> Option<BTreeSet<u32>> {
     let module = classes.module;
-    let (mut seen, mut coils) = (SortedSet::new(), SortedSet::new());
+    let (mut seen, mut coils) = (BTreeSet::new(), BTreeSet::new());
     let mut footprints: Vec<Footprint> = Vec::new();
     let mut clears = false;
     for function in &module.functions {

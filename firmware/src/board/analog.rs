@@ -3,8 +3,8 @@
 use super::pins::Mode;
 use super::{BoardError, Reader, Spanned};
 use rungc_rt::modules::Quantity;
-use rungc_syntax::SortedMap;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// A register that holds a converted value, or one that is converted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,9 +40,9 @@ pub struct Start {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analog {
     /// What measures.
-    pub inputs: SortedMap<String, AnalogPin>,
+    pub inputs: BTreeMap<String, AnalogPin>,
     /// What puts out.
-    pub outputs: SortedMap<String, AnalogPin>,
+    pub outputs: BTreeMap<String, AnalogPin>,
 }
 
 impl Analog {
@@ -62,7 +62,7 @@ impl Analog {
     }
 }
 
-fn numbered(pins: &SortedMap<String, AnalogPin>) -> impl Iterator<Item = (u8, &AnalogPin)> {
+fn numbered(pins: &BTreeMap<String, AnalogPin>) -> impl Iterator<Item = (u8, &AnalogPin)> {
     pins.values().filter_map(|pin| Some((pin.channel?, pin)))
 }
 
@@ -70,9 +70,9 @@ fn numbered(pins: &SortedMap<String, AnalogPin>) -> impl Iterator<Item = (u8, &A
 #[serde(deny_unknown_fields)]
 pub(super) struct Format {
     #[serde(default)]
-    inputs: SortedMap<Spanned, rungc_tables::Spanned<Pin>>,
+    inputs: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
     #[serde(default)]
-    outputs: SortedMap<Spanned, rungc_tables::Spanned<Pin>>,
+    outputs: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
 }
 
 #[derive(Deserialize)]
@@ -114,10 +114,10 @@ impl Reader<'_> {
 
     fn analog_pins(
         &self,
-        pins: SortedMap<Spanned, rungc_tables::Spanned<Pin>>,
+        pins: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
         outputs: bool,
-    ) -> Result<SortedMap<String, AnalogPin>, BoardError> {
-        let mut known = SortedMap::new();
+    ) -> Result<BTreeMap<String, AnalogPin>, BoardError> {
+        let mut known = BTreeMap::new();
         let mut channels = Vec::new();
         for (name, pin) in pins {
             let analog = self.analog_pin(&pin, outputs)?;

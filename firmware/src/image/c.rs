@@ -10,7 +10,8 @@ use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
 use crate::template;
 use rungc_emit::OutFile;
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 pub use pins::{NoPins, project as pins_project};
@@ -87,7 +88,7 @@ fn startup(image: &Image) -> String {
 }
 
 /// Vectors, with the handlers of the device's interrupts, and what happens between reset and `main`.
-fn startup_text(board: &Board, interrupts: &SortedMap<u32, String>) -> String {
+fn startup_text(board: &Board, interrupts: &BTreeMap<u32, String>) -> String {
     let mut prototypes = String::new();
     let mut vectors = String::new();
     let last = interrupts.keys().next_back().copied();

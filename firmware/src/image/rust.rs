@@ -12,7 +12,6 @@ use rungc_codegen_rust::{Options, Runtime};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -105,7 +104,7 @@ pub fn project(image: &Image, runtime: &Runtime) -> Vec<OutFile> {
 
 fn lock_file(package: &str) -> String {
     let mut needs = [package, "rungc-rt"];
-    order::sort(&mut needs);
+    needs.sort();
     rungc_runtime_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
 }
 

@@ -3,7 +3,8 @@
 use super::Package;
 use crate::image::{comment, terminals};
 use rungc_emit::storage::Storage;
-use rungc_syntax::{DeviceClass, SortedSet, order};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// How the example of a build system is written.
@@ -29,7 +30,7 @@ pub struct Terminal {
 
 /// The terminals of the program with their pins: inputs and outputs. If pins are short, each side has half of them.
 pub fn pins(package: &Package, pins: &[u8]) -> [Vec<Terminal>; 2] {
-    let numbers = |class| order::set(terminals(package.module, class));
+    let numbers = |class| BTreeSet::from_iter(terminals(package.module, class));
     let (mut inputs, outputs) = (numbers(DeviceClass::X), numbers(DeviceClass::Y));
     inputs.extend(rungc_emit::events::inputs(package.module));
     let half = pins.len() / 2;
@@ -37,7 +38,7 @@ pub fn pins(package: &Package, pins: &[u8]) -> [Vec<Terminal>; 2] {
         .len()
         .min(half.max(pins.len().saturating_sub(outputs.len())));
     let (first, rest) = pins.split_at(of_inputs);
-    let with = |class: DeviceClass, numbers: SortedSet<u32>, pins: &[u8]| {
+    let with = |class: DeviceClass, numbers: BTreeSet<u32>, pins: &[u8]| {
         let of = |(i, number): (usize, u32)| Terminal {
             number,
             name: named(package, class, number),

@@ -5,7 +5,7 @@
 use super::elf::Elf;
 use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
-use rungc_syntax::{SortedMap, SortedSet, order};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -32,9 +32,9 @@ impl std::fmt::Display for Unbounded {
 
 /// The functions of an image.
 pub struct Functions {
-    by_address: SortedMap<u32, Function>,
+    by_address: BTreeMap<u32, Function>,
     /// Addresses of those that a register may lead to.
-    stored: SortedSet<u32>,
+    stored: BTreeSet<u32>,
 }
 
 /// How much stack a function takes with all that it calls by name.
@@ -55,7 +55,7 @@ struct Function {
 struct Code<'d> {
     sections: Vec<(u32, &'d [u8])>,
     /// From each address on: whether there is code.
-    marks: SortedMap<u32, bool>,
+    marks: BTreeMap<u32, bool>,
 }
 
 impl Code<'_> {
@@ -91,7 +91,7 @@ impl Code<'_> {
 fn code<'d>(file: &Elf<'d>) -> Code<'d> {
     let mut code = Code {
         sections: Vec::new(),
-        marks: SortedMap::new(),
+        marks: BTreeMap::new(),
     };
     for section in file.sections() {
         let data = section.data().unwrap_or_default();
@@ -119,7 +119,7 @@ impl Functions {
     /// Reads all functions of an image. Vectors do not count as stored addresses: only hardware jumps through them.
     pub fn new(file: &Elf) -> Self {
         let code = code(file);
-        let mut by_address = SortedMap::new();
+        let mut by_address = BTreeMap::new();
         let mut vectors = 0..0;
         for symbol in file.symbols() {
             let from = symbol.address() as u32 & !1;
@@ -141,7 +141,7 @@ impl Functions {
             .flat_map(|f: &Function| &f.frame.constants);
         let stored = words.map(|(_, word)| word).chain(constants.copied());
         let stored = stored.filter(|word| word & 1 == 1 && by_address.contains_key(&(word & !1)));
-        let stored = order::set(stored.map(|word| word & !1));
+        let stored = BTreeSet::from_iter(stored.map(|word| word & !1));
         Functions { by_address, stored }
     }
 
@@ -155,7 +155,7 @@ impl Functions {
     pub fn depth(&self, name: &str) -> Result<u32, Unbounded> {
         let found = self.by_address.iter().find(|(_, f)| f.name == name);
         let (address, _) = found.ok_or_else(|| Unbounded::Missing(name.to_string()))?;
-        let mut known = SortedMap::new();
+        let mut known = BTreeMap::new();
         let own = self.direct(*address, &mut Vec::new(), &mut known)?;
         if !own.indirect {
             return Ok(own.bytes);
@@ -177,7 +177,7 @@ impl Functions {
         &self,
         address: u32,
         open: &mut Vec<u32>,
-        known: &mut SortedMap<u32, Depth>,
+        known: &mut BTreeMap<u32, Depth>,
     ) -> Result<Depth, Unbounded> {
         // An address amid a function stands for it.
         let found = self.by_address.range(..=address).next_back();

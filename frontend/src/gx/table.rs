@@ -4,7 +4,6 @@
 //! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
 
 use crate::TABLES;
-use rungc_syntax::order;
 use std::sync::LazyLock;
 
 /// The rows of `tokens.tsv`: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a
@@ -76,7 +75,7 @@ pub fn has_code(mnemonic: &str) -> bool {
 /// The rows, ordered by their bodies.
 static TABLE: LazyLock<Vec<Code>> = LazyLock::new(|| {
     let mut table: Vec<_> = rows().filter_map(code).collect();
-    order::by(&mut table, |a, b| a.body.cmp(&b.body));
+    table.sort_by(|a, b| a.body.cmp(&b.body));
     table
 });
 

@@ -10,10 +10,10 @@ use super::jumps::{instruction, words};
 use crate::text::clean;
 use rungc_syntax::diag::did_you_mean;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, SortedMap, SortedSet, Source,
-    Span, codes,
+    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, Source, Span, codes,
 };
 use smol_str::ToSmolStr;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// What a window holds.
@@ -53,9 +53,9 @@ struct Heading {
 #[derive(Default)]
 pub(super) struct Windows {
     /// By the start of their lines.
-    headings: SortedMap<u32, Heading>,
+    headings: BTreeMap<u32, Heading>,
     /// The pointers of subroutines by name.
-    names: SortedMap<String, Device>,
+    names: BTreeMap<String, Device>,
     /// The window at hand; before the first heading it is the main program.
     current: Option<Routine>,
 }
@@ -71,13 +71,13 @@ impl Windows {
         if windows.headings.is_empty() {
             return windows;
         }
-        let mut used: SortedSet<u32> = source
+        let mut used: BTreeSet<u32> = source
             .lines()
             .flat_map(|(_, line)| pointers(line))
             .collect();
         // The end of the program.
         used.insert(63);
-        let mut seen = SortedSet::new();
+        let mut seen = BTreeSet::new();
         for (i, heading) in windows.headings.values_mut().enumerate() {
             let twice = heading
                 .name

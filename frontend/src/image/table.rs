@@ -1,7 +1,6 @@
 //! Which instructions have which words.
 
 use crate::TABLES;
-use rungc_syntax::order;
 use std::sync::LazyLock;
 
 /// The rows of `applied.tsv`, applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse
@@ -75,7 +74,7 @@ pub(super) fn named(mnemonic: &str) -> Option<&'static Applied> {
 /// The rows in all their forms, ordered by their words.
 static TABLE: LazyLock<Vec<Applied>> = LazyLock::new(|| {
     let mut table: Vec<_> = rows().filter_map(forms).flatten().collect();
-    order::by_key(&mut table, |row| row.word);
+    table.sort_by_key(|row| row.word);
     table
 });
 

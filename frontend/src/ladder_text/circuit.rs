@@ -1,8 +1,9 @@
 //! What wires connect, as a list: contacts in series and parallel, and what they feed.
 
 use super::grid::{Drawn, Kind, Symbol};
+use rungc_syntax::Span;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{SortedMap, SortedSet, Span, order};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A step on the way from a drawing to a list.
 pub(super) enum Step {
@@ -65,7 +66,7 @@ fn networks(drawn: &Drawn) -> Vec<Vec<usize>> {
         }
         at
     }
-    let mut by_wire: SortedMap<usize, usize> = SortedMap::new();
+    let mut by_wire: BTreeMap<usize, usize> = BTreeMap::new();
     for (at, symbol) in drawn.symbols.iter().enumerate() {
         for wire in [symbol.left, symbol.right] {
             if wire == drawn.rail || Some(wire) == drawn.right {
@@ -76,7 +77,7 @@ fn networks(drawn: &Drawn) -> Vec<Vec<usize>> {
             parents[a.max(b)] = a.min(b);
         }
     }
-    let mut networks: SortedMap<usize, Vec<usize>> = SortedMap::new();
+    let mut networks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for at in 0..drawn.symbols.len() {
         networks.entry(root(&mut parents, at)).or_default().push(at);
     }
@@ -105,7 +106,7 @@ struct Circuit<'a> {
     drawn: &'a Drawn,
     edges: Vec<Edge>,
     /// Outputs by the wire that feeds them.
-    outputs: SortedMap<usize, Vec<usize>>,
+    outputs: BTreeMap<usize, Vec<usize>>,
 }
 
 /// What a wire feeds.
@@ -119,7 +120,7 @@ impl<'a> Circuit<'a> {
         let mut circuit = Circuit {
             drawn,
             edges: Vec::new(),
-            outputs: SortedMap::new(),
+            outputs: BTreeMap::new(),
         };
         for &at in network {
             let symbol = &drawn.symbols[at];
@@ -160,7 +161,7 @@ impl<'a> Circuit<'a> {
             return Err(self.fault(edge.first, "a wire bridges this contact"));
         }
         self.reduce();
-        let mut fed = SortedSet::new();
+        let mut fed = BTreeSet::new();
         for edge in &self.edges {
             if !fed.insert(edge.to) || edge.to == self.drawn.rail {
                 let why = "this network is more than contacts in series and parallel, which a list cannot say";
@@ -180,9 +181,9 @@ impl<'a> Circuit<'a> {
     /// Every wire comes from the left rail and leads somewhere.
     fn check_ends(&self) -> Result<(), Fault> {
         let fed = self.edges.iter().map(|edge| edge.to);
-        let feeds = order::set(fed.chain([self.drawn.rail]));
+        let feeds = BTreeSet::from_iter(fed.chain([self.drawn.rail]));
         let taken = self.edges.iter().map(|edge| edge.from);
-        let takes = order::set(taken.chain(self.outputs.keys().copied()));
+        let takes = BTreeSet::from_iter(taken.chain(self.outputs.keys().copied()));
         let wire = |span, why| Err((span, &codes::LADDER_WIRE, why));
         for edge in &self.edges {
             if !feeds.contains(&edge.from) {
@@ -232,7 +233,7 @@ impl<'a> Circuit<'a> {
     }
 
     fn join_parallel(&mut self) {
-        let mut groups: SortedMap<(usize, usize), Vec<Edge>> = SortedMap::new();
+        let mut groups: BTreeMap<(usize, usize), Vec<Edge>> = BTreeMap::new();
         for edge in self.edges.drain(..) {
             groups.entry((edge.from, edge.to)).or_default().push(edge);
         }
@@ -250,9 +251,7 @@ impl<'a> Circuit<'a> {
                 }
             }
             // Contacts are joined before those that had to be joined in series first.
-            order::by_key(&mut branches, |branch| {
-                self.drawn.symbols[first(branch)].row
-            });
+            branches.sort_by_key(|branch| self.drawn.symbols[first(branch)].row);
             let first = first(&branches[0]);
             let series = vec![Part::Parallel(branches)];
             self.edges.push(Edge {
@@ -265,7 +264,7 @@ impl<'a> Circuit<'a> {
     }
 
     fn join_series(&mut self) {
-        let mut degrees: SortedMap<usize, (usize, usize)> = SortedMap::new();
+        let mut degrees: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for edge in &self.edges {
             degrees.entry(edge.from).or_default().1 += 1;
             degrees.entry(edge.to).or_default().0 += 1;
@@ -275,7 +274,7 @@ impl<'a> Circuit<'a> {
                 && !self.outputs.contains_key(&wire)
                 && wire != self.drawn.rail
         };
-        let mut next: SortedMap<usize, Edge> = SortedMap::new();
+        let mut next: BTreeMap<usize, Edge> = BTreeMap::new();
         let mut starts = Vec::new();
         for edge in self.edges.drain(..) {
             match passes(edge.from) {
@@ -309,9 +308,7 @@ impl<'a> Circuit<'a> {
             .filter(|(_, edge)| edge.from == wire);
         let branches = edges.map(|(i, edge)| (edge.first, Child::Branch(i)));
         let mut children: Vec<(usize, Child)> = outputs.chain(branches).collect();
-        order::by_key(&mut children, |(at, _)| {
-            (self.symbol(*at).row, self.symbol(*at).column)
-        });
+        children.sort_by_key(|(at, _)| (self.symbol(*at).row, self.symbol(*at).column));
         children.into_iter().map(|(_, child)| child).collect()
     }
 

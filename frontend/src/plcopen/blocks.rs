@@ -5,8 +5,9 @@ use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant, milliseconds};
 use super::{FREE, Fault, Reader, called, children, flag, functions};
 use roxmltree::Node;
-use rungc_syntax::{Device, DeviceClass, SortedMap};
+use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
+use std::collections::BTreeMap;
 
 /// What the types of blocks begin with that are instructions: `FX_ZRST`. Their operands are called `p1`, `p2`, ….
 pub(super) const INSTRUCTION: &str = "FX_";
@@ -121,9 +122,9 @@ pub(super) struct Instance {
     /// The timer, counter, register or relay that it is.
     main: Option<Device>,
     /// Of its outputs.
-    bits: SortedMap<&'static str, Device>,
+    bits: BTreeMap<&'static str, Device>,
     /// Relays that catch the edges of its inputs.
-    edges: SortedMap<&'static str, Device>,
+    edges: BTreeMap<&'static str, Device>,
     /// Of a timer: its preset.
     preset: u64,
 }
@@ -256,7 +257,7 @@ pub(super) fn on_delay(
     let (timer, count) = timer(reader, node, name, preset)?;
     let instance = Instance {
         main: Some(timer),
-        bits: SortedMap::from([("Q", timer)]),
+        bits: BTreeMap::from([("Q", timer)]),
         preset: count,
         ..Instance::default()
     };
@@ -333,7 +334,7 @@ fn counts_alone(drawing: &Drawing, pins: &Pins) -> bool {
 pub(super) fn read<'a, 'i>(
     drawing: &mut Drawing<'a, 'i, '_>,
     node: Node<'a, 'i>,
-) -> Result<SortedMap<SmolStr, Value>, Failure> {
+) -> Result<BTreeMap<SmolStr, Value>, Failure> {
     let pins = Pins::of(node);
     if let Some(mnemonic) = pins.name.strip_prefix(INSTRUCTION) {
         return instruction(drawing, &pins, mnemonic);
@@ -360,7 +361,7 @@ pub(super) fn read<'a, 'i>(
         pins: &pins,
         instance,
     };
-    let mut outputs = SortedMap::from([("ENO".into(), Value::Flow(Logic::wire()))]);
+    let mut outputs = BTreeMap::from([("ENO".into(), Value::Flow(Logic::wire()))]);
     match pins.name.as_str() {
         "TON" => block.on_delay()?,
         "TOF" => block.off_delay()?,
@@ -512,7 +513,7 @@ impl Block<'_, '_, '_, '_> {
     }
 
     /// A counter of the PLC, or one in a register: it counts, then it is loaded, then it is reset.
-    fn counter(&mut self, outputs: &mut SortedMap<SmolStr, Value>) -> Result<(), Failure> {
+    fn counter(&mut self, outputs: &mut BTreeMap<SmolStr, Value>) -> Result<(), Failure> {
         let main = self.main();
         if self
             .instance
@@ -529,7 +530,7 @@ impl Block<'_, '_, '_, '_> {
         let preset = self.pins.word(self.drawing, "PV")?.operand;
         let has = |name: &str| self.pins.inputs.iter().any(|(input, _)| input == name);
         let [up, down, load, reset] = ["CU", "CD", "LD", "R"].map(has);
-        let mut flows = SortedMap::new();
+        let mut flows = BTreeMap::new();
         for name in ["CU", "CD", "LD", "R"] {
             flows.insert(name, self.flow(name)?);
         }
@@ -596,14 +597,14 @@ fn instruction<'a, 'i>(
     drawing: &mut Drawing<'a, 'i, '_>,
     pins: &Pins<'a, 'i>,
     mnemonic: &str,
-) -> Result<SortedMap<SmolStr, Value>, Failure> {
+) -> Result<BTreeMap<SmolStr, Value>, Failure> {
     let node = pins.node;
     let enable = pins.flow(drawing, "EN")?.unwrap_or_else(Logic::wire);
-    let power = |logic| SortedMap::from([("ENO".into(), Value::Flow(logic))]);
+    let power = |logic| BTreeMap::from([("ENO".into(), Value::Flow(logic))]);
     if let "INV" | "MEP" | "MEF" = mnemonic {
         return Ok(power(enable.changed(mnemonic)));
     }
-    let mut operands = SortedMap::new();
+    let mut operands = BTreeMap::new();
     let number = |name: &str| name.strip_prefix('P')?.parse::<u32>().ok();
     for (name, pin) in &pins.inputs {
         let point = children(*pin, "connectionPointIn").next();
@@ -639,7 +640,7 @@ fn instruction<'a, 'i>(
             operands: words.collect::<Vec<_>>().join(" ").into(),
         };
         let logic = Value::Flow(Logic::Contact(contact));
-        return Ok(SortedMap::from([("OUT".into(), logic)]));
+        return Ok(BTreeMap::from([("OUT".into(), logic)]));
     }
     let words: Vec<_> = words.collect();
     drive(drawing.reader, enable.clone(), mnemonic, &words);

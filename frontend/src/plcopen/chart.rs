@@ -7,9 +7,9 @@ use super::drawing::Drawing;
 use super::logic::{Logic, Output, Part, Sense};
 use super::{FREE, Fault, Reader, called, children, expression, flag, list, text, variables};
 use roxmltree::Node;
-use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet, order};
+use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The most divergences and convergences between a step and a transition.
 const DEEPEST: usize = 50;
@@ -25,7 +25,7 @@ struct Chart<'a, 'i> {
 
 /// A transition: the steps around it and the relay of its condition.
 struct Transition<'a> {
-    before: SortedSet<&'a str>,
+    before: BTreeSet<&'a str>,
     relay: Device,
     reset: Vec<Device>,
     set: Vec<Device>,
@@ -128,7 +128,7 @@ fn in_order<'a, 'i>(body: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
         let priority = node.attribute("priority")?.parse::<u64>().ok()?;
         (priority > 0).then_some(priority)
     };
-    order::by(&mut transitions, |a, b| {
+    transitions.sort_by(|a, b| {
         let by = |key| {
             let of = |node| number(node, key).unwrap_or(0.0);
             of(a).total_cmp(&of(b))
@@ -206,7 +206,7 @@ impl<'a, 'i> Chart<'a, 'i> {
     }
 
     fn transition(&self, node: Node<'a, 'i>, relay: Device) -> Result<Transition<'a>, Fault> {
-        let mut before = SortedSet::new();
+        let mut before = BTreeSet::new();
         for from in sources(node) {
             self.before(from, node, 0, &mut before)?;
         }
@@ -232,7 +232,7 @@ impl<'a, 'i> Chart<'a, 'i> {
         id: &'a str,
         to: Node,
         depth: usize,
-        steps: &mut SortedSet<&'a str>,
+        steps: &mut BTreeSet<&'a str>,
     ) -> Result<(), Fault> {
         let missing = || {
             Fault::at(
@@ -296,7 +296,7 @@ impl<'a, 'i> Chart<'a, 'i> {
     /// The actions of steps: variables that are on while a step is active, or that it sets and resets, and bodies whose
     /// networks begin with their step.
     fn actions(&self, reader: &mut Reader, pou: Node, body: Node<'a, 'i>) -> Result<(), Fault> {
-        let mut uses: SortedMap<Device, Vec<Use>> = SortedMap::new();
+        let mut uses: BTreeMap<Device, Vec<Use>> = BTreeMap::new();
         let mut bodies = Vec::new();
         for block in children(body, "actionBlock") {
             let steps = sources(block);
@@ -412,9 +412,9 @@ fn coil(line: &str, mnemonic: &str) -> Option<Device> {
 }
 
 /// Takes the coils that several actions drive out of their bodies: one network drives each.
-fn share(bodies: &mut [Vec<Part>], uses: &mut SortedMap<Device, Vec<Use>>) {
-    let mut count: SortedMap<Device, usize> = SortedMap::new();
-    let mut stored = SortedSet::new();
+fn share(bodies: &mut [Vec<Part>], uses: &mut BTreeMap<Device, Vec<Use>>) {
+    let mut count: BTreeMap<Device, usize> = BTreeMap::new();
+    let mut stored = BTreeSet::new();
     let lines = bodies.iter().flatten().flat_map(|part| match part {
         Part::Output(output) => output.lines.as_slice(),
         Part::Line(_) => &[],

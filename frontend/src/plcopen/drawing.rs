@@ -4,9 +4,9 @@ use super::logic::{Contact, Logic, Output, Part, Sense};
 use super::variables::{Kind, constant};
 use super::{Fault, Reader, called, children, flag, text};
 use roxmltree::Node;
-use rungc_syntax::{DeviceClass, SortedMap, order};
+use rungc_syntax::DeviceClass;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The most elements on one way.
 const DEEPEST: usize = 200;
@@ -50,7 +50,7 @@ pub(super) struct Drawing<'a, 'i, 'r> {
     /// What leads out of an element's output.
     known: HashMap<(&'a str, &'a str), Logic>,
     /// Outputs of the blocks that have been read.
-    done: HashMap<&'a str, SortedMap<SmolStr, Value>>,
+    done: HashMap<&'a str, BTreeMap<SmolStr, Value>>,
     /// Blocks that could not be read, and were reported.
     failed: HashSet<&'a str>,
     /// The elements on the way that is being followed.
@@ -64,9 +64,9 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
     let order = |node: &Node| node.attribute("executionOrderId")?.parse::<u64>().ok();
     let ordered = |node: &Node| order(node).is_some_and(|order| order > 0);
     if ends.iter().all(ordered) {
-        order::by_key(&mut ends, order);
+        ends.sort_by_key(order);
     } else {
-        order::by(&mut ends, |a, b| {
+        ends.sort_by(|a, b| {
             let (a, b) = (place(a), place(b));
             a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
@@ -396,7 +396,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     /// The outputs of a block, which is read once.
-    fn block(&mut self, id: &'a str) -> Result<SortedMap<SmolStr, Value>, Failure> {
+    fn block(&mut self, id: &'a str) -> Result<BTreeMap<SmolStr, Value>, Failure> {
         if let Some(outputs) = self.done.get(id) {
             return Ok(outputs.clone());
         }

@@ -6,10 +6,10 @@ use super::logic::{Contact, Logic, Sense};
 use super::variables::Kind;
 use super::{Fault, called};
 use roxmltree::Node;
-use rungc_syntax::SortedMap;
 use smol_str::{SmolStr, format_smolstr};
+use std::collections::BTreeMap;
 
-type Outputs = SortedMap<SmolStr, Value>;
+type Outputs = BTreeMap<SmolStr, Value>;
 
 /// Reads a function; `None` if there is none of this name.
 pub(super) fn read<'a, 'i>(
@@ -134,7 +134,7 @@ impl<'d, 'a, 'i, 'r> Function<'d, 'a, 'i, 'r> {
     fn flow_out(&self, logic: Logic) -> Result<Outputs, Failure> {
         let outputs = [("OUT", logic), ("ENO", Logic::wire())];
         let outputs = outputs.map(|(name, logic)| (name.into(), Value::Flow(logic)));
-        Ok(SortedMap::from(outputs))
+        Ok(BTreeMap::from(outputs))
     }
 
     fn contact(&self, how: &str, a: &str, b: &str) -> Logic {

@@ -9,9 +9,9 @@ use super::expression::{bit, comparison, exclusive, number};
 use super::logic::{Logic, Part};
 use super::{Fault, MOST_CONTACTS, Reader, blocks, functions, text};
 use roxmltree::Node;
-use rungc_syntax::SortedMap;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use source::Line;
+use std::collections::BTreeMap;
 
 /// How deep parentheses may be nested.
 const DEEPEST: usize = 50;
@@ -91,9 +91,9 @@ struct List<'a, 'i, 'r> {
     /// Comments above the network that comes next.
     remarks: Vec<String>,
     /// Results that branches continue, by the names of their variables.
-    kept: SortedMap<String, Kept>,
+    kept: BTreeMap<String, Kept>,
     /// What leads to the inputs of timers, by their instances.
-    inputs: SortedMap<String, Logic>,
+    inputs: BTreeMap<String, Logic>,
     /// The label that skips what is read, and the condition that does not.
     skipped: Option<(String, Logic)>,
 }
@@ -114,8 +114,8 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             held: Vec::new(),
             instructions: 0,
             remarks: Vec::new(),
-            kept: SortedMap::new(),
-            inputs: SortedMap::new(),
+            kept: BTreeMap::new(),
+            inputs: BTreeMap::new(),
             skipped: None,
         }
     }

@@ -20,9 +20,9 @@ use crate::il;
 use crate::listing::Listing;
 use logic::{Logic, Output, Part};
 use roxmltree::{Document, Node, ParsingOptions};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SortedMap, SourceKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use variables::{Found, Kind, Missing, Variables};
 
 pub use blocks::iec_timer_unit;
@@ -145,9 +145,9 @@ struct Reader {
     cpu: Option<String>,
     variables: Variables,
     /// Pointers by the labels of programs.
-    pointers: SortedMap<String, u32>,
+    pointers: BTreeMap<String, u32>,
     /// The devices of the blocks of the program that is being read, by the names of their instances.
-    instances: SortedMap<String, blocks::Instance>,
+    instances: BTreeMap<String, blocks::Instance>,
     /// The relays of steps, by name in upper case.
     steps: HashMap<String, Device>,
     /// Whether what follows is driven by STL.

@@ -3,15 +3,15 @@
 use super::{children, text};
 use crate::il;
 use roxmltree::Node;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The devices of variables of PLCopen XML.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// By the names of variables in upper case. They take precedence over addresses.
-    pub devices: SortedMap<String, Device>,
+    pub devices: BTreeMap<String, Device>,
     /// Devices for variables that have neither a row here nor an address: class, first and last number.
     pub free: Vec<(DeviceClass, u32, u32)>,
 }
@@ -114,15 +114,15 @@ pub(super) struct Variables {
     local: HashMap<String, Variable>,
     program: String,
     /// Devices that are not free.
-    taken: SortedSet<Device>,
+    taken: BTreeSet<Device>,
     /// Devices of variables without an address, by key.
     given: HashMap<String, Device>,
     /// Devices of variables that have been used.
-    used: SortedSet<Device>,
+    used: BTreeSet<Device>,
     /// How many pointers labels have taken.
     pointers: u32,
     /// What the devices that were used are called.
-    pub comments: SortedMap<Device, String>,
+    pub comments: BTreeMap<Device, String>,
     /// What the first scan sets.
     pub first_scan: Vec<SmolStr>,
 }

@@ -3,7 +3,8 @@
 
 use super::{il_written, properties_without, spelled, statements};
 use crate::il::{device, windows};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, SortedMap, SortedSet, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, codes};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The pointer that is the end of the program.
 const END: u32 = 63;
@@ -108,9 +109,9 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
 }
 
 /// What the routines are called: by the comments of their pointers, where those can be names.
-fn names(program: &Program, labels: &[Device]) -> SortedMap<Device, String> {
-    let mut used = SortedSet::new();
-    let mut names = SortedMap::new();
+fn names(program: &Program, labels: &[Device]) -> BTreeMap<Device, String> {
+    let mut used = BTreeSet::new();
+    let mut names = BTreeMap::new();
     for &label in labels {
         let comment = program.comments.get(&label).map(String::as_str);
         let usual = |label: Device| match label.class {
@@ -125,7 +126,7 @@ fn names(program: &Program, labels: &[Device]) -> SortedMap<Device, String> {
     names
 }
 
-fn heading(out: &mut String, window: &Window, names: &SortedMap<Device, String>) {
+fn heading(out: &mut String, window: &Window, names: &BTreeMap<Device, String>) {
     let Some((pointer, head)) = window.label.zip(window.head) else {
         out.push_str("MAIN\n");
         return;
@@ -148,7 +149,7 @@ fn heading(out: &mut String, window: &Window, names: &SortedMap<Device, String>)
 fn write(
     out: &mut String,
     instr: &Instr,
-    names: &SortedMap<Device, String>,
+    names: &BTreeMap<Device, String>,
 ) -> Result<(), Box<Diagnostic>> {
     let mut line = |words: &[&str]| write_words(out, instr, words);
     if let Some(pointer) = label(instr) {

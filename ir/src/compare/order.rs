@@ -1,9 +1,9 @@
 //! Which atoms correspond to each other, and whose order matters.
 
 use super::atoms::{Atom, Run, Sequence, Uses};
-use rungc_syntax::{DeviceClass, SortedSet, align, order};
+use rungc_syntax::{DeviceClass, align};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::ops::Range;
 
 /// An atom that both modules have.
@@ -33,7 +33,7 @@ fn of_function(sequences: &[Sequence; 2], ranges: [&Range<usize>; 2], pairs: &mu
     });
     let [first, other] = ranges.map(|range| range.start);
     let in_order = align::common(&texts[0], &texts[1]);
-    let mut left = [0, 1].map(|side| order::set(ranges[side].clone()));
+    let mut left = [0, 1].map(|side| BTreeSet::from_iter(ranges[side].clone()));
     // Atoms across which nothing moves, of those that did not move themselves.
     let mut fixed: [Vec<usize>; 2] = Default::default();
     for (a, b) in in_order {
@@ -103,8 +103,8 @@ pub(super) fn disorder(sequences: &[Sequence; 2], pairs: &[Pair]) -> Uses {
     let mut users: FxHashMap<usize, Vec<User>> = FxHashMap::default();
     let mut known: [FxHashMap<usize, Accesses>; 2] = Default::default();
     for pair in pairs {
-        let mut reads = SortedSet::new();
-        let mut writes = SortedSet::new();
+        let mut reads = BTreeSet::new();
+        let mut writes = BTreeSet::new();
         for side in [0, 1] {
             let sequence = &sequences[side];
             let atom = &sequence.atoms[pair.at[side]];
@@ -142,7 +142,7 @@ struct User {
 }
 
 fn in_disorder(users: &mut [User]) -> bool {
-    order::by_key(users, |user| user.at);
+    users.sort_by_key(|user| user.at);
     let writers = users.iter().filter(|user| user.writes);
     let writers: Vec<[usize; 2]> = writers.map(|user| user.at).collect();
     let sorted = writers.is_sorted_by_key(|at| at[1]);
@@ -156,8 +156,8 @@ fn in_disorder(users: &mut [User]) -> bool {
 
 /// What a function uses, by places.
 struct Accesses {
-    reads: SortedSet<usize>,
-    writes: SortedSet<usize>,
+    reads: BTreeSet<usize>,
+    writes: BTreeSet<usize>,
 }
 
 /// What atoms that moved use: names, and runs of devices that no atom uses in part.
@@ -193,13 +193,13 @@ impl Places {
         for name in used.names {
             names.entry(name).or_insert_with(&mut next);
         }
-        let mut cuts: FxHashMap<DeviceClass, SortedSet<u32>> = FxHashMap::default();
+        let mut cuts: FxHashMap<DeviceClass, BTreeSet<u32>> = FxHashMap::default();
         for atom in sequences.iter().flat_map(|sequence| &sequence.atoms) {
             for &(class, first, last) in atom.reads.runs.iter().chain(&atom.writes.runs) {
                 cuts.entry(class).or_default().extend([first, last + 1]);
             }
         }
-        let mut firsts: SortedSet<(DeviceClass, u32)> = SortedSet::new();
+        let mut firsts: BTreeSet<(DeviceClass, u32)> = BTreeSet::new();
         for (class, first, last) in used.runs {
             let cuts = cuts.get(&class).into_iter();
             let inside = cuts.flat_map(|cuts| cuts.range(first..=last));
@@ -217,7 +217,7 @@ impl Places {
     }
 
     /// The places that something uses.
-    fn expand(&self, uses: &Uses, places: &mut SortedSet<usize>) {
+    fn expand(&self, uses: &Uses, places: &mut BTreeSet<usize>) {
         places.extend(uses.names.iter().filter_map(|name| self.names.get(name)));
         for (class, first, last) in &uses.runs {
             let Some(runs) = self.runs.get(class) else {
@@ -232,8 +232,8 @@ impl Places {
     /// The places that the functions which an atom calls use.
     fn inside(&self, sequence: &Sequence, atom: &Atom) -> Accesses {
         let mut accesses = Accesses {
-            reads: SortedSet::new(),
-            writes: SortedSet::new(),
+            reads: BTreeSet::new(),
+            writes: BTreeSet::new(),
         };
         for inner in called(sequence, atom).flat_map(|range| &sequence.atoms[range]) {
             self.expand(&inner.reads, &mut accesses.reads);

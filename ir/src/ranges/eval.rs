@@ -5,7 +5,6 @@ use super::state::{Known, Mask, State, Words, join, temp_bit};
 use crate::node::{Access, AccessKind, BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{operands, statements};
 use rungc_rt::CmpOp;
-use rungc_syntax::order;
 
 /// Looks at the expressions of a module.
 pub(super) struct Eval<'m> {
@@ -299,7 +298,7 @@ impl Eval<'_> {
                 }
             }
         }
-        order::sort(&mut found);
+        found.sort();
         found.dedup();
         found
     }

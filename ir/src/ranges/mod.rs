@@ -21,8 +21,9 @@ use eval::Eval;
 use interval::Interval;
 use rungc_models::runs::{FIRST_SPECIAL, is_special};
 use rungc_syntax::DeviceClass::{self, C, D, M, T};
-use rungc_syntax::{Device, Index, SortedSet};
+use rungc_syntax::{Device, Index};
 use state::Words;
+use std::collections::BTreeSet;
 use walk::Walk;
 
 /// What an operand with an index register can reach, where its user says so: an access beyond is the PLC's error 6706,
@@ -44,7 +45,7 @@ pub struct Bound {
 #[derive(Default)]
 pub struct Reached {
     /// The devices.
-    pub special: SortedSet<(DeviceClass, u32)>,
+    pub special: BTreeSet<(DeviceClass, u32)>,
     /// Whether the program may write M8000–M8003 so.
     pub writes_run_flags: bool,
 }

@@ -6,8 +6,7 @@
 
 use super::Chart;
 use crate::face::fold;
-use rungc_syntax::{SortedMap, order};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use unicode_width::UnicodeWidthStr;
 
 /// Columns of a state's box.
@@ -166,9 +165,7 @@ fn roots(chart: &Chart) -> Vec<usize> {
         transition.to.iter().for_each(|&to| led_to[to] = true);
     }
     let mut order: Vec<usize> = (0..chart.states.len()).collect();
-    order::by_key(&mut order, |&state| {
-        (!chart.states[state].is_initial(), led_to[state])
-    });
+    order.sort_by_key(|&state| (!chart.states[state].is_initial(), led_to[state]));
     order
 }
 
@@ -488,7 +485,7 @@ impl Placer<'_> {
     /// Where most of some branches meet: the nearest state that selected ones lead to, or the nearest transition that
     /// leaves states of parallel ones together.
     fn meeting(&self, branches: &[Point], parallel: bool) -> Option<Point> {
-        let mut reached: SortedMap<Point, (usize, usize)> = SortedMap::new();
+        let mut reached: BTreeMap<Point, (usize, usize)> = BTreeMap::new();
         for &branch in branches {
             for (point, distance) in self.distances(branch) {
                 let (count, sum) = reached.entry(point).or_default();
@@ -511,9 +508,9 @@ impl Placer<'_> {
 
     /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
     /// they are.
-    fn distances(&self, start: Point) -> SortedMap<Point, usize> {
-        let stops = order::set(self.stops.iter().copied());
-        let mut found = SortedMap::new();
+    fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
+        let stops = BTreeSet::from_iter(self.stops.iter().copied());
+        let mut found = BTreeMap::new();
         let mut open = VecDeque::from([(start, 0)]);
         while let Some((point, distance)) = open.pop_front() {
             let placed = match point {

@@ -8,7 +8,8 @@ use super::{Refused, xml};
 use rungc_ladder::list::Entry;
 use rungc_ladder::sfc::{Chart, Transition};
 use rungc_ladder::{InstrIndex, Item, Ladder, Network, NetworkBody, Node, Output, Part, Series};
-use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::{Device, DeviceClass};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance of columns and of rows.
 const GRID: (i64, i64) = (250, 160);
@@ -66,9 +67,9 @@ struct Sections {
     before: Ladder,
     after: Ladder,
     /// Positions of the states that the first scan begins.
-    initial: SortedSet<usize>,
+    initial: BTreeSet<usize>,
     /// By the first state of a section: all its states, and what they drive.
-    actions: SortedMap<usize, Vec<(Vec<usize>, Node)>>,
+    actions: BTreeMap<usize, Vec<(Vec<usize>, Node)>>,
 }
 
 impl Sections {
@@ -76,14 +77,14 @@ impl Sections {
         let mut sections = Sections {
             before: Ladder::default(),
             after: Ladder::default(),
-            initial: SortedSet::new(),
-            actions: SortedMap::new(),
+            initial: BTreeSet::new(),
+            actions: BTreeMap::new(),
         };
         if let Some(other) = chart.others.first() {
             let what = format!("{} switches states from outside of them", other.text);
             return Err(Refused::state(other.instr, what));
         }
-        let mut switches = SortedSet::new();
+        let mut switches = BTreeSet::new();
         for transition in &chart.transitions {
             switches.extend(transition.instrs.iter().copied());
             if transition.from.is_empty() {
@@ -162,7 +163,7 @@ impl Sections {
 }
 
 /// What a node feeds without some instructions; nothing if nothing is left.
-fn without(node: &Node, left_out: &SortedSet<InstrIndex>) -> Option<Node> {
+fn without(node: &Node, left_out: &BTreeSet<InstrIndex>) -> Option<Node> {
     let items = node.items.iter().filter_map(|item| match item {
         Item::Output(output) => (!left_out.contains(&output.instr)).then_some(item.clone()),
         Item::Continue(next) => without(next, left_out).map(Item::Continue),
@@ -306,7 +307,7 @@ struct Writer<'w, 'a> {
     xml: Xml,
     chart: &'w Chart,
     ids: usize,
-    initial: SortedSet<usize>,
+    initial: BTreeSet<usize>,
     kept: usize,
     words: &'w mut Words<'a>,
 }
@@ -317,7 +318,7 @@ impl Writer<'_, '_> {
         self.ids
     }
 
-    fn write(&mut self, ladder: &Ladder, actions: &SortedMap<usize, Vec<(Vec<usize>, Node)>>) {
+    fn write(&mut self, ladder: &Ladder, actions: &BTreeMap<usize, Vec<(Vec<usize>, Node)>>) {
         let chart = self.chart;
         let steps: Vec<_> = chart.states.iter().map(|_| self.id()).collect();
         let leaving: Vec<_> = chart
@@ -327,7 +328,7 @@ impl Writer<'_, '_> {
             .collect();
         let transitions: Vec<_> = leaving.iter().map(|_| self.id()).collect();
         // What leads to a transition: its step, the choice after it, or the end of parallel branches.
-        let mut choices = SortedMap::new();
+        let mut choices = BTreeMap::new();
         for (state, step) in steps.iter().enumerate() {
             let ways = leaving.iter().filter(|t| t.from.contains(&state)).count();
             let from = match ways {
@@ -339,7 +340,7 @@ impl Writer<'_, '_> {
             };
             choices.insert(state, from);
         }
-        let mut arrivals: SortedMap<usize, Vec<usize>> = SortedMap::new();
+        let mut arrivals: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for ((nth, transition), id) in (1..).zip(&leaving).zip(&transitions) {
             let sources: Vec<_> = transition.from.iter().map(|state| choices[state]).collect();
             let place = self.place(transition.from[0], 2);

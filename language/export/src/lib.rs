@@ -21,10 +21,9 @@ use rungc_ladder::{InstrIndex, Ladder, build};
 use rungc_models::Model;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::diag::counted;
-use rungc_syntax::{
-    Device, DeviceClass, Diagnostics, Instr, Program, Severity, SortedMap, Span, align,
-};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
 use sheet::Sheet;
+use std::collections::BTreeMap;
 use words::Words;
 use xml::Xml;
 
@@ -356,9 +355,9 @@ fn instances(xml: &mut Xml, program: &Program, pous: &[Pou], words: &Words) {
 }
 
 /// The devices that elements name and those that have comments, with their types.
-fn types(program: &Program, words: &Words) -> SortedMap<Device, &'static str> {
+fn types(program: &Program, words: &Words) -> BTreeMap<Device, &'static str> {
     use DeviceClass::{C, D, M, S, T, X, Y};
-    let mut types: SortedMap<Device, &str> = SortedMap::new();
+    let mut types: BTreeMap<Device, &str> = BTreeMap::new();
     let commented = program.comments.keys();
     for device in commented.filter(|device| !words.steps.contains(device)) {
         match device.class {

@@ -4,7 +4,8 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_frontend::iec_timer_unit;
 use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
-use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, SortedMap, SortedSet, order};
+use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A contact or a comparison.
 pub(super) enum Gate {
@@ -57,22 +58,22 @@ pub(super) enum Drive {
 /// The words for the instructions of a program, and what has been named so far.
 pub(super) struct Words<'a> {
     /// Devices that elements name, and the types of their variables.
-    pub variables: SortedMap<Device, &'static str>,
+    pub variables: BTreeMap<Device, &'static str>,
     /// Instructions that no function or block of the standard stands for.
-    pub instructions: SortedSet<String>,
+    pub instructions: BTreeSet<String>,
     /// States that are steps of a chart.
-    pub steps: SortedSet<Device>,
+    pub steps: BTreeSet<Device>,
     resolved: &'a Resolved<'a>,
     /// Timers that are TON, with the milliseconds that they count to.
-    timers: SortedMap<Device, u64>,
+    timers: BTreeMap<Device, u64>,
 }
 
 impl<'a> Words<'a> {
     pub fn new(resolved: &'a Resolved<'a>) -> Self {
         Words {
-            variables: SortedMap::new(),
-            instructions: SortedSet::new(),
-            steps: SortedSet::new(),
+            variables: BTreeMap::new(),
+            instructions: BTreeSet::new(),
+            steps: BTreeSet::new(),
             resolved,
             timers: timers(resolved),
         }
@@ -267,8 +268,8 @@ fn sign(instr: &Instr) -> Option<&str> {
 }
 
 /// The timers that a TON stands for: driven once, by a constant, and of the same unit on all models.
-fn timers(resolved: &Resolved) -> SortedMap<Device, u64> {
-    let mut found: SortedMap<Device, Option<u64>> = SortedMap::new();
+fn timers(resolved: &Resolved) -> BTreeMap<Device, u64> {
+    let mut found: BTreeMap<Device, Option<u64>> = BTreeMap::new();
     let instrs = resolved.program.instrs.iter().zip(&resolved.instrs);
     for (instr, resolution) in instrs {
         let operands = &instr.operands;
@@ -290,5 +291,5 @@ fn timers(resolved: &Resolved) -> SortedMap<Device, u64> {
         entry.and_modify(|preset| *preset = None).or_insert(preset);
     }
     let found = found.into_iter();
-    order::map(found.filter_map(|(timer, preset)| Some((timer, preset?))))
+    BTreeMap::from_iter(found.filter_map(|(timer, preset)| Some((timer, preset?))))
 }

@@ -4,8 +4,8 @@ use super::{Reader, Value, span};
 use crate::Project;
 use crate::canlink::{Entry, LAST_STATION, MOST_ENTRIES, MOST_HEARD, MOST_TOGETHER, Station, When};
 use rungc_rt::comm::canlink::REGISTERS_END;
-use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Span};
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use toml::de::DeTable;
 
@@ -117,7 +117,7 @@ impl Reader {
         }
         let together = |entry: &&Entry| matches!(entry.when, When::Together(_));
         let groups: Vec<_> = entries.iter().filter(together).collect();
-        let triggers = order::set(groups.iter().map(|entry| entry.when));
+        let triggers = BTreeSet::from_iter(groups.iter().map(|entry| entry.when));
         let [most_triggers, most_entries] = MOST_TOGETHER;
         let of = |when: &When| groups.iter().filter(|entry| entry.when == *when).count();
         let message = match groups.first() {

@@ -22,7 +22,6 @@ pub use wired::Wired;
 use crate::target::Channel;
 use crate::wire::Change;
 use delay::Delay;
-use rungc_syntax::order;
 use std::ops::Range;
 
 /// What the machine asks of an output.
@@ -103,7 +102,7 @@ impl Plant {
         let mut time = now_ms.saturating_sub(1) * 1000..now_ms * 1000;
         let mut changes = self.drive(now_ms, terminals)?;
         changes.extend(others);
-        order::by_key(&mut changes, |change| change.at_us);
+        changes.sort_by_key(|change| change.at_us);
         for change in changes {
             let until = change.at_us.clamp(time.start, time.end);
             self.follow(time.start..until, now_ms, terminals)?;
@@ -147,7 +146,7 @@ impl Plant {
         for process in processes {
             process.step(&see);
         }
-        order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
+        moments.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         let begin_us = now_ms.saturating_sub(1) * 1000;
         let change = |(part, input, on): Moment| Change {
             at_us: begin_us + (part * 1000.0) as u64,
@@ -180,7 +179,7 @@ impl Plant {
             for axis in &mut followers {
                 axis.step(now_ms, &see, &mut moments);
             }
-            order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
+            moments.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
             for (_, input, on) in moments {
                 terminals.change(Change {
                     at_us: reached,

@@ -9,14 +9,15 @@ use crate::problem::{self, Problem};
 use crate::target::Target;
 use rungc_models::{ModelId, Plc};
 use rungc_project::Project;
-use rungc_syntax::{SortedMap, SortedSet, Source, order};
+use rungc_syntax::Source;
 use rungc_tables::Spanned;
 use serde::de::IgnoredAny;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What names stand for in one of several cases.
-type Row = SortedMap<String, Scalar>;
+type Row = BTreeMap<String, Scalar>;
 
 /// A row by its names, and what it calls itself.
 fn named(row: &RawRow) -> (Option<String>, Row) {
@@ -45,9 +46,9 @@ pub(super) struct Reader<'t> {
     source: &'t Source,
     problems: Vec<Problem>,
     /// The programs in files that were read, by their paths.
-    programs: SortedMap<PathBuf, Tested>,
+    programs: BTreeMap<PathBuf, Tested>,
     /// The files that were read.
-    pub(super) inputs: SortedSet<PathBuf>,
+    pub(super) inputs: BTreeSet<PathBuf>,
     /// Names of the other PLCs of the case being read.
     pub(super) others: Vec<String>,
     /// The scenarios of the file, and how many of them the step being read may name.
@@ -63,8 +64,8 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     let mut reader = Reader {
         source,
         problems: Vec::new(),
-        programs: SortedMap::new(),
-        inputs: SortedSet::from([PathBuf::from(&source.name)]),
+        programs: BTreeMap::new(),
+        inputs: BTreeSet::from([PathBuf::from(&source.name)]),
         others: Vec::new(),
         scenarios: Vec::new(),
         scenarios_known: 0,
@@ -74,9 +75,9 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     if reader.problems.is_empty() {
         Ok(file)
     } else {
-        order::by_key(&mut reader.problems, |p| (p.line, p.column));
+        reader.problems.sort_by_key(|p| (p.line, p.column));
         // Rows and scenarios are read for each case.
-        let mut known = SortedSet::new();
+        let mut known = BTreeSet::new();
         let mut all = std::mem::take(&mut reader.problems);
         all.retain(|p| known.insert((p.line, p.column, p.message.clone())));
         reader.problems = all;

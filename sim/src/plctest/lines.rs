@@ -5,7 +5,7 @@ use super::serial::{Item, Port, Sent};
 use super::{Failure, Step, Value};
 use crate::protocol::{Answer, Request};
 use rungc_rt::comm::{CAN_PORT, CharFault, LineFormat, Parity, Received};
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 
 /// A port as engines number them: its PLC and its number.
 type SerialPort = (usize, u8);
@@ -20,9 +20,9 @@ pub(super) struct Lines {
     /// What is on its way to ports, in the order of its times.
     pending: Vec<(SerialPort, Received)>,
     /// What ports have sent in this step.
-    sent: SortedMap<SerialPort, Sent>,
+    sent: BTreeMap<SerialPort, Sent>,
     /// What CAN cards have sent of a frame that is not whole yet.
-    part: SortedMap<SerialPort, Vec<u8>>,
+    part: BTreeMap<SerialPort, Vec<u8>>,
 }
 
 fn serial(port: &Port) -> Option<SerialPort> {

@@ -24,6 +24,7 @@ pub use report::{Failure, Outcome, Report};
 pub use rules::{Never, RuleKind, Rules, Whenever, Within};
 pub use runner::{run, run_steps};
 pub use serial::{Item, Port, PortId, Protocol, Sent};
+use std::collections::BTreeSet;
 pub use suite::{Id, Suite};
 pub use trace::Trace;
 
@@ -34,7 +35,7 @@ use crate::wire::Signal;
 use rungc_models::{ModelId, Variant};
 use rungc_rt::Clock;
 use rungc_rt::modules::Kind;
-use rungc_syntax::{SortedSet, Source};
+use rungc_syntax::Source;
 use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,7 @@ pub struct TestFile {
     /// A remark on the whole file.
     pub note: String,
     /// The files and folders that it was read from: itself, programs, machines, accepted traces, settings.
-    pub inputs: SortedSet<PathBuf>,
+    pub inputs: BTreeSet<PathBuf>,
     /// Its cases.
     pub cases: Vec<Case>,
 }

@@ -6,12 +6,13 @@ use super::{Case, CaseProgram, Failure};
 use crate::protocol::{Answer, Request};
 use crate::target::{self, Channel};
 use rungc_rt::modules::{KINDS, Kind};
-use rungc_syntax::{FittedModule, Program, SortedMap, diag};
+use rungc_syntax::{FittedModule, Program, diag};
 use rungc_tables::Spanned;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Modules as a file names them: kinds by numbers.
-pub(super) type Raw = SortedMap<Spanned<String>, Spanned<String>>;
+pub(super) type Raw = BTreeMap<Spanned<String>, Spanned<String>>;
 
 /// Millionths in a whole.
 pub(super) const MILLION: f64 = 1e6;
@@ -133,7 +134,7 @@ impl Running<'_> {
 }
 
 /// Times after which modules answer as a file gives them, in milliseconds: modules by numbers.
-pub(super) type RawDelays = SortedMap<Spanned<String>, u16>;
+pub(super) type RawDelays = BTreeMap<Spanned<String>, u16>;
 
 /// A value in millionths.
 pub(super) fn millionths(value: f64) -> i32 {

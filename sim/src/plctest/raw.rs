@@ -4,13 +4,13 @@ use super::Basis;
 use super::modules;
 use super::program::RawProgram;
 use super::serial::{Protocol, RawMode, RawSent};
-use rungc_syntax::SortedMap;
 use rungc_tables::Spanned;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// Values by names, each with its place.
-pub(super) type Map<T> = SortedMap<Spanned<String>, T>;
+pub(super) type Map<T> = BTreeMap<Spanned<String>, T>;
 
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -152,7 +152,7 @@ pub(super) struct RawStep {
     pub(super) bfm: Map<Spanned<Scalar>>,
     pub(super) expect_bfm: Map<Spanned<Scalar>>,
     pub(super) answers_after: modules::RawDelays,
-    pub(super) expect_position: SortedMap<String, f64>,
+    pub(super) expect_position: BTreeMap<String, f64>,
     pub(super) analog: Map<Spanned<Scalar>>,
 }
 

@@ -18,7 +18,8 @@ use crate::wire::{self, Change};
 use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -165,7 +166,7 @@ pub(super) struct Running<'e> {
     pub(super) step: usize,
     now_ms: u32,
     /// State of the input terminals of each PLC, which a power cycle does not change.
-    inputs: SortedMap<(usize, u32), bool>,
+    inputs: BTreeMap<(usize, u32), bool>,
     /// The PLC of the case, and the others.
     pub(super) plcs: Vec<PlcInfo>,
     /// The PLC that the engine was asked last.
@@ -183,7 +184,7 @@ pub(super) struct Running<'e> {
     /// The servers over TCP.
     pub(super) servers: Servers,
     /// The PLCs that were put in STOP.
-    stopped: SortedSet<usize>,
+    stopped: BTreeSet<usize>,
 }
 
 fn run_case(
@@ -197,7 +198,7 @@ fn run_case(
         engine,
         step: 0,
         now_ms: 0,
-        inputs: SortedMap::new(),
+        inputs: BTreeMap::new(),
         plcs,
         current: 0,
         names: case.others.iter().map(|other| other.name.clone()).collect(),
@@ -206,7 +207,7 @@ fn run_case(
         plant: case.machine.as_deref().map(Description::plant),
         lines: Lines::new(&case.wires),
         servers,
-        stopped: SortedSet::new(),
+        stopped: BTreeSet::new(),
     };
     running.power_up()?;
     running.fit(case)?;

@@ -1,8 +1,8 @@
 //! What test files say about communication.
 
 use rungc_rt::comm::{CAN_PORT, CanFrame, CharFault, Frame};
-use rungc_syntax::SortedMap;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// What a port is expected to send: one text, or any of several.
@@ -34,7 +34,7 @@ impl RawSent {
 )]
 pub(super) enum RawMode {
     All(Switch),
-    Of(SortedMap<String, Switch>),
+    Of(BTreeMap<String, Switch>),
 }
 
 /// Positions of the RUN/STOP switch.

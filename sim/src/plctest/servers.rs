@@ -10,16 +10,16 @@ use rungc_rt::Class;
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::{Service, Speaks};
 use rungc_rt::servers::Dialogue;
-use rungc_syntax::SortedMap;
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 /// The servers of a case, and the connections to them.
 #[derive(Default)]
 pub(super) struct Servers {
     /// What is spoken at each TCP port.
-    services: SortedMap<u16, Service>,
+    services: BTreeMap<u16, Service>,
     /// By port and name.
-    connections: SortedMap<(u16, String), Connection>,
+    connections: BTreeMap<(u16, String), Connection>,
     type_code: u16,
 }
 
@@ -47,7 +47,7 @@ impl Servers {
             services: services
                 .map(|&(port, protocol)| (port, Service::new(speaks(protocol), family, type_code)))
                 .collect(),
-            connections: SortedMap::new(),
+            connections: BTreeMap::new(),
             type_code,
         }
     }

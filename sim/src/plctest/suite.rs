@@ -6,10 +6,9 @@ use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_lower::marks::Marks;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{
-    DeviceClass, Diagnostic, Program, Severity, SortedMap, SortedSet, Source, codes, order,
-};
+use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Which case of which file.
@@ -63,11 +62,11 @@ impl Suite {
     /// Compiles the programs of all cases; those that do not compile are a matter of their cases. Errors with the codes
     /// `warn` that can be eased are none.
     pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
-        Suite::compile_but(files, warn, &SortedSet::new())
+        Suite::compile_but(files, warn, &BTreeSet::new())
     }
 
     /// As [`Suite::compile`], but for cases that are known to pass.
-    pub fn compile_but(files: Vec<TestFile>, warn: &[&'static str], known: &SortedSet<Id>) -> Self {
+    pub fn compile_but(files: Vec<TestFile>, warn: &[&'static str], known: &BTreeSet<Id>) -> Self {
         let how = How { warn, marks: false };
         Suite::compile_as(files, how, known)
     }
@@ -75,16 +74,16 @@ impl Suite {
     /// As [`Suite::compile`], with marks that say where the parts of each program come from.
     pub fn compile_marked(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let how = How { warn, marks: true };
-        Suite::compile_as(files, how, &SortedSet::new())
+        Suite::compile_as(files, how, &BTreeSet::new())
     }
 
-    fn compile_as(files: Vec<TestFile>, how: How, known: &SortedSet<Id>) -> Self {
+    fn compile_as(files: Vec<TestFile>, how: How, known: &BTreeSet<Id>) -> Self {
         let mut lowered: Vec<Lowered> = Vec::new();
         let mut built = Vec::with_capacity(files.len());
         for (number, file) in files.iter().enumerate() {
             let shared = Shared::of(file);
             // Where cases share a program, by the first of them.
-            let mut done: SortedMap<usize, Result<usize, Errors>> = SortedMap::new();
+            let mut done: BTreeMap<usize, Result<usize, Errors>> = BTreeMap::new();
             let mut of_file = Vec::with_capacity(file.cases.len());
             for (i, case) in file.cases.iter().enumerate() {
                 if known.contains(&Id {
@@ -214,7 +213,7 @@ struct Shared {
 
 impl Shared {
     fn of(file: &TestFile) -> Self {
-        let mut known: SortedMap<_, Vec<usize>> = SortedMap::new();
+        let mut known: BTreeMap<_, Vec<usize>> = BTreeMap::new();
         for (i, case) in file.cases.iter().enumerate() {
             let alone =
                 !case.others.is_empty() || !case.serve.is_empty() || !opened(case, 0).is_empty();
@@ -252,7 +251,7 @@ impl Shared {
     fn observed(&self, file: &TestFile, first: usize) -> Devices {
         let cases = file.cases.iter().zip(&self.firsts);
         let cases = cases.filter(|(_, of)| **of == Some(first));
-        order::set(cases.flat_map(|(case, _)| observed(case, 0)))
+        BTreeSet::from_iter(cases.flat_map(|(case, _)| observed(case, 0)))
             .into_iter()
             .collect()
     }
@@ -284,7 +283,7 @@ fn observed(case: &Case, plc: usize) -> Devices {
         let (class, first, count) = target.devices(0);
         (first..first.saturating_add(count)).map(move |n| (class, n))
     });
-    order::set(devices.chain(of_machine).chain(traced))
+    BTreeSet::from_iter(devices.chain(of_machine).chain(traced))
         .into_iter()
         .collect()
 }
@@ -299,7 +298,7 @@ fn opened(case: &Case, plc: usize) -> Vec<u8> {
     let ports = rx.chain(tx.map(|(port, _)| port));
     let ports = ports.chain(case.wires.iter().flatten());
     let ports = ports.filter(|port| port.plc == plc);
-    let ports = order::set(ports.filter_map(|port| port.id.number()));
+    let ports = BTreeSet::from_iter(ports.filter_map(|port| port.id.number()));
     ports.into_iter().collect()
 }
 

@@ -3,12 +3,12 @@
 
 use rungc_rt::Class;
 use rungc_rt::comm::Map;
-use rungc_syntax::SortedSet;
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Devices by class and number.
-pub type Devices = SortedSet<(Class, u32)>;
+pub type Devices = BTreeSet<(Class, u32)>;
 
 /// Devices that a text names before it breaks off.
 const MOST_RUNS: usize = 8;

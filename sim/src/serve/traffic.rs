@@ -2,7 +2,7 @@
 
 use super::decode::{Decoded, Decoder, Direction, Speech};
 use super::probe::{Devices, ranges};
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 
 /// Where a frame was seen.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -45,7 +45,7 @@ struct Connection {
 #[derive(Debug)]
 pub struct Traffic {
     decoder: Decoder,
-    connections: SortedMap<Place, Connection>,
+    connections: BTreeMap<Place, Connection>,
 }
 
 impl Traffic {
@@ -53,7 +53,7 @@ impl Traffic {
     pub fn new(decoder: Decoder) -> Self {
         Traffic {
             decoder,
-            connections: SortedMap::new(),
+            connections: BTreeMap::new(),
         }
     }
 

@@ -2,7 +2,6 @@
 
 use super::Lanes;
 use crate::system::System;
-use rungc_syntax::order;
 
 /// How often each bit of memory was seen on.
 pub(super) struct Rarity {
@@ -53,7 +52,7 @@ impl Rarity {
         }
         let mut ranked: [u8; 64] = std::array::from_fn(|lane| lane as u8);
         let score = |lane: u8| scores[usize::from(lane)];
-        order::by(&mut ranked, |&a, &b| score(b).total_cmp(&score(a)));
+        ranked.sort_by(|&a, &b| score(b).total_cmp(&score(a)));
         let mut from: [u8; 64] = std::array::from_fn(|lane| lane as u8);
         for (n, &lane) in ranked.iter().rev().take(REPLACED).enumerate() {
             from[usize::from(lane)] = ranked[n % COPIED];

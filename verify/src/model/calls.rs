@@ -7,7 +7,8 @@ use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Arg, Call, Fetch, Stmt};
 use rungc_ir::reach::of_stmt;
 use rungc_rt::RtFn;
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 
 /// Special devices that an instruction of the runtime may write: all but those that the scan alone maintains, M8000 to
 /// M8003 and M8011 to M8014.
@@ -99,8 +100,8 @@ impl Encoder<'_> {
 
     /// What FROM moves from a module to registers, or one word of it to a group of bits, if all is as usual: its other
     /// operands are constants, the module is there, and nothing changes the count. Otherwise, they may get anything.
-    fn moved(&mut self, call: &Call) -> SortedMap<Key, Bits> {
-        let mut moved = SortedMap::new();
+    fn moved(&mut self, call: &Call) -> BTreeMap<Key, Bits> {
+        let mut moved = BTreeMap::new();
         let number = |arg: &Arg| match *arg {
             Arg::Const {
                 value, index: None, ..

@@ -9,7 +9,8 @@ use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
-use rungc_syntax::{DeviceClass, SortedSet, order};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 
 /// An operand that may reach more devices than this is not modelled.
 pub(super) const REACH: u32 = 256;
@@ -99,7 +100,7 @@ impl Encoder<'_> {
     /// Gives every piece of memory that the program names its bits.
     pub(super) fn find_memory(&mut self) {
         let (module, model) = (self.module, self.module.model);
-        let mut devices: SortedSet<(DeviceClass, u32)> = self.world.observed.clone();
+        let mut devices: BTreeSet<(DeviceClass, u32)> = self.world.observed.clone();
         let mut note = |used: Footprint| {
             let class = used.place.class;
             let runs = used.reach(model, &module.exprs);
@@ -123,7 +124,7 @@ impl Encoder<'_> {
         }
         let devices = devices.into_iter();
         let devices = devices.map(|(class, number)| model.canonical(class, number));
-        for (class, number) in order::set(devices) {
+        for (class, number) in BTreeSet::from_iter(devices) {
             for key in self.keys(class, number) {
                 self.add_memory(key);
             }
@@ -302,7 +303,7 @@ impl Encoder<'_> {
             )
         };
         let mut open = self.functions_of(by_host);
-        let mut seen = SortedSet::new();
+        let mut seen = BTreeSet::new();
         while let Some(i) = open.pop() {
             if seen.insert(i) {
                 let body = &module.functions[i].body;

@@ -16,6 +16,7 @@ mod timing;
 pub use memory::device_of;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
 pub use shared::{Beside, Names};
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
@@ -23,7 +24,7 @@ use crate::system::{Latch, System};
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, FunctionKind, LabelId};
 use rungc_rt::special::D_WATCHDOG_MS;
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
@@ -131,12 +132,12 @@ pub struct World {
     /// Whether latched devices begin with 0, as on a new PLC.
     pub fresh: bool,
     /// Devices that something other than the program writes.
-    pub free: SortedSet<(DeviceClass, u32)>,
+    pub free: BTreeSet<(DeviceClass, u32)>,
     /// Whether a timer that runs may expire at any time, as far as nothing looks at its value: a proof holds for every
     /// preset then.
     pub any_preset: bool,
     /// Devices that properties look at, in addition to those of the program.
-    pub observed: SortedSet<(DeviceClass, u32)>,
+    pub observed: BTreeSet<(DeviceClass, u32)>,
 }
 
 impl Default for World {
@@ -144,9 +145,9 @@ impl Default for World {
         World {
             scan_ms: 200,
             fresh: false,
-            free: SortedSet::new(),
+            free: BTreeSet::new(),
             any_preset: false,
-            observed: SortedSet::new(),
+            observed: BTreeSet::new(),
         }
     }
 }
@@ -185,19 +186,19 @@ pub struct Encoder<'m> {
     pub gaps: Vec<Gap>,
     gap_numbers: FxHashMap<Gap, usize>,
     /// All memory, as it is before the scan.
-    before: SortedMap<Key, Bits>,
+    before: BTreeMap<Key, Bits>,
     /// All memory, as the scan has left it so far.
-    state: SortedMap<Key, Bits>,
+    state: BTreeMap<Key, Bits>,
     /// What the program may write.
-    written: SortedSet<Key>,
+    written: BTreeSet<Key>,
     /// What is written now is cleared, which leaves setting it to something else.
     clears: bool,
     /// What something outside the scan may write between two scans.
-    outside: SortedSet<Key>,
+    outside: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
-    events: SortedSet<u32>,
+    events: BTreeSet<u32>,
     /// Timers whose values something looks at or writes; `None`: all.
-    exact_timers: Option<SortedSet<u32>>,
+    exact_timers: Option<BTreeSet<u32>>,
     temps: TiVec<rungc_ir::node::TempId, Option<Bits>>,
     values: FxHashMap<ExprId, Bits>,
     /// Where jumps of the bodies that are being executed go, the innermost last.
@@ -208,7 +209,7 @@ pub struct Encoder<'m> {
     time: Option<Time>,
     scan_time: Option<Bits>,
     /// What special modules hold in this scan, word by word.
-    buffers: SortedMap<Key, Bits>,
+    buffers: BTreeMap<Key, Bits>,
     network: Option<u32>,
     statements: u32,
     watched: u64,
@@ -262,12 +263,12 @@ impl<'m> Encoder<'m> {
             first_wishes: Vec::new(),
             gap_numbers: gaps.iter().cloned().zip(0..).collect(),
             gaps,
-            before: SortedMap::new(),
-            state: SortedMap::new(),
-            written: SortedSet::new(),
+            before: BTreeMap::new(),
+            state: BTreeMap::new(),
+            written: BTreeSet::new(),
             clears: false,
-            outside: SortedSet::new(),
-            events: SortedSet::new(),
+            outside: BTreeSet::new(),
+            events: BTreeSet::new(),
             exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
             values: FxHashMap::default(),
@@ -276,7 +277,7 @@ impl<'m> Encoder<'m> {
             lost_gap: None,
             time: None,
             scan_time: None,
-            buffers: SortedMap::new(),
+            buffers: BTreeMap::new(),
             network: None,
             statements: 0,
             watched: 0,

@@ -4,7 +4,8 @@ use super::Encoder;
 use crate::aig::Lit;
 use rungc_ir::node::{Access, AccessKind, ExprId, Stmt};
 use rungc_rt::CmpOp;
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 
 /// When a bit device is written.
 #[derive(Clone, Copy, Debug)]
@@ -54,11 +55,11 @@ pub struct Compared {
 #[derive(Clone, Debug, Default)]
 pub struct Probes {
     /// Bits Y, M and S.
-    pub bits: SortedMap<(DeviceClass, u32), Written>,
+    pub bits: BTreeMap<(DeviceClass, u32), Written>,
     /// Timers by number.
-    pub timers: SortedMap<u32, Expiry>,
+    pub timers: BTreeMap<u32, Expiry>,
     /// Networks by number.
-    pub rungs: SortedMap<u32, Rung>,
+    pub rungs: BTreeMap<u32, Rung>,
     /// Comparisons, each as often as it is evaluated.
     pub comparisons: Vec<Compared>,
 }

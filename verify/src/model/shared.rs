@@ -11,8 +11,8 @@ use crate::bits::Bits;
 use rungc_ir::node::{Arg, Call, Place, Stmt};
 use rungc_ir::walk::statements;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// What is not modelled and may be shared.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -152,7 +152,7 @@ impl Encoder<'_> {
             });
         }
         slots.push(Key::Outer);
-        order::set(slots).into_iter().collect()
+        BTreeSet::from_iter(slots).into_iter().collect()
     }
 
     /// Whether the program is executed beside another.
@@ -235,7 +235,7 @@ impl Encoder<'_> {
             _ => {}
         }
         keys.extend([Key::Outer, Key::Now, Key::First]);
-        for key in order::set(keys) {
+        for key in BTreeSet::from_iter(keys) {
             text.push_str(&format!(" {:?}", self.shared_name(key)));
             bits.extend(self.state.get(&key).into_iter().flatten());
         }

@@ -7,7 +7,8 @@ use rungc_ir::node::Stmt;
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::TimerKind;
-use rungc_syntax::{DeviceClass, SortedSet};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 
 /// How many bits the units of a step have: enough for the longest timer, and a unit more.
 const UNITS: usize = 17;
@@ -94,7 +95,7 @@ impl Encoder<'_> {
         if !self.world.any_preset {
             return;
         }
-        let (module, mut exact) = (self.module, SortedSet::new());
+        let (module, mut exact) = (self.module, BTreeSet::new());
         let mut note = |used: Footprint| {
             if used.place.class == DeviceClass::T {
                 let runs = used.reach(module.model, &module.exprs).into_iter();

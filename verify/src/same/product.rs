@@ -9,8 +9,9 @@ use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_models::runs::is_special;
-use rungc_syntax::{DeviceClass, SortedMap, SortedSet};
+use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 /// Two programs that are executed at the same time with the same inputs.
@@ -21,9 +22,9 @@ pub(super) struct Product<'m> {
     old: Encoder<'m>,
     new: Encoder<'m>,
     /// Memory of the old program that may differ.
-    apart: SortedSet<Key>,
+    apart: BTreeSet<Key>,
     /// What something else than the programs sets, by the old program's names.
-    free: SortedSet<Key>,
+    free: BTreeSet<Key>,
 }
 
 impl<'m> Product<'m> {
@@ -39,12 +40,12 @@ impl<'m> Product<'m> {
         let (world, named) = common_world(modules, world);
         let mut old = Encoder::scan_beside(old_module, world.clone(), Beside::default());
         suppose(&mut old, assumed);
-        let mut apart = SortedSet::new();
+        let mut apart = BTreeSet::new();
         loop {
             let beside = old.share(|key| !apart.contains(&key), names);
             let mut new = Encoder::scan_beside(new_module, world.clone(), beside);
             suppose(&mut new, assumed);
-            let mut free: SortedSet<Key> = named[0]
+            let mut free: BTreeSet<Key> = named[0]
                 .iter()
                 .copied()
                 .filter(|&key| old.is_free(key))
@@ -67,7 +68,7 @@ impl<'m> Product<'m> {
 
     /// Memory that begins a scan equal and may not end it so.
     fn differing(&self, names: &Names, deadline: Instant) -> Vec<Key> {
-        let old: SortedMap<Key, &Bits> = self
+        let old: BTreeMap<Key, &Bits> = self
             .old
             .memory()
             .map(|(key, _, after)| (key, after))
@@ -240,13 +241,13 @@ fn suppose(encoder: &mut Encoder, assumed: &[Condition]) {
 }
 
 /// The world of both programs, in which each has the special devices and outputs of the other, and what each names.
-fn common_world(modules: [&Module; 2], world: &World) -> (World, [SortedSet<Key>; 2]) {
+fn common_world(modules: [&Module; 2], world: &World) -> (World, [BTreeSet<Key>; 2]) {
     let named = modules.map(|module| {
         let encoder = Encoder::scan_beside(module, world.clone(), Beside::default());
         encoder
             .memory()
             .map(|(key, ..)| key)
-            .collect::<SortedSet<_>>()
+            .collect::<BTreeSet<_>>()
     });
     let mut world = world.clone();
     let devices = named.iter().flatten().filter_map(|&key| device_of(key));

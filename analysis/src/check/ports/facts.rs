@@ -8,7 +8,8 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
-use rungc_syntax::{Device, DeviceClass, SortedMap, SortedSet, Span, order};
+use rungc_syntax::{Device, DeviceClass, Span};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Programs that reach special registers through an index stay this near.
 const USUAL_INDEX: u32 = 256;
@@ -35,11 +36,11 @@ pub(super) struct Uinit {
 pub(super) struct Facts {
     model: &'static Model,
     /// By the register's or relay's device, in the order of the program.
-    writes: SortedMap<Device, Vec<Write>>,
+    writes: BTreeMap<Device, Vec<Write>>,
     /// Registers that are written through an index, where a set-up register is near, and the place of the operand.
     pub(super) indexed: Vec<(Device, Span)>,
     /// By port; `None` for one whose operands are not constant.
-    pub(super) uinit: SortedMap<u8, Vec<Option<Uinit>>>,
+    pub(super) uinit: BTreeMap<u8, Vec<Option<Uinit>>>,
 }
 
 /// What a register holds once the program has set it up.
@@ -82,12 +83,12 @@ impl Facts {
             .flat_map(|wiring| wiring.setup_registers().chain(wiring.station).map(d));
         let relays = ports.flat_map(|wiring| wiring.setup_relays().map(m));
         let named = (0..code.len).filter_map(|i| super::port_register(code, i));
-        let watched = order::set(words.chain(relays).chain(named));
+        let watched = BTreeSet::from_iter(words.chain(relays).chain(named));
         let mut facts = Facts {
             model: code.model(),
-            writes: SortedMap::new(),
+            writes: BTreeMap::new(),
             indexed: Vec::new(),
-            uinit: SortedMap::new(),
+            uinit: BTreeMap::new(),
         };
         let mut when = When::new(code);
         for i in 0..code.len {
@@ -98,7 +99,7 @@ impl Facts {
     }
 
     /// Notes what instruction `i` writes.
-    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &SortedSet<Device>) {
+    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &BTreeSet<Device>) {
         if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
             self.note_uinit(code, i);
         }
@@ -128,7 +129,7 @@ impl Facts {
     }
 
     /// Notes an access from a special register on, whose index may lead to a set-up register.
-    fn note_index(&mut self, access: &accesses::Access, watched: &SortedSet<Device>) {
+    fn note_index(&mut self, access: &accesses::Access, watched: &BTreeSet<Device>) {
         let Device { class, number } = access.first;
         let reached = |number| Device { class, number };
         let near = reached(number.saturating_sub(USUAL_INDEX))
@@ -243,8 +244,8 @@ impl Facts {
         let mut sys = Sys::power_on();
         sys.running = true;
         Memory {
-            words: order::map(words.map(|n| (n.number(), held(d(n))))),
-            relays: order::set(relays.map(Relay::number)),
+            words: BTreeMap::from_iter(words.map(|n| (n.number(), held(d(n))))),
+            relays: BTreeSet::from_iter(relays.map(Relay::number)),
             sys,
             state: State::new(),
             ports: self.model.ports,
@@ -259,8 +260,8 @@ fn constant(code: &Code, i: usize, n: usize) -> Option<i64> {
 }
 
 /// The constants that an instruction writes, by device.
-fn constants(code: &Code, i: usize) -> SortedMap<Device, u16> {
-    let mut found = SortedMap::new();
+fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
+    let mut found = BTreeMap::new();
     let device = |n: usize| code.device(i, n);
     let bit = |on: bool| device(0).map(|device| (device, u16::from(on)));
     match code.basic(i) {
@@ -388,8 +389,8 @@ fn is_on_first(code: &Code, i: usize) -> bool {
 
 /// The special devices of a port after its set-up; all others are 0.
 struct Memory {
-    words: SortedMap<u32, u16>,
-    relays: SortedSet<u32>,
+    words: BTreeMap<u32, u16>,
+    relays: BTreeSet<u32>,
     sys: Sys,
     state: State,
     ports: Ports,

@@ -5,10 +5,11 @@ use rungc_ir::Module;
 use rungc_ir::compare::Behaviour;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
-use rungc_syntax::{DeviceClass, DeviceRun, SortedSet};
+use rungc_syntax::{DeviceClass, DeviceRun};
 use rungc_verify::model::World;
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// How long all outputs together may take, and one of them at most.
@@ -42,7 +43,7 @@ pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u
     let outputs = outputs
         .iter()
         .filter(|output| output.verdict == Verdict::Proved);
-    let same: SortedSet<u32> = outputs.map(|output| output.number).collect();
+    let same: BTreeSet<u32> = outputs.map(|output| output.number).collect();
     let mut proved = Vec::new();
     let mut rest = Vec::new();
     for run in devices.drain(..) {

@@ -4,7 +4,7 @@ use crate::commands::counted;
 use rungc_fleet::Failed;
 use rungc_ir::Module;
 use rungc_models::plc_errors;
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 
 /// Lines about a group at most.
 const MOST_LINES: usize = 20;
@@ -53,7 +53,7 @@ pub fn lines(failures: &[Failed], about: &About<'_>) -> Vec<String> {
 }
 
 fn rows(failures: &[Failed], first: u32) -> Vec<Row> {
-    let mut rows = SortedMap::new();
+    let mut rows = BTreeMap::new();
     for failed in failures {
         let number = first + failed.plc;
         let key = (failed.first_ms.is_none(), failed.step, failed.code);

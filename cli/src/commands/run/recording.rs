@@ -6,7 +6,6 @@ use rungc_sim::Target;
 use rungc_sim::record::{Reading, Seen, Signal, Vcd};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
@@ -117,7 +116,7 @@ fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
             targets.push(target);
         }
     }
-    order::by_key(&mut targets, |&target| rank(target));
+    targets.sort_by_key(|&target| rank(target));
     targets
 }
 

@@ -9,7 +9,7 @@ use crate::progress;
 use rungc_coverage::mutants::{self, Fate, Mutant};
 use rungc_coverage::{Covered, cover, html, lcov, text};
 use rungc_sim::plctest::{Suite, TestFile};
-use rungc_syntax::SortedMap;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -92,7 +92,7 @@ fn lines(programs: &[Covered]) {
 /// Keeps one part of the mutants. Which one a mutant is in depends on what it changes, not on where it is: most stay
 /// there when the program grows.
 fn keep(mutants: &mut Vec<Mutant>, program: &Covered, shard: Shard) {
-    let mut known: SortedMap<String, usize> = SortedMap::new();
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
     mutants.retain(|mutant| {
         let text = mutant.describe(&program.program);
         let number = known.entry(text.clone()).or_default();

@@ -4,7 +4,6 @@ use super::super::Failure;
 use crate::args::Shard;
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Case, TestFile};
-use rungc_syntax::order;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -103,7 +102,7 @@ pub fn names(paths: &[PathBuf]) -> std::result::Result<Vec<PathBuf>, Failure> {
             names.push(path.clone())
         }
     }
-    order::by(&mut names, Ord::cmp);
+    names.sort_by(Ord::cmp);
     names.dedup();
     Ok(names)
 }

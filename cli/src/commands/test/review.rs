@@ -3,7 +3,7 @@
 use super::super::{Context, Failure, say, write_file};
 use crate::args::TestArgs;
 use rungc_sim::plctest::{self, Outcome, Report, Suite, Trace};
-use rungc_syntax::SortedSet;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, BufRead};
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ pub fn traces(
     report: &mut Report,
     cx: Context,
 ) -> Result<(), Failure> {
-    let mut decided: SortedSet<PathBuf> = SortedSet::new();
+    let mut decided: BTreeSet<PathBuf> = BTreeSet::new();
     let mut end = false;
     for outcome in &mut report.outcomes {
         let case = &suite.files()[outcome.id.file].cases[outcome.id.case];

@@ -3,8 +3,8 @@
 use super::report::{Results, kind, message};
 use crate::report::sarif;
 use rungc_sim::plctest::Outcome;
-use rungc_syntax::order;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use std::path::Path;
 pub fn sarif(results: &Results) -> io::Result<String> {
     let failed = || results.report.failures();
     let kinds = failed().filter_map(|o| o.failure.as_ref()).map(kind);
-    let used = order::set(kinds);
+    let used = BTreeSet::from_iter(kinds);
     let rules = used.into_iter().map(rule).collect();
     let items = failed().map(|outcome| item(results, outcome)).collect();
     sarif::log(rules, items, Vec::new())

@@ -6,7 +6,7 @@ use crate::args::TestArgs;
 use rungc_runtime_sources::cache;
 use rungc_sim::engines::EngineKind;
 use rungc_sim::plctest::{Id, Report, Suite, TestFile};
-use rungc_syntax::{SortedMap, SortedSet, order};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read};
@@ -17,9 +17,9 @@ use walkdir::WalkDir;
 /// Verdicts of earlier runs, and where those of this one go.
 pub struct Verdicts {
     /// The cases that passed on all engines that are asked for.
-    pub known: SortedSet<Id>,
+    pub known: BTreeSet<Id>,
     /// By file and engine: where they are kept, and a hash of all that they depend on.
-    places: SortedMap<(usize, &'static str), (PathBuf, String)>,
+    places: BTreeMap<(usize, &'static str), (PathBuf, String)>,
 }
 
 impl Verdicts {
@@ -31,8 +31,8 @@ impl Verdicts {
         warn: &[&'static str],
     ) -> Verdicts {
         let mut verdicts = Verdicts {
-            known: SortedSet::new(),
-            places: SortedMap::new(),
+            known: BTreeSet::new(),
+            places: BTreeMap::new(),
         };
         // Without a cache, nothing is known.
         let folder = cache::folder().map(|folder| folder.join("verdicts"));
@@ -43,7 +43,7 @@ impl Verdicts {
             let Ok(content) = content(file, args.machine.as_deref()) else {
                 continue;
             };
-            let mut passed: Option<SortedSet<String>> = None;
+            let mut passed: Option<BTreeSet<String>> = None;
             for kind in kinds {
                 let key = hash(&(executable, content, warn, kind.name()));
                 let place = std::path::absolute(&file.name).unwrap_or_default();
@@ -72,7 +72,7 @@ impl Verdicts {
             let of_file = of_file.filter(|o| o.id.file == *file && o.engine == *engine);
             let passed = of_file.filter(|o| o.failure.is_none());
             let names = passed.map(|o| suite.files()[*file].cases[o.id.case].name.clone());
-            let mut names = order::set(names);
+            let mut names = BTreeSet::from_iter(names);
             // A part of the cases may have run.
             names.extend(read(place, key));
             let names: Vec<String> = names.into_iter().collect();
@@ -82,14 +82,14 @@ impl Verdicts {
 }
 
 /// The cases that passed, if the verdicts are about the same content.
-fn read(place: &Path, key: &str) -> SortedSet<String> {
+fn read(place: &Path, key: &str) -> BTreeSet<String> {
     let Ok(text) = fs::read_to_string(place) else {
-        return SortedSet::new();
+        return BTreeSet::new();
     };
     let mut lines = text.lines();
     match lines.next() {
-        Some(first) if first == key => order::set(lines.map(str::to_string)),
-        _ => SortedSet::new(),
+        Some(first) if first == key => BTreeSet::from_iter(lines.map(str::to_string)),
+        _ => BTreeSet::new(),
     }
 }
 

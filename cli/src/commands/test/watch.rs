@@ -7,7 +7,7 @@ use super::super::{Context, Failure, Outcome, Result, interruption, tell};
 use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
-use rungc_syntax::{SortedMap, SortedSet, order};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
@@ -17,13 +17,13 @@ use walkdir::WalkDir;
 const PERIOD: Duration = Duration::from_millis(250);
 
 /// When each file was changed last, and its length.
-type Seen = SortedMap<PathBuf, (Option<SystemTime>, u64)>;
+type Seen = BTreeMap<PathBuf, (Option<SystemTime>, u64)>;
 
 /// Runs the tests, and again after each change, until interrupted.
 pub fn run(args: &TestArgs, cx: Context) -> Result {
     // What is wrong with the command line itself ends it.
     Chosen::of(args, cx)?;
-    let mut inputs: SortedSet<PathBuf> = SortedSet::new();
+    let mut inputs: BTreeSet<PathBuf> = BTreeSet::new();
     loop {
         let chosen = Chosen::of(args, cx);
         let loaded = chosen.and_then(|chosen| {
@@ -53,15 +53,15 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
 }
 
 /// All that the tests are read from.
-fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> SortedSet<PathBuf> {
+fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> BTreeSet<PathBuf> {
     let of_files = files.iter().flat_map(|file| file.inputs.iter().cloned());
     let settings = chosen.project.iter().map(|project| project.path.clone());
     let named = chosen.paths.iter().chain(&args.machine).cloned();
-    order::set(of_files.chain(settings).chain(named))
+    BTreeSet::from_iter(of_files.chain(settings).chain(named))
 }
 
 /// The state of these files, of the files in program folders, and of all test files that there are now.
-fn look(args: &TestArgs, inputs: &SortedSet<PathBuf>) -> Seen {
+fn look(args: &TestArgs, inputs: &BTreeSet<PathBuf>) -> Seen {
     let folders: Vec<PathBuf> = args.files.iter().chain(inputs).cloned().collect();
     let tests = files::names(&folders).unwrap_or_default();
     let mut seen = Seen::new();

@@ -6,10 +6,11 @@ use crate::commands::{Context, Failure};
 use crate::progress;
 use rungc_ir::Module;
 use rungc_sim::engines::{BuildError, EngineKind, build};
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
 use rungc_verify::engines::compare;
 use rungc_verify::prove::Why;
 use rungc_verify::search::Trace;
+use std::collections::BTreeMap;
 
 /// A run that the interpreter has shown.
 pub struct Shown<'a> {
@@ -33,8 +34,8 @@ pub fn replay(
     modules: &[Module],
     runs: &[Shown],
     cx: Context,
-) -> Result<SortedMap<usize, Why>, Failure> {
-    let mut differing = SortedMap::new();
+) -> Result<BTreeMap<usize, Why>, Failure> {
+    let mut differing = BTreeMap::new();
     let kinds = engines(choice.unwrap_or(EngineChoice::All)).into_iter();
     let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
     if runs.is_empty() || kinds.is_empty() {

@@ -4,11 +4,12 @@ use crate::commands::properties::Outside;
 use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
-use rungc_syntax::{codes, order};
+use rungc_syntax::codes;
 use rungc_verify::model::{Gap, Key, device_of};
 use rungc_verify::property::Property;
 use rungc_verify::prove::{Decision, Options, Verdict, Why};
 use rungc_verify::replay::{Change, Setting, story};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -234,7 +235,7 @@ fn list(keys: &[Key]) -> String {
     const SHOWN: usize = 8;
     let names = keys.iter().filter_map(|&key| device_of(key));
     // A timer is a value and a contact.
-    let names: Vec<String> = order::set(names)
+    let names: Vec<String> = BTreeSet::from_iter(names)
         .into_iter()
         .map(|(class, n)| class.number(n).to_string())
         .collect();

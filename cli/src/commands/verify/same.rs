@@ -19,6 +19,7 @@ use rungc_verify::property::{Condition, Property};
 use rungc_verify::prove::Verdict;
 use rungc_verify::same::{Compared, Output, compare};
 use rungc_verify::search::Trace;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -260,7 +261,7 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
             .map(|gap| gap.what.as_str())
             .collect();
         if !calls.is_empty() {
-            let list = rungc_syntax::order::set(calls)
+            let list = BTreeSet::from_iter(calls)
                 .into_iter()
                 .collect::<Vec<_>>()
                 .join(", ");

@@ -5,7 +5,8 @@ use crate::board::{Board, InputPin, Uart};
 use crate::image::{comment, linker_script};
 use crate::template;
 use rungc_emit::OutFile;
-use rungc_syntax::{DeviceClass, SortedMap};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What begins a line, sends and receives, by registers: there is room while the bits of `ROOM` are `SPACE`, and a
@@ -120,7 +121,7 @@ pub fn project(board: &Board) -> Result<Vec<OutFile>, NoPins> {
         .replace("/* BOARD */", &title)
         .replace("/* CC */", board.target.cc)
         .replace("/* FLAGS */", board.target.flags);
-    let startup = startup_text(board, &SortedMap::new());
+    let startup = startup_text(board, &BTreeMap::new());
     Ok(vec![
         OutFile::new(
             "pins.c",

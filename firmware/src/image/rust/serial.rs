@@ -3,7 +3,7 @@
 use super::{Image, switch};
 use crate::board::{Serial, Uart};
 use crate::template;
-use rungc_syntax::order;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
@@ -71,7 +71,7 @@ fn handler(serial: &Serial) -> String {
 /// The vectors of the devices' interrupts.
 pub(super) fn vectors(image: &Image) -> String {
     let ports = image.serial().into_iter();
-    let handlers = order::map(ports.flat_map(|serial| {
+    let handlers = BTreeMap::from_iter(ports.flat_map(|serial| {
         let numbers = serial.interrupts.iter();
         numbers.map(move |number| (*number, handler(serial)))
     }));

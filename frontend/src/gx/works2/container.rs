@@ -2,8 +2,8 @@
 //! stream, an inner file, whose streams have numbers for names.
 
 use cfb::CompoundFile;
-use rungc_syntax::{SortedSet, order};
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::io::{Cursor, Read as _};
 use std::path::PathBuf;
 
@@ -45,7 +45,7 @@ impl<'b> Container<'b> {
             .map(|entry| (entry.name().len(), entry.path().to_owned()))
             .collect();
         drop(entries);
-        order::by(&mut names, Ord::cmp);
+        names.sort_by(Ord::cmp);
         let path = |(_, path): (usize, PathBuf)| self.stream(path.to_str()?);
         names.into_iter().filter_map(path).collect()
     }
@@ -72,7 +72,7 @@ pub(super) fn rows(list: &[u8]) -> Option<Vec<Row>> {
     let rows = document
         .descendants()
         .filter(|node| node.has_tag_name("D_Projectdata"));
-    let mut known = SortedSet::new();
+    let mut known = BTreeSet::new();
     let rows: Vec<Row> = rows
         .filter_map(|row| {
             let field = |name| {

@@ -2,20 +2,21 @@
 
 use crate::gx::program;
 use crate::gx::tokens::{self, Bare, Token};
-use rungc_syntax::{Device, DeviceClass, OperandKind, SortedMap, SortedSet, order};
+use rungc_syntax::{Device, DeviceClass, OperandKind};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The devices that structured text names, by themselves or through the devices of global labels.
-pub(super) fn of_text(text: &str, labels: &SortedMap<String, Device>) -> SortedSet<Device> {
+pub(super) fn of_text(text: &str, labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
     let code = without_comments(text);
     let words = code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c.is_ascii());
-    order::set(words.filter_map(|word| {
+    BTreeSet::from_iter(words.filter_map(|word| {
         let label = labels.get(&word.to_lowercase()).copied();
         label.or_else(|| device(word))
     }))
 }
 
 /// The devices that the tokens of a ladder name, by themselves or through labels in ASCII.
-pub(super) fn of_ladder(code: &[u8], labels: &SortedMap<String, Device>) -> SortedSet<Device> {
+pub(super) fn of_ladder(code: &[u8], labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
     let operand = |body| match tokens::token(body)? {
         Token::Operand(Bare::Kind(OperandKind::Device(device, _))) => Some(device),
         Token::Operand(Bare::Name(name)) => {
@@ -25,7 +26,7 @@ pub(super) fn of_ladder(code: &[u8], labels: &SortedMap<String, Device>) -> Sort
         _ => None,
     };
     let devices = program::bodies(code).filter_map(operand);
-    order::set(devices.filter(is_stored))
+    BTreeSet::from_iter(devices.filter(is_stored))
 }
 
 /// Whether a device stores something; pointers and nesting levels are numbered anew by the compiler.

@@ -20,9 +20,8 @@ use container::{Container, Row};
 use encoding_rs::UTF_16LE;
 use memchr::memmem;
 use objects::{Compiled, Language, Pou, Project, Task};
-use rungc_syntax::{
-    Diagnostic, Diagnostics, Parameters, SortedMap, SortedSet, SourceKind, Span, codes, order,
-};
+use rungc_syntax::{Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The stream of the outer file that holds the project's data.
 const DATA: &str = "_hdb";
@@ -363,10 +362,10 @@ impl<'o> Works<'o> {
         let labels = self.labels.iter();
         let labels = labels.flat_map(|part| objects::labels(&part.bytes));
         let labels =
-            order::map(labels.filter_map(|(name, device)| {
+            BTreeMap::from_iter(labels.filter_map(|(name, device)| {
                 Some((name.to_lowercase(), mentions::device(&device)?))
             }));
-        let has = mentions::of_ladder(code, &SortedMap::new());
+        let has = mentions::of_ladder(code, &BTreeMap::new());
         let missing: Vec<_> = sources
             .iter()
             .flat_map(|(part, pou)| {
@@ -376,7 +375,7 @@ impl<'o> Works<'o> {
                     Language::StructuredText => {
                         mentions::of_text(&UTF_16LE.decode_without_bom_handling(content).0, &labels)
                     }
-                    _ => SortedSet::new(),
+                    _ => BTreeSet::new(),
                 }
             })
             .filter(|device| !has.contains(device))
@@ -393,7 +392,7 @@ impl<'o> Works<'o> {
     fn name_unused(&self, found: &mut Diagnostics) {
         let tasks = self.tasks.iter().filter_map(|part| Task::read(&part.bytes));
         let run = tasks.flat_map(|task| task.pous);
-        let run = order::set(run.map(|pou| pou.to_lowercase()));
+        let run = BTreeSet::from_iter(run.map(|pou| pou.to_lowercase()));
         let is_run = |part: &&Part| run.contains(&part.stem().to_lowercase());
         let others: Vec<&Part> = self.sources.iter().filter(|part| !is_run(part)).collect();
         let named = self.named(&others);
@@ -413,9 +412,9 @@ impl<'o> Works<'o> {
     }
 
     /// Which of these POUs the text or the labels of another POU name.
-    fn named(&self, pous: &[&Part]) -> SortedSet<String> {
-        let names = order::set(pous.iter().map(|part| part.stem()));
-        let mut named = SortedSet::new();
+    fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
+        let names = BTreeSet::from_iter(pous.iter().map(|part| part.stem()));
+        let mut named = BTreeSet::new();
         for part in self.sources.iter().chain(&self.labels) {
             // Texts in UTF-16 begin at even and at odd offsets.
             for bytes in [&part.bytes[..], part.bytes.get(1..).unwrap_or_default()] {

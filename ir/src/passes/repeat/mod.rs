@@ -13,7 +13,6 @@ use crate::node::{Body, Module, Repeat, Stmt, Ty};
 use maker::Maker;
 use pair::{Kind, Named};
 use rungc_syntax::DeviceClass;
-use rungc_syntax::order;
 use runs::{Networks, Runs};
 use shape::shape;
 
@@ -74,7 +73,7 @@ impl Group {
             .moving()
             .map(|(class, first, stride)| (class, first, first + reached * stride, stride))
             .collect();
-        order::sort(&mut devices);
+        devices.sort();
         // Per distance of what goes before in the same class: where that ends.
         let mut ends: Vec<(DeviceClass, u32, u32)> = Vec::new();
         devices.into_iter().all(|(class, first, last, stride)| {

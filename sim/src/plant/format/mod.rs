@@ -13,7 +13,6 @@ use super::marks::{Marks, Switch};
 use crate::problem::{self, LoadError, Problem};
 use raw::{RawCylinder, RawDelay, RawEnd, RawMachine};
 use rungc_models::Model;
-use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Source};
 use rungc_tables::Spanned;
 use std::path::Path;
@@ -96,7 +95,7 @@ fn describe(source: Source) -> Result<Description, LoadError> {
         if reader.problems.is_empty() {
             return Ok((plant, reader.terminals));
         }
-        order::by_key(&mut reader.problems, |p| (p.line, p.column));
+        reader.problems.sort_by_key(|p| (p.line, p.column));
         Err(reader.problems)
     });
     match read {

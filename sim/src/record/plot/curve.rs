@@ -1,7 +1,6 @@
 //! The points of a curve, as many as can be seen.
 
 use super::Shape;
-use rungc_syntax::order;
 
 /// How many columns a diagram has: two a pixel of its width.
 const COLUMNS: f64 = 1600.0;
@@ -93,7 +92,7 @@ impl Curve {
         };
         let columns = columns.iter().flat_map(|(_, column)| {
             let mut points = [column.first, column.least, column.greatest, column.last];
-            order::by(&mut points, |a, b| a.0.total_cmp(&b.0));
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
             points
         });
         columns.chain(way.iter().copied())
