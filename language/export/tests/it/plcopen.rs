@@ -48,7 +48,7 @@ fn instructions(program: &Program) -> Vec<String> {
 
 /// The programs of the documentation, with the models that they are for.
 fn examples() -> Vec<(String, ModelId)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/programs");
+    let folder = Path::new(env!("RUNGC_ROOT")).join("examples/programs");
     let found = fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path());

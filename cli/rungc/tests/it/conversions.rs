@@ -1,0 +1,123 @@
+//! Every format that is read becomes every format that is written: the table in `docs/src/inputs.md`.
+
+use crate::common::{FX3U, folder, rungc, text, wpg};
+use std::fs;
+use std::path::Path;
+
+const LIST: &str = ";! X000 = start\nLD X000\nOR M0\nANI X001\nOUT M0\nLD M0\nOUT T0 K30\nLD T0\nMOV K5 D0\nOUT Y000\nEND\n";
+/// What is read, and what its file is called.
+const INPUTS: [(&str, &str); 7] = [
+    ("instruction list", "list.il"),
+    ("drawn ladder", "ladder.txt"),
+    ("list export", "export.csv"),
+    ("GX Developer project", "MAIN.wpg"),
+    ("GX Works2 project", "project.gxw"),
+    ("PLCopen XML", "plcopen.xml"),
+    ("program memory", "memory.bin"),
+];
+/// What is written, and how the name of such a file ends.
+const OUTPUTS: [(&str, &str); 7] = [
+    ("il", "il"),
+    ("ladder", "txt"),
+    ("csv", "csv"),
+    ("comments", "csv"),
+    ("plcopen", "xml"),
+    ("image", "bin"),
+    ("autoshop", "txt"),
+];
+
+fn convert(folder: &Path, from: &str, to: &str, path: &str) {
+    let output = rungc(
+        folder,
+        &["convert", from, "--to", to, "-o", path, "--force"],
+    );
+    assert!(
+        output.status.success(),
+        "{from} to {to}: {}",
+        text(&output.stderr)
+    );
+}
+
+/// The instructions of a file, without comments and steps.
+fn instructions(folder: &Path, file: &str) -> Vec<String> {
+    let list = text(&rungc(folder, &["convert", file, "--to", "il"]).stdout);
+    let lines = list.lines().map(|line| {
+        let line = line.split(';').next().unwrap_or_default();
+        let line = line.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ');
+        line.split_whitespace().collect::<Vec<_>>().join(" ")
+    });
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+#[test]
+fn every_input_becomes_every_output() {
+    let tokens: &[&[u8]] = &[&[0x00], &[0x9C, 0x00], &[0x20], &[0x9D, 0x00], &[0x34]];
+    let gxw = Path::new(env!("RUNGC_ROOT")).join("golden/fuzz/corpus/gx-works2");
+    let gxw = fs::read_dir(gxw)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let gxw = fs::read(gxw.min().unwrap()).unwrap();
+    let folder = folder(&[
+        ("list.il", LIST.as_bytes()),
+        ("MAIN.wpg", &wpg(FX3U, tokens)),
+        ("project.gxw", &gxw),
+    ]);
+    let path = folder.path();
+    for (name, to) in [
+        ("ladder.txt", "ladder"),
+        ("export.csv", "csv"),
+        ("plcopen.xml", "plcopen"),
+        ("memory.bin", "image"),
+    ] {
+        convert(path, "list.il", to, name);
+    }
+    for (what, input) in INPUTS {
+        let expected = instructions(path, input);
+        assert!(expected.len() > 2, "{what}: {expected:?}");
+        for (to, ending) in OUTPUTS {
+            let name = format!("out.{ending}");
+            if (input, to) == ("project.gxw", "image") {
+                // The project has an operand whose machine code nothing shows.
+                let output = rungc(path, &["convert", input, "--to", to, "-o", &name]);
+                assert!(text(&output.stderr).contains("E0061"));
+                assert!(!path.join(name).exists());
+                continue;
+            }
+            convert(path, input, to, &name);
+            let written = path.join(&name);
+            if to == "comments" {
+                assert!(
+                    fs::read(&written).unwrap().starts_with(&[0xff, 0xfe]),
+                    "{what}"
+                );
+            } else {
+                assert_eq!(instructions(path, &name), expected, "{what} to {to}");
+            }
+            fs::remove_file(written).unwrap();
+        }
+    }
+}
+
+/// The page has a row for each input and a column for each output.
+#[test]
+fn the_page_lists_them_all() {
+    let page = include_str!(concat!(env!("RUNGC_ROOT"), "/docs/src/inputs.md"));
+    let at = page
+        .find("## Conversions")
+        .expect("a chapter about conversions");
+    let table: Vec<_> = page[at..]
+        .lines()
+        .filter(|line| line.starts_with('|'))
+        .collect();
+    for (to, _) in OUTPUTS {
+        assert!(table[0].contains(&format!("`{to}`")), "{to}");
+    }
+    for (what, _) in INPUTS {
+        assert!(
+            table
+                .iter()
+                .any(|row| row.starts_with(&format!("| {what} |"))),
+            "{what}"
+        );
+    }
+}

@@ -1,0 +1,609 @@
+//! Latched devices that survive: in `rungc run`, from run to run, and in images, from reset to reset. What runs in real
+//! time, `rungc serve` and executables in C and in Rust, on slow and full disks, and with a clock that is set.
+
+use crate::common::hosts::{self, Host, PATIENCE};
+use crate::common::{folder, rungc, text};
+use crate::tools;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Counts its starts in D200 and its scans in C100, which are latched, and its scans in D0, which is not.
+const COUNTER: &str = "\
+LD M8002
+INC D200
+LD M8000
+INC D0
+LD M8012
+OUT C100 K1000
+LD C100
+OUT Y0
+LD X7
+RST C100
+END
+";
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    let usual = ["run", "counter.il", "--for", "1s", "--watch", "D200,D0"];
+    rungc(folder, &[&usual, args].concat())
+}
+
+/// The values in the last line of a run's table.
+fn last(output: &Output) -> String {
+    let out = text(&output.stdout);
+    let last = out.lines().rfind(|line| line.contains(" s  "));
+    let last = last.unwrap_or(&out);
+    let words: Vec<_> = last.split_whitespace().skip(2).collect();
+    words.join(" ")
+}
+
+#[test]
+fn latched_devices_survive_from_run_to_run() {
+    let folder = folder(&[("counter.il", COUNTER.as_bytes())]);
+    let at = folder.path();
+    let first = run(at, &["--watch", "C100", "--retain", "counter.retain"]);
+    let said = text(&first.stderr);
+    assert!(said.contains("counter.retain does not exist yet"), "{said}");
+    let second = run(at, &["--watch", "C100", "--retain", "counter.retain"]);
+    assert_eq!(text(&second.stderr), "");
+    assert_eq!(
+        (last(&first), last(&second)),
+        ("1 101 10".into(), "2 101 20".into())
+    );
+    fs::write(
+        at.join("rungc.toml"),
+        "[retain]\nfile = \"counter.retain\"\n",
+    )
+    .unwrap();
+    assert_eq!(
+        last(&run(at, &["--watch", "C100"])),
+        "3 101 30",
+        "the project names the file"
+    );
+}
+
+#[test]
+fn devices_of_another_program_are_not_loaded() {
+    let folder = folder(&[
+        ("counter.il", COUNTER.as_bytes()),
+        ("pump.il", b"LD X0\nSET M500\nLD M500\nOUT Y0\nEND\n"),
+        ("light.il", b"LD X0\nOUT Y0\nEND\n"),
+    ]);
+    let at = folder.path();
+    assert!(run(at, &["--retain", "plc.retain"]).status.success());
+    let before = fs::read(at.join("plc.retain")).unwrap();
+    let other = rungc(at, &["run", "pump.il", "--retain", "plc.retain"]);
+    insta::assert_snapshot!(
+        text(&other.stderr),
+        @"rungc: --retain plc.retain: holds the latched devices of `counter (fx3u)`, and this program is `pump (fx3u)`; name another file"
+    );
+    assert_eq!(other.status.code(), Some(2));
+    assert_eq!(fs::read(at.join("plc.retain")).unwrap(), before);
+    let without = rungc(at, &["run", "light.il", "--retain", "light.retain"]);
+    insta::assert_snapshot!(
+        text(&without.stderr),
+        @"rungc: --retain light.retain: the program has no latched devices"
+    );
+    fs::write(at.join("plc.retain"), &before[..before.len() - 1]).unwrap();
+    let damaged = run(at, &["--retain", "plc.retain"]);
+    insta::assert_snapshot!(
+        text(&damaged.stderr),
+        @"rungc: --retain plc.retain: does not hold latched devices, or is damaged"
+    );
+    assert_eq!(damaged.status.code(), Some(2));
+}
+
+#[test]
+fn a_changed_program_keeps_what_both_versions_have() {
+    let folder = folder(&[("counter.il", COUNTER.as_bytes())]);
+    let at = folder.path();
+    assert!(run(at, &["--retain", "counter.retain"]).status.success());
+    let changed = COUNTER
+        .replace("OUT C100 K1000\nLD C100", "INC D300")
+        .replace("RST C100", "RST D300");
+    fs::write(at.join("counter.il"), changed).unwrap();
+    let again = run(at, &["--watch", "D300", "--retain", "counter.retain"]);
+    insta::assert_snapshot!(
+        text(&again.stderr),
+        @"rungc: counter.retain: 1 of its devices are dropped: the program does not use them as latched devices any more"
+    );
+    assert!(last(&again).starts_with("2 101"), "{}", last(&again));
+}
+
+/// A board whose RAM from 0x21000000 on survives: QEMU keeps it in a file.
+const BOARD: &str = "
+[retain]
+memory = \"ram\"
+slots = [{ origin = 0x2100_0000, length = \"1K\" }, { origin = 0x2100_0400, length = \"1K\" }]
+every_ms = EVERY
+power_fail = { at = 0x2100_1000, bit = 2 }
+";
+
+/// Shows in Y000 to Y003 how often it was started, in D200, which is latched.
+const STARTS: &str = "\
+LD M8002
+INC D200
+LD= D200 K1
+OUT Y000
+LD= D200 K2
+OUT Y001
+LD= D200 K3
+OUT Y002
+LD= D200 K4
+OUT Y003
+END
+";
+
+/// Bytes of the RAM in the file, the second of QEMU's machine.
+const RAM: usize = 16 << 20;
+
+/// What an image prints on a Cortex-M3 whose RAM is in a file.
+fn simulated(folder: &Path, image: &str) -> String {
+    let output = Command::new("qemu-system-arm")
+        .current_dir(folder)
+        .args(["-M", "mps2-an385,memory-backend=kept", "-nographic"])
+        .args([
+            "-object",
+            "memory-backend-file,id=kept,size=16M,mem-path=ram,share=on",
+        ])
+        .args(["-icount", "shift=0,sleep=off"])
+        .args([
+            "-semihosting-config",
+            "enable=on,target=native",
+            "-kernel",
+            image,
+        ])
+        .output()
+        .unwrap();
+    let printed = text(&[&*output.stdout, &*output.stderr].concat());
+    assert!(output.status.success(), "{printed}");
+    let lines = printed.lines().filter(|line| line.contains(" s  Y"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A folder with a program and boards that save often and rarely, and the cargo for them; `None` where tools are
+/// missing.
+fn boards((name, program): (&str, &str)) -> Option<(TempDir, Command)> {
+    let needed = [
+        "make",
+        "arm-none-eabi-gcc",
+        "arm-none-eabi-ld",
+        "qemu-system-arm",
+    ];
+    if !tools::tools(&needed) {
+        return None;
+    }
+    let board = Path::new(env!("RUNGC_ROOT")).join("examples/boards/mps2-an385.toml");
+    let board = fs::read_to_string(board).unwrap() + BOARD;
+    let folder = folder(&[
+        (name, program.as_bytes()),
+        ("often.toml", board.replace("EVERY", "1000").as_bytes()),
+        ("rarely.toml", board.replace("EVERY", "3600000").as_bytes()),
+    ]);
+    let target = "thumbv7m-none-eabi";
+    let Some(cargo) = tools::cargo(target) else {
+        tools::leave_out(&tools::no_rust(target));
+        return None;
+    };
+    Some((folder, cargo))
+}
+
+/// Builds an image that ends after a time; gives its name.
+fn image(
+    folder: &Path,
+    cargo: &Command,
+    (program, end): (&str, &str),
+    (backend, board): (&str, &str),
+) -> String {
+    let name = format!("{backend}-{board}.elf");
+    let built = tools::with_cargo(cargo)
+        .args(["build", program, "--emit", "elf", "--for", end])
+        .args(["--board", &format!("{board}.toml"), "--backend", backend])
+        .args(["-o", &name, "--force"])
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    name
+}
+
+/// Whether the pin says that the supply fails, when the image begins.
+fn set_supply(folder: &Path, fails: bool) {
+    let mut ram = fs::read(folder.join("ram")).unwrap();
+    ram[0x1000] = u8::from(fails) << 2;
+    fs::write(folder.join("ram"), &ram).unwrap();
+}
+
+/// The pin drives M8007, M8008 and D8007, and ends in STOP after the time in D8008.
+#[test]
+fn a_failing_supply_stops_an_image() {
+    let program = "LD M8008\nOUT Y000\nLD= D8007 K1\nOUT Y001\nLD M8000\nOUT Y002\nEND\n";
+    let Some((folder, cargo)) = boards(("supply.il", program)) else {
+        return;
+    };
+    let at = folder.path();
+    let image = image(at, &cargo, ("supply.il", "100ms"), ("c", "rarely"));
+    fs::write(at.join("ram"), vec![0; RAM]).unwrap();
+    assert_eq!(simulated(at, &image), "      0.000 s  Y002 on");
+    set_supply(at, true);
+    insta::assert_snapshot!(simulated(at, &image), @r"
+    0.000 s  Y002 on
+    0.010 s  Y000 on
+    0.010 s  Y001 on
+    0.020 s  Y000 off
+    0.020 s  Y001 off
+    0.020 s  Y002 off
+    ");
+}
+
+/// Images in C and in Rust load what the other has saved, in the background or because the supply fails.
+#[test]
+fn latched_devices_of_images_survive() {
+    let Some((folder, cargo)) = boards(("starts.il", STARTS)) else {
+        return;
+    };
+    let at = folder.path();
+    let image =
+        |backend: &str, board: &str| image(at, &cargo, ("starts.il", "3s"), (backend, board));
+    let [often, rarely] = [image("c", "often"), image("c", "rarely")];
+    let in_rust = image("rust", "rarely");
+    fs::write(at.join("ram"), vec![0; RAM]).unwrap();
+    let supply = |fails: bool| set_supply(at, fails);
+    assert_eq!(simulated(at, &often), "      0.000 s  Y000 on");
+    // What is loaded is saved only when the supply fails.
+    for fails in [false, true] {
+        supply(fails);
+        assert_eq!(simulated(at, &in_rust), "      0.000 s  Y001 on");
+    }
+    assert_eq!(simulated(at, &rarely), "      0.000 s  Y002 on");
+    supply(false);
+    for _ in 0..2 {
+        assert_eq!(simulated(at, &in_rust), "      0.000 s  Y003 on");
+    }
+}
+
+/// Runs an executable until it reads `quit`; what it prints.
+fn until_quit(folder: &Path, program: &Path, args: &[&str]) -> (String, Option<i32>) {
+    let mut child = Command::new(program)
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    thread::sleep(Duration::from_millis(500));
+    // A program that has ended already reads nothing.
+    let _ = child.stdin.take().unwrap().write_all(b"quit\n");
+    let output = child.wait_with_output().unwrap();
+    let printed = text(&output.stdout) + &text(&output.stderr);
+    (printed, output.status.code())
+}
+
+/// Executables in C and in Rust, and `rungc run`, load what the others have saved.
+#[test]
+fn executables_keep_latched_devices() {
+    let folder = folder(&[
+        ("starts.il", hosts::PROGRAM.as_bytes()),
+        ("pump.il", b"LD X0\nSET M500\nLD M500\nOUT Y0\nEND\n"),
+    ]);
+    let at = folder.path();
+    let built = rungc(at, &["build", "pump.il", "--emit", "bin", "-o", "pump"]);
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    let [in_c, in_rust] = hosts::executables();
+    let retain = ["--retain", "starts.retain"];
+    let (said, _) = until_quit(at, in_c, &retain);
+    assert!(said.contains("does not exist yet"), "{said}");
+    assert!(said.contains("Y000 on"), "{said}");
+    let (said, _) = until_quit(at, in_rust, &retain);
+    assert!(
+        said.contains("Y001 on") && said.lines().count() == 1,
+        "{said}"
+    );
+    let third = rungc(
+        at,
+        &[
+            "run",
+            "starts.il",
+            "--retain",
+            "starts.retain",
+            "--watch",
+            "D200",
+        ],
+    );
+    assert_eq!(last(&third), "3");
+    let (said, _) = until_quit(at, in_c, &retain);
+    assert!(
+        said.contains("Y003 on") && said.lines().count() == 1,
+        "{said}"
+    );
+    let before = fs::read(at.join("starts.retain")).unwrap();
+    let refused = until_quit(at, &at.join("pump"), &retain);
+    let why = "pump: starts.retain holds the latched devices of `starts (fx3u)`, and this program is `pump (fx3u)`; \
+               name another file\n";
+    assert_eq!(refused, (why.to_string(), Some(2)));
+    fs::write(at.join("starts.retain"), &before[..before.len() - 1]).unwrap();
+    let why = "starts.retain does not hold latched devices, or is damaged\n";
+    let refused = until_quit(at, in_c, &retain);
+    assert_eq!(refused, (format!("starts: {why}"), Some(2)));
+    let (said, code) = until_quit(at, in_rust, &retain);
+    assert_eq!(code, Some(2));
+    assert!(
+        said.contains("does not hold latched devices, or is damaged"),
+        "{said}"
+    );
+}
+
+/// Runs a test for each host at the same time, in a separate folder.
+fn each(test: impl Fn(Host, &Path) + Sync) {
+    thread::scope(|scope| {
+        for host in Host::all() {
+            let test = &test;
+            scope.spawn(move || {
+                let folder = folder(&[
+                    ("starts.il", hosts::PROGRAM.as_bytes()),
+                    ("rungc.toml", hosts::SETTINGS.as_bytes()),
+                ]);
+                fs::create_dir(folder.path().join("disk")).unwrap();
+                test(host, folder.path());
+            });
+        }
+    });
+}
+
+/// A library that is loaded before the C library.
+fn preloaded(folder: &Path, name: &str, source: &str) -> String {
+    let (library, text) = (folder.join(name), folder.join(format!("{name}.c")));
+    fs::write(&text, source).unwrap();
+    let cc = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o"])
+        .args([&library, &text])
+        .output()
+        .unwrap();
+    assert!(
+        cc.status.success(),
+        "{}",
+        String::from_utf8_lossy(&cc.stderr)
+    );
+    library.display().to_string()
+}
+
+/// The first flush of a file takes SECONDS.
+const SLOW: &str = "\
+#define _GNU_SOURCE
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+int fsync(int file)
+{
+    static int flushed;
+    struct stat what;
+    if (fstat(file, &what) == 0 && S_ISREG(what.st_mode) && flushed++ == FLUSH) {
+        sleep(SECONDS);
+    }
+    return (int)syscall(SYS_fsync, file);
+}
+";
+
+/// A disk that takes 12 s to save holds up no scan; after 10 s, the program hears of it.
+#[test]
+fn a_slow_disk_does_not_hold_up_scans() {
+    each(|host, folder| {
+        let source = SLOW.replace("SECONDS", "12").replace("FLUSH", "0");
+        let slow = preloaded(folder, "slow.so", &source);
+        let mut running = host.start(
+            folder,
+            &["--retain", "disk/latched"],
+            &[("LD_PRELOAD", &slow)],
+        );
+        running.counts();
+        let began = Instant::now();
+        let mut last = began;
+        let mut longest = Duration::ZERO;
+        while let Some((at, terminal, on)) = running.next() {
+            if terminal == "Y010" {
+                longest = longest.max(at - last);
+                last = at;
+            }
+            if terminal == "Y012" {
+                assert!(on, "{host:?}");
+                break;
+            }
+        }
+        assert!(began.elapsed() > Duration::from_secs(8), "{host:?}");
+        assert!(
+            longest < Duration::from_secs(6),
+            "{host:?}: {longest:?} without a scan"
+        );
+        running.shows("Y012", false);
+        let (code, said) = running.end();
+        assert_eq!(code, host.code(), "{said}");
+        let complaints = [
+            "the disk takes longer than 10 s; latched devices are not saved",
+            "latched devices are saved again",
+        ];
+        for complaint in complaints {
+            assert_eq!(said.matches(complaint).count(), 1, "{host:?}: {said}");
+        }
+    });
+}
+
+/// A disk that is full, and one that vanishes: scans continue, the program hears of it, and what was saved remains.
+#[test]
+fn a_disk_that_takes_nothing_does_not_stop_scans() {
+    each(|host, folder| {
+        let mut running = host.start(folder, &["--retain", "disk/latched"], &[]);
+        running.counts();
+        let latched = folder.join("disk/latched");
+        let until = Instant::now() + PATIENCE;
+        while !latched.exists() {
+            assert!(Instant::now() < until, "{host:?}: it is saved");
+            thread::sleep(Duration::from_millis(20));
+        }
+        running.limit_files("0");
+        running.shows("Y012", true);
+        running.counts();
+        assert!(!folder.join("disk/latched.new").exists(), "{host:?}");
+        let whole = fs::read(&latched).unwrap();
+        running.limit_files("unlimited");
+        running.shows("Y012", false);
+        fs::rename(folder.join("disk"), folder.join("away")).unwrap();
+        running.shows("Y012", true);
+        running.counts();
+        fs::rename(folder.join("away"), folder.join("disk")).unwrap();
+        running.shows("Y012", false);
+        assert_ne!(fs::read(&latched).unwrap(), whole, "{host:?}");
+        fs::rename(folder.join("disk"), folder.join("away")).unwrap();
+        let (code, said) = running.end();
+        // What was not saved at the end is a failure.
+        assert_eq!(code, Some(1), "{host:?}: {said}");
+        let count = |what: &str| said.matches(what).count();
+        assert!(
+            count("latched devices are not saved") >= 3,
+            "{host:?}: {said}"
+        );
+        assert_eq!(
+            count("latched devices are saved again"),
+            2,
+            "{host:?}: {said}"
+        );
+    });
+}
+
+/// What is killed while it saves leaves the old file or the new one.
+#[test]
+fn killing_it_while_it_saves_tears_no_file() {
+    each(|host, folder| {
+        let new = folder.join("disk/latched.new");
+        // During the first save, and during the second.
+        for (flush, known) in [("0", false), ("1", true)] {
+            let source = SLOW.replace("SECONDS", "60").replace("FLUSH", flush);
+            let slow = preloaded(folder, &format!("slow-{flush}.so"), &source);
+            let mut running = host.start(
+                folder,
+                &["--retain", "disk/latched"],
+                &[("LD_PRELOAD", &slow)],
+            );
+            running.counts();
+            let until = Instant::now() + PATIENCE;
+            while !new.exists() || folder.join("disk/latched").exists() != known {
+                assert!(Instant::now() < until, "{host:?}: it saves");
+                thread::sleep(Duration::from_millis(1));
+            }
+            drop(running);
+            assert!(new.exists(), "{host:?}");
+            let mut again = host.start(folder, &["--retain", "disk/latched"], &[]);
+            again.counts();
+            let (code, said) = again.end();
+            assert_eq!(code, host.code(), "{host:?}: {said}");
+            assert_eq!(
+                said.contains("does not exist yet"),
+                !known,
+                "{host:?}: {said}"
+            );
+            assert!(
+                !said.contains("damaged") && !new.exists(),
+                "{host:?}: {said}"
+            );
+            if !known {
+                fs::remove_file(folder.join("disk/latched")).unwrap();
+            }
+        }
+    });
+}
+
+/// libfaketime 0.9.10 takes absolute times of the monotonic clock for times of day, even where it is to leave that
+/// clock alone; later versions do not.
+const MONOTONIC: &str = "\
+#define _GNU_SOURCE
+#include <errno.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+int clock_nanosleep(clockid_t clock, int flags, const struct timespec *until, struct timespec *left)
+{
+    return syscall(SYS_clock_nanosleep, clock, flags, until, left) == 0 ? 0 : errno;
+}
+";
+
+/// The library that `faketime` (apt-get install faketime) loads before a program.
+fn faketime() -> Option<String> {
+    let found = fs::read_dir("/usr/lib").ok()?.filter_map(Result::ok);
+    let library = |folder: fs::DirEntry| folder.path().join("faketime/libfaketime.so.1");
+    let library = found.map(library).find(|library| library.exists());
+    if library.is_none() {
+        tools::leave_out("libfaketime (apt-get install faketime)");
+    }
+    library.map(|library| library.display().to_string())
+}
+
+/// The time of day is set, forward and back by hours: scans and timers do not notice, the real-time clock follows.
+#[test]
+fn setting_the_clock_changes_only_the_real_time_clock() {
+    let Some(faketime) = faketime() else {
+        return;
+    };
+    each(|host, folder| {
+        let monotonic = preloaded(folder, "monotonic.so", MONOTONIC);
+        let offset = folder.join("offset");
+        // Half past some hour, so that it does not change by itself.
+        let now = std::time::SystemTime::UNIX_EPOCH
+            .elapsed()
+            .unwrap()
+            .as_secs() as i64;
+        let set = |hours: i64| {
+            let seconds = 1800 - now % 3600 + 3600 * hours;
+            fs::write(folder.join("new"), format!("{seconds:+}\n")).unwrap();
+            fs::rename(folder.join("new"), &offset).unwrap();
+        };
+        set(0);
+        let environment = [
+            ("LD_PRELOAD", &*format!("{monotonic} {faketime}")),
+            ("FAKETIME_TIMESTAMP_FILE", &offset.display().to_string()),
+            ("FAKETIME_NO_CACHE", "1"),
+            ("FAKETIME_DONT_FAKE_MONOTONIC", "1"),
+            ("TZ", "UTC0"),
+        ];
+        let mut running = host.start(folder, &[], &environment);
+        running.counts();
+        let began = Instant::now();
+        let mut times = [0u32; 2];
+        let mut last = began;
+        for (hours, changes) in [(5, true), (0, false), (-7, true), (0, false)] {
+            set(hours);
+            let until = Instant::now() + PATIENCE;
+            let mut followed = false;
+            let began = Instant::now();
+            while !followed || began.elapsed() < Duration::from_secs(2) {
+                let (at, terminal, on) = running.next().unwrap();
+                assert!(at < until, "{host:?}: the clock follows");
+                match &*terminal {
+                    "Y010" => times[0] += 1,
+                    "Y011" => times[1] += 1,
+                    "Y013" => {
+                        assert!(on == changes && !followed, "{host:?}");
+                        followed = true;
+                    }
+                    other => panic!("{host:?}: {other}"),
+                }
+                last = at;
+            }
+        }
+        let passed = last - began;
+        for (what, count, every_ms) in [("scans", times[0], 100), ("timers", times[1], 500)] {
+            let most = passed.as_millis() / every_ms;
+            let count = u128::from(count);
+            assert!(
+                count <= most * 5 / 4 + 2 && count >= most / 8,
+                "{host:?}: {count} times {every_ms} ms of {what} in {passed:?}"
+            );
+        }
+        let (code, said) = running.end();
+        assert_eq!(code, host.code(), "{said}");
+        assert!(!said.contains("stood still"), "{host:?}: {said}");
+    });
+}

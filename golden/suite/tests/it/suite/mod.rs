@@ -1,0 +1,144 @@
+//! The conformance cases and what is expected of them.
+
+use rungc_ir::Module;
+use rungc_sim::engines::Engine;
+use rungc_sim::plctest::{self, Case, Outcome, Suite, TestFile};
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Folders of conformance files.
+const PARTS: [&str; 8] = [
+    "fx1n", "fx1s", "fx2n", "fx3s", "fx3u", "h1u-h2u", "hm", "l01s",
+];
+
+/// The list of disputed cases.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct List {
+    disputed: Vec<Disputed>,
+}
+
+/// Cases of a file that contradict the manual, and why.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Disputed {
+    file: String,
+    cases: Vec<String>,
+    why: String,
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("RUNGC_ROOT")).join("golden/conformance")
+}
+
+/// All cases.
+fn load_all() -> Vec<TestFile> {
+    let mut paths = Vec::new();
+    for part in PARTS {
+        let entries = std::fs::read_dir(folder().join(part)).unwrap();
+        paths.extend(entries.map(|entry| entry.unwrap().path()));
+    }
+    paths.sort();
+    let load = |path: &PathBuf| {
+        let mut file = plctest::load(path).unwrap_or_else(|e| panic!("{e}"));
+        // The name without the folder of this repository.
+        let short = path.strip_prefix(folder()).unwrap_or(path);
+        file.name = short.display().to_string();
+        file
+    };
+    paths.iter().map(load).collect()
+}
+
+/// Why cases are disputed, by file and name.
+type Reasons = BTreeMap<(String, String), String>;
+
+fn disputed() -> Reasons {
+    let text = std::fs::read_to_string(folder().join("DISPUTED.toml")).unwrap();
+    let list: List = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
+    let mut reasons = BTreeMap::new();
+    for Disputed { file, cases, why } in list.disputed {
+        for case in cases {
+            let twice = reasons.insert((file.clone(), case.clone()), why.clone());
+            assert!(twice.is_none(), "{file}: {case} is listed twice");
+        }
+    }
+    reasons
+}
+
+fn key(suite: &Suite, outcome: &Outcome) -> (String, String) {
+    let file = &suite.files()[outcome.id.file];
+    (file.name.clone(), file.cases[outcome.id.case].name.clone())
+}
+
+/// All cases, and which of them are disputed.
+pub struct Conformance {
+    suite: Suite,
+    disputed: Reasons,
+}
+
+impl Conformance {
+    /// Reads and compiles them, in parts of whole files with at most this many cases, unless a file alone has more.
+    pub fn load(most: usize) -> Vec<Self> {
+        let files = load_all();
+        let disputed = disputed();
+        let cases = files.iter().flat_map(|file| {
+            let named = |case: &Case| (file.name.clone(), case.name.clone());
+            file.cases.iter().map(named)
+        });
+        let names: BTreeSet<_> = cases.collect();
+        for key @ (file, case) in disputed.keys() {
+            assert!(
+                names.contains(key),
+                "{file}: {case} is listed, but there is no such case"
+            );
+        }
+        let mut parts: Vec<Vec<TestFile>> = Vec::new();
+        let mut room = 0;
+        for file in files {
+            let cases = file.cases.len();
+            if cases > room {
+                parts.push(Vec::new());
+                room = most;
+            }
+            room = room.saturating_sub(cases);
+            parts.last_mut().unwrap().push(file);
+        }
+        let part = |files| Conformance {
+            suite: Suite::compile(files, &[]),
+            disputed: disputed.clone(),
+        };
+        parts.into_iter().map(part).collect()
+    }
+
+    /// The compiled programs.
+    pub fn modules(&self) -> &[Module] {
+        self.suite.modules()
+    }
+
+    /// What goes otherwise than expected on an engine.
+    pub fn run(&self, engine: &mut dyn Engine) -> Vec<String> {
+        let mut wrong = Vec::new();
+        let report = plctest::run(&self.suite, engine, &mut |_| ControlFlow::Continue(()));
+        println!(
+            "{}: {} of {} pass",
+            engine.name(),
+            report.passed(),
+            self.suite.len()
+        );
+        for outcome in &report.outcomes {
+            let described = outcome.describe(&self.suite);
+            let disputed = self.disputed.get(&key(&self.suite, outcome));
+            match (&outcome.failure, disputed) {
+                (Some(_), None) => wrong.push(described),
+                (None, Some(why)) => {
+                    wrong.push(format!("{described}, but is listed as disputed: {why}"));
+                }
+                (Some(_), Some(_)) => println!("disputed: {described}"),
+                (None, None) => {}
+            }
+        }
+        wrong
+    }
+}

@@ -1,0 +1,61 @@
+//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
+//! package` the packages that are published, `cargo xtask size` measures the executable, `cargo xtask campaign`
+//! compares engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
+//! files.
+
+mod book;
+mod campaign;
+mod generate;
+mod header;
+mod package;
+mod rungc;
+mod size;
+mod tools;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Chores of the repository.
+#[derive(Parser, Debug)]
+#[command(name = "cargo xtask")]
+struct Args {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand, Debug)]
+enum Chore {
+    /// Write the generated files, or check that they are up to date.
+    Generate(generate::Args),
+    /// Check that every published crate builds from its package alone, or publish them.
+    Package(package::Args),
+    /// Compare random programs on every way to run them, for hours.
+    Campaign(campaign::Args),
+    /// Print how large an executable is, and what each crate takes of it.
+    Size(size::Args),
+}
+
+/// What stopped a chore, as a message.
+type Problem = Box<dyn std::error::Error>;
+
+/// The repository's root.
+fn root() -> PathBuf {
+    PathBuf::from(env!("RUNGC_ROOT"))
+}
+
+fn main() -> ExitCode {
+    let done = match Args::parse().chore {
+        Chore::Generate(args) => generate::run(&args),
+        Chore::Package(args) => package::run(&args),
+        Chore::Campaign(args) => campaign::run(&args),
+        Chore::Size(args) => size::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! `cargo xtask package`.
+
+use crate::{Problem, root, tools};
+use std::fs;
+use std::process::Command;
+
+/// Publish all crates that are meant for it; without `--publish`, do everything but upload: each crate must build from
+/// its package alone.
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    /// Upload the packages, in the order of their dependencies.
+    #[arg(long)]
+    publish: bool,
+    /// Only make the packages, without building them.
+    #[arg(long, conflicts_with = "publish")]
+    no_verify: bool,
+}
+
+/// Publishes all crates, or does so but for the upload, except those with `publish = false`.
+pub fn run(args: &Args) -> Result<(), Problem> {
+    // Cargo would count the packed sources below, which git ignores, as a change that is not committed.
+    let changes = tools::output(
+        Command::new("git")
+            .args(["status", "--porcelain"])
+            .current_dir(root()),
+    )?;
+    if !changes.is_empty() {
+        return Err(format!("commit these changes first:\n{changes}").into());
+    }
+    // The runtime's sources lie beside the crate that embeds them, and packages have no neighbours.
+    let packed = root().join("runtime-rt/sources/sources.bin");
+    fs::write(&packed, rungc_runtime_sources::PACKED.bytes())?;
+    let mut cargo = tools::cargo(&["publish", "--workspace", "--locked", "--allow-dirty"]);
+    if !args.publish {
+        cargo.arg("--dry-run");
+    }
+    for private in tools::private_packages()? {
+        cargo.args(["--exclude", &private]);
+    }
+    if args.no_verify {
+        cargo.arg("--no-verify");
+    }
+    let done = tools::run(&mut cargo);
+    fs::remove_file(packed)?;
+    done
+}
