@@ -363,7 +363,7 @@ impl Session<'_> {
     /// Takes a frame of CAN if it is one of CANlink, and the program is a station of it.
     pub(super) fn take_canlink(&mut self, frame: &CanFrame) -> bool {
         let codec = self.codec_of(Protocols::CANLINK);
-        codec.is_some_and(|codec| codec.take_from_bus(self.plc, frame))
+        codec.is_some_and(|codec| codec.handler.receive_can(self.plc, frame))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a port does under each protocol, as a table: a program links the codecs that its ports may need.
+//! Protocols of serial ports as a table: a program links the codecs that its ports may need.
 
 use super::line::{LineFormat, Received};
 use super::modbus::{self, Framing, LONGEST_RTU};
@@ -17,61 +17,16 @@ const ADAPTER: LineFormat = LineFormat {
     ..LineFormat::new()
 };
 
-/// What a port does under one protocol, or under several that belong together.
-#[derive(Debug)]
+/// An entry of the table: a protocol, or several that belong together.
 pub struct Codec {
-    /// Its name in emitted code.
-    name: &'static str,
     protocols: Protocols,
-    /// Whether the characters received so far are a frame, if it is not silence that ends them.
-    cut: fn(&Status, &Progress, Slave, &[u8]) -> Cut,
-    /// Takes a frame of this many characters.
-    take: for<'a, 'b> fn(&'a mut Session<'b>, usize),
-    /// Takes a character, in protocols that have no frames.
-    character: Option<for<'a, 'b> fn(&'a mut Session<'b>, Received)>,
-    /// Takes a frame of a CAN bus; false if it is not for this protocol.
-    bus: fn(&mut dyn Plc, &CanFrame) -> bool,
-    /// Does what is to be done by now: at the end of each call.
-    advance: for<'a, 'b> fn(&'a mut Session<'b>),
-    /// A frame has been sent.
-    sent: for<'a, 'b> fn(&'a mut Session<'b>),
-    /// The format of characters on the line.
-    line: fn(&PortWiring, &dyn Plc, Protocol, [u16; 3]) -> LineFormat,
-    /// Shows an error.
-    note: fn(&PortWiring, &mut dyn Plc, Protocol, LineFault),
+    /// What a port does under the protocol.
+    pub(super) handler: &'static dyn Handler,
 }
 
 impl Codec {
-    /// One that does nothing.
-    const fn new(name: &'static str, protocols: Protocols) -> Self {
-        Codec {
-            name,
-            protocols,
-            cut: |_, _, _, _| Cut::Drop,
-            take: |_, _| {},
-            character: None,
-            bus: |_, _| false,
-            advance: |_| {},
-            sent: |_| {},
-            line: |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false),
-            note: |wiring, plc, _, fault| wiring.note_general(plc, fault),
-        }
-    }
-
-    /// One for Modbus, by RTU frames or by ASCII.
-    const fn of_modbus(name: &'static str, protocols: Protocols, framing: Framing) -> Self {
-        Codec {
-            line: match framing {
-                Framing::Rtu => {
-                    |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false).eight_bits()
-                }
-                Framing::Ascii => |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false),
-            },
-            note: |wiring, plc, protocol, fault| {
-                wiring.note_of_modbus(plc, protocol.is_master(), fault);
-            },
-            ..Codec::new(name, protocols)
-        }
+    const fn new(protocols: Protocols, handler: &'static dyn Handler) -> Self {
+        Codec { protocols, handler }
     }
 
     /// The one for a protocol.
@@ -80,222 +35,329 @@ impl Codec {
         all.find(|codec| codec.protocols.contains(protocol))
     }
 
-    pub(super) fn line(
-        &self,
-        wiring: &PortWiring,
-        plc: &dyn Plc,
-        protocol: Protocol,
-        uinit: [u16; 3],
-    ) -> LineFormat {
-        (self.line)(wiring, plc, protocol, uinit)
-    }
-
-    pub(super) fn note(
-        &self,
-        wiring: &PortWiring,
-        plc: &mut dyn Plc,
-        protocol: Protocol,
-        fault: LineFault,
-    ) {
-        (self.note)(wiring, plc, protocol, fault);
-    }
-
-    /// Its name in emitted code, in small letters.
-    pub const fn name(&self) -> &'static str {
-        self.name
+    /// Its name in emitted code, in small letters. Programs do not carry it.
+    pub fn name(&self) -> &'static str {
+        let mut names = ALL.iter().zip(NAMES);
+        let named = names.find(|(codec, _)| codec.protocols == self.protocols);
+        named.map_or("", |(_, name)| name)
     }
 
     /// The protocols that it is for.
     pub const fn protocols(&self) -> Protocols {
         self.protocols
     }
+}
 
-    /// Whether it takes characters rather than frames, and sends by itself.
-    pub(super) const fn has_no_frames(&self) -> bool {
-        self.character.is_some()
-    }
-
-    pub(super) fn cut(
+/// Behaviour of a port under a protocol. What is not overridden does nothing.
+pub(super) trait Handler: Sync {
+    /// Format of characters on the line.
+    fn line(
         &self,
-        status: &Status,
-        progress: &Progress,
-        slave: Slave,
-        received: &[u8],
-    ) -> Cut {
-        (self.cut)(status, progress, slave, received)
+        wiring: &PortWiring,
+        plc: &dyn Plc,
+        _protocol: Protocol,
+        uinit: [u16; 3],
+    ) -> LineFormat {
+        wiring.own_line(plc, uinit, false)
     }
 
-    pub(super) fn take(&self, session: &mut Session, received: usize) {
-        (self.take)(session, received);
+    /// Shows an error in the special devices of the port.
+    fn show_error(
+        &self,
+        wiring: &PortWiring,
+        plc: &mut dyn Plc,
+        _protocol: Protocol,
+        fault: LineFault,
+    ) {
+        wiring.note_general(plc, fault);
     }
 
-    /// Takes a character; false if it belongs to a frame.
-    pub(super) fn character(&self, session: &mut Session, character: Received) -> bool {
-        if let Some(take) = self.character {
-            take(session, character);
+    /// End of the frame that the characters received so far begin, if it is not silence that ends frames.
+    fn cut(&self, _status: &Status, _progress: &Progress, _slave: Slave, _received: &[u8]) -> Cut {
+        Cut::Drop
+    }
+
+    /// Handles a frame of `length` characters.
+    fn receive(&self, _session: &mut Session, _length: usize) {}
+
+    /// Handles a character, in protocols without frames.
+    fn receive_character(&self, _session: &mut Session, _character: Received) {}
+
+    /// Handles a frame of a CAN bus. Returns false if it is not for this protocol.
+    fn receive_can(&self, _plc: &mut dyn Plc, _frame: &CanFrame) -> bool {
+        false
+    }
+
+    /// Does what is due, at the end of each call.
+    fn poll(&self, _session: &mut Session) {}
+
+    /// Takes notice that a frame has been sent.
+    fn sent(&self, _session: &mut Session) {}
+}
+
+struct Free;
+
+impl Handler for Free {
+    fn line(&self, wiring: &PortWiring, plc: &dyn Plc, _: Protocol, uinit: [u16; 3]) -> LineFormat {
+        wiring.own_line(plc, uinit, true)
+    }
+
+    fn receive_character(&self, session: &mut Session, character: Received) {
+        session.take_free(character);
+    }
+
+    fn poll(&self, session: &mut Session) {
+        session.advance_free();
+    }
+}
+
+struct ProgrammingPort;
+
+impl Handler for ProgrammingPort {
+    fn line(&self, wiring: &PortWiring, _: &dyn Plc, _: Protocol, _: [u16; 3]) -> LineFormat {
+        LineFormat::seven_even(9600, wiring.one_pair)
+    }
+
+    fn show_error(&self, _: &PortWiring, plc: &mut dyn Plc, _: Protocol, fault: LineFault) {
+        note_programming_port(plc, fault);
+    }
+
+    fn cut(&self, _: &Status, _: &Progress, _: Slave, received: &[u8]) -> Cut {
+        fx_port::cut(received)
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        let mut rate = None;
+        session.answer_with_memory::<FRAME>(length, |slave, request, memory, map, reply| {
+            let settings = slave.family.programming_port();
+            rate = fx_port::text_of(request).ok().and_then(fx_port::rate);
+            fx_port::answer(settings, memory, request, map, reply)
+        });
+        session.status.rate = rate.unwrap_or(session.status.rate);
+    }
+}
+
+struct ModbusRtu;
+
+impl Handler for ModbusRtu {
+    fn line(&self, wiring: &PortWiring, plc: &dyn Plc, _: Protocol, uinit: [u16; 3]) -> LineFormat {
+        wiring.own_line(plc, uinit, false).eight_bits()
+    }
+
+    fn show_error(&self, wiring: &PortWiring, plc: &mut dyn Plc, of: Protocol, fault: LineFault) {
+        wiring.note_of_modbus(plc, of.is_master(), fault);
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        match session.codec_of(Protocols::QLINK) {
+            Some(qlink) if session.is_whole(qlink, length) => {
+                qlink.handler.receive(session, length);
+            }
+            _ => session.answer::<LONGEST_RTU>(length, |slave, request, _, map, reply| {
+                modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
+            }),
         }
-        self.character.is_some()
+    }
+}
+
+struct Qlink;
+
+impl Handler for Qlink {
+    fn cut(&self, _: &Status, _: &Progress, slave: Slave, received: &[u8]) -> Cut {
+        match slave.has_qlink() && qlink::is_qlink(received) {
+            true => Cut::Whole,
+            false => Cut::Drop,
+        }
     }
 
-    /// Takes a frame of a CAN bus; false if it is not for this protocol.
-    pub(super) fn take_from_bus(&self, plc: &mut dyn Plc, frame: &CanFrame) -> bool {
-        (self.bus)(plc, frame)
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.answer_with_memory::<FRAME>(length, |slave, request, memory, map, reply| {
+            let settings = slave.modbus(Framing::Rtu);
+            let devices = slave.qlink_devices();
+            qlink::answer(&settings, devices, memory, request, map, reply)
+        });
+    }
+}
+
+struct ModbusAscii;
+
+impl Handler for ModbusAscii {
+    fn show_error(&self, wiring: &PortWiring, plc: &mut dyn Plc, of: Protocol, fault: LineFault) {
+        wiring.note_of_modbus(plc, of.is_master(), fault);
     }
 
-    pub(super) fn advance(&self, session: &mut Session) {
-        (self.advance)(session);
+    fn cut(&self, _: &Status, _: &Progress, _: Slave, received: &[u8]) -> Cut {
+        modbus::cut_ascii(received)
     }
 
-    pub(super) fn sent(&self, session: &mut Session) {
-        (self.sent)(session);
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.answer::<FRAME>(length, |slave, request, _, map, reply| {
+            modbus::answer_ascii(&slave.modbus(Framing::Ascii), request, map, reply)
+        });
+    }
+}
+
+struct MasterRtu;
+
+impl Handler for MasterRtu {
+    fn line(&self, wiring: &PortWiring, plc: &dyn Plc, _: Protocol, uinit: [u16; 3]) -> LineFormat {
+        wiring.own_line(plc, uinit, false).eight_bits()
+    }
+
+    fn show_error(&self, wiring: &PortWiring, plc: &mut dyn Plc, of: Protocol, fault: LineFault) {
+        wiring.note_of_modbus(plc, of.is_master(), fault);
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.take_answer::<LONGEST_RTU>(Framing::Rtu, length);
+    }
+
+    fn poll(&self, session: &mut Session) {
+        session.advance_master::<LONGEST_RTU>(Framing::Rtu);
+    }
+}
+
+struct MasterAscii;
+
+impl Handler for MasterAscii {
+    fn show_error(&self, wiring: &PortWiring, plc: &mut dyn Plc, of: Protocol, fault: LineFault) {
+        wiring.note_of_modbus(plc, of.is_master(), fault);
+    }
+
+    fn cut(&self, _: &Status, _: &Progress, _: Slave, received: &[u8]) -> Cut {
+        modbus::cut_ascii(received)
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.take_answer::<FRAME>(Framing::Ascii, length);
+    }
+
+    fn poll(&self, session: &mut Session) {
+        session.advance_master::<FRAME>(Framing::Ascii);
+    }
+}
+
+struct ComputerLink;
+
+impl Handler for ComputerLink {
+    fn cut(&self, _: &Status, _: &Progress, slave: Slave, received: &[u8]) -> Cut {
+        computer_link::cut(slave.computer_link(), received)
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.answer::<FRAME>(length, |slave, request, remote, map, reply| {
+            computer_link::answer(slave.computer_link(), remote, request, map, reply)
+        });
+    }
+
+    fn poll(&self, session: &mut Session) {
+        session.advance_on_demand();
+    }
+
+    fn sent(&self, session: &mut Session) {
+        session.end_on_demand();
+    }
+}
+
+struct Link;
+
+impl Handler for Link {
+    fn line(
+        &self,
+        wiring: &PortWiring,
+        plc: &dyn Plc,
+        protocol: Protocol,
+        uinit: [u16; 3],
+    ) -> LineFormat {
+        match protocol {
+            Protocol::ComputerLinkMaster => wiring.own_line(plc, uinit, false),
+            _ => wiring.linked(plc, protocol),
+        }
+    }
+
+    fn show_error(&self, wiring: &PortWiring, plc: &mut dyn Plc, of: Protocol, fault: LineFault) {
+        wiring.note_of_link(plc, of, fault);
+    }
+
+    fn cut(&self, status: &Status, progress: &Progress, _: Slave, received: &[u8]) -> Cut {
+        match role(status.protocol, status.uinit[2]) {
+            Some(role) => progress.link.cut(role, received),
+            None => Cut::Drop,
+        }
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.take_linked(length);
+    }
+
+    fn poll(&self, session: &mut Session) {
+        session.advance_link();
+    }
+}
+
+struct Can;
+
+impl Handler for Can {
+    fn line(&self, _: &PortWiring, _: &dyn Plc, _: Protocol, _: [u16; 3]) -> LineFormat {
+        ADAPTER
+    }
+
+    fn cut(&self, _: &Status, _: &Progress, _: Slave, received: &[u8]) -> Cut {
+        can::cut(received)
+    }
+
+    fn receive(&self, session: &mut Session, length: usize) {
+        session.take_can(length);
+    }
+}
+
+struct Canlink;
+
+impl Handler for Canlink {
+    fn receive_can(&self, plc: &mut dyn Plc, frame: &CanFrame) -> bool {
+        canlink::take(plc, frame)
     }
 }
 
 /// RS, RS2, USEND, URCV.
-pub const FREE: Codec = Codec {
-    line: |wiring, plc, _, uinit| wiring.own_line(plc, uinit, true),
-    character: Some(|session, character| session.take_free(character)),
-    advance: |session| session.advance_free(),
-    ..Codec::new("free", Protocols::of(&[Protocol::Free]))
-};
+pub const FREE: Codec = Codec::new(Protocols::of(&[Protocol::Free]), &Free);
 
 /// The programming port.
-pub const PROGRAMMING_PORT: Codec = Codec {
-    line: |wiring, _, _, _| LineFormat::seven_even(9600, wiring.one_pair),
-    note: |_, plc, _, fault| note_programming_port(plc, fault),
-    cut: |_, _, _, received| fx_port::cut(received),
-    take: |session, received| {
-        let mut asked = None;
-        session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
-            let settings = slave.family.programming_port();
-            asked = fx_port::text_of(request).ok().and_then(fx_port::rate);
-            fx_port::answer(settings, memory, request, map, reply)
-        });
-        session.status.rate = asked.unwrap_or(session.status.rate);
-    },
-    ..Codec::new(
-        "programming_port",
-        Protocols::of(&[Protocol::ProgrammingPort]),
-    )
-};
+pub const PROGRAMMING_PORT: Codec = Codec::new(
+    Protocols::of(&[Protocol::ProgrammingPort]),
+    &ProgrammingPort,
+);
 
 /// A slave by Modbus RTU.
-pub const MODBUS_RTU: Codec = Codec {
-    take: |session, received| match session.codec_of(Protocols::QLINK) {
-        Some(qlink) if session.is_whole(qlink, received) => qlink.take(session, received),
-        _ => session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
-            modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
-        }),
-    },
-    ..Codec::of_modbus(
-        "modbus_rtu",
-        Protocols::of(&[Protocol::ModbusRtu]),
-        Framing::Rtu,
-    )
-};
+pub const MODBUS_RTU: Codec = Codec::new(Protocols::of(&[Protocol::ModbusRtu]), &ModbusRtu);
 
 /// QLink, which a slave by Modbus RTU of H1U and H2U answers, too.
-pub const QLINK: Codec = Codec {
-    cut: |_, _, slave, received| match slave.has_qlink() && qlink::is_qlink(received) {
-        true => Cut::Whole,
-        false => Cut::Drop,
-    },
-    take: |session, received| {
-        session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
-            let settings = slave.modbus(Framing::Rtu);
-            qlink::answer(
-                &settings,
-                slave.qlink_devices(),
-                memory,
-                request,
-                map,
-                reply,
-            )
-        });
-    },
-    ..Codec::new("qlink", Protocols::QLINK)
-};
+pub const QLINK: Codec = Codec::new(Protocols::QLINK, &Qlink);
 
 /// A slave by Modbus ASCII.
-pub const MODBUS_ASCII: Codec = Codec {
-    cut: |_, _, _, received| modbus::cut_ascii(received),
-    take: |session, received| {
-        session.answer::<FRAME>(received, |slave, request, _, map, reply| {
-            modbus::answer_ascii(&slave.modbus(Framing::Ascii), request, map, reply)
-        });
-    },
-    ..Codec::of_modbus(
-        "modbus_ascii",
-        Protocols::of(&[Protocol::ModbusAscii]),
-        Framing::Ascii,
-    )
-};
+pub const MODBUS_ASCII: Codec = Codec::new(Protocols::of(&[Protocol::ModbusAscii]), &ModbusAscii);
 
 /// A master by Modbus RTU.
-pub const MASTER_RTU: Codec = Codec {
-    take: |session, received| session.take_answer::<LONGEST_RTU>(Framing::Rtu, received),
-    advance: |session| session.advance_master::<LONGEST_RTU>(Framing::Rtu),
-    ..Codec::of_modbus(
-        "master_rtu",
-        Protocols::of(&[Protocol::MasterRtu, Protocol::MasterTable]),
-        Framing::Rtu,
-    )
-};
+pub const MASTER_RTU: Codec = Codec::new(
+    Protocols::of(&[Protocol::MasterRtu, Protocol::MasterTable]),
+    &MasterRtu,
+);
 
 /// A master by Modbus ASCII.
-pub const MASTER_ASCII: Codec = Codec {
-    cut: |_, _, _, received| modbus::cut_ascii(received),
-    take: |session, received| session.take_answer::<FRAME>(Framing::Ascii, received),
-    advance: |session| session.advance_master::<FRAME>(Framing::Ascii),
-    ..Codec::of_modbus(
-        "master_ascii",
-        Protocols::of(&[Protocol::MasterAscii]),
-        Framing::Ascii,
-    )
-};
+pub const MASTER_ASCII: Codec = Codec::new(Protocols::of(&[Protocol::MasterAscii]), &MasterAscii);
 
 /// A slave of a computer link.
-pub const COMPUTER_LINK: Codec = Codec {
-    cut: |_, _, slave, received| computer_link::cut(slave.computer_link(), received),
-    take: |session, received| {
-        session.answer::<FRAME>(received, |slave, request, remote, map, reply| {
-            computer_link::answer(slave.computer_link(), remote, request, map, reply)
-        });
-    },
-    advance: |session| session.advance_on_demand(),
-    sent: |session| session.end_on_demand(),
-    ..Codec::new("computer_link", Protocols::of(&[Protocol::ComputerLink]))
-};
+pub const COMPUTER_LINK: Codec =
+    Codec::new(Protocols::of(&[Protocol::ComputerLink]), &ComputerLink);
 
 /// Links that PLCs keep up by themselves.
-pub const LINK: Codec = Codec {
-    line: |wiring, plc, protocol, uinit| match protocol {
-        Protocol::ComputerLinkMaster => wiring.own_line(plc, uinit, false),
-        _ => wiring.linked(plc, protocol),
-    },
-    note: |wiring, plc, protocol, fault| wiring.note_of_link(plc, protocol, fault),
-    cut: |status, progress, _, received| match role(status.protocol, status.uinit[2]) {
-        Some(role) => progress.link.cut(role, received),
-        None => Cut::Drop,
-    },
-    take: |session, received| session.take_linked(received),
-    advance: |session| session.advance_link(),
-    ..Codec::new("link", Protocols::LINKS)
-};
+pub const LINK: Codec = Codec::new(Protocols::LINKS, &Link);
 
 /// Frames of CAN.
-pub const CAN: Codec = Codec {
-    line: |_, _, _, _| ADAPTER,
-    cut: |_, _, _, received| can::cut(received),
-    take: |session, received| session.take_can(received),
-    ..Codec::new("can", Protocols::of(&[Protocol::Can]))
-};
+pub const CAN: Codec = Codec::new(Protocols::of(&[Protocol::Can]), &Can);
 
 /// CANlink, beside frames of the program's own.
-pub const CANLINK: Codec = Codec {
-    bus: canlink::take,
-    ..Codec::new("canlink", Protocols::CANLINK)
-};
+pub const CANLINK: Codec = Codec::new(Protocols::CANLINK, &Canlink);
 
 /// All of them.
 pub const ALL: &[&Codec] = &[
@@ -310,4 +372,19 @@ pub const ALL: &[&Codec] = &[
     &LINK,
     &CAN,
     &CANLINK,
+];
+
+/// Their names in the same order.
+const NAMES: [&str; ALL.len()] = [
+    "free",
+    "programming_port",
+    "modbus_rtu",
+    "qlink",
+    "modbus_ascii",
+    "master_rtu",
+    "master_ascii",
+    "computer_link",
+    "link",
+    "can",
+    "canlink",
 ];

@@ -44,7 +44,7 @@
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
 //! | `parts.rs` | [`Port`]: what a port consists of in memory |
 //! | `port.rs` | the state machine of one port |
-//! | `speech.rs` | what a port may speak: all that a program links, or less |
+//! | `port_protocol.rs` | the protocol side of a port: all protocols that a program links, or less |
 //! | `slave_alone.rs` | a port that is nothing but a slave by Modbus RTU |
 //! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
 //! | `protocols.rs` | sets of protocols, and how much memory they take |
@@ -77,6 +77,7 @@ mod memory;
 pub mod modbus;
 mod parts;
 mod port;
+mod port_protocol;
 #[cfg(test)]
 mod port_tests;
 mod protocols;
@@ -84,7 +85,6 @@ mod qlink;
 pub mod service;
 mod slave_alone;
 mod slaves;
-mod speech;
 #[cfg(test)]
 mod watched;
 mod wiring;

@@ -1,12 +1,12 @@
 //! The state machine of one port, beside the scan.
 
-use super::codec::Codec;
+use super::codec::{Codec, Handler};
 use super::computer_link::Remote;
 use super::line::{CharFault, Received};
 use super::modbus::LONGEST_RTU;
 use super::parts::Status;
+use super::port_protocol::{AnyProtocol, PortProtocol};
 use super::slaves::Slave;
-use super::speech::{Spoken, Whole};
 use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, value};
 use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
@@ -19,13 +19,13 @@ pub const FRAME: usize = 528;
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
 const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
-/// One port while it is advanced. `S` is what it may speak as far as that is known when a program is built: then the
+/// One port while it is advanced. `S` is its protocol side as far as that is known when a program is built: then the
 /// devices and the hardware are known, too, and the rest of this is not linked.
-pub(super) struct Session<'a, P: ?Sized = dyn Plc + 'a, H: ?Sized = dyn Hal + 'a, S = Whole> {
+pub(super) struct Session<'a, P: ?Sized = dyn Plc + 'a, H: ?Sized = dyn Hal + 'a, S = AnyProtocol> {
     pub(super) plc: &'a mut P,
     pub(super) hal: &'a mut H,
     pub(super) status: Status,
-    /// What it may speak, and what that needs.
+    /// Its protocol side.
     pub(super) own: S,
     pub(super) now_us: u32,
     /// RUN or STOP, if a frame has asked for it.
@@ -59,7 +59,7 @@ fn advance_port<'a>(
     now_us: u32,
 ) -> Option<bool> {
     let port = plc.port(wiring.number)?;
-    let (status, own) = (*port.status, Whole::of(wiring, &port));
+    let (status, own) = (*port.status, AnyProtocol::new(wiring, &port));
     let mut session: Session<'a> = Session {
         plc,
         hal,
@@ -85,43 +85,43 @@ pub(super) fn keep<T: Copy>(place: &mut T, value: &T) {
     *place = *value;
 }
 
-impl<'a, P, H, S> Session<'a, P, H, S>
+impl<P, H, S> Session<'_, P, H, S>
 where
     P: Plc + ?Sized,
     H: Hal + ?Sized,
-    S: Spoken<'a, P, H>,
+    Self: PortProtocol,
 {
     pub(super) fn run(&mut self) {
         self.choose();
-        if S::has_bus(self) || !self.set_up() {
+        if self.poll_bus() || !self.set_up() {
             return;
         }
         self.send();
-        while let Some(character) = self.receive() {
-            if S::is_spoken(self) {
-                self.take(character);
+        while let Some(character) = self.oldest_character() {
+            if self.has_protocol() {
+                self.receive(character);
             }
         }
         self.pass_silence(self.now_us);
-        S::advance(self);
+        self.poll();
         self.send();
     }
 
     /// The hardware of the port, and the time.
     pub(super) fn serial(&mut self) -> Option<(&mut dyn SerialPort, u32)> {
-        let port = self.hal.serial_port(S::wiring(self).number)?;
+        let port = self.hal.serial_port(self.wiring().number)?;
         Some((port, self.now_us))
     }
 
     /// The oldest character that has come.
-    fn receive(&mut self) -> Option<Received> {
+    fn oldest_character(&mut self) -> Option<Received> {
         self.serial()
             .and_then(|(port, now_us)| port.receive(now_us))
     }
 
-    /// What the port speaks from now on.
+    /// Selects the protocol.
     fn choose(&mut self) {
-        let wiring = S::wiring(self);
+        let wiring = self.wiring();
         if wiring.choice == Choice::Com1 {
             let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
             M_SET_UP_WRONGLY.set(self.plc, both);
@@ -133,32 +133,32 @@ where
         } = *self.plc.sys();
         let settled = running && !first_scan;
         if !self.status.bound || !settled {
-            let protocol = S::protocol(self);
+            let protocol = self.chosen_protocol();
             self.status.bound = settled && wiring.binds();
             if protocol != self.status.protocol {
                 self.status.protocol = protocol;
                 self.drop_frame();
                 self.status.sending = false;
                 self.status.rate = 0;
-                S::forget(self);
+                self.restart();
             }
         }
-        S::find_codec(self);
+        self.find_handler();
     }
 
-    /// Tells the hardware the format of the line; false if there is no hardware.
+    /// Sets the format of the line. Returns false if there is no hardware.
     fn set_up(&mut self) -> bool {
-        let asked = S::asked_rate(self);
+        let requested = self.requested_rate();
         let (sending, set_up) = (self.status.sending, self.status.format);
-        let mut format = S::line(self);
-        if asked != 0 {
-            format.bits_per_second = u32::from(asked) * 100;
+        let mut format = self.line();
+        if requested != 0 {
+            format.bits_per_second = u32::from(requested) * 100;
         }
         let Some((port, _)) = self.serial() else {
             return false;
         };
         // The answer to a request for another rate still has the old one.
-        if sending && asked != 0 {
+        if sending && requested != 0 {
             return true;
         }
         if format != set_up {
@@ -168,13 +168,13 @@ where
         true
     }
 
-    /// A character has come.
-    fn take(&mut self, character: Received) {
+    /// Handles a character.
+    fn receive(&mut self, character: Received) {
         if self.status.sending && self.status.format.half_duplex {
             return;
         }
-        if S::character(self, character) {
-            return;
+        if !self.has_frames() {
+            return self.receive_character(character);
         }
         let begin_us = character
             .at_us
@@ -186,8 +186,8 @@ where
         if !self.store(character) {
             return;
         }
-        if !S::ends_by_silence(self) {
-            self.cut();
+        if !self.ends_by_silence() {
+            self.end_frame();
         }
     }
 
@@ -203,7 +203,7 @@ where
         }
         let at = usize::from(self.status.received);
         let byte = character.byte & self.status.format.mask();
-        let by_silence = S::ends_by_silence(self);
+        let by_silence = self.ends_by_silence();
         let port = self.plc.port(self.number());
         // A port of several protocols has room for more.
         let fits = !by_silence || at < LONGEST_RTU;
@@ -234,10 +234,10 @@ where
         }
     }
 
-    /// Looks whether the frame is whole, in a protocol whose frames have an end.
-    fn cut(&mut self) {
+    /// Handles the frame if it is whole, in a protocol whose frames have an end.
+    fn end_frame(&mut self) {
         let received = usize::from(self.status.received);
-        match S::cut(self, received) {
+        match self.cut(received) {
             Cut::More => {}
             Cut::Whole if self.status.spoiled => self.drop_frame(),
             Cut::Whole => self.take_frame(),
@@ -251,7 +251,7 @@ where
                 self.status.spoiled = false;
                 // The character may be a whole frame.
                 if received > 1 {
-                    self.cut();
+                    self.end_frame();
                 }
             }
             Cut::Drop => self.drop_frame(),
@@ -264,12 +264,12 @@ where
         let quiet_us = until_us.wrapping_sub(self.status.last_us);
         if !self.status.open
             || !has_come(until_us, self.status.last_us)
-            || quiet_us < S::silence_us(self)
+            || quiet_us < self.silence_us()
         {
             return;
         }
         let whole = self.status.received > 0 && !self.status.spoiled;
-        if S::ends_by_silence(self) && whole {
+        if self.ends_by_silence() && whole {
             self.take_frame();
         } else {
             self.drop_frame();
@@ -286,19 +286,19 @@ where
     /// Shows an error of the port.
     #[inline(never)]
     pub(super) fn note(&mut self, fault: LineFault) {
-        S::note(self, fault);
+        self.show_error(fault);
     }
 
     /// Its number in the model's manual.
     fn number(&self) -> u8 {
-        S::wiring(self).number
+        self.wiring().number
     }
 
     /// A frame is whole: answers it, or takes it for an answer.
     fn take_frame(&mut self) {
         let received = usize::from(self.status.received);
         self.drop_frame();
-        S::take(self, received);
+        self.receive_frame(received);
     }
 
     /// Copies the frame that has been received.
@@ -331,7 +331,7 @@ where
 
     /// Own station number, as the registers say now.
     pub(super) fn station(&self) -> u16 {
-        let wiring = S::wiring(self);
+        let wiring = self.wiring();
         match wiring.station {
             None => self.status.uinit[0] & 0xff,
             Some(_) => value(self.plc, wiring.station_of(self.status.protocol)),
@@ -358,9 +358,7 @@ where
 
     /// Hands the frame to the hardware, and takes notice of its end.
     fn send(&mut self) {
-        if !S::has_frames(self)
-            || !self.status.sending
-            || !has_come(self.now_us, self.status.due_us)
+        if !self.has_frames() || !self.status.sending || !has_come(self.now_us, self.status.due_us)
         {
             return;
         }
@@ -382,7 +380,7 @@ where
             .is_none_or(|(port, now_us)| port.unsent(now_us) == 0)
         {
             self.status.sending = false;
-            S::sent(self);
+            self.sent();
         }
     }
 }
@@ -408,16 +406,16 @@ impl<'a> Session<'a> {
 
     /// Whether what has been received is a frame of this codec.
     pub(super) fn is_whole(&mut self, codec: &Codec, received: usize) -> bool {
-        self.cut_by(codec, received) == Cut::Whole
+        self.cut_by(codec.handler, received) == Cut::Whole
     }
 
-    /// What this codec says of the characters so far.
-    pub(super) fn cut_by(&mut self, codec: &Codec, received: usize) -> Cut {
+    /// What this handler says of the characters so far.
+    pub(super) fn cut_by(&mut self, handler: &dyn Handler, received: usize) -> Cut {
         let slave = self.slave();
         let port = self.plc.port(self.own.wiring.number);
         let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
         let frame = frame.unwrap_or_default();
-        codec.cut(&self.status, &self.own.progress, slave, frame)
+        handler.cut(&self.status, &self.own.progress, slave, frame)
     }
 
     /// Answers a frame, none of which has more than `LENGTH` characters.
@@ -434,14 +432,14 @@ impl<'a> Session<'a> {
     ) {
         let slave = self.slave();
         let mut remote = self.status.remote;
-        let mut asked = None;
+        let mut mode = None;
         self.reply::<LENGTH>(received, |plc, request, reply| {
             let mut map = Served::new(plc, slave.type_code);
             let done = answer(slave, request, &mut remote, &mut map, reply);
-            asked = map.take_request();
+            mode = map.take_request();
             done
         });
-        self.request = asked.or(self.request);
+        self.request = mode.or(self.request);
         self.status.remote = remote;
     }
 

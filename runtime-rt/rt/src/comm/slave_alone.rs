@@ -1,18 +1,18 @@
 //! A program whose only port is nothing but a slave by Modbus RTU: all that this does not need is left out when it is
 //! built, for microcontrollers.
 
+use super::LineFault;
 use super::elements::{ByElement, Elements};
-use super::line::{LineFormat, Received};
+use super::line::LineFormat;
 use super::modbus::{Framing, LONGEST_RTU, Settings, answer_rtu};
 use super::port::{Session, keep};
-use super::speech::{Spoken, end_of_frame_us};
+use super::port_protocol::{PortProtocol, end_of_frame_us};
 use super::wiring::{PortWiring, Ports, Protocol};
-use super::{Cut, LineFault};
 use crate::hal::Hal;
 use crate::plc::Plc;
 
 /// A slave by Modbus RTU on a port of a family of models, both by their numbers.
-struct SlaveAlone<const FAMILY: u8, const NUMBER: u8>;
+pub(super) struct SlaveAlone<const FAMILY: u8, const NUMBER: u8>;
 
 impl<const FAMILY: u8, const NUMBER: u8> SlaveAlone<FAMILY, NUMBER> {
     /// The special devices of the port, alone: what is known of them is not read from memory.
@@ -60,86 +60,54 @@ pub fn advance_slave<const FAMILY: u8, const NUMBER: u8>(
     }
 }
 
-type Slave<'a, P, H, const FAMILY: u8, const NUMBER: u8> =
-    Session<'a, P, H, SlaveAlone<FAMILY, NUMBER>>;
-
-impl<'a, P: Plc + Elements, H: Hal + ?Sized, const FAMILY: u8, const NUMBER: u8> Spoken<'a, P, H>
-    for SlaveAlone<FAMILY, NUMBER>
+impl<P, H, const FAMILY: u8, const NUMBER: u8> PortProtocol
+    for Session<'_, P, H, SlaveAlone<FAMILY, NUMBER>>
+where
+    P: Plc + Elements,
+    H: Hal + ?Sized,
 {
-    fn wiring(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> &'static PortWiring {
-        Self::WIRING
+    fn wiring(&self) -> &'static PortWiring {
+        SlaveAlone::<FAMILY, NUMBER>::WIRING
     }
 
-    fn protocol(session: &Slave<'a, P, H, FAMILY, NUMBER>) -> Protocol {
-        match Self::WIRING.protocol_of(session.plc, session.status.uinit) {
+    fn chosen_protocol(&self) -> Protocol {
+        match self.wiring().protocol_of(self.plc, self.status.uinit) {
             Protocol::ModbusRtu => Protocol::ModbusRtu,
             _ => Protocol::Off,
         }
     }
 
-    fn forget(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) {}
-
-    fn find_codec(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) {}
-
-    fn is_spoken(session: &Slave<'a, P, H, FAMILY, NUMBER>) -> bool {
-        session.status.protocol == Protocol::ModbusRtu
+    fn has_protocol(&self) -> bool {
+        self.status.protocol == Protocol::ModbusRtu
     }
 
-    fn has_bus(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) -> bool {
-        false
-    }
-
-    fn line(session: &Slave<'a, P, H, FAMILY, NUMBER>) -> LineFormat {
-        let format = Self::WIRING.line_of(session.plc, session.status.uinit);
-        match Self::is_spoken(session) {
+    fn line(&self) -> LineFormat {
+        let format = self.wiring().line_of(self.plc, self.status.uinit);
+        match self.has_protocol() {
             true => format.eight_bits(),
             false => format,
         }
     }
 
-    fn asked_rate(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> u16 {
-        0
+    fn silence_us(&self) -> u32 {
+        end_of_frame_us(self.status.format, 0)
     }
 
-    fn ends_by_silence(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> bool {
-        true
-    }
-
-    fn silence_us(session: &Slave<'a, P, H, FAMILY, NUMBER>) -> u32 {
-        end_of_frame_us(session.status.format, 0)
-    }
-
-    fn has_frames(_: &Slave<'a, P, H, FAMILY, NUMBER>) -> bool {
-        true
-    }
-
-    fn character(_: &mut Slave<'a, P, H, FAMILY, NUMBER>, _: Received) -> bool {
-        false
-    }
-
-    fn cut(_: &mut Slave<'a, P, H, FAMILY, NUMBER>, _: usize) -> Cut {
-        Cut::Drop
-    }
-
-    fn take(session: &mut Slave<'a, P, H, FAMILY, NUMBER>, received: usize) {
+    fn receive_frame(&mut self, length: usize) {
         let settings = Settings {
             framing: Framing::Rtu,
-            station: session.station(),
-            profile: session.plc.modbus(),
+            station: self.station(),
+            profile: self.plc.modbus(),
         };
-        session.reply::<LONGEST_RTU>(received, |plc, request, reply| {
+        self.reply::<LONGEST_RTU>(length, |plc, request, reply| {
             answer_rtu(&settings, request, &mut ByElement(plc), reply)
         });
     }
 
-    fn advance(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) {}
-
-    fn sent(_: &mut Slave<'a, P, H, FAMILY, NUMBER>) {}
-
-    fn note(session: &mut Slave<'a, P, H, FAMILY, NUMBER>, fault: LineFault) {
-        match Self::is_spoken(session) {
-            true => Self::WIRING.note_usual(session.plc, fault),
-            false => Self::WIRING.note_general(session.plc, fault),
+    fn show_error(&mut self, fault: LineFault) {
+        match self.has_protocol() {
+            true => self.wiring().note_usual(self.plc, fault),
+            false => self.wiring().note_general(self.plc, fault),
         }
     }
 }

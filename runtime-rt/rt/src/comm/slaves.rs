@@ -25,6 +25,11 @@ pub(super) struct Slave {
 pub(super) const H1U: u16 = 26;
 
 impl Protocol {
+    /// Returns true if a port sends and receives frames by it, false if characters.
+    pub const fn has_frames(self) -> bool {
+        !matches!(self, Protocol::Free)
+    }
+
     /// Whether silence ends its frames; those of others have an end.
     pub const fn ends_by_silence(self) -> bool {
         matches!(

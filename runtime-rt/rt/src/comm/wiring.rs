@@ -453,7 +453,7 @@ impl PortWiring {
     /// The format of characters on the line under a protocol.
     pub fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
         match Codec::of(protocol) {
-            Some(codec) => codec.line(self, plc, protocol, uinit),
+            Some(codec) => codec.handler.line(self, plc, protocol, uinit),
             None => self.own_line(plc, uinit, false),
         }
     }
