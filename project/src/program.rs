@@ -1,6 +1,7 @@
 //! What settings say of a program: what its PLC keeps over power-off, and what its indexes reach.
 
 use crate::{Error, Project, Range};
+use rungc_catalogue::Basic;
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
 use rungc_syntax::{Device, DeviceRun, Instr, Program, Span, codes};
@@ -59,7 +60,10 @@ impl Project {
         program: &mut Program,
         instrs: impl FnOnce(Span) -> Vec<Instr>,
     ) {
-        let ends = |instr: &Instr| matches!(instr.mnemonic.as_str(), "FEND" | "END");
+        let ends = |instr: &Instr| {
+            let basic = rungc_catalogue::find(&instr.mnemonic).and_then(|found| found.inst.basic());
+            matches!(basic, Some(Basic::Fend | Basic::End))
+        };
         let Some(end) = program.instrs.iter().position(ends) else {
             return;
         };

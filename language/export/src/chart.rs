@@ -5,9 +5,11 @@ use super::lines::Lines;
 use super::words::{Gate, Words};
 use super::xml::{Xml, position, relative};
 use super::{Refused, xml};
+use rungc_catalogue::{Basic, Lower};
 use rungc_ladder::list::Entry;
 use rungc_ladder::sfc::{Chart, Transition};
 use rungc_ladder::{InstrIndex, Item, Ladder, Network, NetworkBody, Node, Output, Part, Series};
+use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,8 +22,17 @@ const STEP: (i64, i64) = (60, 30);
 const FIRST_SCAN: &str = "M8002";
 
 /// Instructions that change the order of execution, which actions cannot.
-const FLOW: [&str; 10] = [
-    "CALL", "CJ", "FOR", "NEXT", "MC", "MCR", "SRET", "IRET", "EI", "DI",
+const FLOW: [Basic; 10] = [
+    Basic::Call,
+    Basic::Cj,
+    Basic::For,
+    Basic::Next,
+    Basic::Mc,
+    Basic::Mcr,
+    Basic::Sret,
+    Basic::Iret,
+    Basic::Ei,
+    Basic::Di,
 ];
 
 /// The parts of a program around its step ladder, and the chart of that.
@@ -96,8 +107,8 @@ impl Sections {
         let (mut in_row, mut seen) = (false, false);
         for network in &ladder.networks {
             let instrs = network.instrs.clone();
-            let mnemonic = words.instr(instrs.end - 1).mnemonic.as_str();
-            if mnemonic == "STL" && instrs.len() == 1 {
+            let last = words.basic(instrs.end - 1).filter(|_| instrs.len() == 1);
+            if last == Some(Basic::Stl) {
                 let operand = words.instr(instrs.start).operands.first();
                 let state = operand.and_then(|operand| operand.kind.device());
                 if !in_row {
@@ -108,9 +119,9 @@ impl Sections {
                 continue;
             }
             in_row = false;
-            if matches!(mnemonic, "RET" | "FEND" | "END") && instrs.len() == 1 {
+            if matches!(last, Some(Basic::Ret | Basic::Fend | Basic::End)) {
                 current.clear();
-                if mnemonic == "RET" {
+                if last == Some(Basic::Ret) {
                     continue;
                 }
             }
@@ -194,13 +205,17 @@ fn check_section(
     }
     for at in network.instrs.clone() {
         let instr = words.instr(at);
-        let name = instr.mnemonic.as_str();
-        let resets = matches!(name, "RST" | "ZRST" | "ZRSTP")
-            && instr.operands.iter().any(|operand| {
-                let device = operand.kind.device();
-                device.is_some_and(|device| device.class == DeviceClass::S)
-            });
-        if resets || FLOW.contains(&name) || at < first + network.labels {
+        let does = words.lower(at);
+        let resets = matches!(
+            does,
+            Some(Lower::Basic(Basic::Rst) | Lower::Call(RtFn::Zrst))
+        ) && instr.operands.iter().any(|operand| {
+            let device = operand.kind.device();
+            device.is_some_and(|device| device.class == DeviceClass::S)
+        });
+        let flows = words.basic(at).is_some_and(|basic| FLOW.contains(&basic));
+        if resets || flows || at < first + network.labels {
+            let name = &instr.mnemonic;
             let what = format!("{state} contains {name}, which an action of a step cannot do");
             return Err(Refused::state(at, what));
         }
@@ -211,7 +226,7 @@ fn check_section(
 /// Rejects networks outside of the sections that read states.
 fn check_outside(words: &Words, chart: &Chart, network: &Network) -> Result<(), Refused> {
     for at in network.instrs.clone() {
-        let is_contact = !matches!(words.instr(at).mnemonic.as_str(), "SET" | "OUT");
+        let is_contact = !matches!(words.basic(at), Some(Basic::Set | Basic::Out));
         let operands = words.instr(at).operands.iter();
         let devices = operands.filter_map(|operand| operand.kind.device());
         let mut states = devices.filter(|device| chart.states.iter().any(|s| s.device == *device));
@@ -282,7 +297,7 @@ fn expression(words: &mut Words, series: &[Part]) -> Option<String> {
                 let ways = branches.iter().map(|b| expression(words, &b.series));
                 format!("({})", ways.collect::<Option<Vec<_>>>()?.join(" OR "))
             }
-            Part::Result(at) if words.instr(*at).mnemonic == "INV" => {
+            Part::Result(at) if words.basic(*at) == Some(Basic::Inv) => {
                 format!("NOT ({})", std::mem::take(&mut factors).join(" AND "))
             }
             Part::Result(_) => return None,

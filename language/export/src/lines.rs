@@ -5,6 +5,7 @@
 
 use super::Refused;
 use super::words::{Drive, Gate, Words};
+use rungc_catalogue::Basic;
 use rungc_ladder::list::Entry;
 use rungc_ladder::{Branch, Contact, Item, Join, Ladder, NetworkBody, Node, Output, Part};
 use std::fmt::Write as _;
@@ -114,7 +115,7 @@ impl<'s, 'a> Lines<'s, 'a> {
         for part in series {
             match part {
                 Part::Contact(contact) => self.contact(*contact, entry),
-                Part::Result(at) if self.words.instr(*at).mnemonic == "INV" => self.line("NOT"),
+                Part::Result(at) if self.words.basic(*at) == Some(Basic::Inv) => self.line("NOT"),
                 Part::Result(at) => {
                     let name = self.words.special(&self.words.instr(*at).mnemonic);
                     self.line(format_args!("FX_{name}"));

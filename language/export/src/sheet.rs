@@ -3,6 +3,7 @@
 use super::Refused;
 use super::words::{Drive, Gate, Words};
 use super::xml::{Xml, position, relative};
+use rungc_catalogue::Basic;
 use rungc_ladder::{Contact, InstrIndex, Item, Ladder, NetworkBody, Node, Output, Part, Series};
 use rungc_syntax::Device;
 
@@ -168,17 +169,13 @@ impl<'s, 'a> Sheet<'s, 'a> {
                     (from, column) = self.contact(*contact, from, column, y);
                 }
                 Part::Result(at) => {
-                    let mnemonic = self.words.instr(*at).mnemonic.clone();
-                    let pins = [(
-                        if mnemonic == "INV" { "IN" } else { "EN" },
-                        Pin::Power(from),
-                    )];
-                    let out = match mnemonic.as_str() {
-                        "INV" => self.block("NOT", "", &pins, &["OUT"], column, y),
-                        _ => {
-                            let mnemonic = self.words.special(&mnemonic);
-                            self.special(&mnemonic, &pins, &["ENO"], column, y)
-                        }
+                    let out = if self.words.basic(*at) == Some(Basic::Inv) {
+                        let pins = [("IN", Pin::Power(from))];
+                        self.block("NOT", "", &pins, &["OUT"], column, y)
+                    } else {
+                        let pins = [("EN", Pin::Power(from))];
+                        let mnemonic = self.words.special(&self.words.instr(*at).mnemonic);
+                        self.special(&mnemonic, &pins, &["ENO"], column, y)
                     };
                     (from, column) = (vec![out], column + 1);
                 }

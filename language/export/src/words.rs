@@ -1,9 +1,10 @@
 //! What instructions are called in IEC 61131-3: contacts, coils, functions, blocks and their variables.
 
 use rungc_analysis::resolve::Resolved;
-use rungc_catalogue::Basic;
+use rungc_catalogue::{ArithOp, Basic, Form, Lower};
 use rungc_frontend::iec_timer_unit;
 use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
+use rungc_rt::CmpOp;
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -87,6 +88,26 @@ impl<'a> Words<'a> {
         &self.resolved.program.instrs[at]
     }
 
+    /// What an instruction is, whichever its form; nothing of one that was only guessed.
+    pub fn lower(&self, at: InstrIndex) -> Option<Lower> {
+        let resolution = &self.resolved.instrs[at];
+        resolution.lower.filter(|_| !resolution.meant)
+    }
+
+    /// The basic instruction that this is, if it is one.
+    pub fn basic(&self, at: InstrIndex) -> Option<Basic> {
+        match self.lower(at)? {
+            Lower::Basic(basic) => Some(basic),
+            _ => None,
+        }
+    }
+
+    /// What an instruction of 16 bits is that acts in each scan.
+    fn plain(&self, at: InstrIndex) -> Option<Lower> {
+        let plain = self.resolved.instrs[at].form == Form::default();
+        self.lower(at).filter(|_| plain)
+    }
+
     /// The statements of instructions, a line each.
     pub fn remarks(&self, instrs: std::ops::Range<InstrIndex>) -> Vec<&'a str> {
         instrs
@@ -99,7 +120,7 @@ impl<'a> Words<'a> {
     pub fn is_end(&self, node: &Node) -> bool {
         let last = self.resolved.program.instrs.len() - 1;
         matches!(&node.items[..], [Item::Output(output)]
-            if output.instr == last && self.instr(last).mnemonic == "END")
+            if output.instr == last && self.basic(last) == Some(Basic::End))
     }
 
     pub fn contact(&mut self, contact: Contact) -> Gate {
@@ -117,18 +138,13 @@ impl<'a> Words<'a> {
                 },
             };
         }
-        let function = match sign(instr) {
-            Some("=") => "EQ",
-            Some("<>") => "NE",
-            Some(">") => "GT",
-            Some(">=") => "GE",
-            Some("<") => "LT",
-            Some("<=") => "LE",
-            _ => "",
+        let function = match self.plain(contact.instr) {
+            Some(Lower::Compare(_, op)) => Some(function(op)),
+            _ => None,
         };
         let words: Option<Vec<_>> = instr.operands.iter().map(|o| self.word(&o.kind)).collect();
         let words = words.and_then(|words| <[String; 2]>::try_from(words).ok());
-        if let (Some(words), false) = (words, function.is_empty()) {
+        if let (Some(words), Some(function)) = (words, function) {
             return Gate::Compare { function, words };
         }
         let mnemonic = match contact.shape {
@@ -154,12 +170,13 @@ impl<'a> Words<'a> {
             matches!(device.class, Y | M | S)
         };
         let relay = plain.filter(|_| instr.operands.len() == 1).filter(is_relay);
-        let coil = match instr.mnemonic.as_str() {
-            "OUT" => Some(("none", "none")),
-            "SET" => Some(("set", "none")),
-            "RST" => Some(("reset", "none")),
-            "PLS" => Some(("none", "rising")),
-            "PLF" => Some(("none", "falling")),
+        let does = self.plain(output.instr);
+        let coil = match does {
+            Some(Lower::Basic(Basic::Out)) => Some(("none", "none")),
+            Some(Lower::Basic(Basic::Set)) => Some(("set", "none")),
+            Some(Lower::Basic(Basic::Rst)) => Some(("reset", "none")),
+            Some(Lower::Basic(Basic::Pls)) => Some(("none", "rising")),
+            Some(Lower::Basic(Basic::Plf)) => Some(("none", "falling")),
             _ => None,
         };
         if let (Some((storage, edge)), Some(device)) = (coil, relay)
@@ -171,18 +188,18 @@ impl<'a> Words<'a> {
                 edge,
             };
         }
-        let timer = plain.filter(|_| instr.mnemonic == "OUT");
+        let timer = plain.filter(|_| matches!(does, Some(Lower::Basic(Basic::Out))));
         if let Some((timer, preset)) = timer.and_then(|t| Some((t, *self.timers.get(&t)?))) {
             self.variables.insert(timer, "TON");
             return Drive::Timer { timer, preset };
         }
-        if let ("CJ", Some(device)) = (instr.mnemonic.as_str(), plain) {
+        if let (Some(Lower::Basic(Basic::Cj)), Some(device)) = (does, plain) {
             return Drive::Jump(device);
         }
-        let (function, inputs) = match instr.mnemonic.as_str() {
-            "MOV" => ("MOVE", 1),
-            "ADD" => ("ADD", 2),
-            "SUB" => ("SUB", 2),
+        let (function, inputs) = match does {
+            Some(Lower::Move) => ("MOVE", 1),
+            Some(Lower::Arith(ArithOp::Add) | Lower::ArithSaturating(ArithOp::Add)) => ("ADD", 2),
+            Some(Lower::Arith(ArithOp::Sub) | Lower::ArithSaturating(ArithOp::Sub)) => ("SUB", 2),
             _ => ("", 0),
         };
         let words: Option<Vec<_>> = instr.operands.iter().map(|o| self.word(&o.kind)).collect();
@@ -261,10 +278,16 @@ fn how(instr: &Instr) -> &str {
         .unwrap_or(mnemonic)
 }
 
-/// The sign of a comparison of 16 bits.
-fn sign(instr: &Instr) -> Option<&str> {
-    let how = how(instr);
-    how.starts_with(['=', '<', '>']).then_some(how)
+/// The function of the standard that compares.
+fn function(op: CmpOp) -> &'static str {
+    match op {
+        CmpOp::Eq => "EQ",
+        CmpOp::Ne => "NE",
+        CmpOp::Gt => "GT",
+        CmpOp::Ge => "GE",
+        CmpOp::Lt => "LT",
+        CmpOp::Le => "LE",
+    }
 }
 
 /// The timers that a TON stands for: driven once, by a constant, and of the same unit on all models.

@@ -1,8 +1,9 @@
 //! What is known of a program's serial ports before it runs.
 
 use rungc_frontend::read_text;
-use rungc_lower::compile::{CompileOptions, check};
+use rungc_lower::compile::{CompileOptions, check, compile};
 use rungc_models::ModelId;
+use rungc_rt::comm::Protocol;
 
 /// The ports of a program, a line each.
 fn ports(model: ModelId, text: &str) -> String {
@@ -99,6 +100,90 @@ fn constants_say_what_a_port_will_be() {
         ]
         .join("\n")
     );
+}
+
+/// What the check says of a port agrees with what is compiled for it: a protocol that the check names is there, and
+/// where it says that the protocol is chosen at run time, all that may be chosen are.
+#[test]
+fn a_compiled_program_has_the_protocols_that_the_check_names() {
+    use ModelId::{H2u, Hm};
+    use Protocol::{ComputerLink, ModbusAscii, ModbusRtu, ParallelMaster};
+    let others = [ComputerLink, ModbusAscii, ParallelMaster];
+    let cases: [(_, _, _, &[_], &[_]); 7] = [
+        // Registers that are cleared before, and by RST, have known values.
+        (
+            H2u,
+            "LD M8002\nFMOV K0 D8120 K10\nMOV H2 D8126\nMOV H81 D8120\nEND\n",
+            Some(ModbusRtu),
+            &[ModbusRtu],
+            &others,
+        ),
+        (
+            H2u,
+            "LD M8000\nRST D8126\nLD M8002\nMOV H2 D8126\nEND\n",
+            Some(ModbusRtu),
+            &[ModbusRtu],
+            &others,
+        ),
+        // Reading a register or a relay chooses nothing.
+        (
+            H2u,
+            "LD M8002\nMOV H2 D8126\nLD M8000\nADD D8126 K1 D0\nEND\n",
+            Some(ModbusRtu),
+            &[ModbusRtu],
+            &others,
+        ),
+        (
+            H2u,
+            "LD M8002\nMOV H2 D8126\nLD M8070\nOUT Y0\nEND\n",
+            Some(ModbusRtu),
+            &[ModbusRtu],
+            &others,
+        ),
+        // A run of registers whose length is not a constant may reach the number of the protocol.
+        (
+            H2u,
+            "LD M8002\nMOV H2 D8126\nLD X0\nRS D0 K8 D8100 D5\nEND\n",
+            None,
+            &[ModbusRtu, ModbusAscii, ComputerLink],
+            &[],
+        ),
+        // UINIT may be about any port if its number is not a constant.
+        (
+            Hm,
+            "LD M8002\nUINIT H0305 H0108 K100 K1\nUINIT H0405 H0108 K100 D0\nEND\n",
+            None,
+            &[ComputerLink, ModbusRtu],
+            &[],
+        ),
+        (
+            Hm,
+            "LD M8002\nUINIT H0305 H0108 K100 K1\nEND\n",
+            Some(ComputerLink),
+            &[ComputerLink],
+            &[ModbusRtu],
+        ),
+    ];
+    for (model, text, named, there, left_out) in cases {
+        let program = read_text("program", text).program;
+        let options = CompileOptions {
+            model: Some(model),
+            ..CompileOptions::default()
+        };
+        let compiled = compile(&program, &options);
+        let module = compiled.module.expect("the program compiles");
+        let setup = compiled.ports.iter().find(|setup| setup.port == 1);
+        let setup = setup.expect("the program sets up COM1");
+        assert_eq!(setup.protocol, named, "{text}");
+        let at = module.ports.iter().position(|&port| port == 1);
+        let protocols = module.port_protocols[at.expect("COM1 is compiled")];
+        for &protocol in there {
+            assert!(protocols.contains(protocol), "{protocol:?}: {text}");
+        }
+        for &protocol in left_out {
+            assert!(!protocols.contains(protocol), "{protocol:?}: {text}");
+        }
+    }
 }
 
 /// Requests of L01S need a port whose station is 255. RD3A and WR3A name the port in the register before their data

@@ -3,11 +3,13 @@
 //! Which registers choose what is data of the runtime ([`PortWiring`]), and so is what they choose: the state machine
 //! of a port and this analysis ask the same functions.
 
+mod choices;
 mod facts;
 mod findings;
 
 use super::Code;
 use crate::resolve::Resolved;
+pub use choices::Choices;
 pub(super) use findings::check;
 use rungc_catalogue::Lower;
 use rungc_rt::RtFn;

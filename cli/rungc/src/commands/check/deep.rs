@@ -3,6 +3,7 @@
 use crate::commands::counted;
 use crate::commands::subject::Subject;
 use crate::commands::verify::report::changes;
+use rungc_catalogue::{Basic, Drive, Lower};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId};
@@ -51,10 +52,10 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> (Diagnost
 
 /// Whether an instruction writes a device as its first operand, such as a coil.
 pub fn writes(instr: &Instr, device: Device) -> bool {
-    let contacts = ["LD", "AN", "OR", "STL"];
-    let reads = contacts
-        .iter()
-        .any(|contact| instr.mnemonic.as_str().starts_with(contact));
+    let found = rungc_catalogue::find(&instr.mnemonic);
+    let reads = found.is_some_and(|found| {
+        found.inst.drive == Drive::Logic || found.inst.basic() == Some(Basic::Stl)
+    });
     let first = instr
         .operands
         .first()
@@ -109,7 +110,9 @@ impl Place<'_> {
                 .operands
                 .first()
                 .and_then(|operand| operand.kind.device());
-            instr.mnemonic.as_str() == "STL" && first == Some(device)
+            let found = rungc_catalogue::find(&instr.mnemonic);
+            let basic = found.and_then(|found| found.inst.basic());
+            basic == Some(Basic::Stl) && first == Some(device)
         })
     }
 
@@ -172,21 +175,14 @@ impl Place<'_> {
 
     /// The contact of the source that compares these numbers, if it does nothing else.
     fn comparison(&self, network: u32, op: CmpOp, sides: &[ExprId; 2]) -> Option<&Instr> {
-        let sign = match op {
-            CmpOp::Eq => "=",
-            CmpOp::Ne => "<>",
-            CmpOp::Lt => "<",
-            CmpOp::Le => "<=",
-            CmpOp::Gt => ">",
-            CmpOp::Ge => ">=",
-        };
+        let model = self.module.model.id;
         self.instrs(network).find(|instr| {
-            let signed = instr
-                .mnemonic
-                .as_str()
-                .trim_start_matches(|c: char| c.is_ascii_alphabetic());
+            let found = rungc_catalogue::find(&instr.mnemonic);
+            let compares = found.is_some_and(
+                |found| matches!(found.inst.lower_on_model(model), Lower::Compare(_, own) if own == op),
+            );
             let operands = instr.operands.iter().zip(sides);
-            signed == sign
+            compares
                 && instr.operands.len() == 2
                 && operands.clone().all(|(o, side)| self.is(&o.kind, *side))
         })

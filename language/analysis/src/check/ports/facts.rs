@@ -6,13 +6,17 @@ use super::super::{Code, Part};
 use crate::accesses;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
-use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
+use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
 use rungc_syntax::{Device, DeviceClass, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Programs that reach special registers through an index stay this near.
+/// Programs that reach special registers through an index stay this near, and those that write runs of devices whose
+/// length is not a constant.
 const USUAL_INDEX: u32 = 256;
+
+/// The same for relays.
+const USUAL_RELAY: u32 = 31;
 
 /// One write to a register or relay.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,11 +29,24 @@ pub(super) struct Write {
     pub(super) first_scan: bool,
 }
 
-/// UINIT with constants: protocol and station, format.
+/// What UINIT sets up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Uinit {
+    /// The instruction.
     pub(super) at: usize,
-    pub(super) words: [u16; 2],
+    /// Whether its port is a constant; else it may be about another one.
+    pub(super) certain: bool,
+    /// Protocol and station, if they are a constant.
+    pub(super) protocol: Option<u16>,
+    format: Option<u16>,
+}
+
+impl Uinit {
+    /// Protocol with station, and format, if all is constant.
+    pub(super) fn words(&self) -> Option<[u16; 2]> {
+        let words = self.protocol.zip(self.format).filter(|_| self.certain);
+        words.map(|(protocol, format)| [protocol, format])
+    }
 }
 
 /// All that is written.
@@ -39,8 +56,10 @@ pub(super) struct Facts {
     writes: BTreeMap<Device, Vec<Write>>,
     /// Registers that are written through an index, where a set-up register is near, and the place of the operand.
     pub(super) indexed: Vec<(Device, Span)>,
-    /// By port; `None` for one whose operands are not constant.
-    pub(super) uinit: BTreeMap<u8, Vec<Option<Uinit>>>,
+    /// Set-up relays that an index may reach.
+    indexed_relays: BTreeSet<Device>,
+    /// By port.
+    pub(super) uinit: BTreeMap<u8, Vec<Uinit>>,
 }
 
 /// What a register holds once the program has set it up.
@@ -88,6 +107,7 @@ impl Facts {
             model: code.model(),
             writes: BTreeMap::new(),
             indexed: Vec::new(),
+            indexed_relays: BTreeSet::new(),
             uinit: BTreeMap::new(),
         };
         let mut when = When::new(code);
@@ -106,16 +126,18 @@ impl Facts {
         let constants = constants(code, i);
         for access in accesses::of(code.resolved, i).filter(accesses::Access::writes) {
             let Device { class, number } = access.first;
-            // What may be any register is not taken for a set-up.
-            let Some(count) = access.count else {
-                if access.indexed {
-                    self.note_index(&access, watched);
-                }
+            if access.indexed {
+                self.note_index(&access, watched);
                 continue;
+            }
+            let further = match access.count {
+                Some(count) => count.saturating_sub(1),
+                None if number >= FIRST_SPECIAL => USUAL_INDEX,
+                None => continue,
             };
             let last = Device {
                 class,
-                number: number.saturating_add(count.saturating_sub(1)),
+                number: number.saturating_add(further),
             };
             for &device in watched.range(access.first..=last) {
                 let value = constants.get(&device).copied();
@@ -128,10 +150,14 @@ impl Facts {
         }
     }
 
-    /// Notes an access from a special register on, whose index may lead to a set-up register.
+    /// Notes an access from a special device on, whose index may lead to a set-up device.
     fn note_index(&mut self, access: &accesses::Access, watched: &BTreeSet<Device>) {
         let Device { class, number } = access.first;
         let reached = |number| Device { class, number };
+        if class == DeviceClass::M {
+            let near = access.first..=reached(number.saturating_add(USUAL_RELAY));
+            self.indexed_relays.extend(watched.range(near).copied());
+        }
         let near = reached(number.saturating_sub(USUAL_INDEX))
             ..=reached(number.saturating_add(USUAL_INDEX));
         if class == DeviceClass::D
@@ -143,17 +169,23 @@ impl Facts {
     }
 
     fn note_uinit(&mut self, code: &Code, i: usize) {
-        let constant = |n: usize| constant(code, i, n).map(|value| value as u16);
-        let port = code.instr(i).operands.last();
-        let port = port.and_then(|operand| operand.kind.constant());
-        let port = port.and_then(|port| code.model().ports.named(i32::try_from(port).ok()?));
-        let Some(port) = port else { return };
-        let words = constant(0).zip(constant(1));
-        let uinit = words.map(|(protocol, format)| Uinit {
+        let word = |n: usize| constant(code, i, n).map(|value| value as u16);
+        let ports = code.model().ports;
+        let operand = code.instr(i).operands.last();
+        let operand = operand.and_then(|operand| operand.kind.constant());
+        let named = operand.map(|port| ports.named(i32::try_from(port).ok()?));
+        let uinit = Uinit {
             at: i,
-            words: [protocol, format],
-        });
-        self.uinit.entry(port).or_default().push(uinit);
+            certain: named.is_some(),
+            protocol: word(0),
+            format: word(1),
+        };
+        let all = ports.all().iter();
+        let set_up = all.filter(|wiring| wiring.choice == Choice::Uinit);
+        let may_be = set_up.filter(|wiring| named.is_none_or(|port| port == Some(wiring.number)));
+        for wiring in may_be {
+            self.uinit.entry(wiring.number).or_default().push(uinit);
+        }
     }
 
     /// What is written to a device.
@@ -168,13 +200,39 @@ impl Facts {
         devices.any(|device| !self.writes(device).is_empty())
     }
 
+    /// Whether UINIT is certain to set up a port.
+    pub(super) fn is_set_up(&self, port: u8) -> bool {
+        let uinits = self.uinit.get(&port);
+        uinits.is_some_and(|uinits| uinits.iter().any(|uinit| uinit.certain))
+    }
+
+    /// Value of a register at power-on; relays are off.
+    fn at_power_on(&self, device: Device) -> u16 {
+        let row = self.model.special(device.class, device.number);
+        let row = row.filter(|_| device.class == DeviceClass::D);
+        row.map_or(0, |row| row.default as u16)
+    }
+
+    /// All values that a register has at some time; `None` if it may have any.
+    pub(super) fn values(&self, register: Register) -> Option<Vec<u16>> {
+        let device = d(register);
+        let written = self.writes(device).iter().map(|write| write.value);
+        let values = std::iter::once(Some(self.at_power_on(device))).chain(written);
+        values.collect()
+    }
+
+    /// Whether a relay may be on at some time.
+    pub(super) fn may_be_on(&self, relay: Relay) -> bool {
+        let device = m(relay);
+        let mut writes = self.writes(device).iter();
+        writes.any(|write| write.value != Some(0)) || self.indexed_relays.contains(&device)
+    }
+
     /// What a device holds after the set-up; bits are 0 and 1.
     pub(super) fn held(&self, device: Device) -> Held {
         let writes = self.writes(device);
         let Some(last) = writes.last() else {
-            let row = self.model.special(device.class, device.number);
-            let row = row.filter(|_| device.class == DeviceClass::D);
-            return Held::Default(row.map_or(0, |row| row.default as u16));
+            return Held::Default(self.at_power_on(device));
         };
         let same = writes.iter().all(|write| write.value == last.value);
         let ordered = writes.iter().all(|write| write.first_scan);
@@ -191,12 +249,12 @@ impl Facts {
     fn uinit_words(&self, port: u8) -> Option<[u16; 3]> {
         match self.uinit.get(&port).map(Vec::as_slice) {
             None => Some([0; 3]),
-            Some([Some(first), rest @ ..]) => {
-                let same = |other: &Option<Uinit>| other.is_some_and(|o| o.words == first.words);
-                let [protocol, format] = first.words;
-                rest.iter().all(same).then_some([protocol, format, 0])
+            Some(uinits) => {
+                let mut words = uinits.iter().map(Uinit::words);
+                let [protocol, format] = words.next()??;
+                let same = words.all(|other| other == Some([protocol, format]));
+                same.then_some([protocol, format, 0])
             }
-            Some(_) => None,
         }
     }
 
@@ -238,15 +296,26 @@ impl Facts {
 
     /// The devices of a PLC that has been set up.
     fn memory(&self, wiring: &PortWiring) -> Memory {
-        let words = wiring.setup_registers().chain(wiring.station);
         let held = |device| self.held(device).known().unwrap_or(0);
-        let relays = wiring.setup_relays().filter(|&n| held(m(n)) != 0);
-        let mut sys = Sys::power_on();
-        sys.running = true;
+        let mut memory = self.cleared(true);
+        for register in wiring.setup_registers().chain(wiring.station) {
+            memory.set_register(register, held(d(register)));
+        }
+        for relay in wiring.setup_relays() {
+            memory.set_relay(relay, held(m(relay)) != 0);
+        }
+        memory
+    }
+
+    /// Devices that are all 0, of a PLC in RUN or STOP.
+    pub(super) fn cleared(&self, running: bool) -> Memory {
         Memory {
-            words: BTreeMap::from_iter(words.map(|n| (n.number(), held(d(n))))),
-            relays: BTreeSet::from_iter(relays.map(Relay::number)),
-            sys,
+            words: BTreeMap::new(),
+            relays: BTreeSet::new(),
+            sys: Sys {
+                running,
+                ..Sys::power_on()
+            },
             state: State::new(),
             ports: self.model.ports,
             type_code: self.model.type_code(),
@@ -270,10 +339,9 @@ fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
         Some(Basic::Rst) => found.extend(bit(false)),
         _ => {}
     }
-    let name = code.inst(i).map(|inst| inst.name);
-    let count = match name {
-        Some("MOV") => 1,
-        Some("FMOV") => constant(code, i, 2).unwrap_or(0),
+    let count = match code.lower(i) {
+        Some(Lower::Move) => 1,
+        Some(Lower::Call(RtFn::Fmov)) => constant(code, i, 2).unwrap_or(0),
         _ => return found,
     };
     let (Some(value), Some(first)) = (constant(code, i, 0), device(1)) else {
@@ -387,14 +455,28 @@ fn is_on_first(code: &Code, i: usize) -> bool {
     }
 }
 
-/// The special devices of a port after its set-up; all others are 0.
-struct Memory {
+/// The special devices of a port; all others are 0.
+#[derive(Clone)]
+pub(super) struct Memory {
     words: BTreeMap<u32, u16>,
     relays: BTreeSet<u32>,
     sys: Sys,
     state: State,
     ports: Ports,
     type_code: u16,
+}
+
+impl Memory {
+    pub(super) fn set_register(&mut self, register: Register, value: u16) {
+        self.words.insert(register.number(), value);
+    }
+
+    pub(super) fn set_relay(&mut self, relay: Relay, on: bool) {
+        match on {
+            true => self.relays.insert(relay.number()),
+            false => self.relays.remove(&relay.number()),
+        };
+    }
 }
 
 impl Plc for Memory {

@@ -24,7 +24,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
             wiring,
             protocol: facts.protocol(wiring),
         };
-        if facts.touch(wiring) || facts.uinit.contains_key(&wiring.number) {
+        if facts.touch(wiring) || facts.is_set_up(wiring.number) {
             port.contradictions(out);
             port.overridden(out);
             port.late(out);
@@ -89,11 +89,12 @@ impl Port<'_> {
                 .other(self.code.span(first.at), "… this one is overwritten");
             out.push(diagnostic);
         }
-        let twice = |uinits: &Vec<Option<Uinit>>| {
-            let mut known = uinits.iter().flatten();
-            let first = *known.next()?;
-            let other = known.find(|other| other.words != first.words)?;
-            Some((first, *other))
+        let twice = |uinits: &Vec<Uinit>| {
+            let known = uinits.iter().filter(|uinit| uinit.words().is_some());
+            let mut known = known.copied();
+            let first = known.next()?;
+            let other = known.find(|other| other.words() != first.words())?;
+            Some((first, other))
         };
         let uinits = self.facts.uinit.get(&self.wiring.number);
         if let Some((first, other)) = uinits.and_then(twice) {
@@ -176,7 +177,7 @@ impl Port<'_> {
     fn place(&self, device: Option<Device>) -> Option<usize> {
         let writes = device.map_or(&[][..], |device| self.facts.writes(device));
         let uinits = self.facts.uinit.get(&self.wiring.number);
-        let uinit = uinits.and_then(|uinits| uinits.iter().flatten().next());
+        let uinit = uinits.and_then(|uinits| uinits.iter().find(|u| u.words().is_some()));
         writes
             .last()
             .map(|write| write.at)
@@ -246,11 +247,10 @@ impl Port<'_> {
             Some(Held::Default(_) | Held::Unknown) => None,
             None => {
                 let uinits = self.facts.uinit.get(&self.wiring.number);
-                let uinits = uinits.into_iter().flatten().flatten();
-                let words = uinits.map(|uinit| uinit.words[1]);
+                let words = uinits.into_iter().flatten().filter_map(Uinit::words);
                 words
-                    .into_iter()
-                    .find(|&word| !LineFormat::has_uinit_rate(word))
+                    .map(|[_, format]| format)
+                    .find(|&format| !LineFormat::has_uinit_rate(format))
             }
         };
         let (Some(word), Some(place)) = (word, self.place(register)) else {
