@@ -114,6 +114,21 @@ fn follows_schema(project: &str) {
     );
 }
 
+#[test]
+fn an_action_does_not_change_the_order_of_execution() {
+    for jump in ["CJ P0", "CJP P0", "CALLP P0"] {
+        let list = format!("LD M8002\nSET S0\nSTL S0\nLD X000\n{jump}\nRET\nFEND\nP0\nSRET\nEND\n");
+        let program = read("steps.il", &list);
+        let mut diagnostics = Diagnostics::new();
+        let model = Model::get(ModelId::Fx3u);
+        to_plcopen(&program, model, Body::Chart, &mut diagnostics);
+        let refused = diagnostics.iter().map(|found| &found.message);
+        let name = jump.split(' ').next().unwrap();
+        let expected = format!("S0 contains {name}, which an action of a step cannot do");
+        assert!(refused.eq([&expected]), "{jump}: {diagnostics:?}");
+    }
+}
+
 /// Balls that are sorted by size (h1u-h2u-programming §4.2.3), but that X03, not Y03, lets a flow begin: while S0 waits
 /// for it, no state drives Y03.
 const BALLS: &str = "\
