@@ -7,6 +7,7 @@
 pub mod book;
 mod fitting;
 pub mod operands;
+pub mod part;
 pub mod random;
 pub mod rng;
 pub mod rows;

@@ -1,5 +1,6 @@
 //! The conformance cases and what is expected of them.
 
+use rungc_golden::part::Part;
 use rungc_ir::Module;
 use rungc_sim::engines::Engine;
 use rungc_sim::plctest::{self, Case, Outcome, Suite, TestFile};
@@ -7,6 +8,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Folders of conformance files.
 const PARTS: [&str; 8] = [
@@ -51,6 +53,39 @@ fn load_all() -> Vec<TestFile> {
     paths.iter().map(load).collect()
 }
 
+/// Files of cases that the last commit or the working tree changes, as far as Git knows.
+fn changed() -> BTreeSet<String> {
+    let output = Command::new("git")
+        .args(["diff", "--name-only", "--relative", "HEAD~1", "--", "."])
+        .current_dir(folder())
+        .output();
+    let Ok(output) = output else {
+        return BTreeSet::new();
+    };
+    let paths = String::from_utf8_lossy(&output.stdout);
+    paths.lines().map(str::to_string).collect()
+}
+
+/// Leaves the cases of a part, and those of changed files.
+fn take(part: &Part, files: &mut Vec<TestFile>) {
+    let count = |files: &[TestFile]| files.iter().map(|file| file.cases.len()).sum::<usize>();
+    let all = count(files);
+    let changed = changed();
+    for file in files
+        .iter_mut()
+        .filter(|file| !changed.contains(&file.name))
+    {
+        let name = &file.name;
+        file.cases
+            .retain(|case| part.contains(&format!("{name}: {}", case.name)));
+    }
+    files.retain(|file| !file.cases.is_empty());
+    println!(
+        "{part}, and all of changed files: {} of {all}",
+        count(files)
+    );
+}
+
 /// Why cases are disputed, by file and name.
 type Reasons = BTreeMap<(String, String), String>;
 
@@ -79,9 +114,15 @@ pub struct Conformance {
 }
 
 impl Conformance {
-    /// Reads and compiles them, in parts of whole files with at most this many cases, unless a file alone has more.
-    pub fn load(most: usize) -> Vec<Self> {
-        let files = load_all();
+    /// Reads and compiles all cases.
+    pub fn all() -> Self {
+        Self::load(&Part::ALL, usize::MAX).remove(0)
+    }
+
+    /// Reads and compiles those of a part, in batches of whole files with at most this many cases, unless a file alone
+    /// has more.
+    pub fn load(part: &Part, most: usize) -> Vec<Self> {
+        let mut files = load_all();
         let disputed = disputed();
         let cases = files.iter().flat_map(|file| {
             let named = |case: &Case| (file.name.clone(), case.name.clone());
@@ -94,22 +135,25 @@ impl Conformance {
                 "{file}: {case} is listed, but there is no such case"
             );
         }
-        let mut parts: Vec<Vec<TestFile>> = Vec::new();
+        if !part.is_all() {
+            take(part, &mut files);
+        }
+        let mut batches: Vec<Vec<TestFile>> = Vec::new();
         let mut room = 0;
         for file in files {
             let cases = file.cases.len();
             if cases > room {
-                parts.push(Vec::new());
+                batches.push(Vec::new());
                 room = most;
             }
             room = room.saturating_sub(cases);
-            parts.last_mut().unwrap().push(file);
+            batches.last_mut().unwrap().push(file);
         }
-        let part = |files| Conformance {
+        let batch = |files| Conformance {
             suite: Suite::compile(files, &[]),
             disputed: disputed.clone(),
         };
-        parts.into_iter().map(part).collect()
+        batches.into_iter().map(batch).collect()
     }
 
     /// The compiled programs.
