@@ -3,11 +3,10 @@
 mod part;
 mod volume;
 
-use crate::common::{folder, rungc, text};
+use crate::common::{folder, rungc, text, write_executable};
 use crate::tools::tools;
 use part::{Bench, Fault, Part};
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output};
 use tempfile::TempDir;
@@ -313,9 +312,7 @@ fn with_probe_rs(folder: &Path, exit: i32) {
         "#!/bin/sh\necho \"$@\" >>'{}/asked'\nexit {exit}\n",
         folder.display()
     );
-    let path = folder.join("probe-rs");
-    fs::write(&path, script).unwrap();
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    write_executable(&folder.join("probe-rs"), script.as_bytes());
 }
 
 #[test]

@@ -190,7 +190,7 @@ fn cases_stay_in_their_part_when_others_are_added() {
 #[cfg(unix)]
 mod interrupted {
     use super::*;
-    use std::os::unix::fs::PermissionsExt;
+    use crate::common::write_executable;
     use std::process::{Child, Command, Output, Stdio};
     use std::time::{Duration, Instant};
 
@@ -287,8 +287,7 @@ mod interrupted {
         let tools = path.join("tools");
         fs::create_dir(&tools).unwrap();
         let slow = "#!/bin/sh\ntouch \"$BEGUN\"\nexec sleep 5\n";
-        fs::write(tools.join("make"), slow).unwrap();
-        fs::set_permissions(tools.join("make"), fs::Permissions::from_mode(0o755)).unwrap();
+        write_executable(&tools.join("make"), slow.as_bytes());
         let begun = path.join("begun");
         let search = std::env::var("PATH").unwrap();
         let child = begin(

@@ -365,16 +365,12 @@ fault = \"M500\"
 #[cfg(unix)]
 #[test]
 fn no_verdict_rests_on_engines_that_disagree() {
-    use std::os::unix::fs::PermissionsExt;
     let compiler = "#!/bin/sh\nfor file in \"$@\"; do\n    case \"$file\" in\n        \
                     *.c) sed -i 's/ & !plc->X3;/ \\& plc->X3;/' \"$file\" ;;\n    esac\ndone\nexec cc \"$@\"\n";
     let program = reverser("ANI X003");
-    let folder = folder(&[
-        ("bad.il", program.as_bytes()),
-        ("compiler", compiler.as_bytes()),
-    ]);
+    let folder = folder(&[("bad.il", program.as_bytes())]);
     let path = folder.path().join("compiler");
-    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    common::write_executable(&path, compiler.as_bytes());
     let verify = |asked: &[&str]| {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
             .args(["verify", "bad.il", "--replay", "c"])

@@ -13,8 +13,9 @@ pub mod running;
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_runtime_sources::library;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A port of this machine that is free, or was a moment ago.
@@ -132,8 +133,25 @@ pub fn built_in_rust(folder: &Path, args: &[&str], output: &str, name: &str) -> 
         .unwrap();
     assert!(built.status.success(), "{}", text(&built.stderr));
     let executable = package.join(name);
-    fs::copy(objects.path().join("debug").join(name), &executable).unwrap();
+    let built = fs::read(objects.path().join("debug").join(name)).unwrap();
+    write_executable(&executable, &built);
     executable
+}
+
+/// Writes a file that can be executed. On Unix a shell writes it: a program that another test starts at that moment
+/// would inherit a file that this process has open for writing, and such a file cannot be executed.
+pub fn write_executable(path: &Path, contents: &[u8]) {
+    if !cfg!(unix) {
+        return fs::write(path, contents).unwrap();
+    }
+    let mut shell = Command::new("sh")
+        .args(["-c", "cat >\"$0\" && chmod 755 \"$0\""])
+        .arg(path)
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    shell.stdin.take().unwrap().write_all(contents).unwrap();
+    assert!(shell.wait().unwrap().success());
 }
 
 pub fn text(bytes: &[u8]) -> String {
