@@ -5,8 +5,8 @@
 //! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a
 //! C compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
 //!
-//! Where the environment names the run ([`rungc_golden::part`]), the programs are fewer: a third of the random ones, from
-//! a seed that follows from the name, and the rows of one model.
+//! Where the environment names the run ([`rungc_golden::part`]), there are fewer programs: a third of the random ones,
+//! from a seed that follows from the name, and the rows of one model.
 
 use rungc_catalogue::Lower;
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
@@ -517,7 +517,7 @@ fn engines<'m>(
     Ok(vec![engine?])
 }
 
-/// One of this many random programs is in a run that takes a part.
+/// Divisor of the number of random programs, for a run that takes a part.
 const SHARE: u64 = 3;
 
 /// Programs for a run of the tests: random ones, and those that show the rows of all models, or of one model in turn if

@@ -66,7 +66,7 @@ fn changed() -> BTreeSet<String> {
     paths.lines().map(str::to_string).collect()
 }
 
-/// Leaves the cases of a part, and those of changed files.
+/// Reduces files to the cases of a part; files that were changed keep all.
 fn take(part: &Part, files: &mut Vec<TestFile>) {
     let count = |files: &[TestFile]| files.iter().map(|file| file.cases.len()).sum::<usize>();
     let all = count(files);
