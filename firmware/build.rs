@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-/// What a test assembles: `boot2.rs` has its words.
+/// Source to be assembled by a test: `boot2.rs` has its words.
 const ASSEMBLED: &str = "boot2.s";
 
 fn main() -> io::Result<()> {

@@ -47,7 +47,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// Whether the linker takes an argument: links the smallest program with it.
+/// Returns true if the linker accepts an argument: links the smallest program with it.
 fn links(folder: &Path, argument: &str) -> io::Result<bool> {
     let source = folder.join("smallest.rs");
     fs::write(&source, "fn main() {}")?;

@@ -24,7 +24,7 @@ static size_t current;
 
 static rungc_hal hardware;
 
-/* What can be done with a program. */
+/* Operations on a program. */
 typedef struct {
     void (*init)(void);
     void (*scan)(uint32_t now_ms, uint32_t scan_us);
@@ -147,7 +147,7 @@ static void long_value(bool ok, int64_t number)
     fflush(stdout);
 }
 
-/* What a digest of devices becomes with one more value, or without one. */
+/* Digest of devices with one more value, or without one. */
 static uint32_t with(uint32_t digest, bool found, uint32_t number)
 {
     return (digest ^ (found ? number : 0x80000001u)) * 0x01000193u;

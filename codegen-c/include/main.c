@@ -71,7 +71,7 @@ static void sleep_until(uint64_t moment_us)
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
 }
 
-/* When the next scan begins. A run that is later than a second has stood still (a suspended machine, a debugger); it does not catch up. */
+/* Start of the next scan. After a suspension of more than a second (a suspended machine, a debugger) it does not catch up. */
 static uint64_t not_late(uint64_t next)
 {
     const uint64_t now = microseconds();
@@ -124,7 +124,7 @@ static void read_commands(PROGRAM_plc *plc)
     }
 }
 
-/* What an error code of the PLC means. */
+/* Meaning of an error code of the PLC. */
 static const char *meaning(unsigned code)
 {
     switch (code) {
@@ -188,7 +188,7 @@ static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
 
 /* CLOCK */
 /* OVERRUN */
-/* What the options are. */
+/* Prints the options. */
 static void print_usage(FILE *to)
 {
     /* USAGE */

@@ -8,7 +8,7 @@ typedef struct {
     rungc_client client;
 } tcp_client_link;
 
-/* What the program asks, by servers. */
+/* Requests of the program, by servers. */
 static const rungc_client_row client_rows[] = {
     /* ROWS */
 };
@@ -137,7 +137,7 @@ static void poll_clients(PROGRAM_plc *plc, uint32_t now_us)
     }
 }
 
-/* What has gone over the connections, as for servers. */
+/* Traffic of the connections, as for servers. */
 static void print_clients(void)
 {
     for (size_t i = 0; i < sizeof client_links / sizeof client_links[0]; i++) {

@@ -1,4 +1,4 @@
-/* What connections ask of the program. */
+/* Callbacks for connections. */
 static void tell_edge(void *context, uint32_t number, bool on)
 {
     /* EDGE */

@@ -1,4 +1,4 @@
-/* How often the scan looks whether a latched device has changed, and how long the disk may take before they count as not saved. */
+/* Interval of checks for changed latched devices, and the time after which they count as not saved while the disk is busy. */
 #define SAVE_EVERY_MS 1000u
 #define SLOW_MS 10000u
 

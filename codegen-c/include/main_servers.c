@@ -1,4 +1,4 @@
-/* How many servers there may be, connections to them, and clients that the table distinguishes. */
+/* Limits: servers, connections to them, and clients that the table distinguishes. */
 #define SERVERS 8
 #define CONNECTIONS 32
 #define CLIENTS 64
@@ -14,7 +14,7 @@ typedef struct {
     char address[80];
 } tcp_server;
 
-/* What has gone over the connections of a client. */
+/* Traffic of a client's connections. */
 typedef struct {
     size_t server;
     char address[64];
@@ -51,7 +51,7 @@ static void name_address(const struct sockaddr_storage *address, socklen_t lengt
     }
 }
 
-/* What `127.0.0.1:5020` or `5020` stands for; NULL if it is not an address. */
+/* Parses an address, `127.0.0.1:5020` or `5020`; NULL if it is not one. */
 static struct addrinfo *find_address(const char *text)
 {
     const struct addrinfo hints = {.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE, .ai_socktype = SOCK_STREAM};
@@ -126,7 +126,7 @@ static bool open_server(rungc_speaks speaks, const char *name, const char *text)
     return true;
 }
 
-/* Whether a text is the end of a line rather than an address. */
+/* Returns true if a text is a serial device rather than an address. */
 static bool is_line(const char *text)
 {
     return strcmp(text, "pty") == 0 || strchr(text, '/') != NULL;
@@ -203,7 +203,7 @@ static void accept_clients(size_t at)
     }
 }
 
-/* Whether there is room for an answer; a client that does not read is not heard. */
+/* Returns true if there is room for an answer; requests of a client that does not read are not processed. */
 static bool has_room(const tcp_connection *connection)
 {
     return connection->waiting <= sizeof connection->to_send - RUNGC_LONGEST_REPLY;

@@ -22,14 +22,14 @@ typedef struct plc_sys {
     uint16_t scan;    /* another odd number in each scan, wrapping */
 } plc_sys;
 
-/* What put the PLC in STOP, other than the RUN/STOP switch. */
+/* Reason for STOP, other than the RUN/STOP switch. */
 enum {
     PLC_STOP_NONE = 0,
     PLC_STOP_M8037 = 1,      /* the program, by M8037 */
     PLC_STOP_WATCHDOG = 6105 /* the watchdog: a scan did not end */
 };
 
-/* What has gone wrong since RUN began, whether the program looks at special devices or not. */
+/* Last error since RUN began, recorded even if the program does not use the special devices. */
 typedef struct plc_error {
     uint16_t code;      /* the PLC's code of the last operation error, e.g. 6706; 0 if there was none */
     uint16_t step;      /* step of the instruction that it happened to */
@@ -37,7 +37,7 @@ typedef struct plc_error {
     uint16_t stop_step; /* step of the loop or the jump that the watchdog found too long */
 } plc_error;
 
-/* What a host may do at each operation error: it gets the program's struct, the PLC's code and the step of the instruction. */
+/* Callback of a host for operation errors: it gets the program's struct, the PLC's code and the step of the instruction. */
 typedef void plc_on_error(const void *plc, uint16_t code, uint16_t step);
 
 /* A timer: .done is its contact, .value its current value in units. */
@@ -63,7 +63,7 @@ typedef struct plc_counter32 {
     bool done;     /* contact */
 } plc_counter32;
 
-/* What a part of a program answers where jumps do not nest: which part is next, or one of these. */
+/* Result of a part of a program where jumps do not nest: the number of the next part, or one of these. */
 enum {
     PLC_LEAVE = -1, /* return from the program or subroutine */
     PLC_GO_ON = 0   /* go on behind the parts */
@@ -127,7 +127,7 @@ static inline void plc_fill_words(int16_t *to, size_t count, int16_t value)
 
 /* ---- Edges ---------------------------------------------------------------------------------------------------------- */
 
-/* Whether `input` went from off to on since the last call with this memory. */
+/* Returns true if `input` went from off to on since the last call with this memory. */
 static inline bool plc_rising(bool *memory, bool input)
 {
     const bool before = *memory;
@@ -135,7 +135,7 @@ static inline bool plc_rising(bool *memory, bool input)
     return input & !before;
 }
 
-/* Whether `input` went from on to off since the last call with this memory. */
+/* Returns true if `input` went from on to off since the last call with this memory. */
 static inline bool plc_falling(bool *memory, bool input)
 {
     const bool before = *memory;
@@ -143,7 +143,7 @@ static inline bool plc_falling(bool *memory, bool input)
     return before & !input;
 }
 
-/* Whether the memory is on; switches it off. */
+/* Returns the state of the memory, and switches it off. */
 static inline bool plc_take(bool *memory)
 {
     return plc_falling(memory, false);
@@ -372,7 +372,7 @@ static inline int16_t plc_swap16(int16_t value)
     return plc_low(plc_swap32(value));
 }
 
-/* How many bits are on. */
+/* Number of bits that are on. */
 static inline int32_t plc_ones32(int32_t value)
 {
     int32_t ones = 0;
@@ -419,7 +419,7 @@ static inline int16_t plc_from_bcd16(int16_t digits)
     return plc_low(plc_from_bcd32((uint16_t)digits));
 }
 
-/* Whether no digit of four bits is above 9. */
+/* Returns true if no digit of four bits is above 9. */
 static inline bool plc_is_bcd32(int32_t digits)
 {
     const uint32_t bits = (uint32_t)digits;
@@ -447,7 +447,7 @@ static inline int32_t plc_root(int32_t value)
     return (int32_t)root;
 }
 
-/* Which is the highest bit that is on, counted from 0; 0 if none is. */
+/* Number of the highest bit that is on, counted from 0; 0 if none is. */
 static inline int32_t plc_highest_bit(int32_t value)
 {
     int32_t place = 0;
@@ -459,7 +459,7 @@ static inline int32_t plc_highest_bit(int32_t value)
 
 /* ---- Floats --------------------------------------------------------------------------------------------------------- */
 
-/* Whether it is a number and not infinite. */
+/* Returns true if the value is finite and not NaN. */
 static inline bool plc_is_finite(float value)
 {
     return ((uint32_t)plc_float_bits(value) & 0x7F800000u) != 0x7F800000u;
@@ -572,7 +572,7 @@ static inline float plc_float_div(float a, float b)
 
 /* ---- Repetition ----------------------------------------------------------------------------------------------------- */
 
-/* How often FOR repeats: at least once. */
+/* Number of repetitions of FOR: at least one. */
 static inline int16_t plc_times(int16_t count)
 {
     return (count > 1) ? count : 1;
@@ -580,7 +580,7 @@ static inline int16_t plc_times(int16_t count)
 
 /* ---- Timers --------------------------------------------------------------------------------------------------------- */
 
-/* How a timer behaves; 0 for the usual one, which falls back to 0 while it is not driven. */
+/* Types of timers; 0 for the usual one, which is reset to 0 while it is not driven. */
 enum {
     PLC_RETENTIVE = 1u,      /* keeps its value while it is not driven; only RST clears it */
     PLC_FREE_RUNNING = 2u,   /* goes on timing in scans that jump over its coil */
@@ -644,7 +644,7 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     }
 }
 
-/* What END does for a free-running timer: with its coil on, it continues timing in a scan that did not execute it. */
+/* Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it. */
 static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_t unit_ms, unsigned options)
 {
     if (timer->coil != 0u) {
@@ -652,7 +652,7 @@ static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_
     }
 }
 
-/* Where a program has very many timer coils, it has one function for each kind of timer, not the code of a timer at each coil. */
+/* Programs with very many timer coils have one function for each kind of timer, not the code of a timer at each coil. */
 #if defined(PLC_MANY_TIMERS) && defined(__GNUC__)
 #define PLC_TIMER static __attribute__((noinline, unused))
 #else

@@ -24,7 +24,7 @@ typedef enum plc_class {
     PLC_CLASS_CS
 } plc_class;
 
-/* What the devices of an area are. */
+/* Type of an area's devices. */
 enum {
     PLC_AREA_BITS,
     PLC_AREA_WORDS,
@@ -61,7 +61,7 @@ static inline const plc_area *plc_find_area(const plc_area *areas, size_t count,
     return found;
 }
 
-/* Where a device of an area is in the struct, in bytes. */
+/* Offset of a device of an area in the struct, in bytes. */
 static inline size_t plc_device_offset(const plc_area *area, uint32_t number)
 {
     static const size_t sizes[] = {sizeof(bool), sizeof(int16_t), sizeof(plc_timer), sizeof(plc_counter16), sizeof(plc_counter32)};

@@ -15,7 +15,7 @@ typedef struct rungc_edge {
     bool on;        /* whether it turned on */
 } rungc_edge;
 
-/* How many edges a queue has room for, plus one. */
+/* Capacity of a queue of edges, plus one. */
 #ifndef RUNGC_EDGES
 #define RUNGC_EDGES 64u
 #endif
@@ -57,7 +57,7 @@ static inline bool rungc_take_edge(rungc_edges *edges, rungc_edge *edge)
     return true;
 }
 
-/* How many characters a queue has room for, plus one. */
+/* Capacity of a queue of characters, plus one. */
 #ifndef RUNGC_CHARACTERS
 #define RUNGC_CHARACTERS 64u
 #endif
@@ -108,7 +108,7 @@ static inline bool rungc_take_character(rungc_characters *characters, uint32_t n
     return true;
 }
 
-/* What a hardware counter has counted: pulses of one input, or quarters of an encoder's cycle. */
+/* Counts of a hardware counter: pulses of one input, or quarters of an encoder's cycle. */
 typedef struct rungc_count {
     uint16_t input;   /* the input X; of an encoder that of phase A */
     uint16_t phase_b; /* of an encoder: the input X of phase B; of pulses: as `input` */
@@ -175,7 +175,7 @@ static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
     return passed != 0u;
 }
 
-/* Whether a scan is to begin. Those that were missed are left out. */
+/* Returns true if a scan is due. Missed scans are skipped. */
 static inline bool rungc_board_scans(rungc_board *board, uint32_t now_us)
 {
     const uint32_t late = now_us - board->next_scan;

@@ -10,7 +10,7 @@
 /* The state of one bit device in all instances: that of instance n is bit n. */
 typedef uint64_t plc_lanes;
 
-/* How many instances there are. */
+/* Number of instances. */
 #define PLC_LANES 64u
 
 /* A bit that is on in all instances. */

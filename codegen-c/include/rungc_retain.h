@@ -30,7 +30,7 @@ typedef struct rungc_retained_run {
     uint16_t count; /* how many */
 } rungc_retained_run;
 
-/* What a program keeps over power-off. */
+/* Data that a program retains over power-off. */
 typedef struct rungc_retained {
     const char *program; /* its name and model: records of another program are not loaded */
     const rungc_retained_run *runs;
@@ -42,7 +42,7 @@ typedef struct rungc_retained {
     bool (*write)(void *plc, plc_class device, uint32_t number, int32_t value);
 } rungc_retained;
 
-/* What loading came to. */
+/* Result of loading. */
 typedef enum rungc_loaded {
     RUNGC_LOADED_NOTHING, /* nothing was saved yet */
     RUNGC_LOADED_FOREIGN, /* the saved devices are those of another program: none was loaded */
@@ -80,7 +80,7 @@ enum {
     RUNGC_RECORD_ALIGN = 8 /* records begin at multiples of it */
 };
 
-/* What a device is in a record. */
+/* Form of a device in a record. */
 typedef enum rungc_form {
     RUNGC_FORM_BIT,
     RUNGC_FORM_WORD,
@@ -134,7 +134,7 @@ static inline uint32_t rungc_name_length(const rungc_retained *retained)
     return (length < RUNGC_OWNER_MAX) ? (uint32_t)length : RUNGC_OWNER_MAX;
 }
 
-/* How long a record is, in bytes. */
+/* Length of a record, in bytes. */
 static inline uint32_t rungc_record_length(const rungc_retained *retained)
 {
     uint32_t length = (uint32_t)RUNGC_RECORD_HEADER + rungc_name_length(retained) + (uint32_t)RUNGC_RECORD_CHECKSUM;
@@ -563,7 +563,7 @@ static inline bool rungc_save(rungc_slots *slots, const rungc_retained *retained
         if (done && (writer.used != 0u)) {
             done = rungc_flush_slot(&writer);
         }
-        /* What has failed leaves a piece of a record. */
+        /* A failed write leaves a part of a record. */
         slots->next_at = at + rungc_aligned(rungc_record_length(retained));
         done = done && rungc_find_record(&source, at, slots->flash->slot_length, &written) && (written.length != 0u) &&
                (written.sequence == sequence);
@@ -593,7 +593,7 @@ static inline bool rungc_save_changes(rungc_slots *slots, const rungc_retained *
     return done;
 }
 
-/* How many records a slot takes between two erasures. */
+/* Number of records that a slot takes between two erasures. */
 static inline uint32_t rungc_saves_per_erasure(const rungc_flash *flash, const rungc_retained *retained)
 {
     return flash->slot_length / rungc_aligned(rungc_record_length(retained));

@@ -10,10 +10,10 @@
 
 #include "rungc.h"
 
-/* What serial ports do under some protocols. */
+/* Implementation of protocols for serial ports. */
 typedef struct rungc_codec rungc_codec;
 
-/* What a model serves by Modbus. */
+/* Devices that a model serves by Modbus. */
 typedef struct rungc_modbus_profile rungc_modbus_profile;
 
 /**
@@ -100,7 +100,7 @@ typedef uint8_t rungc_ports;
 #endif // __cplusplus
 
 /**
- * What a host does next with a connection.
+ * Next action of a host on a connection.
  */
 enum rungc_wish
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -223,7 +223,7 @@ typedef uint8_t rungc_link;
 #endif // __cplusplus
 
 /**
- * What an area of devices is made of.
+ * Storage type of an area of devices.
  */
 enum rungc_area_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -342,7 +342,7 @@ typedef uint8_t rungc_parity;
 #endif // __cplusplus
 
 /**
- * What is wrong with a character.
+ * Fault of a character.
  */
 enum rungc_char_fault
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -379,7 +379,7 @@ typedef uint8_t rungc_char_fault;
 #endif // __cplusplus
 
 /**
- * What a partner on a line has asked of the RUN/STOP switch.
+ * Request of a partner on a line to operate the RUN/STOP switch.
  */
 enum rungc_request
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -408,7 +408,7 @@ typedef uint8_t rungc_request;
 #endif // __cplusplus
 
 /**
- * How to read an [`Operand`]. The numbers are part of the C ABI.
+ * Interpretation of an [`Operand`]. The numbers are part of the C ABI.
  */
 enum rungc_operand_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -482,7 +482,7 @@ typedef uint8_t rungc_speaks;
 #endif // __cplusplus
 
 /**
- * What a character of a connection was.
+ * Effect of a character received by a connection.
  */
 enum rungc_heard
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -515,7 +515,7 @@ typedef uint8_t rungc_heard;
 #endif // __cplusplus
 
 /**
- * What a channel measures or puts out.
+ * Quantity that a channel measures or outputs.
  */
 enum Quantity
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -557,7 +557,7 @@ typedef uint8_t Quantity;
 typedef struct rungc_port_wiring rungc_port_wiring;
 
 /**
- * What a client has asked.
+ * Counters of a client's requests.
  */
 typedef struct rungc_tally {
     /**
@@ -593,16 +593,16 @@ typedef struct rungc_client {
     uint16_t row;
     uint16_t transaction;
     /**
-     * When it began to wait: for an answer, for the connection, or for the next attempt to open it.
+     * Start of the wait: for an answer, for the connection, or for the next attempt to open it.
      */
     uint32_t since_us;
     /**
-     * How much of `received` there is.
+     * Number of characters in `received`.
      */
     uint16_t length;
     uint8_t received[RUNGC_LONGEST_ANSWER];
     /**
-     * What has been asked.
+     * Counters of its requests.
      */
     struct rungc_tally tally;
 } rungc_client;
@@ -632,7 +632,7 @@ typedef struct rungc_client_row {
      */
     uint16_t address;
     /**
-     * How many coils or registers.
+     * Number of coils or registers.
      */
     uint16_t count;
     /**
@@ -650,7 +650,7 @@ typedef struct rungc_area {
      */
     rungc_class class_;
     /**
-     * What each is.
+     * Type of each device.
      */
     rungc_area_kind kind;
     /**
@@ -658,20 +658,20 @@ typedef struct rungc_area {
      */
     uint32_t first;
     /**
-     * How many.
+     * Number of devices.
      */
     uint32_t count;
     /**
-     * How many numbers it is from a device to the next one in memory: 1, or more in an array of this many columns, each as long as the
-     * longest has to be.
+     * Distance between consecutive devices in memory, in numbers: 1, or more in an array of this many columns, each as
+     * long as the longest has to be.
      */
     uint32_t columns;
     /**
-     * How many of the columns are stored: the first ones.
+     * Number of columns stored: the first ones.
      */
     uint32_t kept;
     /**
-     * Where they begin in the struct, in bytes.
+     * Offset in the struct, in bytes.
      */
     size_t offset;
 } rungc_area;
@@ -721,13 +721,13 @@ typedef struct rungc_text {
      */
     const uint8_t *bytes;
     /**
-     * How many.
+     * Number of characters.
      */
     size_t length;
 } rungc_text;
 
 /**
- * Where a program's struct holds a serial port.
+ * Location of a serial port in a program's struct.
  */
 typedef struct rungc_port_place {
     /**
@@ -735,7 +735,7 @@ typedef struct rungc_port_place {
      */
     const struct rungc_port_wiring *wiring;
     /**
-     * Where in the struct.
+     * Offset in the struct.
      */
     size_t offset;
     /**
@@ -747,17 +747,17 @@ typedef struct rungc_port_place {
      */
     uint8_t number;
     /**
-     * Whether there is memory for the progress of its protocols.
+     * True if there is memory for the progress of its protocols.
      */
     bool has_progress;
     /**
-     * Whether there is memory for what its protocols keep.
+     * True if there is memory for the state of its protocols.
      */
     bool keeps;
 } rungc_port_place;
 
 /**
- * What a program's struct looks like. All pointers are valid for their counts, for as long as the program runs.
+ * Layout of a program's struct. All pointers are valid for their counts, for as long as the program runs.
  */
 typedef struct rungc_layout {
     /**
@@ -765,15 +765,15 @@ typedef struct rungc_layout {
      */
     const struct rungc_area *areas;
     /**
-     * How many.
+     * Number of areas.
      */
     size_t area_count;
     /**
-     * What the model has, sorted likewise.
+     * Ranges of devices that the model has, sorted likewise.
      */
     const struct rungc_range *ranges;
     /**
-     * How many.
+     * Number of ranges.
      */
     size_t range_count;
     /**
@@ -781,7 +781,7 @@ typedef struct rungc_layout {
      */
     const struct rungc_alias *aliases;
     /**
-     * How many.
+     * Number of aliases.
      */
     size_t alias_count;
     /**
@@ -789,31 +789,31 @@ typedef struct rungc_layout {
      */
     const struct rungc_text *texts;
     /**
-     * How many.
+     * Number of texts.
      */
     size_t text_count;
     /**
-     * Where the struct holds its `plc_sys`.
+     * Offset of its `plc_sys`.
      */
     size_t sys;
     /**
-     * Where the struct holds its `plc_error`; 0 if it has none.
+     * Offset of its `plc_error`; 0 if it has none.
      */
     size_t error;
     /**
-     * Where the struct holds its `plc_on_error *`; 0 if it has none.
+     * Offset of its `plc_on_error *`; 0 if it has none.
      */
     size_t on_error;
     /**
-     * Where the struct holds its private memories.
+     * Offset of its private memories.
      */
     size_t states;
     /**
-     * How many; slots are numbered from 1.
+     * Number of private memories; slots are numbered from 1.
      */
     uint16_t state_count;
     /**
-     * Whether a 32-bit access to Zn takes Vn as its high word.
+     * True if a 32-bit access to Zn takes Vn as its high word.
      */
     bool z_pairs_with_v;
     /**
@@ -825,7 +825,7 @@ typedef struct rungc_layout {
      */
     uint16_t value_error;
     /**
-     * Where the struct holds its pulse outputs.
+     * Offset of its pulse outputs.
      */
     size_t axes;
     /**
@@ -833,7 +833,7 @@ typedef struct rungc_layout {
      */
     const uint8_t *outputs;
     /**
-     * How many.
+     * Number of pulse outputs.
      */
     size_t output_count;
     /**
@@ -845,19 +845,19 @@ typedef struct rungc_layout {
      */
     const struct rungc_port_place *ports;
     /**
-     * How many.
+     * Number of serial ports.
      */
     size_t port_count;
     /**
-     * What it serves by Modbus, and how much a frame may be about; NULL if no port speaks it.
+     * Devices served by Modbus, and the limits of a frame; NULL if no port speaks it.
      */
     const rungc_modbus_profile *modbus;
     /**
-     * What the ports do, by protocols.
+     * Implementations of the ports' protocols.
      */
     const rungc_codec *const *codecs;
     /**
-     * How many.
+     * Number of protocols.
      */
     size_t codec_count;
     /**
@@ -935,7 +935,7 @@ typedef struct rungc_line_format {
  */
 typedef struct rungc_received {
     /**
-     * When its last bit was in: microseconds since power-on, wrapping.
+     * Time of its last bit: microseconds since power-on, wrapping.
      */
     uint32_t at_us;
     /**
@@ -943,7 +943,7 @@ typedef struct rungc_received {
      */
     uint8_t byte;
     /**
-     * What is wrong with it.
+     * Fault of the character.
      */
     rungc_char_fault fault;
 } rungc_received;
@@ -957,7 +957,7 @@ typedef struct rungc_can_frame {
      */
     uint32_t id;
     /**
-     * How many bytes of data there are.
+     * Number of data bytes.
      */
     uint8_t len;
     /**
@@ -1024,7 +1024,7 @@ typedef struct rungc_hal {
      */
     bool (*send)(void *context, uint8_t port, uint8_t byte, uint32_t now_us);
     /**
-     * How many characters of those are not out by `now_us`, to the end of their stop bits.
+     * Number of those characters that are not out by `now_us`, to the end of their stop bits.
      */
     uint16_t (*unsent)(void *context, uint8_t port, uint32_t now_us);
     /**
@@ -1036,11 +1036,11 @@ typedef struct rungc_hal {
      */
     bool (*can_send)(void *context, const struct rungc_can_frame *frame);
     /**
-     * Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
+     * Returns true while frames taken by `can_send` are not on the bus yet; `NULL`: never.
      */
     bool (*can_is_sending)(void *context);
     /**
-     * Whether the power supply fails now; `NULL`: nothing watches it.
+     * Returns true if the power supply fails now; `NULL`: it is not monitored.
      */
     bool (*power_fails)(void *context);
     /**
@@ -1061,7 +1061,7 @@ typedef struct rungc_state {
  */
 typedef struct rungc_map {
     /**
-     * What the struct looks like.
+     * Layout of the struct.
      */
     const struct rungc_layout *layout;
     /**
@@ -1087,7 +1087,7 @@ typedef struct rungc_reply {
      */
     rungc_request request;
     /**
-     * How many characters it has; 0: the request is not answered.
+     * Length in characters; 0: the request is not answered.
      */
     uint16_t length;
     /**
@@ -1105,7 +1105,7 @@ typedef struct rungc_site {
      */
     uint32_t step;
     /**
-     * Which [`State`] belongs to it; 0 for instructions without.
+     * Number of its [`State`]; 0 for instructions without.
      */
     uint16_t slot;
     /**
@@ -1113,7 +1113,7 @@ typedef struct rungc_site {
      */
     bool wide;
     /**
-     * Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
+     * True if the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
      */
     bool drive;
     /**
@@ -1127,7 +1127,7 @@ typedef struct rungc_site {
  */
 typedef struct rungc_operand {
     /**
-     * How to read it.
+     * Interpretation of `value`.
      */
     rungc_operand_kind kind;
     /**
@@ -1139,8 +1139,8 @@ typedef struct rungc_operand {
      */
     uint8_t digits;
     /**
-     * Where emitted C stores the device: which of its areas, counted from the last, which is 1. It is looked at first; 0, or an area
-     * that does not hold the device: it is searched by its number.
+     * Hint for the area that stores the device in emitted C, counted from the last, which is 1. It is looked at first;
+     * 0, or an area that does not hold the device: it is searched by its number.
      */
     uint8_t area;
     /**
@@ -1160,12 +1160,12 @@ typedef struct rungc_module {
 } rungc_module;
 
 /**
- * What a host does for connections: `input_edge` hears of inputs that change, `output` has the state of an output
- * terminal. Both are given `context`; `input_edge` may be NULL.
+ * Callbacks of a host for connections: `input_edge` receives changes of inputs, `output` returns the state of an
+ * output terminal. Both are given `context`; `input_edge` may be NULL.
  */
 typedef struct rungc_terminal {
     /**
-     * What the functions are given.
+     * Argument passed to the functions.
      */
     void *context;
     /**
@@ -1179,7 +1179,7 @@ typedef struct rungc_terminal {
 } rungc_terminal;
 
 /**
- * What a server speaks, for a model.
+ * Protocol of a server, for a model.
  */
 typedef struct rungc_service {
     /**
@@ -1197,8 +1197,8 @@ typedef struct rungc_service {
 } rungc_service;
 
 /**
- * What a slave keeps from one frame to the next: the monitor list of the programming port, or the blocks of QLink. A port speaks one protocol at a
- * time, so they share it. All zero is nothing.
+ * State of a slave between frames: the monitor list of the programming port, or the blocks of QLink. A port speaks one
+ * protocol at a time, so they share it. All zero is nothing.
  */
 typedef struct rungc_memory {
     uint8_t _0[RUNGC_MEMORY_SIZE];
@@ -1210,7 +1210,7 @@ typedef struct rungc_memory {
 typedef struct rungc_connection {
     struct rungc_service service;
     /**
-     * How much of `received` there is.
+     * Number of characters in `received`.
      */
     uint16_t length;
     /**
@@ -1226,11 +1226,11 @@ typedef struct rungc_connection {
  */
 typedef struct rungc_generator {
     /**
-     * What has passed of the present pulse.
+     * Progress of the present pulse.
      */
     uint64_t phase;
     /**
-     * What a whole pulse is.
+     * Progress of a whole pulse.
      */
     uint64_t full;
     /**
@@ -1241,7 +1241,7 @@ typedef struct rungc_generator {
     uint64_t up;
     uint64_t down;
     /**
-     * How much passes in a microsecond.
+     * Progress per microsecond.
      */
     uint32_t rate;
     uint32_t speed;
@@ -1252,7 +1252,7 @@ typedef struct rungc_generator {
      */
     uint32_t now_us;
     /**
-     * How much of a pulse it is on.
+     * On-time of a pulse.
      */
     uint32_t on;
     bool busy;
@@ -1276,7 +1276,7 @@ typedef struct rungc_generator {
  */
 typedef struct rungc_axis {
     /**
-     * What it sends.
+     * Generator of its pulses.
      */
     struct rungc_generator generator;
     /**
@@ -1308,11 +1308,11 @@ typedef struct rungc_axis {
      */
     bool taken;
     /**
-     * Whether the pin is on.
+     * True if the pin is on.
      */
     bool on;
     /**
-     * Whether the pin is on where a pulse is off.
+     * True if the pin is inverted: on where a pulse is off.
      */
     bool inverted;
     /**
@@ -1342,8 +1342,8 @@ extern "C" {
 void rungc_client_begin(struct rungc_client *client, rungc_ports family, uint8_t part);
 
 /**
- * What to do now, `now_us` microseconds after any beginning; a request that is to be sent is in `request`. `rows` are
- * the `count` rows of the server, the same in each call. Call it between two scans.
+ * Next action of a client, `now_us` microseconds after an arbitrary origin; a request to be sent is in `request`.
+ * `rows` are the `count` rows of the server, the same in each call. Call it between two scans.
  */
 rungc_wish rungc_client_next(struct rungc_client *client,
                              const struct rungc_client_row *rows,
@@ -1453,13 +1453,13 @@ bool rungc_set_long(struct rungc_map *map, rungc_class class_, uint32_t number, 
 bool rungc_module_fit(struct rungc_module *module, uint16_t kind);
 
 /**
- * What is connected to a channel from now on; channels are counted from 0, and the signal is in millionths of a volt
- * (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if there is no such input.
+ * Connects a signal to a channel; channels are counted from 0, and the signal is in millionths of a volt (quantity 0),
+ * of a milliampere (1) or of a degree Celsius (2). False if there is no such input.
  */
 bool rungc_module_connect(struct rungc_module *module, uint8_t channel, uint8_t quantity, int32_t millionths);
 
 /**
- * What a channel puts out, in millionths of that unit; 0 if it puts out nothing of the kind.
+ * Output signal of a channel, in millionths of that unit; 0 if it outputs no such quantity.
  */
 int32_t rungc_module_signal(struct rungc_module *module, uint8_t channel, uint8_t quantity);
 
@@ -1494,7 +1494,7 @@ bool rungc_outside_log(const char *program, const char *path);
 void rungc_outside_note(const char *line);
 
 /**
- * Whether a connection reads standard input, which means no commands then.
+ * Returns true if a connection reads standard input, which leaves none for commands.
  */
 bool rungc_outside_takes_input(void);
 
@@ -1543,7 +1543,7 @@ struct rungc_hal rungc_virtual_hal(void);
 void rungc_virtual_reset(void);
 
 /**
- * What follows is for the hardware of this PLC, 0 for the first; false if there are not so many.
+ * Selects the PLC, 0 for the first, that the following calls are for; false if there are not so many.
  */
 bool rungc_virtual_select(uint32_t plc);
 
@@ -1598,13 +1598,13 @@ bool rungc_virtual_delay_module(uint16_t unit, uint16_t ms);
 void rungc_virtual_set_running(bool running);
 
 /**
- * What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a
- * degree Celsius (2). False if there is no such input.
+ * Connects a signal to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree
+ * Celsius (2). False if there is no such input.
  */
 bool rungc_virtual_set_signal(uint16_t unit, uint8_t channel, uint8_t quantity, int32_t millionths);
 
 /**
- * What is at a channel of a module, in millionths of that unit; false if there is no such channel.
+ * Signal at a channel of a module, in millionths of that unit; false if there is no such channel.
  */
 bool rungc_virtual_get_signal(uint16_t unit, uint8_t channel, uint8_t quantity, int32_t *millionths);
 
@@ -1749,7 +1749,7 @@ static inline rungc_operand rungc_ER(int32_t number)
     return rungc_device(RUNGC_CLASS_ER, number);
 }
 
-/* Where a call is: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
+/* Location of a call: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
 static inline rungc_site rungc_at(uint32_t step)
 {
     rungc_site site;

@@ -7,7 +7,7 @@ use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// What surrounds the name of a program in its header.
+/// Frame of the header around a program's name.
 const HEADER: &str = "\
 #ifndef GUARD
 #define GUARD
@@ -38,7 +38,7 @@ bool NAME_write_named(NAME_plc *plc, const char *name, int32_t value);
 #endif
 ";
 
-/// What follows the table in its source.
+/// Part of the source after the table.
 const SOURCE: &str = "\
 #define AREAS (sizeof(areas) / sizeof(areas[0]))
 
@@ -82,7 +82,7 @@ pub fn source(module: &Module) -> String {
     let name = &module.name;
     let storage = Storage::new(module);
     let mut out = format!(
-        "#include \"{name}_access.h\"\n\n/* Where the struct holds the devices that the program stores. */\nstatic const plc_area areas[] = {{\n"
+        "#include \"{name}_access.h\"\n\n/* Offsets of the program's devices in its struct. */\nstatic const plc_area areas[] = {{\n"
     );
     for Area { field, count } in areas::areas(&storage) {
         let mut member = String::new();

@@ -8,7 +8,7 @@ use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// What a poll does with them.
+/// Handling of the board's events in a poll.
 const TAKE_EVENTS: &str = "    const bool edges = take_edges(plc, board);
     const bool counts = take_counts(plc, board);
 ";
@@ -25,7 +25,7 @@ void PROGRAM_on_timer(PROGRAM_plc *plc, rungc_board *board)
 }
 ";
 
-/// What a program with pulses does at the end of a poll.
+/// Update of the pulse outputs at the end of a poll.
 const DRIVE_PULSES: &str = "        rungc_board_hold(board, true);
         PROGRAM_on_timer(plc, board);
         rungc_board_hold(board, false);
@@ -114,7 +114,8 @@ pub fn source(module: &Module, runtime: bool) -> String {
     text.replace("PROGRAM", &module.name)
 }
 
-/// How a poll ends. A train begins in a scan or in an interrupt routine; with no timer each poll looks after it.
+/// Update of the pulse outputs at the end of a poll. A train begins in a scan or in an interrupt routine; with no timer
+/// each poll looks after it.
 fn pulses(module: &Module, interrupts: bool) -> String {
     match (module.sends_pulses(), interrupts) {
         (false, _) => String::new(),

@@ -4,20 +4,20 @@
 use crate::makefile::Recipe;
 use std::fmt::Write;
 
-/// What begins the file; `@PROJECT@` is its name.
+/// Beginning of the file; `@PROJECT@` is its name.
 const PROJECT: &str = "\
 cmake_minimum_required(VERSION 3.16)
 project(@PROJECT@ LANGUAGES C)
 include(GNUInstallDirs)
 ";
 
-/// How the runtime library is built, or taken as it is.
+/// Rules that build the runtime library, or use an existing one.
 const RUNTIME: &str = "
 # The runtime library is built from the sources in rungc-rt, without a network. For another machine name the target as
 # rustc does (-DRUNGC_TARGET=thumbv7em-none-eabihf; rustup target add ...), or name a library that is built already.
 @TARGET@
 set(RUNGC_RT \"\" CACHE FILEPATH \"A runtime library that is built already\")
-set(RUNGC_OPT \"\" CACHE STRING \"How the runtime library is optimised; empty: 3 for this machine, s for another\")
+set(RUNGC_OPT \"\" CACHE STRING \"Optimisation level of the runtime library; empty: 3 for this machine, s for another\")
 set(RUNGC_CARGO_FLAGS --offline CACHE STRING \"Arguments for cargo, which builds the runtime library\")
 set(rungc_rt ${RUNGC_RT})
 if(NOT RUNGC_RT)
@@ -43,7 +43,7 @@ add_custom_target(@PROJECT@_runtime DEPENDS ${rungc_rt})
 
 /// The target, where no build system knows it.
 const TARGET: &str = "\
-set(RUNGC_TARGET \"\" CACHE STRING \"What the runtime library is built for; empty: for this machine\")";
+set(RUNGC_TARGET \"\" CACHE STRING \"Target of the runtime library; empty: this machine\")";
 
 /// The target of a program. -ffp-contract=off: no rounding of the PLC is left out.
 const LIBRARY: &str = "
@@ -56,7 +56,7 @@ target_include_directories(plc_@NAME@ PUBLIC
 @FOLDERS@    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plc_@NAME@>)
 ";
 
-/// What a program that calls the runtime links.
+/// Link rules of a program that calls the runtime.
 const LINK_RUNTIME: &str = "\
 add_dependencies(plc_@NAME@ @PROJECT@_runtime)
 target_link_libraries(plc_@NAME@ INTERFACE
@@ -65,7 +65,7 @@ target_link_libraries(plc_@NAME@ INTERFACE
 install(FILES ${rungc_rt} DESTINATION ${CMAKE_INSTALL_LIBDIR} RENAME librungc_rt.a)
 ";
 
-/// How it is installed.
+/// Install rules.
 const INSTALL: &str = "\
 install(TARGETS plc_@NAME@ EXPORT plc_@NAME@)
 install(FILES @HEADERS@
@@ -110,8 +110,8 @@ pub fn cmake_lists(recipes: &[Recipe]) -> String {
     text
 }
 
-/// How CMake builds the runtime library from the sources in the folder `rungc-rt` of `root` (empty, or ending with
-/// `/`): the file is `${rungc_rt}`, the target `PROJECT_runtime`. `target` sets `RUNGC_TARGET`.
+/// CMake rules that build the runtime library from the sources in the folder `rungc-rt` of `root` (empty, or ending
+/// with `/`): the file is `${rungc_rt}`, the target `PROJECT_runtime`. `target` sets `RUNGC_TARGET`.
 pub fn runtime(project: &str, root: &str, target: &str) -> String {
     RUNTIME
         .replace("@PROJECT@", project)

@@ -6,23 +6,23 @@ use std::fmt::Display;
 #[derive(Default)]
 pub struct Code {
     text: String,
-    /// How many parentheses and braces are open.
+    /// Number of open parentheses and braces.
     depth: u32,
     breaks: Vec<Break>,
 }
 
-/// Where a line may be broken.
+/// Place where a line may be broken.
 #[derive(Clone, Copy)]
 struct Break {
     /// The operator or the comma.
     mark: usize,
-    /// Where the next line starts: at the operator, or after the comma.
+    /// Start of the next line: at the operator, or after the comma.
     next: usize,
-    /// How many parentheses and braces are open there.
+    /// Number of parentheses and braces open there.
     depth: u32,
 }
 
-/// How far a line has come: its bytes, and how many parentheses and braces are open.
+/// Position in a line: its bytes, and the number of open parentheses and braces.
 #[derive(Clone, Copy)]
 pub struct Mark {
     len: usize,
@@ -102,7 +102,7 @@ impl Code {
         }));
     }
 
-    /// How far the line has come.
+    /// Current position in the line.
     pub fn mark(&self) -> Mark {
         Mark {
             len: self.text.len(),
@@ -139,8 +139,8 @@ impl Code {
         });
     }
 
-    /// Where to break what follows `start`, if it has no room: before the operator, or after the comma, that is least
-    /// deep in parentheses, the last one of those.
+    /// Place to break the text from `start` on, if it does not fit: before the operator, or after the comma, that is
+    /// least deep in parentheses, the last one of those.
     pub fn break_at(&self, start: usize, room: usize) -> Option<usize> {
         if self.text.len() - start <= room {
             return None;

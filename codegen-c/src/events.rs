@@ -1,4 +1,4 @@
-//! What happens outside the scan: the functions that a host calls for it, and the private fields that they use.
+//! Events outside the scan: the functions that a host calls for them, and the private fields that these use.
 
 use crate::writer::function_name;
 use rungc_emit::events::{clocks, edges, edges_only_note, follows_time, interrupts};

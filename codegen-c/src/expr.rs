@@ -15,14 +15,14 @@ type Operands = SmallVec<[ExprId; 8]>;
 /// An operand of a chain that has been written.
 struct Operand {
     e: ExprId,
-    /// Where it starts and ends.
+    /// Start and end.
     from: Mark,
     to: Mark,
-    /// Whether it calls functions.
+    /// True if it calls functions.
     calls: bool,
 }
 
-/// What surrounds an expression: decides on parentheses and casts.
+/// Context of an expression: decides on parentheses and casts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Around {
     /// The whole right-hand side or an argument: an `I16` must have the type `int16_t`.
@@ -45,8 +45,8 @@ impl Around {
         }
     }
 
-    /// Whether an expression made with `op` needs parentheses here. More than C asks for: compilers warn where readers
-    /// may err.
+    /// Returns true if an expression made with `op` needs parentheses here. More than C asks for: compilers warn where
+    /// readers may err.
     fn needs_parentheses(self, op: &str) -> bool {
         match self {
             Around::Exact | Around::Loose => false,
@@ -253,7 +253,7 @@ impl Writer<'_, '_> {
         out.close(")");
     }
 
-    /// Where a call of a function is written: it is counted.
+    /// Counts a call of a function, and returns the output to write it to.
     pub(crate) fn call_in<'o>(&mut self, out: &'o mut Code) -> &'o mut Code {
         self.calls += 1;
         out
@@ -303,7 +303,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Whether a `Bit` is written as an integer: one from an array of columns, or made of such.
+    /// Returns true if a `Bit` is written as an integer: one from an array of columns, or made of such.
     fn is_number(&self, e: ExprId) -> bool {
         let known = |e: ExprId| {
             let is_named = self.named.contains_key(&e);

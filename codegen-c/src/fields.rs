@@ -23,7 +23,7 @@ pub trait PrintField {
     fn name(&self, out: &mut String);
     /// The dimensions of an array: `[10]`, `[10][32]`.
     fn extents(&self) -> String;
-    /// Where in an array a device is: `[3]`, `[3][0]`.
+    /// Subscript of a device in an array: `[3]`, `[3][0]`.
     fn subscript(&self, number: u32) -> String;
     /// Writes where in an array the device is whose number is in a variable: `[n]`, `[n - 16]`.
     fn element(&self, out: &mut String, number: &str, unsigned: &str);

@@ -27,7 +27,7 @@ fn banner(module: &Module, file: &str) -> String {
 pub struct Part {
     /// Its own files.
     files: Vec<OutFile>,
-    /// What is built of them.
+    /// Build recipe.
     recipe: Recipe,
 }
 
@@ -114,7 +114,7 @@ impl Part {
     }
 }
 
-/// What programs in separate folders share: headers, the runtime's sources, and the Makefile that builds them all.
+/// Files shared by programs in separate folders: headers, the runtime's sources, and the Makefile that builds them all.
 pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
     let needed = |what: fn(&Shared) -> bool| recipes.iter().any(|recipe| what(&recipe.shared));
     let shared = Shared {
@@ -130,7 +130,7 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
     files
 }
 
-/// What builds the programs: by CMake and by `make`.
+/// Build files of the programs, for CMake and for `make`.
 fn builds(recipes: &[Recipe]) -> [OutFile; 2] {
     [
         OutFile::new("CMakeLists.txt", cmake::cmake_lists(recipes)),
@@ -246,14 +246,14 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
     )
 }
 
-/// What programs need beside their own files.
+/// Dependencies of programs in addition to their own files.
 #[derive(Clone, Copy, Debug)]
 pub struct Shared {
     /// The runtime library: its header and its sources.
     pub runtime: bool,
     /// The library has the standard library of Rust in it, for connections.
     pub std: bool,
-    /// What describes a board; its types are in the runtime's header, too.
+    /// The header for boards; its types are in the runtime's header, too.
     pub board: bool,
     /// Devices by number and by name.
     pub access: bool,
@@ -302,13 +302,13 @@ impl Shared {
 fn runtime_header() -> String {
     let mut prototypes = String::from(
         "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n\
-         /* What serial ports do, by protocols. A program links those that its layout names. */\n",
+         /* Implementations of the ports' protocols. A program links those that its layout names. */\n",
     );
     for codec in codec::ALL {
         let name = codec.name();
         let _ = writeln!(prototypes, "extern const rungc_codec rungc_codec_{name};");
     }
-    prototypes.push_str("\n/* What models serve by Modbus. */\n");
+    prototypes.push_str("\n/* Devices that models serve by Modbus. */\n");
     for profile in modbus::ALL {
         let name = profile.name;
         let _ = writeln!(
@@ -379,7 +379,7 @@ impl Batched {
     }
 }
 
-/// What `main.c` of a batch says of one program: the functions around the program's, and its entry in the table.
+/// Entry of one program in `main.c` of a batch: the functions around the program's, and its row of the table.
 fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut String) {
     let kinds = [
         (true, "CASE", "ENTRY"),
@@ -475,7 +475,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files
 }
 
-/// How `main.c` of a batch is built: it only calls, thousands of functions.
+/// Rule that builds `main.c` of a batch: it only calls, thousands of functions.
 const MAIN_RULE: &str = "\nmain.o: override CFLAGS += -O0\n";
 
 /// About how large a source file of a batch may be, in bytes.

@@ -22,12 +22,12 @@ const MOST_EDGES: usize = 4;
 
 /// The prototype for programs that may ask for scans of constant length.
 const CONSTANT_SCAN: &str = "\
-/* How long a scan is to last at least, from its start to that of the next one, in microseconds; 0: as the host likes. A scan that takes
+/* Minimum scan time, from the start of a scan to that of the next one, in microseconds; 0: chosen by the host. A scan that takes
    longer is followed at once by the next. The next scan's `scan_us` includes the time in which it waited. */
 uint32_t NAME_constant_scan_us(const NAME_plc *plc);
 ";
 
-/// What a host that asks for it learns of errors; it costs nothing where none does.
+/// Error callback for hosts that enable it; it costs nothing otherwise.
 const ON_ERROR: &str = "\
 #ifdef PLC_ON_ERROR
     plc_on_error *on_error; /* called at each operation error; NULL: nothing is */
@@ -107,7 +107,7 @@ fn devices(out: &mut String, size: &mut Size, fields: &Storage) {
     }
 }
 
-/// What the host has no business with.
+/// Writes the private part of the struct.
 fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
     out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n");
     for field in private::fields(module, plan) {
@@ -299,7 +299,7 @@ fn prototypes(out: &mut String, name: &str) {
          bool {name}_output(const {name}_plc *plc, unsigned terminal);\n\n\
          /* The last operation error and what stopped the PLC, since RUN began. */\n\
          plc_error {name}_error(const {name}_plc *plc);\n\n\
-         /* Whether the PLC is in RUN; what else than the switch has put it in STOP is in `{name}_error`. */\n\
+         /* Returns true if the PLC is in RUN; the reason for STOP, other than the switch, is in `{name}_error`. */\n\
          bool {name}_running(const {name}_plc *plc);\n\n\
          /* The RUN/STOP switch. STOP clears what is not latched. */\n\
          void {name}_set_running({name}_plc *plc, bool running);\n\n\

@@ -13,7 +13,7 @@ use std::fmt::Write;
 /// A function.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Helper {
-    /// Whether devices exist.
+    /// Existence of devices.
     Has,
     /// Reads a contact, a value or a 32-bit value.
     Get(&'static str),
@@ -192,12 +192,12 @@ impl Printer<'_> {
         writeln!(out, "}}\n")
     }
 
-    /// Whether devices exist.
+    /// Writes the function that checks the existence of devices.
     fn has(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
         let (name, c) = (self.name, class.prefix());
         let _ = write!(
             out,
-            "/* Whether `count` {c} from number n on exist. */\n\
+            "/* Returns true if `count` {c} from number n on exist. */\n\
              static inline bool {name}_has_{c}(int32_t n, int32_t count)\n{{\n    return "
         );
         for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {

@@ -13,17 +13,17 @@ use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// How a program waits for its next scan that follows the time.
+/// Wait of a program whose time advances between scans.
 const WAIT_WITH_TIME: &str = "\
 for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()) {
             sleep_until(now + 1000u < next ? now + 1000u : next);
             PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
 /* INTERRUPTS */        }";
 
-/// When the next scan begins.
+/// Start of the next scan.
 const PERIOD: &str = "next += SCAN_MS * 1000u;";
 
-/// When it begins after a scan that may ask for a constant length.
+/// Start of the next scan if a constant scan time may be requested.
 const CONSTANT_PERIOD: &str = "\
 const uint32_t constant_us = PROGRAM_constant_scan_us(plc);
         if (constant_us == 0u) {
@@ -38,7 +38,7 @@ const uint32_t constant_us = PROGRAM_constant_scan_us(plc);
 
 /// The real-time clock of a host.
 const CLOCK: &str = "\
-/* How many seconds the program's clock is ahead of this computer's, since the program has set it. */
+/* Seconds by which the program's clock is ahead of this computer's, since the program has set it. */
 static time_t ahead;
 
 /* The real-time clock: the local time. */
@@ -98,7 +98,7 @@ const SERVERS_HEADERS: [&str; 6] = [
     "sys/socket",
 ];
 
-/// What a host says of a scan that takes longer than the constant length.
+/// Report of a scan that exceeds the constant scan time.
 const OVERRUN: &str = "\
 /* Reports once that a scan takes longer than the program wants. */
 static void print_overrun(uint32_t scan_us, uint32_t constant_us)
@@ -114,7 +114,7 @@ static void print_overrun(uint32_t scan_us, uint32_t constant_us)
 
 ";
 
-/// What a host of a program that may fail does about its operation errors.
+/// Report of operation errors by the host of a program that may fail.
 const PRINT_ERROR: &str = "\
 /* Reports an operation error as it happens, once for each instruction. */
 static void print_error(const void *program, uint16_t code, uint16_t step)
@@ -241,7 +241,7 @@ fn errors(module: &Module) -> String {
 /// The rows of the outputs that a run shows.
 fn outputs(module: &Module, fields: &Storage) -> String {
     let mut rows = String::new();
-    // Those that send pulses would be printed all the time.
+    // Outputs that send pulses would be printed all the time.
     let quiet = |number: &u32| module.pulse_outputs.contains(number);
     let terminals_y = terminals(fields, DeviceClass::Y);
     for &(number, _) in terminals_y.iter().filter(|(number, _)| !quiet(number)) {
@@ -259,7 +259,7 @@ fn outputs(module: &Module, fields: &Storage) -> String {
     rows
 }
 
-/// What a host has that keeps latched devices.
+/// Parts of a host that retains latched devices.
 struct Retaining {
     header: &'static str,
     functions: String,
@@ -271,7 +271,7 @@ struct Retaining {
     code: &'static str,
 }
 
-/// What a host that keeps latched devices has; a device may show that they cannot be saved.
+/// Parts of a host that retains latched devices; a device may show that they cannot be saved.
 fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>) -> Retaining {
     if !keeps {
         return Retaining {
@@ -300,7 +300,7 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
     }
 }
 
-/// What the system's headers are to declare.
+/// Feature test macros for the system's headers.
 fn features(ports: bool) -> &'static str {
     match ports {
         true => "#define _DEFAULT_SOURCE\n#define _XOPEN_SOURCE 700",
@@ -362,7 +362,7 @@ fn open_server(speaks: Speaks) -> String {
     format!("open_server(RUNGC_SPEAKS_{speaks}, \"{name}\", argv[++i])")
 }
 
-/// What the header of the runtime calls a protocol.
+/// Name of a protocol in the runtime's header.
 fn constant(speaks: Speaks) -> &'static str {
     match speaks {
         Speaks::ModbusTcp => "MODBUS_TCP",
@@ -387,7 +387,7 @@ fn server_code(module: &Module, servers: bool) -> String {
         .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))
 }
 
-/// How a row of the table of connections is printed.
+/// Format of a row in the table of connections.
 const TABLE_ROW: &str = "%-21s  %-15s  %-16s  %8lu  %8lu  %8lu";
 
 /// The serial ports, and what drives them.

@@ -52,7 +52,7 @@ use rungc_ir::Module;
 use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
 
-/// What to emit.
+/// Options of the output.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// Also a `main.c` for a Linux host that scans in real time.

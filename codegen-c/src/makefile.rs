@@ -3,7 +3,7 @@
 use crate::files::Shared;
 use std::fmt::Write;
 
-/// Where the runtime library is; `make` wants to know it before the first rule that needs it.
+/// Path of the runtime library; `make` needs it before the first rule that uses it.
 const LIBRARY_PATH: &str = "\
 # The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
 # It is built from the sources in rungc-rt, without a network; RUNGC_RT=path/to/librungc_rt.a names one that is built already.
@@ -19,12 +19,12 @@ RUNTIME_PROFILE = $(if $(filter s z,$(RUNTIME_OPT)),CARGO_PROFILE_RELEASE_LTO=fa
 LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
 ";
 
-/// What it has, and what it needs of the system then.
+/// Features of the library, and the system libraries these need.
 const PLAIN: &str = "RUNTIME_FEATURES = staticlib\n";
 const WITH_STD: &str =
     "RUNTIME_FEATURES = staticlib,std\noverride LDFLAGS += -s -lpthread -ldl -lm\n";
 
-/// How it is built.
+/// Build rule.
 const LIBRARY_RULE: &str = "\
 ifndef RUNGC_RT
 $(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
@@ -34,25 +34,25 @@ endif
 
 ";
 
-/// What is built of a program.
+/// Build recipe of a program.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     /// The program's name.
     pub(crate) name: String,
-    /// Where its files are: a path that ends with `/`, or nothing where the Makefile is.
+    /// Folder of its files: a path that ends with `/`, or empty for the folder of the Makefile.
     pub(crate) folder: String,
     /// Its sources, in that folder.
     pub(crate) sources: Vec<String>,
     /// Its own headers, in that folder.
     pub(crate) headers: Vec<String>,
-    /// Whether there is a `main.c` among the sources: then an executable is built, otherwise a library of the objects.
+    /// True if there is a `main.c` among the sources: then an executable is built, otherwise a library of the objects.
     pub(crate) main: bool,
-    /// What it shares with other programs.
+    /// Parts shared with other programs.
     pub(crate) shared: Shared,
 }
 
 impl Recipe {
-    /// Whether its main program has a thread, which saves latched devices.
+    /// Returns true if its main program has a thread, which saves latched devices.
     pub(crate) fn has_thread(&self) -> bool {
         self.main && self.shared.retain
     }

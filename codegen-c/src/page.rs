@@ -3,14 +3,14 @@
 use crate::code::Code;
 use crate::text;
 
-/// How far the lines of a block are to the right of those around it.
+/// Indentation of a block.
 const STEP: usize = 4;
 
 /// Lines of C.
 pub struct Page {
     text: String,
     indent: usize,
-    /// Whether a block has just begun: what comes now needs no blank line before it.
+    /// True at the start of a block, which has no blank line.
     fresh: bool,
 }
 

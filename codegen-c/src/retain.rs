@@ -5,7 +5,7 @@ use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use std::fmt::Write;
 
-/// What surrounds the name of a program in its header.
+/// Frame of the header around a program's name.
 const HEADER: &str = "\
 #ifndef /* GUARD */
 #define /* GUARD */
@@ -17,7 +17,7 @@ const HEADER: &str = "\
 extern \"C\" {
 #endif
 
-/* What the program keeps over power-off, and how long a record of it is, in bytes. */
+/* Data that the program retains over power-off, and the length of a record of it, in bytes. */
 extern const rungc_retained NAME_retained;
 #define /* LENGTH */
 
@@ -92,7 +92,7 @@ pub fn header(module: &Module) -> String {
         .replace("/* LENGTH */", &length)
 }
 
-/// How long a record of the program's latched devices is, in bytes.
+/// Length of a record of the program's latched devices, in bytes.
 pub fn record_len(module: &Module) -> u32 {
     let (program, runs) = (module.retained_as(), module.retained());
     let retained = rungc_rt::retain::Retained {

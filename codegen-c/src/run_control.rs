@@ -1,4 +1,4 @@
-//! What decides, other than the switch, on RUN and STOP and on the length of scans.
+//! Control of RUN and STOP by other means than the switch, and of the length of scans.
 
 use crate::unit::Printer;
 use rungc_emit::cycle;

@@ -8,7 +8,7 @@ use rungc_ir::node::{Arg, Call, Expr, ExprId, Fetch, Place, Send};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// Where a call is, and what it is.
+/// Location and form of a call.
 struct Site {
     wide: bool,
     drive: Option<ExprId>,

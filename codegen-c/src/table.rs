@@ -150,12 +150,7 @@ fn tables(out: &mut String, layout: &mut Vec<String>, module: &Module, fields: &
         format!("{{(const uint8_t *){literal}, {}}}", text.len())
     });
     let tables = [
-        (
-            "areas",
-            "area",
-            "Where the runtime finds the devices.",
-            areas,
-        ),
+        ("areas", "area", "Lookup of devices for the runtime.", areas),
         ("ranges", "range", "Devices that the model has.", ranges),
         (
             "aliases",

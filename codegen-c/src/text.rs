@@ -7,7 +7,7 @@ use rungc_syntax::text::acts;
 pub const WIDTH: usize = 120;
 /// Longest line of a comment on separate lines: what most engineers write above a network stays on one.
 const COMMENT_WIDTH: usize = 200;
-/// Where comments beside statements begin.
+/// Column of comments beside statements.
 const COMMENT_COLUMN: usize = 64;
 
 /// Makes a user's text safe inside a comment: no end of the comment, no line breaks, no characters that turn text

@@ -24,7 +24,7 @@ const FEW_TERMINALS: usize = 8;
 pub struct Unit {
     /// Struct and prototypes of the API, for the header.
     pub api: String,
-    /// Whether the runtime library is needed.
+    /// True if the runtime library is needed.
     pub runtime: bool,
     /// Declarations that all groups need.
     pub internal: String,
@@ -75,7 +75,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Un
     if module.has_watchdog() {
         printer.watchdog(&mut internal);
     }
-    // Where the program itself clears devices the functions are before it, else with those of the API.
+    // If the program itself clears devices, the functions precede it, otherwise they are with those of the API.
     let clearing = printer.clear_functions(asked.clears_latched || latches != Latches::Kept);
     if asked.clears_general || asked.clears_latched {
         internal.push_str(&clearing);
@@ -104,7 +104,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Un
     }
 }
 
-/// Whether a module calls the runtime.
+/// Returns true if a module calls the runtime.
 pub fn uses_runtime(module: &Module) -> bool {
     let mut uses = module.has_ports();
     for function in &module.functions {
@@ -117,7 +117,7 @@ pub fn uses_runtime(module: &Module) -> bool {
 fn states(out: &mut String, writer: &Writer, plan: &Plan) {
     let roots = (0..writer.module.functions.len()).map(|root| (root, plan.state_names(root)));
     for (root, names) in roots.filter(|(_, names)| !names.is_empty()) {
-        out.push_str("/* Where the program continues after a jump. */\nenum {\n");
+        out.push_str("/* Parts at which the program continues after a jump. */\nenum {\n");
         for state in 1..=names.len() {
             let comma = if state < names.len() { "," } else { "" };
             let _ = writeln!(
@@ -158,7 +158,7 @@ pub struct Printer<'a> {
     pub(crate) plan: &'a Plan<'a>,
 }
 
-/// What a fault does for a host that asks for it.
+/// Call of the host's error callback after a fault.
 const CALL_ON_ERROR: &str = "\
 #ifdef PLC_ON_ERROR
     if (plc->on_error != NULL) {
@@ -235,7 +235,7 @@ impl Printer<'_> {
         }
     }
 
-    /// What stops a scan that does not end.
+    /// Writes the watchdog, which stops a scan that does not end.
     fn watchdog(&self, out: &mut String) {
         let name = self.name();
         let mut trip = String::from(
@@ -624,7 +624,7 @@ impl Printer<'_> {
         let bits = if self.fields.bytes() < 60_000 { 16 } else { 32 };
         let _ = write!(
             out,
-            "    /* Where each terminal is stored; UINT{bits}_MAX: the program has nothing on it. */\n    static const uint{bits}_t place[] = {{\n"
+            "    /* Index of each terminal; UINT{bits}_MAX: the program does not use it. */\n    static const uint{bits}_t place[] = {{\n"
         );
         let mut next = 0;
         for field in terminals {

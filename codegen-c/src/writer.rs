@@ -21,18 +21,18 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// How much of an expression stands in one place.
+/// Limits of an expression written inline.
 pub(crate) const LIMITS: Limits = Limits {
     depth: 12,
     shared: 8,
     plain: 256,
 };
 
-/// What stands for an expression in the statement being written.
+/// Replacement of an expression in the statement being written.
 pub(crate) struct Named {
-    /// How it is written.
+    /// Its code.
     pub code: Code,
-    /// Whether that calls a function.
+    /// True if the code calls a function.
     pub calls: bool,
 }
 
@@ -41,27 +41,27 @@ pub struct Writer<'a, 'm> {
     pub(crate) module: &'m Module,
     pub(crate) plan: &'a Plan<'m>,
     pub(crate) fields: &'a Storage<'m>,
-    /// How the runtime finds devices; nothing where it is not called.
+    /// Areas by which the runtime finds devices; empty if it is not called.
     pub(crate) areas: Vec<Area<'a>>,
     /// Functions for indexed access that are needed.
     pub helpers: Helpers,
     /// Names of parts of the current statement's expressions.
     pub(crate) named: FxHashMap<ExprId, Named>,
-    /// How many calls of functions have been written: shows whether an operand makes any.
+    /// Number of function calls written so far: shows whether an operand makes any.
     pub(crate) calls: u64,
-    /// What timers have to remember.
+    /// Memories of the timers.
     pub(crate) coils: Coils,
-    /// Whether a condition that joins contacts is compared with 0: `&` makes an `int` of them.
+    /// True if a condition that joins contacts is compared with 0: `&` makes an `int` of them.
     pub(crate) boolean_conditions: bool,
     /// The current function.
     function: usize,
     /// Loops around the current statement.
     pub(crate) loops: usize,
-    /// Whether an operand beside is a number, so that `!` would seem a slip.
+    /// True if an adjacent operand is a number, so that `!` would look like a mistake.
     pub(crate) numbers: bool,
     /// Variable that counts the iterations of the loop over rungs.
     pub(crate) iteration: String,
-    /// How many iterations that has.
+    /// Number of its iterations.
     pub(crate) iterations: u32,
     /// Devices that it reads before its first iteration.
     pub(crate) invariants: BTreeSet<Device>,
@@ -148,7 +148,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         out.push_str("}\n\n");
     }
 
-    /// What is written now belongs to this function of the plan.
+    /// Starts writing this function of the plan.
     pub(crate) fn enter(&mut self, index: usize) {
         self.function = index;
         self.loops = 0;
@@ -316,7 +316,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.plan.functions[self.function].flow == Flow::Void
     }
 
-    /// Which of the module's functions the one being written belongs to.
+    /// Module function to which the one being written belongs.
     pub(crate) fn root(&self) -> usize {
         self.plan.functions[self.function].root
     }

@@ -38,7 +38,7 @@ impl Generator<'_> {
         quote!(#call(#module::#name, #site, &[#(#args),*], plc, hal);)
     }
 
-    /// Where an instruction is, and its form.
+    /// Location of an instruction, and its form.
     fn site(&mut self, step: u32, wide: bool) -> TokenStream {
         let site = self.rt("Site");
         let step = Literal::u32_unsuffixed(step);

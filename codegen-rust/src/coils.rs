@@ -13,9 +13,9 @@ use rungc_ir::walk::has_many_timers;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
-/// What runs a timer that an index leads to.
+/// Function that runs a timer selected by an index.
 pub const OUT_TIMER: &str = "out_timer";
-/// What runs a 16-bit counter that an index leads to.
+/// Function that runs a 16-bit counter selected by an index.
 pub const OUT_COUNTER: &str = "out_counter";
 
 /// Operations of a drive that fits on its coil's line.
@@ -72,7 +72,7 @@ impl Generator<'_> {
         )
     }
 
-    /// What stands in front of a coil, and the first two arguments of the function that runs it.
+    /// Statements before a coil, and the first two arguments of the function that runs it.
     fn drive_and_preset(&mut self, drive: ExprId, preset: ExprId) -> (TokenStream, TokenStream) {
         let mut before = TokenStream::new();
         let drive = self.drive(drive, &mut before);
@@ -157,7 +157,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Whether an index leads to a device, rather than the iteration of a loop.
+    /// Returns true if an index selects a device, rather than the iteration of a loop.
     fn is_indexed(&self, place: Place) -> bool {
         let index = place.index.map(|index| self.module.expr(index));
         index.is_some_and(|index| !matches!(index, Expr::Stride(..)))

@@ -1,4 +1,4 @@
-//! What a crate has for [defmt](https://defmt.ferrous-systems.com), the logger of small microcontrollers.
+//! Support in a crate for [defmt](https://defmt.ferrous-systems.com), the logger of small microcontrollers.
 
 use crate::{OutFile, template};
 use syn::Ident;

@@ -1,4 +1,4 @@
-//! What happens outside the scan: flags that a host's interrupts set, and the methods that it calls for that.
+//! Events outside the scan: flags that a host's interrupts set, and the methods that it calls for them.
 
 use crate::generate::Generator;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -127,7 +127,7 @@ impl Generator<'_> {
         })
     }
 
-    /// Where serial ports are brought up to date.
+    /// Statement that brings serial ports up to date.
     pub fn ports_advance(&self) -> Option<TokenStream> {
         let has_ports = self.module.has_ports();
         has_ports.then(|| quote!(self.advance_ports(hal, now_ms.wrapping_mul(1000));))
@@ -256,7 +256,7 @@ impl Generator<'_> {
         })
     }
 
-    /// How many pulse outputs an interrupt shares with the program.
+    /// Number of pulse outputs that an interrupt shares with the program.
     pub fn pulse_outputs(&self) -> Option<TokenStream> {
         let last = self.module.pulse_outputs.last()?;
         let count = Literal::usize_unsuffixed(*last as usize + 1);
@@ -277,7 +277,7 @@ impl Generator<'_> {
         })
     }
 
-    /// Whether the pin of an output is on, of those that send pulses.
+    /// Method that returns the state of a pulse output's pin.
     pub fn pins(&self) -> Option<TokenStream> {
         if !self.module.sends_pulses() {
             return None;

@@ -9,7 +9,7 @@ use rungc_emit::storage::Kind;
 use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
 use rungc_rt::CmpOp;
 
-/// What kind of Rust expression it is, for parentheses.
+/// Shape of a Rust expression, for parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shape {
     /// Needs none: a path, field, call, positive literal.
@@ -330,7 +330,7 @@ impl Generator<'_> {
             .cell_of_iteration(device, by, &format_ident!("i"))
     }
 
-    /// Where a bit is stored; `None` if it is not, or if an index leads to it.
+    /// Location of a bit; `None` if it is not stored, or selected by an index.
     pub fn bit_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
             Some(_) => bit_of(place.class, place.number, self.cell_of_iteration(place)?),
@@ -353,7 +353,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Where a word is stored; `None` if it is not, or if an index leads to it.
+    /// Location of a word; `None` if it is not stored, or selected by an index.
     pub fn word_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
             Some(_) => word_of(place.class, place.number, self.cell_of_iteration(place)?),

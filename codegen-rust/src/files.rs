@@ -108,14 +108,14 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     if options.runtime == Runtime::Included {
         files.extend(runtime());
     }
-    // What else is locked with defmt, the registry knows.
+    // The registry knows the other locked dependencies of defmt.
     if !options.defmt {
         files.push(lock_file(&crate_name));
     }
     files
 }
 
-/// What a program's crate and type are called.
+/// Names of a program's crate and type.
 pub fn names(module: &Module) -> (String, String) {
     let generator = Generator::new(module, true);
     (crate_name(&module.name), generator.type_name.to_string())
@@ -246,7 +246,7 @@ fn exported(text: &str, visibility: &str) -> String {
     out
 }
 
-/// What a host of a program with interrupts also has to know.
+/// Notes for hosts of programs with interrupts.
 const EVENTS_DOC: &str = "\
 //!
 //! Interrupts: tell the program of edges of input terminals ([`Program::input_edge`]) and, each millisecond, of time
@@ -399,7 +399,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
     files
 }
 
-/// What clippy would say about programs that say little in many words.
+/// Lints of clippy that verbose programs trigger.
 const LINTS: [&str; 11] = [
     "clippy::approx_constant",
     "clippy::collapsible_else_if",
@@ -483,7 +483,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files
 }
 
-/// What the table of a model's devices is called: `FX3U_COMPATIBLE`.
+/// Name of the table of a model's devices: `FX3U_COMPATIBLE`.
 fn table_name(model: &str) -> String {
     model.to_uppercase().replace('-', "_")
 }

@@ -84,7 +84,7 @@ impl Body {
         self.pieces.push(Piece::Branches { cond, bodies });
     }
 
-    /// Whether there is nothing in it.
+    /// Returns true if it is empty.
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
@@ -185,7 +185,7 @@ fn lines(text: &str) -> Vec<&str> {
 #[derive(Default)]
 struct Printer {
     out: String,
-    /// Whether a block has just begun: a comment needs no empty line before it.
+    /// True at the start of a block: a comment needs no empty line before it.
     fresh: bool,
 }
 

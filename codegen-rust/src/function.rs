@@ -96,7 +96,7 @@ impl Generator<'_> {
         .collect()
     }
 
-    /// What a function returns at its end.
+    /// Return value at the end of a function.
     fn end(&self, function: &Function) -> TokenStream {
         match function.flow {
             Flow::Void => TokenStream::new(),
@@ -108,7 +108,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What a function returns that ends by a jump or a return.
+    /// Return value of a function that ends by a jump or a return.
     fn last_jump(&mut self, function: &Function, last: &Node) -> TokenStream {
         if let Node::Stmt(Stmt::Goto(label)) = last {
             let state = self.label_state(*label);
@@ -121,7 +121,7 @@ impl Generator<'_> {
         quote!(Some(#leave))
     }
 
-    /// What a statement returns that leaves the function of the module.
+    /// Return statement that leaves the function of the module.
     pub fn return_statement(&mut self) -> TokenStream {
         if self.is_void() {
             return quote!(return;);
@@ -135,7 +135,7 @@ impl Generator<'_> {
         format_ident!("{LEAVE}")
     }
 
-    /// Whether the function being written has no result.
+    /// Returns true if the function being written has no result.
     pub fn is_void(&self) -> bool {
         self.plan.functions[self.function].flow == Flow::Void
     }
@@ -158,7 +158,7 @@ impl Generator<'_> {
         for root in 0..self.module.functions.len() {
             for state in (1..).take(self.plan.state_names(root).len()) {
                 let (name, value) = (self.state_name(root, state), Literal::u32_unsuffixed(state));
-                let doc = self.doc("Where the program continues after a jump.");
+                let doc = self.doc("Part at which the program continues after a jump.");
                 constants.extend(quote!(#doc pub(crate) const #name: u32 = #value;));
             }
         }

@@ -18,11 +18,11 @@ use std::rc::Rc;
 pub struct Item {
     /// Its text.
     pub text: String,
-    /// What it uses.
+    /// Uses of the item.
     pub uses: Uses,
 }
 
-/// What an item needs around it.
+/// Dependencies of an item.
 #[derive(Default)]
 pub struct Uses {
     /// Names used from `rungc_rt`.
@@ -31,11 +31,11 @@ pub struct Uses {
     pub word_imports: BTreeSet<&'static str>,
     /// Modules used from `rungc_rt::fnc`.
     pub fnc_imports: BTreeSet<&'static str>,
-    /// Whether `DEVICES` is used.
+    /// True if `DEVICES` is used.
     pub devices: bool,
     /// Kinds of timers used, by their constants' names.
     pub timers: BTreeMap<String, TimerKind>,
-    /// Whether the struct is named.
+    /// True if the struct is named.
     pub plc: bool,
 }
 
@@ -56,7 +56,7 @@ impl Uses {
     }
 }
 
-/// What the constant that holds a kind of timer is called.
+/// Name of the constant for a kind of timer.
 pub fn kind_name(kind: TimerKind) -> String {
     let mut name = format!("TIMER_{}MS", kind.unit_ms);
     let traits = [
@@ -85,29 +85,29 @@ pub struct Generator<'m> {
     pub type_name: Ident,
     /// Its functions and temporaries.
     pub plan: Rc<Plan<'m>>,
-    /// What its timers have to remember.
+    /// Memories of its timers.
     pub coils: Coils,
-    /// Whether to write comments.
+    /// True if comments are written.
     pub with_comments: bool,
-    /// What the item being written needs.
+    /// Uses of the item being written.
     pub uses: Uses,
     /// Functions written.
     pub items: Vec<Item>,
-    /// Which function of the plan is being written.
+    /// Function of the plan that is being written.
     pub function: usize,
     /// Parts of expressions that have got a name in it.
     pub names: u32,
-    /// What stands for expressions in the statement being written: names, and edges.
+    /// Replacements of expressions in the statement being written: names, and edges.
     pub named: HashMap<ExprId, TokenStream>,
-    /// Whether a function says that one that calls it is to be left.
+    /// True if a function's result may tell its caller to return.
     pub leaves: bool,
     /// Temporaries that are numbers, 0 or 1, since they are made of bits that are.
     pub numeric_temps: HashSet<TempId>,
     /// Bits that the loop over stations around the statement being written has read before its first iteration.
     pub invariants: BTreeSet<Device>,
-    /// Whether the statement being written is in a loop over rungs.
+    /// True if the statement being written is in a loop over rungs.
     pub in_station_loop: bool,
-    /// How many iterations that has.
+    /// Number of its iterations.
     pub iterations: u32,
     /// Kinds of timers that coils run, by the functions for them.
     pub timer_coils: BTreeMap<String, TimerKind>,
@@ -201,7 +201,7 @@ pub fn function_name(function: &Function) -> String {
 
 /// Name of the struct: `box_filler` is `BoxFiller`.
 pub(crate) fn type_name(module: &str) -> Ident {
-    /// What the emitted files import.
+    /// Names that the emitted files import.
     const TAKEN: [&str; 25] = [
         "Access",
         "Axis",

@@ -15,7 +15,7 @@ use rungc_syntax::{DeviceClass, NetworkRequest};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// What a host with serial ports uses of the standard library and of the runtime.
+/// Imports of a host with serial ports from the standard library and the runtime.
 const LINES_USES: [&str; 5] = [
     "rungc_rt::comm::{LineFormat, Parity, Received}",
     "std::fs::File",
@@ -24,36 +24,36 @@ const LINES_USES: [&str; 5] = [
     "std::time::{Duration, Instant}",
 ];
 
-/// What one without uses.
+/// Imports of a host without ports.
 const USES: [&str; 3] = [
     "std::io::{self, BufRead, Read, Write}",
     "std::sync::mpsc::{self, Receiver}",
     "std::time::{Duration, Instant}",
 ];
 
-/// What makes a program that may fail report its operation errors.
+/// Statement that makes a program report its operation errors.
 const REPORT: &str = "    plc.on_error = Some(report_error);\n";
 
-/// What reporting them uses.
+/// Imports of error reports.
 const ERROR_USES: [&str; 2] = ["std::collections::BTreeSet", MUTEX];
 
-/// What the error reports and connections use.
+/// Import shared by error reports and connections.
 const MUTEX: &str = "std::sync::Mutex";
 
-/// What connections use.
+/// Imports of connections.
 const OUTSIDE_USES: [&str; 2] = [
     "rungc_rt::io::{Of, Outside}",
     "std::sync::{LazyLock, MutexGuard, PoisonError}",
 ];
 
-/// What servers use.
+/// Imports of servers.
 const SERVERS_USES: [&str; 3] = [
     "rungc_rt::Ports",
     "rungc_rt::comm::service::{Service, Speaks, address}",
     "rungc_rt::servers::Servers",
 ];
 
-/// What asking other servers uses.
+/// Imports of clients of other servers.
 const CLIENTS_USES: [&str; 2] = [
     "rungc_rt::comm::modbus::client::ClientRow",
     "rungc_rt::servers::Clients",
@@ -167,7 +167,7 @@ fn outputs(generator: &Generator) -> String {
     let mut table = String::new();
     for field in generator.storage.of_class(DeviceClass::Y) {
         for number in field.first..field.end() {
-            // Those that send pulses would be printed all the time.
+            // Outputs that send pulses would be printed all the time.
             if generator.module.pulse_outputs.contains(&number) {
                 continue;
             }
@@ -188,7 +188,7 @@ fn outputs(generator: &Generator) -> String {
     table
 }
 
-/// What is used of the standard library and of the runtime.
+/// Imports from the standard library and the runtime.
 fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
     let Options { servers, io, .. } = *options;
     let module = generator.module;
@@ -268,7 +268,7 @@ fn open(module: &Module, host: &Host) -> String {
         + if host.io { BEGUN } else { "" }
 }
 
-/// What asks servers over TCP.
+/// Creation of the clients of other servers.
 const CLIENTS: &str = "    let requests = REQUESTS.iter().filter_map(|(server, row)| Some((server.parse().ok()?, *row)));
     let mut clients = Clients::new(Ports::FAMILY, requests);
 ";
@@ -278,7 +278,7 @@ fn open_server(speaks: Speaks) -> String {
     format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
 }
 
-/// How the loop over options ends.
+/// End of the loop over options.
 const OPENED: &str = "            _ => Ok(()),
         };
         if let Err(error) = done {
@@ -288,7 +288,7 @@ const OPENED: &str = "            _ => Ok(()),
     }
 ";
 
-/// How a host with connections begins.
+/// Start of a host with connections.
 const BEGUN: &str = "    let begun = outside().begin(&plc);
     if let Err(why) = begun {
         report!(\"{why}\");
@@ -296,8 +296,8 @@ const BEGUN: &str = "    let begun = outside().begin(&plc);
     }
 ";
 
-/// What a host without connections does: where commands come from, before a scan, after one, at the end, and how lines
-/// are reported and printed.
+/// Parts of a host without connections: the source of commands, before a scan, after one, at the end, and the macros
+/// for reports and output.
 const ALONE: [&str; 6] = [
     "commands();",
     "",
@@ -359,7 +359,7 @@ const INTERRUPTED: [&str; 2] = [
     "        if signals::stopped() {\n            break;\n        }\n",
 ];
 
-/// What has come over the lines reaches the ports.
+/// Transfer of received characters to the ports.
 const EXCHANGE: &str =
     "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
 
@@ -378,7 +378,7 @@ const CONNECTIONS: &str = "    for row in servers.table() {
 /// Servers are asked between two scans.
 const ASK: &str = "        clients.poll(&mut plc, |_| {});\n";
 
-/// What they were asked, at the end.
+/// Report of the clients' traffic, at the end.
 const ASKED: &str = "    for row in clients.table() {
         report!(\"{row}\");
     }
@@ -436,10 +436,10 @@ fn instructions(module: &Module) -> String {
     rows
 }
 
-/// When the next scan begins.
+/// Start of the next scan.
 const PERIOD: &str = "        next += SCAN;\n";
 
-/// When it begins after a scan that may ask for a constant length.
+/// Start of the next scan if a constant scan time may be requested.
 const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().map(|ms| u32::from(ms) * 1000);
         next = match constant_us {
             None => next + SCAN,
@@ -463,10 +463,10 @@ const CLOCK: [&str; 2] = [
     "        wall.follow(&mut hal, (begin - start).as_millis() as u64);\n",
 ];
 
-/// How a host waits for the next scan.
+/// Wait for the next scan.
 const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";
 
-/// How a host waits that may be interrupted.
+/// Interruptible wait for the next scan.
 const WAIT_WITH_EVENTS: &str = "\
         while Instant::now() < next {
             std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));

@@ -37,7 +37,7 @@ use rungc_ir::Module;
 use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
 
-/// What to emit.
+/// Options of the output.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Options {
     /// Also a `src/main.rs` that scans in real time on a host with `std`.
@@ -50,11 +50,11 @@ pub struct Options {
     pub unsaved: Option<(DeviceClass, u32)>,
     /// A feature `defmt`, with which [defmt](https://defmt.ferrous-systems.com) prints the program's state.
     pub defmt: bool,
-    /// Where the emitted crate finds `rungc-rt`.
+    /// Location of `rungc-rt` for the emitted crate.
     pub runtime: Runtime,
 }
 
-/// Where an emitted crate finds `rungc-rt`.
+/// Location of `rungc-rt` for an emitted crate.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub enum Runtime {
     /// In the folder `rungc-rt` inside it; its sources are among the files.
@@ -77,7 +77,7 @@ pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
     files::program(module, options)
 }
 
-/// What an emitted program is called: its crate, and the type that implements `rungc_rt::Program`.
+/// Names of an emitted program: its crate, and the type that implements `rungc_rt::Program`.
 pub fn names(module: &Module) -> (String, String) {
     files::names(module)
 }

@@ -11,7 +11,7 @@ use rungc_ir::node::{Expr, ExprId, Place, TempId};
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
-    /// Whether a `Bit` is written as a number: one from an array of columns, or made of such.
+    /// Returns true if a `Bit` is written as a number: one from an array of columns, or made of such.
     pub fn is_numeric(&self, id: ExprId) -> bool {
         let known = |e: ExprId| {
             let is_named = self.named.contains_key(&e);
@@ -60,7 +60,7 @@ impl Generator<'_> {
         place.index.is_none() && self.invariants.contains(&(place.class, place.number))
     }
 
-    /// Where a bit is that is stored as a number.
+    /// Location of a bit that is stored as a number.
     pub fn numeric_cell(&self, place: Place) -> Option<TokenStream> {
         if self.is_invariant(place) {
             return Some(invariant_name(place.class, place.number).into_token_stream());

@@ -48,17 +48,17 @@ pub trait PrintStorage {
         variable: &Ident,
     ) -> Option<TokenStream>;
 
-    /// Where its state as a bit is: a number if [`Storage::is_numeric_bit`].
+    /// Location of its state as a bit: a number if [`Storage::is_numeric_bit`].
     fn bit(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         bit_of(class, number, self.cell(plc, class, number)?)
     }
 
-    /// Where its value as a 16-bit word is.
+    /// Location of its value as a 16-bit word.
     fn word(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         word_of(class, number, self.cell(plc, class, number)?)
     }
 
-    /// Where a 32-bit counter's value is.
+    /// Location of a 32-bit counter's value.
     fn counter32(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         let cell = self.cell(plc, class, number)?;
         (Kind::of(class, number) == Some(Kind::Counter32)).then(|| quote!(#cell.value))
@@ -105,12 +105,12 @@ impl PrintStorage for Storage<'_> {
     }
 }
 
-/// Where the state as a bit is of a device that is stored there.
+/// State as a bit of a device stored in `cell`.
 pub fn bit_of(class: DeviceClass, number: u32, cell: TokenStream) -> Option<TokenStream> {
     Some(member(cell, Kind::of(class, number)?.bit()?))
 }
 
-/// Where the value as a 16-bit word is of a device that is stored there.
+/// Value as a 16-bit word of a device stored in `cell`.
 pub fn word_of(class: DeviceClass, number: u32, cell: TokenStream) -> Option<TokenStream> {
     Some(member(cell, Kind::of(class, number)?.word()?))
 }

@@ -7,7 +7,7 @@ use rungc_emit::parts::{self, Limits};
 use rungc_emit::temps::Home;
 use rungc_ir::node::{ExprId, TempId, Ty};
 
-/// How much of an expression stands in one place.
+/// Limits of an expression written inline.
 const LIMITS: Limits = Limits {
     depth: 24,
     shared: 6,
@@ -25,7 +25,7 @@ pub fn type_of(ty: Ty) -> (TokenStream, TokenStream) {
 }
 
 impl Generator<'_> {
-    /// Where a temporary is: `step12`, `plc.step12`.
+    /// Location of a temporary: `step12`, `plc.step12`.
     pub fn temp_place(&self, temp: TempId) -> TokenStream {
         let temp = self.plan.temp(temp);
         let name = format_ident!("{}", temp.to_string());

@@ -1,4 +1,4 @@
-//! What stops a scan that does not end, and what a host asks when something has gone wrong.
+//! Watchdog of a scan that does not end, and queries for a host after an error.
 
 use crate::generate::Generator;
 use crate::storage::PrintStorage;
@@ -31,7 +31,7 @@ impl Generator<'_> {
         })
     }
 
-    /// What stops a scan that does not end.
+    /// Method of the watchdog, which stops a scan that does not end.
     pub fn watchdog(&mut self) -> TokenStream {
         let stop = self.rt("Stop");
         let shows = self.show(&cycle::watchdog_shows(self.module.model, &self.storage));

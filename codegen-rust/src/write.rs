@@ -42,7 +42,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Whether an expression reads this place, and is written so.
+    /// Returns true if an expression reads this place, and is written as such.
     fn is_value_of(&self, e: ExprId, place: Place) -> bool {
         let Expr::Read(Access {
             place: read,

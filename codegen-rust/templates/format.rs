@@ -1,4 +1,4 @@
-//! How defmt prints the program's state.
+//! Output of the program's state by defmt.
 
 use crate::MACHINE;
 use defmt::{Format, Formatter, intern, write};

@@ -96,7 +96,8 @@ fn main() {
     LEAVE;
 }
 
-/// When the next scan begins. A run that is later than a second has stood still (a suspended machine, a debugger); it does not catch up.
+/// Start of the next scan. After a suspension of more than a second (a suspended machine, a debugger) it does not catch
+/// up.
 fn not_late(next: Instant) -> Instant {
     let late = next.elapsed();
     if late < Duration::from_secs(1) {
@@ -109,7 +110,7 @@ fn not_late(next: Instant) -> Instant {
 /// Options with a value.
 const VALUED: &[&str] = &[OPTION_NAMES];
 
-/// What the command line asks for, as options and their values; the rest of it ends the program.
+/// Options of the command line and their values; any other argument ends the program.
 fn options() -> Vec<(String, String)> {
     let mut options = Vec::new();
     let mut words = std::env::args().skip(1);
@@ -129,7 +130,7 @@ fn options() -> Vec<(String, String)> {
     options
 }
 
-/// What an error code of the PLC means.
+/// Meaning of an error code of the PLC.
 fn meaning(code: u16) -> &'static str {
     let known = ERRORS.iter().find(|error| error.0 == code);
     known.map_or("operation error", |error| error.1)

@@ -10,11 +10,11 @@ struct Line {
     file: Option<File>,
     events: Receiver<Event>,
     format: LineFormat,
-    /// When the last character was in.
+    /// Time of the last received character.
     last_us: u32,
 }
 
-/// What happens to a line.
+/// Event on a line.
 enum Event {
     Came(Instant, Vec<u8>),
     Gone,
@@ -76,8 +76,8 @@ impl Line {
         Ok(Line { port, path, file: Some(writing), events, format, last_us: 0 })
     }
 
-    /// What has come in reaches the program's port at its time, and what the program sends goes out. The characters of a lump came one
-    /// after the other.
+    /// Passes received characters to the program's port at their time, and sends those of the program. The characters
+    /// of a lump came one after the other.
     fn exchange(&mut self, hal: &mut VirtualHal, start: Instant, now_ms: u32) {
         let Some(line) = hal.line(self.port) else {
             return;
@@ -114,7 +114,7 @@ impl Line {
                     at_us = earliest_us;
                 }
                 self.last_us = at_us;
-                // What does not fit is lost, as in the receiver of a PLC that is not asked in time.
+                // Excess characters are lost, as in the receiver of a PLC that is not polled in time.
                 let _ = line.feed(Received { at_us, byte, ..Received::new() });
                 at_us = at_us.wrapping_add(character_us);
             }

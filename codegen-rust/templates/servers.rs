@@ -1,5 +1,5 @@
 
-/// Whether a value is the end of a line rather than an address.
+/// Returns true if a value is a serial device rather than an address.
 fn is_line(value: &str) -> bool {
     value.contains('/')
 }

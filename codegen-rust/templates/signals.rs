@@ -33,7 +33,7 @@ mod signals {
         }
     }
 
-    /// Whether one of them has come.
+    /// Returns true if one of them was received.
     pub fn stopped() -> bool {
         STOPPED.load(Ordering::Relaxed)
     }

@@ -23,19 +23,19 @@ use std::path::{Path, PathBuf};
 /// A board.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Board {
-    /// What it is called.
+    /// Name of the board.
     pub name: String,
-    /// What is known of it: where its pins come from, what to be careful about.
+    /// Notes: the source of its pins, and warnings.
     pub notes: String,
-    /// Whose pins have names.
+    /// Chip, if its pins have names.
     pub chip: Option<Chip>,
     /// The pins that the description names, by what they are wired to, in its order.
     pub pins: Vec<NamedPin>,
     /// Its processor.
     pub target: &'static Target,
-    /// Where programs and constants are.
+    /// Flash, for programs and constants.
     pub flash: Region,
-    /// Where data and the stack are.
+    /// RAM, for data and the stack.
     pub ram: Region,
     /// The minimum number of bytes of RAM left for the stack.
     pub stack: u32,
@@ -45,9 +45,9 @@ pub struct Board {
     pub tick_us: u32,
     /// Scan period, start to start, in microseconds; 0: a scan at each tick.
     pub scan_us: u32,
-    /// Whether outputs that change are printed for a debugger or a simulator.
+    /// True if changes of outputs are printed for a debugger or a simulator.
     pub console: bool,
-    /// What is written to registers before anything else, in this order.
+    /// Register writes before anything else, in this order.
     pub setup: Vec<Setup>,
     /// Pins of inputs X, by plain numbers.
     pub inputs: BTreeMap<u32, InputPin>,
@@ -59,7 +59,7 @@ pub struct Board {
     pub analog: Analog,
     /// Serial ports of the PLC, and the UARTs that they are.
     pub serial: Vec<Serial>,
-    /// Where latched devices survive power-off.
+    /// Memory for latched devices, which survives power-off.
     pub retain: Option<Retain>,
     /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields'
     /// names.
@@ -76,7 +76,7 @@ pub struct Board {
 pub struct Region {
     /// First address.
     pub origin: u32,
-    /// How many bytes.
+    /// Length in bytes.
     #[serde(deserialize_with = "bytes")]
     pub length: u32,
 }
@@ -106,7 +106,7 @@ pub enum Setup {
         at: u32,
         /// The bits.
         bits: u32,
-        /// Whether they have to be on.
+        /// True if they have to be on.
         on: bool,
     },
 }
@@ -139,7 +139,7 @@ pub struct InputPin {
     pub inverted: bool,
 }
 
-/// How an output is shown.
+/// Access to the pin of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputPin {
     /// A bit of a register, which keeps its other bits.
@@ -160,7 +160,7 @@ pub enum OutputPin {
     },
 }
 
-/// What is wrong with a description, with its place.
+/// Error in a description, with its place.
 #[derive(Debug, thiserror::Error)]
 pub enum BoardError {
     /// It cannot be read.
@@ -168,7 +168,7 @@ pub enum BoardError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: std::io::Error,
     },
     /// Neither a known board has this name nor a file.
@@ -184,7 +184,7 @@ pub enum BoardError {
     Wrong {
         /// File, line and column.
         place: String,
-        /// What is wrong.
+        /// Description of the error.
         message: String,
     },
 }
@@ -376,7 +376,7 @@ pub fn load(path: &Path) -> Result<Board, BoardError> {
 /// Files that every image has; the user's sources are written beside them.
 const IMAGE_FILES: [&str; 2] = ["main.c", "startup.c"];
 
-/// Whether a character of a file's name means itself to `make` and to the shell.
+/// Returns true if a character of a file name has no special meaning to `make` and to the shell.
 fn is_plain(c: char) -> bool {
     c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '+' | '.')
 }
@@ -636,7 +636,7 @@ impl Reader<'_> {
         Ok(known)
     }
 
-    /// What no single line of it shows.
+    /// Checks the consistency of the description as a whole.
     fn consistent(&self, board: &Board) -> Result<(), BoardError> {
         let both = [
             ("input", !board.inputs.is_empty(), "[inputs]"),

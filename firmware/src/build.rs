@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs};
 
-/// Why nothing was built.
+/// Reason for which nothing was built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// A compiler or a library for the target is missing.
@@ -23,9 +23,9 @@ pub enum BuildError {
     /// A compiler or `make` failed.
     #[error("{what} failed:\n{said}")]
     Failed {
-        /// Which.
+        /// The tool.
         what: String,
-        /// What it printed.
+        /// Its output.
         said: String,
     },
     /// Files could not be written or read.
@@ -33,7 +33,7 @@ pub enum BuildError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: std::io::Error,
     },
 }
@@ -93,7 +93,7 @@ impl Tools {
         self
     }
 
-    /// Whether the runtime library has connections, and with them the standard library in it.
+    /// Selects whether the runtime library has connections, and with them the standard library in it.
     #[must_use]
     pub fn with_std(mut self, std: bool) -> Self {
         self.std = std;
@@ -183,7 +183,7 @@ impl Tools {
         )
     }
 
-    /// How to compile the runtime with this cargo.
+    /// Recipe for compiling the runtime with this cargo.
     fn recipe<'a>(&'a self, cargo: &'a Command) -> Recipe<'a> {
         Recipe {
             cargo,
@@ -300,7 +300,7 @@ impl Tools {
     }
 }
 
-/// What `make` has built.
+/// Output of `make`.
 struct Built {
     folder: tempfile::TempDir,
     /// The library of the runtime, if the program calls it.
@@ -361,7 +361,7 @@ fn write_image(image: &Image, cache: &Path, folder: &Path) -> std::io::Result<()
     Ok(())
 }
 
-/// What calls all of a program that a host calls.
+/// Program that calls everything in a program that a host calls.
 fn probe(module: &Module) -> String {
     let mut calls = String::new();
     let takes = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
@@ -394,7 +394,7 @@ fn probe(module: &Module) -> String {
     .replace("PROGRAM", &module.name)
 }
 
-/// Whether the runtime's sources are among the files.
+/// Returns true if the runtime's sources are among the files.
 fn calls_runtime(files: &[OutFile]) -> bool {
     files.iter().any(|file| file.path.contains("rungc-rt/"))
 }

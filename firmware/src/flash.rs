@@ -26,11 +26,11 @@ pub struct Payload {
     pub origin: u32,
     /// The bytes; gaps hold what erased flash holds.
     pub bytes: Vec<u8>,
-    /// Whether the file says itself where they go.
+    /// True if the file itself gives the addresses.
     pub is_elf: bool,
 }
 
-/// Why a file is not an image.
+/// Reason for which a file is not an image.
 #[derive(Debug, thiserror::Error)]
 pub enum PayloadError {
     /// It begins as an ELF file does, and is not one for a 32-bit machine.
@@ -88,7 +88,7 @@ impl Payload {
         u64::from(self.origin) + self.bytes.len() as u64
     }
 
-    /// What flash holds at these addresses when the image is there; erased flash outside the image.
+    /// Contents of flash at these addresses with the image; erased flash outside the image.
     fn at(&self, range: Range<u32>) -> Vec<u8> {
         let byte = |address: u32| {
             let offset = address
@@ -121,7 +121,7 @@ fn loaded(file: &[u8]) -> Result<Vec<(u32, &[u8])>, PayloadError> {
     Ok(parts)
 }
 
-/// What can happen while an image is written.
+/// Error while an image is written.
 #[derive(Debug, thiserror::Error)]
 pub enum FlashError {
     /// The boot loader, or the line to it.
@@ -137,19 +137,19 @@ pub enum FlashError {
         /// The part.
         chip: &'static str,
     },
-    /// What was read back is not what was written.
+    /// The data read back differ from the data written.
     #[error("flash at 0x{at:08X} holds 0x{found:02X} instead of 0x{wanted:02X} after writing")]
     Differs {
-        /// Where.
+        /// The address.
         at: u32,
-        /// What it holds.
+        /// Its contents.
         found: u8,
-        /// What it should hold.
+        /// Expected contents.
         wanted: u8,
     },
 }
 
-/// What a writer is about to do, in the order in which it does it.
+/// Step of a writer, in the order of execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Reads flash to compare it.
@@ -186,7 +186,7 @@ pub struct Writer<'a, L: Line> {
     pub loader: &'a mut Loader<L>,
     /// The part.
     pub chip: &'static Chip,
-    /// How many bytes of flash it has.
+    /// Size of its flash in bytes.
     pub flash: u32,
     /// Called with what is done and how much of it: bytes, or pages while erasing.
     pub progress: Box<dyn FnMut(Step, usize, usize) + 'a>,

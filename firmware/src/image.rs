@@ -17,13 +17,13 @@ use std::fmt::Write;
 pub use c::{NoPins, pins_project, project as c_project};
 pub use rust::project as rust_project;
 
-/// What an image does by itself, for a simulator.
+/// Scripted behaviour of an image, for a simulator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Script {
     /// Inputs that switch themselves and do not follow their pins: milliseconds since the start, X, whether on. In
     /// order of time.
     pub inputs: Vec<(u32, u32, bool)>,
-    /// When the simulator ends, in milliseconds.
+    /// End of the simulation, in milliseconds.
     pub until_ms: Option<u32>,
 }
 
@@ -34,7 +34,7 @@ pub struct Image<'a> {
     pub module: &'a Module,
     /// The board.
     pub board: &'a Board,
-    /// What happens by itself.
+    /// Scripted behaviour.
     pub script: &'a Script,
     /// The special modules of the PLC; those whose channels are pins of the board are in the image.
     pub modules: &'a [FittedModule],
@@ -59,7 +59,7 @@ impl Image<'_> {
         watched
     }
 
-    /// Where latched devices survive, if the board has such memory and the program such devices.
+    /// Memory for latched devices, if the board has such memory and the program such devices.
     fn retain(&self) -> Option<&Retain> {
         let retain = self.board.retain.as_ref()?;
         rungc_emit::cycle::keeps_any(self.module).then_some(retain)
@@ -73,8 +73,8 @@ impl Image<'_> {
         (asks || self.retain().is_some()).then_some(pin)
     }
 
-    /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's
-    /// memory has room for; `None` if the board has no such memory or the program no such devices.
+    /// Length of a record of latched devices, and the number of records per slot; `None` if the board has no such
+    /// memory or the program no such devices.
     pub fn records(&self) -> Option<(u32, u32)> {
         let length = rungc_codegen_c::record_len(self.module);
         let retain = self.retain()?;
@@ -89,7 +89,7 @@ impl Image<'_> {
             .collect()
     }
 
-    /// Whether no port listens while it sends, as free protocols do: then both directions share memory.
+    /// Returns true if no port receives while it sends, as with free protocols: then both directions share memory.
     fn takes_turns(&self) -> bool {
         let mut ports = self.module.serial_ports();
         ports.all(|(_, protocols)| !protocols.contains(Protocol::Free))

@@ -34,7 +34,7 @@ impl Kind {
         }
     }
 
-    /// Whether its builds can call cargo, so that they take the runtime library as sources.
+    /// Returns true if its builds can call cargo, so that they take the runtime library as sources.
     fn calls_cargo(self) -> bool {
         matches!(self, Kind::Zephyr | Kind::EspIdf)
     }
@@ -49,7 +49,7 @@ pub struct Library {
     pub contents: Vec<u8>,
 }
 
-/// What a folder for a build system is made of.
+/// Contents of a folder for a build system.
 #[derive(Clone, Debug)]
 pub struct Package<'m> {
     kind: Kind,
@@ -81,7 +81,8 @@ impl<'m> Package<'m> {
         }
     }
 
-    /// Whether the runtime library must be handed over: the program calls it, and the build system cannot build it.
+    /// Returns true if the runtime library must be supplied: the program calls it, and the build system cannot build
+    /// it.
     pub fn needs_library(&self) -> bool {
         !self.runtime.is_empty() && !self.kind.calls_cargo()
     }
@@ -101,7 +102,7 @@ impl<'m> Package<'m> {
         &self.module.name
     }
 
-    /// What the program is, in a sentence that needs no quoting in any of the descriptions.
+    /// Description of the program, in a sentence that needs no quoting in any of the package descriptions.
     fn sentence(&self) -> String {
         let plain = |c: char| c.is_ascii_alphanumeric() || " ._-".contains(c);
         let source = self.module.source_name.replace(|c| !plain(c), "_");

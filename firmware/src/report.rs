@@ -1,4 +1,4 @@
-//! What a program takes on a machine: flash, RAM, steps of a scan, stack.
+//! Resources of a program on a machine: flash, RAM, steps of a scan, stack.
 
 mod elf;
 mod stack;
@@ -13,12 +13,12 @@ use serde::Serialize;
 use stack::{Functions, Unbounded};
 use std::fmt;
 
-/// What a program takes.
+/// Resources of a program.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Report {
-    /// What it was built for.
+    /// Target it was built for.
     pub target: &'static str,
-    /// What was measured.
+    /// Description of the measured code.
     pub measured: &'static str,
     /// Bytes of flash: code, constants and the image of data.
     pub flash: u64,
@@ -26,7 +26,7 @@ pub struct Report {
     pub ram: u64,
     /// The program's struct, which is in RAM.
     pub devices: Devices,
-    /// What a scan does at most.
+    /// Upper bound of a scan.
     pub scan: Scan,
     /// Stack.
     pub stack: Stack,
@@ -48,20 +48,20 @@ pub struct Devices {
 pub struct Area {
     /// The class: `D`.
     pub class: &'static str,
-    /// How many are stored.
+    /// Number of stored devices.
     pub devices: u32,
     /// Their bytes.
     pub bytes: u32,
 }
 
-/// How much a scan does at most.
+/// Upper bound of a scan.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Scan {
     /// Steps of the PLC program.
     pub steps: u64,
     /// Operations of the IR.
     pub operations: u64,
-    /// What comes on top each time that it happens.
+    /// Additional cost of each event.
     pub events: Vec<EventCost>,
     /// Loops that run as often as a device says; one iteration of each is counted.
     pub loops: Vec<LoopCost>,
@@ -69,10 +69,10 @@ pub struct Scan {
     pub jumps_back: Vec<u32>,
 }
 
-/// What an event costs.
+/// Cost of an event.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct EventCost {
-    /// What happens: `I001`, `X000 changes`.
+    /// The event: `I001`, `X000 changes`.
     pub event: String,
     /// Steps of the PLC program.
     pub steps: u64,
@@ -80,7 +80,7 @@ pub struct EventCost {
     pub operations: u64,
 }
 
-/// What each further iteration of a loop costs.
+/// Cost of each further iteration of a loop.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct LoopCost {
     /// Step of its network.
@@ -91,18 +91,18 @@ pub struct LoopCost {
     pub operations: u64,
 }
 
-/// How much stack is taken.
+/// Use of the stack.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Stack {
     /// Bytes that a scan takes at most; `None` where there is no bound.
     pub scan: Option<u32>,
     /// Bytes that the whole image takes, with its interrupts; `None` where there is no bound or no image.
     pub image: Option<u32>,
-    /// How it was found, or why it was not.
+    /// Method of the analysis, or the reason for which it failed.
     pub how: String,
 }
 
-/// What an exception puts on the stack, with what aligns it: eight registers, with a floating point unit 26.
+/// Stack used by an exception, with its alignment: eight registers, with a floating point unit 26.
 fn exception_frame(target: &Target) -> u32 {
     if target.has_fpu() {
         26 * 4 + 4
@@ -180,7 +180,7 @@ fn report(module: &Module, target: &'static Target, size: Size, plc: Option<u64>
     }
 }
 
-/// How a bound was found.
+/// Description of how a bound was found.
 fn how(functions: &Functions) -> String {
     let mut text = String::from(
         "the longest call path in the machine code, each function with everything it pushes; nothing is recursive",
@@ -193,7 +193,7 @@ fn how(functions: &Functions) -> String {
     text
 }
 
-/// What the main program takes, and each interrupt on top of it.
+/// Stack of the main program, and of each interrupt on top of it.
 fn image_stack(functions: &Functions, board: &Board) -> Result<u32, Unbounded> {
     let mut sum = functions.depth("reset_handler")?;
     let users = board.interrupts.values().map(String::as_str);

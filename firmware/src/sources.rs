@@ -12,8 +12,8 @@ pub fn c(module: &Module, target: &Target, options: &Options) -> Vec<OutFile> {
     for_target(rungc_codegen_c::emit(module, options), target)
 }
 
-/// What programs in separate folders share: headers, the runtime's sources, and the Makefile that builds them all for
-/// the target.
+/// Files shared by programs in separate folders: headers, the runtime's sources, and the Makefile that builds them all
+/// for the target.
 pub fn c_together(recipes: &[Recipe], target: &Target) -> Vec<OutFile> {
     for_target(rungc_codegen_c::together(recipes), target)
 }

@@ -11,17 +11,17 @@ pub struct Target {
     pub title: &'static str,
     /// Its C compiler.
     pub cc: &'static str,
-    /// What makes libraries of its objects.
+    /// Archiver for its objects.
     pub ar: &'static str,
     /// Debian's packages with these tools and a C library.
     pub packages: &'static str,
     /// Options that select the processor for the C compiler.
     pub flags: &'static str,
-    /// What runs below a program.
+    /// System below a program.
     pub system: System,
 }
 
-/// What runs below a program.
+/// System below a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum System {
     /// Nothing: images are for a board.
@@ -147,12 +147,12 @@ impl Target {
         (*self != HOST).then_some(self.triple)
     }
 
-    /// Whether nothing runs below a program.
+    /// Returns true if there is no system below a program.
     pub fn is_bare(&self) -> bool {
         self.system == System::Bare
     }
 
-    /// What code for it is optimised for.
+    /// Optimisation of its code.
     pub fn optimise(&self) -> Optimise {
         match self.system {
             System::Bare => Optimise::Size,
@@ -160,7 +160,7 @@ impl Target {
         }
     }
 
-    /// Whether code is built for it with a floating point unit, which is off after reset.
+    /// Returns true if code is built for it with a floating point unit, which is off after reset.
     pub fn has_fpu(&self) -> bool {
         self.is_bare() && self.triple.ends_with("hf")
     }

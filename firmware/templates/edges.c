@@ -1,4 +1,4 @@
-/* What inputs did whose edges the program takes. */
+/* Edges of the inputs that the program watches. */
 static rungc_edges edges;
 
 /* Notes each of them whose state has changed. */

@@ -1,4 +1,4 @@
-/* What converters hold. */
+/* Values of converters. */
 static const struct {
     const char *name;
     uint32_t at;

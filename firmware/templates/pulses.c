@@ -1,4 +1,4 @@
-/* When the next pin of a pulse output changes, if one does. */
+/* Time of the next change of a pulse output's pin, if there is one. */
 static volatile uint32_t due;
 static volatile bool armed;
 

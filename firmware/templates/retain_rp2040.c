@@ -90,7 +90,7 @@ static bool erase_kept(void *context, unsigned slot)
     return done;
 }
 
-/* What a page holds already stays where it is written as erased. */
+/* Bytes written as erased leave the contents of a page unchanged. */
 static bool program_kept(void *context, unsigned slot, uint32_t offset, const void *bytes, uint32_t length)
 {
     const uint8_t *const from = bytes;

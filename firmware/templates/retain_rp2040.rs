@@ -4,7 +4,7 @@ struct Rp2040 {
     slots: [Range<u32>; 2],
 }
 
-/// Where flash is read.
+/// Address at which flash is read.
 const FLASH_BASE: u32 = 0x1000_0000;
 
 /// Bytes that are erased at once.
@@ -13,7 +13,7 @@ const SECTOR: usize = 4096;
 /// Bytes that are written at once.
 const PAGE: usize = 256;
 
-/// What the boot ROM has for it.
+/// Functions of the boot ROM.
 struct Rom {
     connect: extern "C" fn(),
     leave: extern "C" fn(),
@@ -106,7 +106,7 @@ impl Flash for Rp2040 {
         }
     }
 
-    /// What a page holds already stays where it is written as erased.
+    /// Writes bytes; the rest of a page is written as erased, which leaves its contents unchanged.
     fn program(&mut self, slot: usize, offset: u32, mut bytes: &[u8]) -> Result<(), FlashFailed> {
         let mut at = self.slot(slot)?.start + offset;
         while !bytes.is_empty() {

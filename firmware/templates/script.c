@@ -6,7 +6,7 @@ static const struct {
 } script[] = {
 /* SCRIPT */};
 
-/* Whether an input switches itself, and its state now. */
+/* Returns true if an input is scripted, with its present state. */
 static bool scripted(uint16_t number, bool *on)
 {
     bool any = false;

@@ -1,4 +1,4 @@
-/* What waits between the interrupt of a UART and the main loop/* HOW */. */
+/* Queues between the interrupt of a UART and the main loop/* HOW */. */
 typedef struct {
     /* SHARE */ {
         rungc_characters received;
@@ -34,13 +34,13 @@ static void unmask_interrupts(uint32_t masked)
     __asm__ volatile("msr primask, %0" ::"r"(masked) : "memory");
 }
 
-/* Whether what comes is noted. */
+/* Returns true if received characters are stored. */
 static bool listens(const queues *q)
 {
     /* LISTENS */
 }
 
-/* TIME *//* UART *//* How many characters wait to be sent. */
+/* TIME *//* UART *//* Number of characters to be sent. */
 static uint32_t to_send(const queues *q)
 {
     return q->sends ? (q->out.end + SEND - q->out.first) % SEND : 0u;

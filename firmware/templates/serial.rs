@@ -1,4 +1,4 @@
-/// What waits between the interrupt of a UART and the main loop/* HOW */.
+/// Queues between the interrupt of a UART and the main loop/* HOW */.
 type Waiting = /* QUEUE */;
 
 /// A serial port: the interrupt of its UART notes what comes in, with its time, and sends.
@@ -7,14 +7,14 @@ struct Uart {
     port: u8,
     /// The first register.
     at: usize,
-    /// What its bit rate is divided from.
+    /// Clock that is divided for its bit rate.
     clock_hz: u32,
     /// Switches the driver of an RS-485 line.
     drive: fn(bool),
     line: &'static Line,
 }
 
-/// What changes of a port. All of it begins as 0, so that none of it is in flash.
+/// Variable state of a port. All of it begins as 0, so that none of it is in flash.
 struct Line {
     /// The bits that a character does not have.
     unused: AtomicU8,

@@ -33,16 +33,16 @@ pub struct Station {
     pub slaves: Vec<u8>,
     /// Stations whose words to all are for this one, too.
     pub listen: Vec<u8>,
-    /// What it sends.
+    /// Entries that it sends.
     pub sends: Vec<Entry>,
-    /// Where the table is.
+    /// Position of the table.
     pub span: Span,
 }
 
-/// What a station sends.
+/// Entry that a station sends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Entry {
-    /// When.
+    /// Condition for sending.
     pub when: When,
     /// The first register D that is sent.
     pub from: u32,
@@ -50,26 +50,26 @@ pub struct Entry {
     pub to: u8,
     /// The first register D that the receiver writes.
     pub register: u16,
-    /// How many.
+    /// Number of devices.
     pub count: u16,
-    /// Where the entry is.
+    /// Position of the entry.
     pub span: Span,
 }
 
-/// When an entry is sent.
+/// Condition for sending an entry.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum When {
     /// Each time this many milliseconds have passed.
     Every(u16),
-    /// When a relay M is on, which is then switched off.
+    /// A relay M is on, which is then switched off.
     Event(u32),
-    /// When M8291 of the master is on.
+    /// M8291 of the master is on.
     Sync,
     /// The same as for a relay, and all receivers write at once.
     Together(u32),
 }
 
-/// What the high byte of CANPUT's receiver says.
+/// Bits in the high byte of CANPUT's receiver.
 const WAITS: u16 = 0x100;
 const TAKE_EFFECT: u16 = 0x200;
 const TOGETHER: u16 = 0x300;
@@ -142,7 +142,7 @@ fn device(class: DeviceClass, number: u32) -> OperandKind {
 }
 
 impl Station {
-    /// Whether it is the master.
+    /// Returns true if it is the master.
     pub fn is_master(&self) -> bool {
         self.station == self.master
     }
@@ -177,7 +177,7 @@ impl Station {
         writer.instrs
     }
 
-    /// What relays trigger. Each is switched off after all that it drives.
+    /// Writes the networks that relays trigger. Each is switched off after all that it drives.
     fn triggered(&self, writer: &mut Writer) {
         let mut triggers: Vec<_> = self.sends.iter().map(|entry| entry.when).collect();
         // The master passes M8291 on, whether or not it sends something itself.

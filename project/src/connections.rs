@@ -12,11 +12,11 @@ use std::path::Path;
 pub struct Connected {
     /// The connection.
     pub connection: Connection,
-    /// Where its name is.
+    /// Position of its name.
     pub span: Span,
-    /// Where the devices of its rows are.
+    /// Positions of the devices in its rows.
     pub rows: Vec<Span>,
-    /// Where its fault device is.
+    /// Position of its fault device.
     pub fault: Span,
 }
 
@@ -29,7 +29,7 @@ fn run(of: rungc_rt::Class, first: u32, count: u32) -> DeviceRun {
 }
 
 impl Project {
-    /// What `[io]` connects, with paths as seen from the caller's folder.
+    /// Connections of `[io]`, with paths as seen from the caller's folder.
     pub fn connections(&self) -> Vec<Connection> {
         let connected = self.io.iter().map(|row| {
             let mut connection = row.connection.clone();
@@ -56,7 +56,7 @@ impl Project {
         }
     }
 
-    /// What `[serve]` names.
+    /// Devices named by `[serve]`.
     fn served(&self) -> impl Iterator<Item = DeviceRun> {
         self.serve.devices.iter().map(|range| DeviceRun {
             class: range.class,
@@ -65,8 +65,8 @@ impl Project {
         })
     }
 
-    /// What something other than the program writes while it runs, with the table of the settings that says so: what
-    /// connections read, fault devices, and what `[serve]` names.
+    /// Devices that are written from outside the program while it runs, with the table of the settings that states it:
+    /// those that connections read, fault devices, and those named by `[serve]`.
     pub fn written_outside(&self) -> Vec<(&'static str, DeviceRun)> {
         let mut written = Vec::new();
         for Connected { connection, .. } in &self.io {

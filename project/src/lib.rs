@@ -84,7 +84,7 @@ pub struct Project {
     pub io: Vec<connections::Connected>,
 }
 
-/// Which findings count, and how much: identifiers of codes, such as `W0203`.
+/// Findings to report, and their severity: identifiers of codes, such as `W0203`.
 #[derive(Clone, Debug, Default)]
 pub struct Check {
     /// Warnings that are left out.
@@ -95,27 +95,27 @@ pub struct Check {
     pub deny: Vec<&'static str>,
 }
 
-/// What `build` makes.
+/// Settings of `build`.
 #[derive(Clone, Debug, Default)]
 pub struct Build {
     /// The machine to build for.
     pub target: Option<Named>,
     /// The description of a board.
     pub board: Option<PathBuf>,
-    /// What to make.
+    /// Kind of output.
     pub emit: Option<Named>,
-    /// Where to write it.
+    /// Output path.
     pub output: Option<PathBuf>,
-    /// Whether emitted C reads and writes devices by number and by name.
+    /// True if emitted C reads and writes devices by number and by name.
     pub access: bool,
 }
 
-/// What `test` runs.
+/// Settings of `test`.
 #[derive(Clone, Debug, Default)]
 pub struct Test {
     /// Test files and folders of them.
     pub files: Vec<PathBuf>,
-    /// What to run the cases on.
+    /// Engine for the cases.
     pub engine: Option<Named>,
 }
 
@@ -124,11 +124,11 @@ pub struct Test {
 pub struct Named {
     /// The name as written.
     pub text: String,
-    /// Where it is.
+    /// Position in the file.
     pub span: Span,
 }
 
-/// What an operand with an index register can reach.
+/// Range of an operand with an index register.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bound {
     /// Class of the operand.
@@ -141,7 +141,7 @@ pub struct Bound {
     pub first: u32,
     /// Last number that it reaches, inclusive.
     pub last: u32,
-    /// Where the range is.
+    /// Position of the range.
     pub span: Span,
 }
 
@@ -154,11 +154,11 @@ pub struct Range {
     pub first: u32,
     /// Last number, inclusive.
     pub last: u32,
-    /// Where the range is.
+    /// Position of the range.
     pub span: Span,
 }
 
-/// Why a file could not be read.
+/// Reason for which a file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The system says so.
@@ -166,17 +166,17 @@ pub enum Error {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
-    /// What it says is wrong.
+    /// The file has mistakes.
     #[error("`{}` has errors", path.display())]
     Mistakes {
         /// The file.
         path: PathBuf,
         /// Its text.
         text: Box<Source>,
-        /// What is wrong with it: at least one error.
+        /// Its mistakes: at least one error.
         diagnostics: Diagnostics,
     },
 }
@@ -246,7 +246,7 @@ impl Project {
         }
     }
 
-    /// How programs of the project are read.
+    /// Options for reading programs of the project.
     pub fn reading(&self) -> ReadOptions {
         ReadOptions {
             learned: self.learned.clone(),
@@ -266,7 +266,7 @@ impl Project {
         self.program.as_deref().map(|program| self.at(program))
     }
 
-    /// Whether this file is the program that the project is about.
+    /// Returns true if this file is the program of the project.
     pub fn is_about(&self, file: &Path) -> bool {
         let place = |path: &Path| path.canonicalize().ok();
         self.program()

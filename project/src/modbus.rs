@@ -15,12 +15,12 @@ use rungc_syntax::{
 };
 use std::net::{IpAddr, SocketAddr};
 
-/// What a row does with the devices of a slave.
+/// Transfer between a row and the devices of a slave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Transfer {
     /// `read` or `write`.
     pub key: &'static str,
-    /// What it reads or writes.
+    /// Kind of devices to read or write.
     pub what: &'static str,
     /// The function.
     pub function: u8,
@@ -29,7 +29,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// How many registers of the PLC this many coils or registers of the other side take.
+    /// Number of the PLC's registers for this many coils or registers of the other side.
     fn words(&self, count: u16) -> u32 {
         match self.what {
             "coils" | "inputs" => count.div_ceil(16).into(),
@@ -63,7 +63,7 @@ pub const TRANSFERS: [Transfer; 6] = {
     ]
 };
 
-/// Where a row asks.
+/// Connection to the slave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Line {
     /// At a serial port, 1 to 3.
@@ -92,21 +92,21 @@ pub(crate) fn server(text: &str) -> Result<SocketAddr, String> {
 /// A row of the table.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Row {
-    /// Where it asks.
+    /// Connection to the slave.
     pub line: Line,
     /// The slave, or the unit of a server.
     pub station: u8,
-    /// What it does.
+    /// Transfer.
     pub transfer: Transfer,
     /// The first address in the slave.
     pub address: u16,
-    /// How many coils or registers.
+    /// Number of coils or registers.
     pub count: u16,
     /// Number of the first register D of the buffer.
     pub buffer: u32,
     /// It works while this device is on; always if there is none.
     pub trigger: Option<Device>,
-    /// Where the row is.
+    /// Position of the row.
     pub span: Span,
 }
 
@@ -117,7 +117,7 @@ const ALWAYS: Device = Device {
 };
 
 impl Row {
-    /// What the row asks of a server over TCP, if it does.
+    /// Request of the row to a server over TCP, if it is one.
     fn request(&self) -> Option<NetworkRequest> {
         let Line::Host(server) = self.line else {
             return None;
@@ -176,7 +176,7 @@ impl Row {
 }
 
 impl Project {
-    /// Whether its program asks servers over TCP.
+    /// Returns true if its program sends requests to servers over TCP.
     pub fn asks_servers(&self) -> bool {
         let mut rows = self.modbus.iter();
         rows.any(|row| matches!(row.line, Line::Host(_)))
@@ -208,7 +208,7 @@ impl Project {
 }
 
 impl Project {
-    /// What a request to a server names that the model does not have is a mistake; instructions are checked later.
+    /// Checks the devices in requests to servers against the model; instructions are checked later.
     fn check_requests(&self, model: &Model) -> Result<(), Error> {
         for row in &self.modbus {
             let Some(request) = row.request() else {

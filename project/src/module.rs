@@ -16,13 +16,13 @@ pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=162;
 pub struct Row {
     /// Its number in FROM and TO.
     pub unit: u16,
-    /// What it is.
+    /// Trigger of the function.
     pub kind: &'static Kind,
-    /// How many milliseconds a remote one takes to answer in a simulation.
+    /// Response time of a remote module in a simulation, in milliseconds.
     pub delay_ms: u16,
     /// Channels, counted from 0, and the analog pins of a board that they are.
     pub pins: Vec<(u8, String)>,
-    /// Where that number is.
+    /// Position of the number.
     pub span: Span,
 }
 

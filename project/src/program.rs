@@ -1,4 +1,4 @@
-//! What settings say of a program: what its PLC keeps over power-off, and what its indexes reach.
+//! Settings for a program: the devices that its PLC retains over power-off, and the ranges of its indexes.
 
 use crate::{Error, Project, Range};
 use rungc_catalogue::Basic;
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 impl Project {
-    /// What operands with an index can reach in a program, if the project is about it.
+    /// Ranges of operands with an index in a program, if it is the program of the project.
     pub fn bounds(&self, file: &Path) -> Vec<Bound> {
         let bounds = self.index.iter().filter(|_| self.is_about(file));
         let bound = |bound: &crate::Bound| Bound {

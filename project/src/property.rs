@@ -6,15 +6,15 @@ use rungc_syntax::Span;
 /// A property. Conditions are as written; what they mean is the caller's to know.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Row {
-    /// What it is called, if it has a name.
+    /// Name, if it has one.
     pub name: Option<String>,
-    /// What it asks.
+    /// The property.
     pub asks: Asks,
-    /// Where it is.
+    /// Position in the file.
     pub span: Span,
 }
 
-/// What a property asks.
+/// Kind of a property.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Asks {
     /// `never = "…"`
@@ -25,18 +25,18 @@ pub enum Asks {
     Reachable(Named),
     /// `whenever = "…"`, `then = "…"`, and perhaps `within = "2s"`.
     Whenever {
-        /// What begins.
+        /// Triggering condition.
         when: Named,
-        /// What must follow.
+        /// Condition that must follow.
         then: Named,
-        /// How soon, a time; at once without it.
+        /// Time limit; none: in the same scan.
         within: Option<Named>,
     },
     /// `stays = "…"`, and perhaps `until = "…"`.
     Stays {
-        /// What stays.
+        /// Condition that must keep holding.
         holds: Named,
-        /// What ends it.
+        /// Condition that ends it.
         until: Option<Named>,
     },
 }
@@ -50,6 +50,6 @@ pub struct Verify {
     pub free: Vec<Range>,
     /// The longest time from one scan to the next.
     pub scan: Option<Named>,
-    /// How long to try, for each property.
+    /// Time limit for each property.
     pub timeout: Option<Named>,
 }

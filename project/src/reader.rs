@@ -74,7 +74,7 @@ pub fn read(text: &str) -> (Project, Diagnostics) {
             .push(codes::PROJECT_SYNTAX.at(span(range), message));
     }
     let mut project = Project::default();
-    // What follows a line that is not TOML may belong to another table than it seems.
+    // Text after a line that is not TOML may belong to another table than it seems.
     if !reader.found.has_errors() {
         reader.document(document.get_ref(), &mut project);
     }
@@ -255,7 +255,7 @@ impl Reader {
         self.text(key, value)
     }
 
-    /// Whether something is wanted; `false` if the table does not say it.
+    /// Value of a boolean setting; `false` if it is missing.
     fn flag(&mut self, table: &DeTable<'_>, key: &str) -> bool {
         let Some(value) = table.get(key) else {
             return false;

@@ -16,9 +16,9 @@ pub struct Serve {
     pub modbus_tcp: Vec<SocketAddr>,
     /// Addresses at which all devices are served by MC protocol.
     pub mc: Vec<SocketAddr>,
-    /// Where all devices are served by the programming port's protocol.
+    /// Addresses at which all devices are served by the programming port's protocol.
     pub fx: Vec<FxEnd>,
-    /// What the serial ports are connected to.
+    /// Connections of the serial ports.
     pub serial: Vec<SerialLine>,
     /// Devices that an emitted program stores, so that its ports serve them, in addition to those that the program
     /// names.
@@ -30,7 +30,7 @@ pub struct Serve {
 pub struct SerialLine {
     /// The port and its other end.
     pub line: Line,
-    /// Where it is.
+    /// Position in the file.
     pub span: Span,
 }
 
@@ -39,11 +39,11 @@ pub struct SerialLine {
 pub struct Line {
     /// The number of the PLC's port, as in its manual.
     pub port: u8,
-    /// What it is connected to.
+    /// Connection of the port.
     pub end: LineEnd,
 }
 
-/// What a serial port of the PLC is connected to.
+/// Connection of a serial port of the PLC.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum LineEnd {
     /// The serial port of this machine at this path, `COM3` on Windows.
@@ -80,8 +80,8 @@ impl CanRate {
             .map(CanRate)
     }
 
-    /// What opens the channel of an adapter at this rate. It is closed first: an open one rejects a rate. Carriage
-    /// returns before that end what the adapter may hold of an earlier line.
+    /// Commands that open the channel of an adapter at this rate. It is closed first: an open one rejects a rate.
+    /// Carriage returns before that end what the adapter may hold of an earlier line.
     fn opening(self) -> String {
         format!("\r\r\rC\rS{}\rO\r", self.0)
     }
@@ -143,7 +143,7 @@ impl LineEnd {
         Ok(LineEnd::CanAdapter(Box::new(LineEnd::parse(end)?), rate))
     }
 
-    /// What the end is sent when it is open. A client of ours is not an adapter: it is the bus.
+    /// Data sent to the end when it is open. A client of the PLC is not an adapter: it is the bus.
     pub fn opening(&self) -> String {
         match self {
             LineEnd::CanAdapter(end, rate) => match **end {
@@ -195,12 +195,12 @@ impl Line {
         })
     }
 
-    /// What reports call the port: `COM1`, `CAN`.
+    /// Name of the port in reports: `COM1`, `CAN`.
     pub fn name(&self) -> String {
         port_name(self.port)
     }
 
-    /// What is wrong with the line on a model, and what helps: the model does not have the port.
+    /// Error of the line on a model, and the remedy: the model does not have the port.
     pub fn missing(&self, model: &Model) -> Option<(String, String)> {
         if model.ports.get(self.port).is_some() {
             return None;
@@ -212,7 +212,7 @@ impl Line {
     }
 }
 
-/// What reports call a port: `COM1`, `CAN`.
+/// Name of a port in reports: `COM1`, `CAN`.
 fn port_name(number: u8) -> String {
     match number {
         CAN_PORT => "CAN".to_string(),
@@ -284,7 +284,7 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
 }
 
 impl Serve {
-    /// Whether there is a server or a line.
+    /// Returns true if there is a server or a line.
     pub fn any(&self) -> bool {
         !(self.modbus_tcp.is_empty()
             && self.mc.is_empty()
@@ -300,7 +300,7 @@ impl Serve {
 }
 
 impl Project {
-    /// What `[serve]` names that the model does not have is a mistake.
+    /// Checks `[serve]` against the model.
     pub(crate) fn check_served(&self, model: &Model) -> Result<(), Error> {
         for SerialLine { line, span } in &self.serve.serial {
             if let Some((message, help)) = line.missing(model) {

@@ -43,7 +43,7 @@ fn main() -> io::Result<()> {
     fs::write(out, rungc_packed::pack(files)?)
 }
 
-/// Where the modules lie that a file declares.
+/// Folder of the modules that a file declares.
 fn children(name: &str) -> String {
     let folder = name.strip_suffix("mod.rs").or(name.strip_suffix("lib.rs"));
     let folder = folder.or(name.strip_suffix(".rs")).unwrap_or(name);

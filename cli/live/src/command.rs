@@ -1,8 +1,8 @@
-//! What the page asks for.
+//! Commands of the page.
 
 use serde::Deserialize;
 
-/// What the page asks for. Devices have the names of test files: `M0`, `D0.i32`, `T0.value`.
+/// Command of the page. Devices have the names of test files: `M0`, `D0.i32`, `T0.value`.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Command {
@@ -26,7 +26,7 @@ pub enum Command {
     },
     /// Lets time pass slower, or at its own speed.
     Pace {
-        /// How many seconds a second of the program takes, from 1 to 1000.
+        /// Slowdown: seconds per second of the program, from 1 to 1000.
         slower: u32,
     },
     /// Sets a device once.
@@ -80,7 +80,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Whether it changes the PLC.
+    /// Returns true if it changes the PLC.
     pub fn changes_plc(&self) -> bool {
         match self {
             Command::Run

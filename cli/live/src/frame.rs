@@ -1,13 +1,13 @@
-//! What the page shows at one moment, and what of it is new to a client.
+//! Contents of the page at one moment, and their difference for a client.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// How many entries of the log are kept.
+/// Number of log entries that are stored.
 const ENTRIES: usize = 200;
 
-/// What the page shows at one moment. Texts are JSON.
+/// Contents of the page at one moment. Texts are JSON.
 #[derive(Clone, Default, Debug)]
 pub struct Frame {
     /// The state of each network, as [`Scene::look`](crate::Scene::look) gives it.
@@ -19,7 +19,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// What changes from an earlier frame to this one, as a JSON object; all of it without an earlier one.
+    /// Changes from an earlier frame to this one, as a JSON object; all of it without an earlier one.
     pub(crate) fn since(&self, earlier: Option<&Frame>) -> String {
         let mut out = String::from("{\"networks\":{");
         let mut separator = "";
@@ -56,7 +56,7 @@ impl Frame {
 #[derive(Clone, Default, Debug)]
 pub struct Log {
     entries: VecDeque<Arc<str>>,
-    /// How many were ever written.
+    /// Number of entries ever written.
     written: u64,
 }
 

@@ -4,21 +4,21 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// How long a request may take to arrive, and a response to be taken.
+/// Time-out of receiving a request, and of sending a response.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
-/// How long the head and the body of a request may be, in bytes.
+/// Maximum length of a request's head and body, in bytes.
 const HEAD: usize = 8 * 1024;
 const BODY: usize = 4 * 1024;
-/// How many headers a request may have.
+/// Most headers of a request.
 const HEADERS: usize = 64;
 
-/// What every response says: nothing from elsewhere is loaded, and no one else may load or frame it.
+/// Headers of every response: nothing from elsewhere is loaded, and no other page may load or frame it.
 const PROTECTION: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; \
      connect-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
      X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\
      Cache-Control: no-store\r\nConnection: close\r\n";
 
-/// Why a request is rejected, by the status of the response.
+/// Reason to reject a request, by the status of the response.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Rejection {
     BadRequest,
@@ -99,7 +99,7 @@ impl Request {
     }
 }
 
-/// What has come of a request.
+/// Received part of a request.
 struct Reader<'a> {
     stream: &'a mut TcpStream,
     until: Instant,

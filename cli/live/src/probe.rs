@@ -1,4 +1,4 @@
-//! What cells of the ladder work with, and reading it from a running program.
+//! Sources of the ladder's cells, and their values in a running program.
 
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Lower, Shape as Kind};
@@ -10,7 +10,7 @@ use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
 use std::fmt::Write as _;
 
-/// What an operand names.
+/// Source named by an operand.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Source {
     /// A device, or those that an index leads to.
@@ -22,7 +22,7 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// What an operand names, where it is taken as a value of 32 bits, if it is `wide`.
+    /// Source named by an operand, as a value of 32 bits if it is `wide`.
     fn of(operand: &OperandKind, kind: Kind, wide: bool) -> Option<Source> {
         let pair = match kind {
             Kind::Value => wide,
@@ -55,7 +55,7 @@ impl Source {
         })
     }
 
-    /// What it holds; `None` if an index leads to a device that does not exist.
+    /// Its value; `None` if an index leads to a device that does not exist.
     fn read(self, seen: Seen) -> Option<Reading> {
         let offset = |index: Option<Index>| {
             let index = index?;
@@ -84,12 +84,12 @@ impl Source {
         }
     }
 
-    /// Whether it is a bit that is on.
+    /// Returns true if it is a bit that is on.
     pub(crate) fn is_on(self, seen: Seen) -> bool {
         self.read(seen) == Some(Reading::Bit(true))
     }
 
-    /// Whether its value is worth showing: bits are seen in the ladder, and constants are written there.
+    /// Returns true if its value is worth showing: bits are seen in the ladder, and constants are written there.
     fn is_shown(self) -> bool {
         match self {
             Source::Target(Target::Bit(..), _) | Source::WordBit(..) | Source::Constant(..) => {
@@ -131,7 +131,7 @@ fn shifted(target: Target, offset: i64) -> Option<Target> {
     })
 }
 
-/// What a cell does with the power from its left.
+/// Effect of a cell on the power from its left.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Probe {
     /// Lets it through while a device is on, or off.
@@ -160,7 +160,7 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// What a cell of a program works with.
+    /// Sources and probe of a program's cell.
     pub(crate) fn of(resolved: &Resolved, cell: Cell) -> Watched {
         let plain = |probe| Watched {
             probe,
@@ -241,7 +241,7 @@ impl Watched {
         text
     }
 
-    /// Whether it shows values.
+    /// Returns true if it shows values.
     pub(crate) fn has_values(&self) -> bool {
         !self.values.is_empty()
     }
@@ -261,7 +261,7 @@ fn sources(resolved: &Resolved, instr: InstrIndex) -> Vec<(String, Option<Source
     operands.zip(resolution.params).map(source).collect()
 }
 
-/// Those that are worth showing, each once.
+/// Sources that are worth showing, each once.
 fn shown(sources: Vec<(String, Option<Source>)>) -> Vec<(String, Source)> {
     let mut shown: Vec<(String, Source)> = Vec::new();
     for (name, source) in sources {
@@ -274,7 +274,7 @@ fn shown(sources: Vec<(String, Option<Source>)>) -> Vec<(String, Source)> {
     shown
 }
 
-/// Whether a comparison holds; one with what does not exist does not.
+/// Returns true if a comparison holds; it does not if an operand does not exist.
 pub(crate) fn holds(op: CmpOp, values: [Source; 2], seen: Seen) -> bool {
     let number = |source: Source| match source.read(seen)? {
         Reading::Integer(value, _) => Some(value as f64),

@@ -29,7 +29,7 @@ pub struct Scene {
 
 /// A network of the page.
 struct Shown {
-    /// What must be on for its rail to have power.
+    /// Devices that must be on for its rail to have power.
     gates: Vec<Target>,
     nets: usize,
     links: Vec<Link>,
@@ -46,7 +46,7 @@ struct Link {
     seen: [bool; 2],
 }
 
-/// Whether each net has power, and whether each link conducts, is on or is driven.
+/// Power of each net, and the state of each link: it conducts, is on or is driven.
 #[derive(Default)]
 struct Power {
     nets: Vec<bool>,
@@ -77,7 +77,7 @@ impl Scene {
         (scene, pictures)
     }
 
-    /// How many networks there are.
+    /// Number of networks.
     pub fn networks(&self) -> usize {
         self.networks.len()
     }
@@ -89,7 +89,7 @@ impl Scene {
         }
     }
 
-    /// What the edges have seen in the last scans, to come back to.
+    /// States of the edges in the last scans, to be restored later.
     pub fn edges(&self) -> Vec<[bool; 2]> {
         let links = self.networks.iter().flat_map(|shown| &shown.links);
         let edges = links.filter(|link| link.is_edge());
@@ -105,7 +105,7 @@ impl Scene {
         }
     }
 
-    /// Whether power reaches an output of a network, from 0.
+    /// Returns true if power reaches an output of a network, from 0.
     pub fn reaches(&mut self, network: usize, seen: Seen) -> bool {
         let Some(shown) = self.networks.get(network) else {
             return false;
@@ -150,7 +150,7 @@ impl Shown {
         }
     }
 
-    /// Where power flows.
+    /// Computes the flow of power.
     fn flow(&self, seen: Seen, power: &mut Power) {
         use rungc_rt::Plc;
         let Power { nets, links } = power;
@@ -218,12 +218,12 @@ impl Shown {
 }
 
 impl Link {
-    /// Whether it remembers what it has seen.
+    /// Returns true if it stores a previous state.
     fn is_edge(&self) -> bool {
         matches!(self.watched.probe, Probe::Edge { .. } | Probe::Pulse { .. })
     }
 
-    /// Whether what it watches has come, or gone, in the last scan.
+    /// Returns true if the watched device has turned on, or off, in the last scan.
     fn edge(&self, rising: bool) -> bool {
         self.seen == [rising, !rising]
     }
@@ -234,7 +234,7 @@ impl Link {
 struct Gates {
     masters: Vec<(u32, Device)>,
     states: Vec<Device>,
-    /// Whether the instruction before was STL.
+    /// True if the previous instruction was STL.
     after_stl: bool,
 }
 

@@ -16,16 +16,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How many connections may be open at a time.
+/// Most open connections at a time.
 const CONNECTIONS: usize = 32;
-/// How often a page is sent a comment if nothing has changed, so that a lost one is noticed.
+/// Interval of comments to a page if nothing has changed, by which a lost connection is detected.
 const HEARTBEAT: Duration = Duration::from_secs(5);
-/// How long a rejected client is listened to.
+/// Time for which a rejected client is read.
 const LINGER: Duration = Duration::from_millis(500);
-/// How long a command may take to be carried out.
+/// Time-out of a command.
 const ANSWER: Duration = Duration::from_secs(10);
 
-/// What gives the text of a file.
+/// Function that returns the text of a file.
 type Text = fn() -> &'static str;
 
 /// The modules and the style of the page: what they are called, their types, and their texts.
@@ -40,7 +40,7 @@ const ASSETS: [(&str, &str, Text); 6] = [
 
 /// A command, and where its answer goes.
 pub struct Order {
-    /// What is asked for.
+    /// The command.
     pub command: Command,
     answer: SyncSender<Result<(), String>>,
 }
@@ -53,7 +53,7 @@ impl Order {
     }
 }
 
-/// What the connections share.
+/// State shared by the connections.
 struct Shared {
     address: SocketAddr,
     token: String,
@@ -61,7 +61,7 @@ struct Shared {
     read_only: bool,
     frame: Mutex<(u64, Arc<Frame>)>,
     changed: Condvar,
-    /// How many connections are open, and how many of them are streams of events.
+    /// Numbers of open connections, and of streams of events among them.
     open: AtomicUsize,
     watching: AtomicUsize,
 }
@@ -107,7 +107,7 @@ impl Server {
         format!("http://{address}/{token}/")
     }
 
-    /// Whether a page is open.
+    /// Returns true if a page is open.
     pub fn is_watched(&self) -> bool {
         self.shared.watching.load(Ordering::Relaxed) > 0
     }
@@ -201,7 +201,7 @@ impl Shared {
         }
     }
 
-    /// What a request asks for, after the token; a rejection if it may not ask.
+    /// Path of a request after the token; a rejection if it is not permitted.
     fn admit<'r>(&self, request: &'r Request) -> Result<&'r str, Rejection> {
         let port = self.address.port();
         let named = |host: &str| {
@@ -248,7 +248,7 @@ impl Shared {
 
     fn stream(&self, stream: &mut TcpStream) -> io::Result<()> {
         begin_events(stream)?;
-        // What was shown while no one watched is old.
+        // A frame from before anyone watched is outdated.
         let mut number = self.frame().0;
         let mut last: Option<Arc<Frame>> = None;
         loop {
@@ -301,7 +301,7 @@ impl Shared {
     }
 }
 
-/// Whether two texts are equal, in a time that does not depend on where they differ.
+/// Returns true if two texts are equal, in a time that does not depend on where they differ.
 fn equal(a: &[u8], b: &[u8]) -> bool {
     let differences = a.iter().zip(b).fold(0, |all, (a, b)| all | (a ^ b));
     a.len() == b.len() && differences == 0

@@ -175,7 +175,7 @@ pub struct Inputs {
     pub reading: Reading,
 }
 
-/// What the files are.
+/// Kind of the files.
 #[derive(Args, Clone, Debug, Default)]
 pub struct FileKind {
     /// PLC model. Default: that of rungc.toml, else the CPU type that the file names, else fx3u.

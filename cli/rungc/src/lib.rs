@@ -87,7 +87,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Whether to colour what goes to standard error.
+/// Returns true if standard error is to be coloured.
 fn color(when: ColorWhen) -> bool {
     match when {
         ColorWhen::Always => true,

@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-/// How long work may last before its progress is shown.
+/// Duration after which the progress of work is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Does `work`; a spinner shows progress if it takes over a second.

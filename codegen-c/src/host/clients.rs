@@ -1,4 +1,4 @@
-//! What a host asks of servers over TCP.
+//! Requests of a host to servers over TCP.
 
 use crate::include;
 use rungc_ir::Module;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::net::{IpAddr, SocketAddr};
 
-/// What the main program does for them: before the first scan, before each, after the last one.
+/// Calls in the main program: before the first scan, before each, after the last one.
 const CALLS: [&str; 3] = [
     "    begin_clients();\n",
     "        poll_clients(plc, (uint32_t)(begin - start));\n",
@@ -19,12 +19,12 @@ const CALLS: [&str; 3] = [
 /// The headers that they include, beside those of servers.
 pub const HEADERS: [&str; 1] = ["poll"];
 
-/// Whether a host with servers asks others, too.
+/// Returns true if a host with servers is also a client of others.
 pub fn are_there(module: &Module, servers: bool) -> bool {
     servers && !module.requests.is_empty()
 }
 
-/// What the main program does for them, if there are any: before the first scan, before each, after the last one.
+/// Calls in the main program, if there are any clients: before the first scan, before each, after the last one.
 pub fn calls(module: &Module, servers: bool) -> [&'static str; 3] {
     match are_there(module, servers) {
         true => CALLS,

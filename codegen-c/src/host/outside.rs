@@ -1,4 +1,4 @@
-//! What a host does for connections and its log, which the runtime library has.
+//! Connections and log of a host; the runtime library implements them.
 
 use crate::include;
 use rungc_ir::Module;

@@ -1,4 +1,4 @@
-//! Which statements run on whole lanes.
+//! Selection of the statements that run on whole lanes.
 
 use super::mirror::{Meeting, Met};
 use crate::fields::PrintStorage;
@@ -11,7 +11,7 @@ use rungc_ir::walk::{assigned, operands};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
-/// What is known of a program's statements.
+/// Classification of a program's statements.
 pub(super) struct Classes<'a, 'm> {
     pub module: &'m Module,
     pub plan: &'a Plan<'m>,
@@ -52,7 +52,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         }
     }
 
-    /// What nodes meet of what is in lanes.
+    /// Use of the fields in lanes by nodes.
     pub fn met(&self, nodes: &[Node]) -> Met {
         let mut meeting = self.meeting();
         nodes.iter().for_each(|node| meeting.node(node));
@@ -82,7 +82,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         }
     }
 
-    /// Whether a function runs as a whole in each instance: it is left before its end.
+    /// Returns true if a function runs as a whole in each instance: it is left before its end.
     pub fn is_left_early(&self, function: usize) -> bool {
         let function = &self.plan.functions[function];
         function.flow != Flow::Void || self.jumps(&function.body)
@@ -99,7 +99,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         })
     }
 
-    /// Which of these nodes run on whole lanes. A temporary of one instance keeps all between its first and its last
+    /// Selects the nodes that run on whole lanes. A temporary of one instance keeps all between its first and its last
     /// use together.
     pub fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
         let mut sliced: Vec<bool> = nodes.iter().map(|node| self.slices(node)).collect();
@@ -147,12 +147,12 @@ impl<'a, 'm> Classes<'a, 'm> {
         operands(expr).for_each(|operand| self.temps_read(operand, found));
     }
 
-    /// Whether a temporary is in lanes.
+    /// Returns true if a temporary is in lanes.
     pub fn in_lanes(&self, temp: TempId) -> bool {
         !self.single.contains(&temp)
     }
 
-    /// Whether a node runs on whole lanes, or its inside may.
+    /// Returns true if a node runs on whole lanes, or its inside may.
     fn slices(&self, node: &Node) -> bool {
         match node {
             Node::Stmt(stmt) => self.slices_stmt(stmt),
@@ -221,7 +221,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         }
     }
 
-    /// Whether the lanes of a place are known where it is named.
+    /// Returns true if the lanes of a place are known where it is named.
     fn has_lanes(&self, place: Place) -> bool {
         match place.index.map(|index| self.module.expr(index)) {
             None => true,
@@ -234,7 +234,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         }
     }
 
-    /// Whether a bit is made of bits in lanes, and of comparisons that each instance can make.
+    /// Returns true if a bit is made of bits in lanes, and of comparisons that each instance can make.
     pub fn slices_expr(&self, id: ExprId) -> bool {
         let expr = *self.module.expr(id);
         if let Expr::Temp(temp) = expr {
@@ -247,7 +247,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         self.is_lanes(id) || self.is_single(id)
     }
 
-    /// Whether a bit by itself is in lanes, or the same in all.
+    /// Returns true if a bit by itself is in lanes, or the same in all.
     pub fn is_lanes(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
         let known = matches!(
@@ -257,7 +257,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         known || expr.as_bit().is_some_and(|place| self.has_lanes(place))
     }
 
-    /// Whether an expression looks at nothing that is in lanes, so that each instance has all of it.
+    /// Returns true if an expression reads nothing that is in lanes, so that each instance has all of it.
     fn is_single(&self, id: ExprId) -> bool {
         let mut temps = BTreeSet::new();
         self.temps_read(id, &mut temps);
@@ -276,7 +276,7 @@ impl<'a, 'm> Classes<'a, 'm> {
         matches!(expr, Expr::Stride(..)) || operands(expr).any(|operand| self.has_stride(operand))
     }
 
-    /// Whether all instances have the same value: it is made of constants and of what the scan driver knows.
+    /// Returns true if all instances have the same value: it is made of constants and of values of the scan driver.
     pub fn is_uniform(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
         let own = matches!(

@@ -12,7 +12,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// What code of one instance meets of what is stored in lanes.
+/// Use of the fields in lanes by code of one instance.
 #[derive(Default)]
 pub(super) struct Met {
     /// Stored bit devices, timers and counters.
@@ -34,7 +34,7 @@ pub(super) struct Meeting<'a, 'm> {
 }
 
 impl Meeting<'_, '_> {
-    /// What one node meets, with all that it calls.
+    /// Adds the uses of one node, with all that it calls.
     pub fn node(&mut self, node: &Node) {
         for root in node.roots() {
             self.expr(root);
@@ -50,7 +50,7 @@ impl Meeting<'_, '_> {
         }
     }
 
-    /// What a function of the plan meets.
+    /// Adds the uses of a function of the plan.
     pub fn function(&mut self, function: usize) {
         let plan = self.plan;
         plan.functions[function]
@@ -59,7 +59,7 @@ impl Meeting<'_, '_> {
             .for_each(|node| self.node(node));
     }
 
-    /// What an expression meets.
+    /// Adds the uses of an expression.
     pub fn expr(&mut self, id: ExprId) {
         let module = self.module;
         let expr = module.expr(id);
@@ -78,7 +78,7 @@ impl Meeting<'_, '_> {
 
     fn stmt(&mut self, stmt: &Stmt) {
         let module = self.module;
-        // What a coil and RST do to a timer or counter is known where its own coil is printed.
+        // The effect of a coil and RST on a timer or counter is known where its own coil is printed.
         let coil = matches!(
             stmt,
             Stmt::Timer(_)
@@ -186,7 +186,7 @@ impl Meeting<'_, '_> {
     }
 }
 
-/// Whether a device has a bit that is stored in lanes.
+/// Returns true if a device has a bit that is stored in lanes.
 fn is_sliced(kind: Kind) -> bool {
     kind != Kind::Word
 }

@@ -20,10 +20,10 @@ use rungc_ir::Module;
 use rungc_ir::node::Stmt;
 use rungc_ir::walk::{calls_runtime, statements};
 
-/// How many instances a `plc_lanes` of `rungc_lanes.h` has.
+/// Number of instances in a `plc_lanes` of `rungc_lanes.h`.
 pub const LANES: u32 = 64;
 
-/// What a program does that takes more than scans, as the end of "the program …"; `None` if there is nothing.
+/// Feature of a program that needs more than scans, as the end of "the program …"; `None` if there is none.
 pub fn reaches_out(module: &Module) -> Option<&'static str> {
     let reasons = [
         (module.has_ports(), "uses serial ports"),
@@ -37,7 +37,7 @@ pub fn reaches_out(module: &Module) -> Option<&'static str> {
     found.map(|(_, reason)| reason)
 }
 
-/// What keeps a program from running in lanes, as the end of "the program …"; `None` if nothing does.
+/// Reason why a program cannot run in lanes, as the end of "the program …"; `None` if there is none.
 pub fn refusal(module: &Module) -> Option<&'static str> {
     let (mut calls, mut stops) = (false, false);
     for function in &module.functions {

@@ -30,7 +30,7 @@ pub(super) struct Slicer<'a, 'm> {
     pub waiting: BTreeMap<u32, Waiting>,
     /// The instances that execute what is being written; `None`: all.
     mask: Option<String>,
-    /// Whether any code of one instance was written.
+    /// True if any code of one instance was written.
     pub singles: bool,
     /// Names given in this function.
     names: u32,
@@ -372,7 +372,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
             self.put(page, &coil, &drive);
             return page.close();
         }
-        // One that has timed out stays so, and one that has not been on stays off.
+        // A timer that has timed out stays so, and one that has not been on stays off.
         let work = match (forced, plain) {
             (true, _) => "PLC_ALL_LANES".to_string(),
             (false, true) => format!("({drive} & ~({done} & {coil})) | ({coil} & ~{drive})"),

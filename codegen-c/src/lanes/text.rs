@@ -10,7 +10,7 @@ use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::Module;
 use std::fmt::Write;
 
-/// What surrounds the struct in the header.
+/// Frame of the struct in the header.
 const HEADER: &str = "\
 #ifndef GUARD
 #define GUARD
@@ -186,7 +186,7 @@ fn load(module: &Module, fields: &Storage) -> String {
     out
 }
 
-/// What brings the values of timers that wait up to date.
+/// Code that brings the values of waiting timers up to date.
 fn settle(name: &str, slicer: &Slicer) -> String {
     if slicer.waiting.is_empty() {
         return "    (void)all;\n".to_string();

@@ -21,19 +21,20 @@ use std::fmt::Write;
 /// A timer that waits.
 #[derive(Clone, Debug)]
 pub(super) struct Waiting {
-    /// What runs its timer in the struct `plc` with the time of `sys`, with `DRIVE` for whether its coil is on.
+    /// Statement that runs its timer in the struct `plc` with the time of `sys`, with `DRIVE` for the state of its
+    /// coil.
     pub run: String,
     /// Its timer in the struct `plc`.
     pub device: String,
-    /// Where its contact is on, in lanes.
+    /// Its contact, in lanes.
     pub done: String,
-    /// Where its coil was on, in lanes.
+    /// The last state of its coil, in lanes.
     pub coil: String,
     /// The time that has passed and is not yet in the timers, in milliseconds.
     pub passed: String,
-    /// How much of it may pass before one of them times out.
+    /// Time that may pass before one of them times out.
     pub left: String,
-    /// What is left of a timer: milliseconds.
+    /// Remaining time of a timer, in milliseconds.
     pub rest: String,
 }
 
@@ -152,7 +153,7 @@ impl Waiting {
         format!("{} & ~{}", self.coil, self.done)
     }
 
-    /// What brings the timer of one instance up to date, in its struct `plc`.
+    /// Code that brings the timer of one instance up to date, in its struct `plc`.
     pub fn store(&self) -> String {
         format!(
             "    if (plc_in_lane({}, lane)) {{\n        plc_sys sys = all->sys;\n\n        sys.dt_ms = {};\n        {}\n    }}\n",
@@ -162,7 +163,7 @@ impl Waiting {
         )
     }
 
-    /// What brings the timers of all instances up to date.
+    /// Code that brings the timers of all instances up to date.
     pub fn settle(&self, name: &str) -> String {
         let mut out = format!("    sys.dt_ms = {};\n", self.passed);
         // Writing to a String does not fail.

@@ -11,7 +11,7 @@ use std::process::Command;
 /// stations in a grid.
 const LIST: &str = "LD X012\nOUT T0 K5\nOUT C0 K3\nLD X001\nOUT C200 K70000\nLD M8000\nMOV D100Z0 D0\nLD X1\nMOV K2 D8028\n";
 
-/// What asks for them.
+/// Program that calls the functions of the header.
 const CHECKS: &str = r#"
 #include "probe_access.h"
 #include <stdio.h>

@@ -1,4 +1,4 @@
-//! What a host learns of operation errors.
+//! Reports of operation errors to a host.
 
 use crate::build;
 use rungc_codegen_c::{Options, emit};

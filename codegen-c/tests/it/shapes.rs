@@ -1,4 +1,4 @@
-//! What each shape of program becomes: small lists, the C they give, strictly compiled and started.
+//! C code for each shape of program: small lists, and their C, strictly compiled and started.
 
 use crate::build::{program_text, run_c};
 use rungc_codegen_c::{Options, emit};

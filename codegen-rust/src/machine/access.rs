@@ -76,7 +76,7 @@ impl Generator<'_> {
         })
     }
 
-    /// Where devices are stored, by number, for a slave by Modbus that is all that a port may be.
+    /// Lookup of devices by number, for a port that can only be a Modbus slave.
     fn elements_impl(&mut self) -> Option<TokenStream> {
         self.module.slave_alone?;
         let name = self.type_name.clone();

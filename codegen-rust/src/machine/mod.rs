@@ -39,7 +39,7 @@ impl Generator<'_> {
         });
         let private: Vec<TokenStream> = private.collect();
         let on_error = self.module.may_fail().then(|| {
-            let doc = self.doc("What a host does at each operation error, given the PLC's code and the step of the instruction.");
+            let doc = self.doc("Callback of the host for operation errors, given the PLC's code and the step of the instruction.");
             quote!(#doc pub on_error: Option<fn(&Self, code: u16, step: u16)>,)
         });
         self.item_of(quote! {
@@ -104,7 +104,7 @@ impl Generator<'_> {
         quote!(#doc pub #name: #ty)
     }
 
-    /// Which of a field's devices are kept over power-off, for its documentation.
+    /// Devices of a field that are retained over power-off, for its documentation.
     fn latched(&self, field: &Field) -> String {
         match field.section {
             Section::Latched | Section::Records => " (latched)".to_string(),
@@ -219,7 +219,7 @@ impl Generator<'_> {
     }
 }
 
-/// What an array has of each element: of a type the array's type, of a value its value.
+/// Array of an element by the field's dimensions: of a type the array's type, of a value its value.
 fn dimensions(field: &Field, element: TokenStream) -> TokenStream {
     if !field.array {
         return element;

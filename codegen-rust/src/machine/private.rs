@@ -17,9 +17,9 @@ pub struct PrivateField {
     pub ty: TokenStream,
     /// Its value at power-on.
     pub initial: TokenStream,
-    /// What it means, for its documentation.
+    /// Meaning, for its documentation.
     pub meaning: &'static str,
-    /// Whether RUN begins with it as at power-on.
+    /// True if RUN resets it to its power-on value.
     pub begins_with_run: bool,
 }
 
@@ -55,7 +55,7 @@ impl Generator<'_> {
             }
             Private::Edges(count) => {
                 let (edge, count) = (self.rt("Edge"), Literal::u32_unsuffixed(count));
-                let meaning = "What edge contacts and pulse instructions saw last.";
+                let meaning = "Last inputs of edge contacts and pulse instructions.";
                 let (ty, off) = (quote!([#edge; #count]), quote!([#edge(false); #count]));
                 (format_ident!("edges"), ty, off, meaning)
             }
@@ -78,7 +78,7 @@ impl Generator<'_> {
             }
             Private::Error => {
                 let error = self.rt("LastError");
-                let (none, meaning) = (quote!(#error::NONE), "What has gone wrong.");
+                let (none, meaning) = (quote!(#error::NONE), "The last error.");
                 (format_ident!("error"), quote!(#error), none, meaning)
             }
             Private::StepsLeft => {
@@ -94,7 +94,7 @@ impl Generator<'_> {
             Private::Axes(outputs) => {
                 let axis = self.rt("Axis");
                 let (ty, new) = (quote!(#axis), quote!(#axis::new()));
-                let meaning = "What this output sends.";
+                let meaning = "State of this pulse output.";
                 let outputs = outputs.iter();
                 return outputs
                     .map(|&output| (axis_field(output), ty.clone(), new.clone(), meaning))
@@ -102,7 +102,7 @@ impl Generator<'_> {
             }
             Private::Port(number, protocols) => {
                 let (ty, new) = self.port(protocols);
-                let meaning = "What this serial port is doing.";
+                let meaning = "State of this serial port.";
                 (port_field(number), ty, new, meaning)
             }
             Private::States(count) => {

@@ -84,7 +84,8 @@ impl Generator<'_> {
         })
     }
 
-    /// What obeys M8035 and M8036 or their likes when a scan begins, and what forgets them in STOP.
+    /// Statements that execute M8035 and M8036 or their equivalents when a scan begins, and those that reset them in
+    /// STOP.
     fn run_command(&mut self) -> (Option<TokenStream>, Option<TokenStream>) {
         let program = self.rt("Program");
         let obeyed = match cycle::run_command(self.module, &self.storage) {
@@ -112,7 +113,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Whether HM is under remote control, and whether that puts it in RUN.
+    /// Conditions for remote control of HM, and for its RUN command.
     fn remote_control(&self) -> Option<(TokenStream, TokenStream)> {
         let key = self.special_register(D_REMOTE)?;
         let local = self.special_relay(M_LOCAL_CONTROL)?;

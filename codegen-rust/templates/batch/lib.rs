@@ -32,7 +32,7 @@ type Plc<'a> = (&'a mut dyn Program, VirtualHal);
 /// PLCs that a case may have.
 const PLCS: usize = 4;
 
-/// What comes after a session.
+/// Next step after a session.
 enum Next {
     /// A case of this program.
     Case(usize),
@@ -99,7 +99,7 @@ fn session(port: &mut Port, plcs: &mut [Option<Plc>]) -> Option<Next> {
     }
 }
 
-/// What there is to say.
+/// Answer to a request.
 enum Answer {
     Done,
     Value(i64),

@@ -1,4 +1,4 @@
-//! Where requests come from and answers go to.
+//! Source of requests and destination of answers.
 
 use core::fmt::{self, Display, Write};
 
@@ -11,9 +11,9 @@ pub struct Port<'a> {
     read: &'a mut dyn FnMut(&mut [u8]) -> usize,
     write: &'a mut dyn FnMut(&[u8]),
     input: [u8; SIZE],
-    /// Where the next line begins.
+    /// Start of the next line.
     begin: usize,
-    /// Where the input ends that has been read.
+    /// End of the input read so far.
     end: usize,
     output: [u8; SIZE],
     /// Bytes of output that wait.
@@ -55,7 +55,7 @@ impl<'a> Port<'a> {
         };
         let line = &self.input[self.begin..self.begin + length];
         self.begin += length + 1;
-        // What is not a text is not a request, either.
+        // Invalid text is not a request, either.
         Some(core::str::from_utf8(line).unwrap_or_default())
     }
 

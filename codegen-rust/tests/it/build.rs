@@ -22,8 +22,8 @@ fn a_program_builds_without_warnings() {
     cargo(folder.path(), &["build"]);
 }
 
-/// What uses a crate whose instructions fail: first at an index, then at a division, and at last the watchdog stops a
-/// scan.
+/// Program that uses a crate whose instructions fail: first at an index, then at a division, and at last the watchdog
+/// stops a scan.
 const ERRORS: &str = r#"
 use errors::Errors;
 use rungc_rt::{Class, LastError, Plc, Program, Stop, VirtualHal};

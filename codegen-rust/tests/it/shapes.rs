@@ -62,7 +62,7 @@ fn program(shape: Shape) -> String {
         .into_iter()
         .find(|file| file.path == "src/program.rs")
         .unwrap();
-    // What is before the imports is the same in all.
+    // The part before the imports is the same in all.
     let code = file.contents.find("use crate").unwrap_or_default();
     file.contents[code..].to_string()
 }

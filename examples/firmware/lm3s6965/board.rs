@@ -4,7 +4,7 @@
 /// The core's clock after reset: the internal oscillator.
 pub const CPU_HZ: u32 = 12_000_000;
 
-/// How many lamps there are.
+/// Number of lamps.
 pub const LAMPS: usize = 5;
 
 /// A register of the LM3S6965.
@@ -46,7 +46,7 @@ pub fn set_up() {
     Register(GPIOF + DIGITAL).write(BUTTON);
 }
 
-/// Whether the button is pressed.
+/// Returns true if the button is pressed.
 pub fn button() -> bool {
     data(GPIOF, BUTTON).read() == 0
 }

@@ -13,18 +13,18 @@ pub struct AnalogPin {
     pub at: u32,
     /// Its greatest count.
     pub full: u16,
-    /// What is measured or put out.
+    /// Quantity that is measured or output.
     pub quantity: Quantity,
     /// The signals at count 0 and at the greatest count, in millionths of the unit.
     pub signal: [i32; 2],
-    /// Which built-in analog input (D8030 of L01S, RD3A of boards) or output (WR3A of boards) of the PLC it is, by its
+    /// Number of the PLC's built-in analog input (D8030 of L01S, RD3A of boards) or output (WR3A of boards), with its
     /// raw counts.
     pub channel: Option<u8>,
-    /// What is written to an input's converter before its register is read; `None` if it converts by itself.
+    /// Start of an input's converter before its register is read; `None` if it converts by itself.
     pub start: Option<Start>,
 }
 
-/// What starts a conversion.
+/// Register write that starts a conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Start {
@@ -39,9 +39,9 @@ pub struct Start {
 /// Analog pins by their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Analog {
-    /// What measures.
+    /// Analog inputs.
     pub inputs: BTreeMap<String, AnalogPin>,
-    /// What puts out.
+    /// Analog outputs.
     pub outputs: BTreeMap<String, AnalogPin>,
 }
 
@@ -56,7 +56,7 @@ impl Analog {
         numbered(&self.outputs)
     }
 
-    /// Whether there are any.
+    /// Returns true if there are any.
     pub(super) fn has_channels(&self) -> bool {
         self.channels().next().is_some()
     }

@@ -1,4 +1,4 @@
-//! What is around the program on a board: the RUN/STOP switch, its lamps, the watchdog.
+//! Controls around the program on a board: the RUN/STOP switch, its lamps, the watchdog.
 
 use super::pins::{InputFormat, Output};
 use super::{BoardError, InputPin, OutputPin, Reader};
@@ -13,13 +13,12 @@ pub struct Control {
     pub run: Option<OutputPin>,
     /// The lamp that is on after an operation error, and after the watchdog or a damaged program stopped the PLC.
     pub error: Option<OutputPin>,
-    /// What keeps the watchdog of the microcontroller from resetting it: an address, and the word written to it after
-    /// each scan.
+    /// Service of the microcontroller's watchdog: an address, and the word written to it after each scan.
     pub watchdog: Option<(u32, u32)>,
 }
 
 impl Control {
-    /// Whether a board has any lamp or a switch.
+    /// Returns true if a board has any lamp or a switch.
     pub fn is_there(&self) -> bool {
         self.switch.is_some() || self.run.is_some() || self.error.is_some()
     }

@@ -25,7 +25,7 @@ pub(super) struct Pin {
     bit: u32,
 }
 
-/// What keeps an input in a state while nothing drives it.
+/// Pull resistor, which defines the state of an open input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Pull {
@@ -33,7 +33,7 @@ pub(super) enum Pull {
     Down,
 }
 
-/// What a pin is set up as.
+/// Mode of a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
     /// An input.
@@ -51,11 +51,11 @@ pub(super) enum Mode {
 /// A pin, and what it is wired to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedPin {
-    /// What it is wired to: a terminal, a port, a switch.
+    /// Connection of the pin: a terminal, a port, a switch.
     pub terminal: String,
     /// Its name in the data sheet.
     pub pin: String,
-    /// Why it may be another one.
+    /// Reason for which it may be another one.
     pub uncertain: Option<String>,
 }
 
@@ -63,7 +63,7 @@ pub struct NamedPin {
 #[derive(Default)]
 pub(super) struct Wiring {
     pub chip: Option<Chip>,
-    /// What is uncertain of all pins.
+    /// Uncertainty about all pins.
     pub uncertain: Option<String>,
     pub named: Vec<NamedPin>,
     pub uses: Vec<(Pin, Mode)>,
@@ -131,7 +131,7 @@ const PADS_BANK0: u32 = 0x4001_C000;
 const RESETS: u32 = 0x4000_C000;
 
 impl Chip {
-    /// How its pins are called.
+    /// Example of a pin's name.
     fn example(self) -> &'static str {
         match self {
             Chip::Stm32f1 | Chip::Stm32f0 => "PB13",
@@ -183,7 +183,7 @@ impl Pin {
         }
     }
 
-    /// What lets its registers work.
+    /// Register writes that enable the clock of its registers.
     fn clock(self) -> Vec<Setup> {
         match self.chip {
             // RCC_APB2ENR: IOPAEN and following.
@@ -204,7 +204,8 @@ impl Pin {
         }
     }
 
-    /// What sets it up, once its registers have their clock. An output has its state before it drives the pin.
+    /// Register writes that set it up, once its registers have their clock. An output has its state before it drives
+    /// the pin.
     fn set_up(self, mode: Mode) -> Vec<Setup> {
         let mut steps = Vec::new();
         if let Mode::Output(high) = mode {
@@ -297,7 +298,7 @@ impl Pin {
 }
 
 impl Wiring {
-    /// What sets the pins up that the description names: clocks first.
+    /// Register writes that set up the pins of the description: clocks first.
     pub fn setup(&self) -> Vec<Setup> {
         let mut steps: Vec<Setup> = Vec::new();
         for (pin, _) in &self.uses {

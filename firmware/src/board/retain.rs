@@ -1,20 +1,20 @@
-//! Where a board keeps latched devices: `[retain]`.
+//! Memory of a board for latched devices: `[retain]`.
 
 use super::pins::InputFormat;
 use super::{Board, BoardError, InputPin, Reader, Region};
 use rungc_rt::retain::f4_sectors;
 use serde::Deserialize;
 
-/// Where latched devices survive power-off, and when they are saved.
+/// Memory for latched devices, and the time at which they are saved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Retain {
-    /// What the memory is.
+    /// Kind of memory.
     pub memory: RetainMemory,
     /// Two slots, each of which is erased as a whole.
     pub slots: [Region; 2],
     /// Bytes of a page of an STM32F1.
     pub page: u32,
-    /// How often a changed device is saved at most, in milliseconds.
+    /// Minimum interval of saves for a changed device, in milliseconds.
     pub every_ms: u32,
     /// The pin by which the supply says that power is about to fail.
     pub power_fail: Option<InputPin>,
@@ -122,7 +122,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether two runs of memory have an address in common.
+/// Returns true if two runs of memory overlap.
 fn overlaps(a: Region, b: Region) -> bool {
     let end = |region: Region| u64::from(region.origin) + u64::from(region.length);
     u64::from(a.origin) < end(b) && u64::from(b.origin) < end(a)

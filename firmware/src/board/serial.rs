@@ -32,9 +32,9 @@ pub struct Serial {
     pub always: bool,
     /// A slave by Modbus RTU also answers QLink (H1U, H2U), which takes memory.
     pub qlink: bool,
-    /// How many characters are kept until the program takes them.
+    /// Size of the receive queue, in characters.
     pub receive: u16,
-    /// How many characters are kept until they are sent.
+    /// Size of the send queue, in characters.
     pub send: u16,
 }
 

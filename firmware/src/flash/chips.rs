@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-/// Where the flash of every part begins.
+/// Start of flash in every part.
 pub const FLASH: u32 = 0x0800_0000;
 
-/// How flash is divided into what is erased at once.
+/// Division of flash into units that are erased at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pages {
     /// Pages of this many bytes.
@@ -23,9 +23,9 @@ pub struct Chip {
     pub name: &'static str,
     /// Bytes of flash of the largest of them.
     pub flash: u32,
-    /// Where the part holds the size of its flash, in KiB (the reference manuals' flash size register).
+    /// Address of the part's flash size register, in KiB (see the reference manuals).
     pub size_at: u32,
-    /// What is erased at once.
+    /// Units that are erased at once.
     pub pages: Pages,
 }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const ACK: u8 = 0x79;
 const NACK: u8 = 0x1F;
 
-/// What a boot loader measures the bit rate with.
+/// Byte with which a boot loader measures the bit rate.
 const SYNC: u8 = 0x7F;
 
 /// A byte that is not part of any valid command, address or list of pages, however often it is sent.
@@ -16,20 +16,20 @@ const FILLER: u8 = 0xFF;
 /// Bytes that one command reads or writes.
 pub const BLOCK: usize = 256;
 
-/// How long the boot loader takes for an answer; the line takes a block in 0.3 s at 9600 bit/s.
+/// Time-out of the boot loader's answer; the line takes a block in 0.3 s at 9600 bit/s.
 const ANSWER: Duration = Duration::from_millis(1500);
 
-/// How long erasing a sector, or the whole part, takes at most (the data sheets have up to 4 s for 128 KiB, 32 s for
-/// a whole STM32F4).
+/// Time-out of erasing a sector, or the whole part (the data sheets have up to 4 s for 128 KiB, 32 s for a whole
+/// STM32F4).
 const ERASING: Duration = Duration::from_secs(40);
 
-/// How long a reset takes at most.
+/// Time-out of a reset.
 const RESET: Duration = Duration::from_secs(5);
 
-/// How long nothing comes when the line is silent.
+/// Time without characters after which the line is silent.
 const SILENCE: Duration = Duration::from_millis(200);
 
-/// How often a command is repeated that was not understood, or whose answer is missing.
+/// Number of attempts for a command that was not understood, or whose answer is missing.
 const ATTEMPTS: usize = 4;
 
 /// A line to a boot loader.
@@ -92,7 +92,7 @@ impl std::fmt::Display for Command {
     }
 }
 
-/// What goes wrong on the way to a boot loader.
+/// Error in the communication with a boot loader.
 #[derive(Debug, thiserror::Error)]
 pub enum LoaderError {
     /// The line has failed, or the user has interrupted.
@@ -159,10 +159,11 @@ impl<L: Line> Loader<L> {
         }
     }
 
-    /// Whether memory can be read; a part that is read protected rejects it.
+    /// Returns true if memory can be read; a part that is read protected rejects it.
     ///
     /// # Errors
-    /// Those of the line.
+    ///
+    /// The line has failed.
     pub fn is_readable(&mut self) -> Answer<bool> {
         match self.read(super::chips::FLASH, 4) {
             Ok(_) => Ok(true),
@@ -279,7 +280,7 @@ impl<L: Line> Loader<L> {
         loop {
             match ask(self) {
                 Err(LoaderError::Line(error)) => return Err(error.into()),
-                // What is rejected twice was understood.
+                // A command that is rejected twice was understood.
                 Err(LoaderError::Rejected(command)) if attempt > 1 => {
                     return Err(LoaderError::Rejected(command));
                 }

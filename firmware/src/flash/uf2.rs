@@ -10,10 +10,10 @@ const BLOCK: usize = 512;
 /// Bytes of flash in a block.
 const PIECE: usize = 256;
 
-/// Where they are in a block.
+/// Offset of the data in a block.
 const DATA: usize = 32;
 
-/// What begins a block, and what ends it.
+/// Words at the beginning, and the word at the end of a block.
 const MAGIC: [u32; 2] = [0x0A32_4655, 0x9E5D_5157];
 const END: u32 = 0x0AB1_6F30;
 
@@ -29,10 +29,10 @@ pub const RP2040: u32 = 0xE48B_FF56;
 /// The file that a volume has, which says whose it is.
 pub const INFO: &str = "INFO_UF2.TXT";
 
-/// What the boot ROM of an RP2040 calls its board there.
+/// Name of an RP2040's boot drive, as set by its boot ROM.
 pub const RP2040_BOARD: &str = "RPI-RP2";
 
-/// Why a file is not UF2.
+/// Reason for which a file is not UF2.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Uf2Error {
     /// A block is cut off, or does not begin or end as one does.
@@ -41,11 +41,11 @@ pub enum Uf2Error {
     /// There is another number of blocks than each of them says.
     #[error("block {block} says that there are {said} blocks, the file has {found}")]
     Count {
-        /// Which block, from 0 on.
+        /// Number of the block, from 0.
         block: usize,
-        /// What it says.
+        /// Stated number of blocks.
         said: u32,
-        /// How many there are.
+        /// Actual number of blocks.
         found: usize,
     },
     /// It is for another family of microcontrollers.
@@ -59,7 +59,7 @@ pub enum Uf2Error {
     Empty,
 }
 
-/// Whether a file begins as one of UF2 does.
+/// Returns true if a file begins like UF2.
 pub fn is_uf2(file: &[u8]) -> bool {
     file.starts_with(&MAGIC[0].to_le_bytes())
 }

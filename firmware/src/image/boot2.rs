@@ -4,7 +4,7 @@
 use crate::board::{Board, Chip};
 use std::fmt::Write;
 
-/// How many words it takes, the checksum among them.
+/// Size in words, the checksum included.
 const WORDS: usize = 64;
 
 /// The machine code.
@@ -30,13 +30,13 @@ const BOOT2: [u32; 19] = [
     0xE000_ED08,
 ];
 
-/// Where the linker puts it: before everything else.
+/// Section for the linker: before everything else.
 const SECTION: &str = "    .boot2 : { KEEP(*(.boot2)) } > FLASH\n";
 
-/// What is copied to RAM with the data, because flash cannot be read while it runs.
+/// Code copied to RAM with the data, because flash cannot be read while it runs.
 const IN_RAM: &str = " *(.ram_text)";
 
-/// Whether flash of a board begins with it.
+/// Returns true if flash of a board begins with it.
 fn is_there(board: &Board) -> bool {
     board.chip == Some(Chip::Rp2040)
 }
@@ -83,7 +83,7 @@ pub(super) fn in_c(board: &Board) -> String {
         return String::new();
     }
     format!(
-        "/* What the boot ROM starts: it lets flash be read at its addresses, and starts the image. The last word is \
+        "/* Second stage of the boot: it lets flash be read at its addresses, and starts the image. The last word is \
          its checksum. */\n\
          __attribute__((section(\".boot2\"), used)) static const uint32_t boot2[{WORDS}] = {{\n{}}};\n\n",
         table("    ", "u, ", "u,")

@@ -16,7 +16,7 @@ use std::fmt::Write;
 
 pub use pins::{NoPins, project as pins_project};
 
-/// What drives the pins of pulse outputs in the tick.
+/// Code in the tick that drives the pins of pulse outputs.
 const DUE: &str = "    if (armed && (int32_t)(microseconds - due) >= 0) {
         PROGRAM_on_timer(&plc, &board);
     }
@@ -30,10 +30,10 @@ const NOW: &str = "static uint32_t now_us(void *context)
 
 ";
 
-/// What the tick does about edges.
+/// Code in the tick that records edges.
 const NOTE_EDGES: &str = "    note_edges();\n";
 
-/// What a timer's handler of the user's calls.
+/// Function for the user's timer handler.
 const ON_TIMER: &str = "void board_on_timer(void);
 
 void board_on_timer(void)
@@ -42,7 +42,7 @@ void board_on_timer(void)
 
 ";
 
-/// What ends a simulation.
+/// Code that ends a simulation.
 const END: &str = "        if (board.now_ms >= MSu) {
             semihosting(0x18, 0x20026); /* SYS_EXIT, application exit */
         }
@@ -203,7 +203,7 @@ fn prototypes(image: &Image) -> String {
     text
 }
 
-/// What reads inputs and sets outputs.
+/// Functions that read inputs and set outputs.
 fn pins(image: &Image) -> String {
     let mut text = String::new();
     if !image.script.inputs.is_empty() {
@@ -235,7 +235,8 @@ fn pins(image: &Image) -> String {
     text
 }
 
-/// Whether bits of a register change while the others are kept, as the setup, outputs and lamps of a board are written.
+/// Returns true if bits of a register change while the others are preserved, as in the setup, outputs and lamps of a
+/// board.
 fn changes_bits(board: &Board) -> bool {
     let mut pins = board.outputs.values().chain(board.control.lamps());
     let change = |step: &Setup| matches!(step, Setup::Change { .. });
@@ -246,7 +247,7 @@ fn is_bit(pin: &OutputPin) -> bool {
     matches!(pin, OutputPin::Bit { .. })
 }
 
-/// Where edges of inputs are noted.
+/// Place at which edges of inputs are recorded.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Edges {
     /// In the interrupt of the tick, while scans run, too.
@@ -255,7 +256,7 @@ enum Edges {
     InPoll,
 }
 
-/// Where they are, if the program takes any and the board does not give them itself.
+/// Place for edges, if the program takes any and the board does not supply them itself.
 fn edges(image: &Image) -> Option<Edges> {
     let functions = &image.board.functions;
     if image.watched().is_empty() || functions.contains_key("next_edge") {
@@ -388,7 +389,7 @@ fn setup(board: &Board) -> String {
     text
 }
 
-/// What prints outputs, and what ends a simulation.
+/// Functions that print outputs, and end a simulation.
 fn console(image: &Image) -> String {
     let ends = image.script.until_ms.is_some();
     match (image.board.console, ends) {

@@ -12,7 +12,7 @@ use rungc_rt::modules::Kind;
 pub(super) struct Fitted {
     /// Its number.
     pub(super) unit: u16,
-    /// What it is.
+    /// Kind of the module.
     pub(super) kind: &'static Kind,
     /// Its inputs, by channels counted from 0, and their pins.
     pub(super) inputs: Vec<(u8, AnalogPin)>,
@@ -23,7 +23,7 @@ pub(super) struct Fitted {
 /// A channel whose pin the board does not have: the module's number, the channel counted from 1, and the pin.
 pub type NoPin = (u16, u8, String);
 
-/// Whether a program asks hardware for anything, buffer memory among it.
+/// Returns true if a program uses hardware, buffer memory included.
 fn asks_hardware(module: &Module) -> bool {
     let mut asks = false;
     for function in &module.functions {
@@ -38,7 +38,7 @@ fn asks_hardware(module: &Module) -> bool {
     asks
 }
 
-/// Whether a program gives values to analog outputs of the board itself.
+/// Returns true if a program sets analog outputs of the board itself.
 fn puts_out(module: &Module) -> bool {
     let mut does = false;
     for function in &module.functions {

@@ -15,7 +15,7 @@ use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 use std::path::Path;
 
-/// What switches the floating point unit on: CPACR.
+/// Code that switches the floating point unit on: CPACR.
 const FPU: &str = "    ldr r0, =0xE000ED88
     ldr r1, [r0]
     ldr r2, =0x00F00000
@@ -25,7 +25,7 @@ const FPU: &str = "    ldr r0, =0xE000ED88
     isb
 ";
 
-/// What switches bits of a register.
+/// Function that switches bits of a register.
 const BITS: &str = "/// Switches bits of a register.
 fn set_bits(address: usize, bits: u32, on: bool) {
     let value = read(address);
@@ -34,7 +34,7 @@ fn set_bits(address: usize, bits: u32, on: bool) {
 
 ";
 
-/// What says whether an input switches itself, and its state.
+/// Function that returns the scripted state of an input.
 const SCRIPTED: &str = "/// The scripted state of an input at a time, if it has one.
 fn scripted(number: u16, now_ms: u32) -> Option<bool> {
     let own = SCRIPT.iter().filter(|(_, input, _)| *input == number);
@@ -44,7 +44,7 @@ fn scripted(number: u16, now_ms: u32) -> Option<bool> {
 
 ";
 
-/// What gives edges of the inputs that the program watches.
+/// Method that returns edges of the inputs that the program watches.
 const NEXT_EDGE: &str = "
     fn next_edge(&mut self) -> Option<InputEdge> {
         for (i, &input) in WATCHED.iter().enumerate() {
@@ -213,7 +213,7 @@ fn traits(image: &Image) -> String {
     text
 }
 
-/// What the image takes from the runtime for its serial ports.
+/// Imports from the runtime for the serial ports.
 fn serial_uses(image: &Image) -> String {
     let uses = serial::uses(image);
     match image.serial().first().map(|serial| serial.uart) {
@@ -225,7 +225,7 @@ fn serial_uses(image: &Image) -> String {
     }
 }
 
-/// What the main loop does before a scan.
+/// Code in the main loop before a scan.
 fn before_scan(image: &Image) -> String {
     let mut text = String::new();
     if !image.script.inputs.is_empty() {
@@ -237,7 +237,7 @@ fn before_scan(image: &Image) -> String {
     text
 }
 
-/// What the main loop does after a scan: saves latched devices, shows the outputs, and ends with the script.
+/// Code in the main loop after a scan: it saves latched devices, shows the outputs, and ends with the script.
 fn after_scan(image: &Image) -> String {
     let mut text = control::after_scan(image) + &retain::save(image);
     if image.board.console {
@@ -253,7 +253,7 @@ fn after_scan(image: &Image) -> String {
     text
 }
 
-/// What pins remember, and how that begins.
+/// Fields for the state of pins, and their initial values.
 fn fields(image: &Image) -> (String, String) {
     let mut fields = String::new();
     let mut begin = String::new();
@@ -366,13 +366,13 @@ fn switch(pin: &OutputPin) -> String {
     }
 }
 
-/// What the program asks of the supply.
+/// Method that returns the state of the supply.
 const POWER_FAILS: &str = "    fn power_fails(&mut self) -> Option<bool> {
         Some(power_fails())
     }
 ";
 
-/// What instructions and scans ask of the board.
+/// Hardware interface of the board for instructions and scans.
 fn hal(image: &Image) -> String {
     let serial = match image.serial().is_empty() {
         true => "",

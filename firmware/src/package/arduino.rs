@@ -46,7 +46,7 @@ pub fn folder(package: Package) -> Vec<OutFile<Vec<u8>>> {
     files
 }
 
-/// What Arduino wants to know of a library.
+/// Description of a library for Arduino.
 fn properties(package: &Package) -> String {
     let name = package.name();
     let link = match package.library {

@@ -26,7 +26,7 @@ const ESP_IDF: Style = Style {
     one_handler: true,
 };
 
-/// What rustc calls ESP-IDF's processors.
+/// Names of ESP-IDF's processors in rustc.
 const ESP_TARGETS: &str = "\
 # Xtensa cores need Espressif's Rust toolchain.
 if(IDF_TARGET MATCHES \"^esp32(c2|c3)$\")
@@ -64,7 +64,7 @@ pub fn zephyr(package: Package) -> Vec<OutFile<Vec<u8>>> {
         );
         let _ = write!(
             config,
-            "\nconfig {target}\n\tstring \"What the runtime library is built for, as rustc calls it\"\n\tdepends on {option}\n\
+            "\nconfig {target}\n\tstring \"Target of the runtime library, as rustc names it\"\n\tdepends on {option}\n\
              \tdefault \"thumbv6m-none-eabi\" if CPU_CORTEX_M0 || CPU_CORTEX_M0PLUS\n\tdefault \"thumbv7m-none-eabi\" if CPU_CORTEX_M3\n\
              \tdefault \"thumbv7em-none-eabihf\" if FPU\n\tdefault \"thumbv7em-none-eabi\"\n"
         );

@@ -7,17 +7,17 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// How the example of a build system is written.
+/// Style of a build system's example.
 pub struct Style {
     /// The program around what depends on the terminals.
     pub template: fn() -> &'static str,
-    /// What it has in addition if the program takes edges.
+    /// Additional code if the program takes edges.
     pub edges: fn() -> &'static str,
     /// Its pins, in the order in which terminals get them.
     pub pins: &'static [u8],
     /// The pin of a terminal for which none is left.
     pub none: &'static str,
-    /// Whether an interrupt handler has an argument, so that one serves all inputs.
+    /// True if an interrupt handler has an argument, so that one serves all inputs.
     pub one_handler: bool,
 }
 

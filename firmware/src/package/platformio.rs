@@ -44,7 +44,7 @@ pub fn folder(package: Package) -> Vec<OutFile<Vec<u8>>> {
     files
 }
 
-/// What PlatformIO wants to know of a library.
+/// Description of a library for PlatformIO.
 fn manifest(package: &Package) -> String {
     let name = package.name();
     let link = match package.library {

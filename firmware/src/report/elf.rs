@@ -21,7 +21,7 @@ pub type Elf<'d> = ElfFile32<'d, Endianness>;
 const WRITE: u64 = object::elf::SHF_WRITE as u64;
 const ALLOC: u64 = object::elf::SHF_ALLOC as u64;
 
-/// What the sections of a file take.
+/// Size of a file's sections.
 pub fn size<'d>(file: &impl Object<'d>) -> Size {
     let mut size = Size::default();
     for section in file.sections() {
@@ -42,7 +42,7 @@ pub fn size<'d>(file: &impl Object<'d>) -> Size {
     size
 }
 
-/// What all objects of a static library take together.
+/// Size of all objects of a static library together.
 pub fn library_size(data: &[u8]) -> object::Result<Size> {
     let archive = ArchiveFile::parse(data)?;
     let mut sum = Size::default();

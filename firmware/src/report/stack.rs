@@ -7,7 +7,7 @@ use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why there is no bound.
+/// Reason for which there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Unbounded {
     /// These functions call each other in a ring.
@@ -37,11 +37,11 @@ pub struct Functions {
     stored: BTreeSet<u32>,
 }
 
-/// How much stack a function takes with all that it calls by name.
+/// Stack of a function with everything that it calls by name.
 #[derive(Clone, Copy)]
 struct Depth {
     bytes: u32,
-    /// Whether one of them calls through a register.
+    /// True if one of them calls through a register.
     indirect: bool,
 }
 
@@ -145,13 +145,13 @@ impl Functions {
         Functions { by_address, stored }
     }
 
-    /// Whether any function calls through a register.
+    /// Returns true if any function calls through a register.
     pub fn has_indirect_calls(&self) -> bool {
         self.by_address.values().any(|f| f.frame.indirect)
     }
 
-    /// How much stack a function of this name takes with all that it calls. Programs and the runtime are not recursive,
-    /// so that on one way through the calls a pointer leads to each stored function at most once.
+    /// Stack of a function of this name with everything that it calls. Programs and the runtime are not recursive, so
+    /// that on one way through the calls a pointer leads to each stored function at most once.
     pub fn depth(&self, name: &str) -> Result<u32, Unbounded> {
         let found = self.by_address.iter().find(|(_, f)| f.name == name);
         let (address, _) = found.ok_or_else(|| Unbounded::Missing(name.to_string()))?;

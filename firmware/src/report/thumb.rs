@@ -1,6 +1,6 @@
-//! How much stack a function in Thumb code takes, and what it calls: read from its instructions.
+//! Stack of a function in Thumb code, and its calls: read from its instructions.
 
-/// What a function does with the stack.
+/// Use of the stack by a function.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Frame {
     /// Bytes that it takes at most: the sum of all that its instructions push or subtract from SP.
@@ -52,7 +52,7 @@ struct Reader {
     frame: Frame,
     from: u32,
     end: u32,
-    /// What MOVW left in each register, for a MOVT that follows.
+    /// Value that MOVW left in each register, for a MOVT that follows.
     low: [u16; 16],
 }
 

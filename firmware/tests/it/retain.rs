@@ -172,7 +172,7 @@ fn described(text: &str) -> Result<board::Board, String> {
     board::parse(&source, Path::new("")).map_err(|error| error.to_string())
 }
 
-/// What the driver in the image for a board has erased.
+/// Addresses erased by the driver in the image for a board.
 fn erased(retain: &str, define: &str) -> Option<String> {
     let read = rungc_frontend::read_text("kept.il", "LD M500\nOUT M501\nEND\n");
     let options = CompileOptions {

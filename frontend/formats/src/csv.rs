@@ -40,10 +40,10 @@ const NAMES: [&[&str]; 7] = [
     &["note", "ノート", "注解", "注释"],
 ];
 
-/// How far down the row of headers may be.
+/// Most rows above the row of headers.
 const HEAD_ROWS: usize = 12;
 
-/// How a text is laid out as a table.
+/// Layout of a text as a table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     delimiter: u8,
@@ -53,7 +53,7 @@ pub(crate) struct Layout {
     header: Option<usize>,
 }
 
-/// Whether a text is a list export, and how it is laid out.
+/// Detects a list export and its layout.
 pub(crate) fn detect(text: &str) -> Option<Layout> {
     [b'\t', b',', b';']
         .into_iter()
@@ -162,7 +162,7 @@ impl ExportHead {
         self.0.push(record.iter().map(str::to_owned).collect());
     }
 
-    /// Whether the columns below are those of [`HEADERS`], as the writer writes them.
+    /// Returns true if the columns below are those of [`HEADERS`], in the order in which the writer writes them.
     fn in_usual_order(&self, layout: Layout) -> bool {
         !self.0.is_empty() && layout.columns.iter().copied().eq(0..HEADERS.len())
     }
@@ -175,11 +175,11 @@ struct Reader {
     listing: Listing,
     /// Statements that wait for the instruction below them.
     statement: Option<SmolStr>,
-    /// Whether an instruction is open to further operands.
+    /// Instruction that further operands belong to.
     current: Current,
 }
 
-/// What the operands of a row belong to.
+/// Instruction that the operands of a row belong to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Current {
     /// None yet.
@@ -188,7 +188,7 @@ enum Current {
     Last,
     /// The last one, which is a label and takes none.
     Label,
-    /// One that could not be read: its operands are passed over.
+    /// An unreadable instruction: its operands are skipped.
     Unread,
 }
 
@@ -327,7 +327,7 @@ impl Reader {
     }
 
     fn operand(&mut self, text: &str) {
-        // What is read is the field itself: a text in it may hold what the listing does not show.
+        // The field itself is read: a text in it may hold characters that the listing does not show.
         let span = self.listing.word(text);
         let Some(instr) = self.program.instrs.last_mut() else {
             return;

@@ -6,7 +6,7 @@ use encoding_rs::{
     EUC_JP, EUC_KR, Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251,
 };
 
-/// How many bytes the detector looks at: those of lines that are not ASCII.
+/// Sample size of the detector, in bytes: of lines that are not ASCII.
 const SAMPLE: usize = 256 << 10;
 
 /// Decodes a text file in this encoding, or in the one that it seems to have; `None` if it is not text. The flag is set
@@ -126,8 +126,8 @@ fn sample(bytes: &[u8]) -> Vec<u8> {
     sample
 }
 
-/// Whether text that reads as UTF-8 was meant so. Two Chinese characters in GBK can be one of UTF-8 by chance, which is
-/// then one that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
+/// Returns true if text that is valid UTF-8 is plausible as such. Two Chinese characters in GBK can be one of UTF-8 by
+/// chance, which is then one that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
 fn is_plausible(text: &str) -> bool {
     let odd = |c: char| matches!(c, '\u{250}'..='\u{36F}' | '\u{591}'..='\u{5C7}' | '\u{700}'..='\u{7FF}');
     text.contains(|c| c >= '\u{800}') || !text.contains(odd)
@@ -153,7 +153,7 @@ fn runs(bytes: &[u8]) -> impl Iterator<Item = (&[u8], bool)> {
         })
 }
 
-/// Whether most letters above 7Fh are between Latin letters, as in Western and Central European words.
+/// Returns true if most letters above 7Fh are between Latin letters, as in Western and Central European words.
 fn has_latin_neighbours(bytes: &[u8]) -> bool {
     let (beside, all) = runs(bytes).fold((0, 0), |(beside, all), (run, latin)| {
         (beside + usize::from(latin && run.len() < 3), all + 1)
@@ -161,9 +161,9 @@ fn has_latin_neighbours(bytes: &[u8]) -> bool {
     2 * beside > all
 }
 
-/// Whether text reads as half-width katakana of Shift-JIS, which the editors' users in Japan write: bytes A6h to DFh
-/// with a long vowel, a voiced consonant or an odd number of letters, or beside kanji, whose first bytes other code
-/// pages hardly use.
+/// Returns true if text reads as half-width katakana of Shift-JIS, which the editors' users in Japan write: bytes A6h
+/// to DFh with a long vowel, a voiced consonant or an odd number of letters, or beside kanji, whose first bytes other
+/// code pages hardly use.
 fn is_half_width(bytes: &[u8]) -> bool {
     let kana = |b: &u8| matches!(b, 0xA6..=0xDF);
     let voiced = |pair: &[u8]| matches!(pair, [0xB6..=0xC4 | 0xCA..=0xCE, 0xDE | 0xDF] | [_, 0xB0]);
@@ -178,13 +178,13 @@ fn is_half_width(bytes: &[u8]) -> bool {
                 && runs(bytes).any(|(run, _)| run.windows(2).any(voiced) || odd(run)))
 }
 
-/// Whether bytes above 7Fh come in pairs.
+/// Returns true if bytes above 7Fh come in pairs.
 fn is_paired(bytes: &[u8]) -> bool {
     runs(bytes).all(|(run, _)| run.len() % 2 == 0)
 }
 
-/// Whether words read as Cyrillic in Windows-1251: made of its letters alone, with a capital at the beginning or
-/// nowhere else.
+/// Returns true if words read as Cyrillic in Windows-1251: made of its letters alone, with a capital at the beginning
+/// or nowhere else.
 fn is_cyrillic(bytes: &[u8]) -> bool {
     let letter = |b: &u8| {
         matches!(

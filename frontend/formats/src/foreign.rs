@@ -2,7 +2,7 @@
 
 use rungc_syntax::{Diagnostic, Program, Source, SourceKind, Span, codes};
 
-/// How many lines of code decide.
+/// Number of lines of code that decide.
 const LINES: usize = 200;
 /// Longer lines are not code.
 const MAX_LINE: usize = 1_000;
@@ -16,7 +16,7 @@ enum Language {
     StructuredText,
 }
 
-/// What a binary file of an editor is whose format is not known, and what to do instead.
+/// Description of an editor's binary file in an unknown format, and the alternative.
 pub(crate) fn unpublished(name: &str, bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     if bytes.starts_with(b"AutoShop") {
         return Some((
@@ -123,7 +123,7 @@ fn language(text: &str) -> Option<(Language, Span)> {
     (at_once || 4 * found.len() >= lines).then_some((language, span))
 }
 
-/// Where the first line of code ends.
+/// End of the first line of code.
 fn first_code_line_end(text: &str) -> usize {
     let mut at = 0;
     for line in text.split_inclusive('\n') {
@@ -142,7 +142,7 @@ fn first_code_line_end(text: &str) -> usize {
 
 /// The part of a line that shows it is not from an FX list: the language and the range.
 fn sign(line: &str) -> Option<(Language, usize, usize)> {
-    /// What declarations begin with.
+    /// Keywords that begin declarations.
     const DECLARATIONS: [&str; 14] = [
         "PROGRAM",
         "END_PROGRAM",
@@ -159,7 +159,7 @@ fn sign(line: &str) -> Option<(Language, usize, usize)> {
         "STRUCT",
         "CONFIGURATION",
     ];
-    /// What statements begin with.
+    /// Keywords that begin statements.
     const STATEMENTS: [&str; 9] = [
         "IF",
         "ELSIF",

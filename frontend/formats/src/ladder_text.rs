@@ -22,11 +22,11 @@ use master::Master;
 use rungc_syntax::{Instr, Operands, Remarks, Source, SourceKind, Span, codes};
 use smol_str::SmolStr;
 
-/// How many lines are looked at to find out what a text is.
+/// Number of lines examined to detect the format of a text.
 const HEAD: usize = 500;
 
-/// Whether a text is drawn ladder: one of its first lines, comments apart, begins with a rail or with a wire to a
-/// symbol, after a number and a label perhaps.
+/// Returns true if a text is drawn ladder: one of its first lines, comments apart, begins with a rail or with a wire to
+/// a symbol, after a number and a label perhaps.
 pub(crate) fn detect(text: &str) -> bool {
     let lines = text
         .lines()
@@ -71,7 +71,7 @@ struct Drawing {
     list: Reader,
     /// Drawn lines that follow each other.
     block: Block,
-    /// Where the instructions of the block before begin.
+    /// Index of the first instruction of the previous block.
     began: usize,
 }
 
@@ -163,7 +163,7 @@ impl Drawing {
         self.push(mnemonic.into(), symbol.span, operands, symbol.span);
     }
 
-    /// What is written in a symbol after its mnemonic.
+    /// Operands written in a symbol after its mnemonic.
     fn operands(&mut self, mnemonic: &str, symbol: &Symbol) -> Operands {
         let mut operands = Operands::new();
         for (text, start) in &symbol.words {

@@ -17,7 +17,7 @@ pub struct Lesson {
     pub code: Vec<u8>,
     /// The instruction as the list spells it.
     pub mnemonic: SmolStr,
-    /// What the code was taken for before.
+    /// Previous reading of the code.
     pub reading: Reading,
     /// Its positions in the list, in order: at least one.
     pub uses: Vec<Instr>,
@@ -29,13 +29,13 @@ impl Lesson {
         hex(&self.code)
     }
 
-    /// How many steps the code states.
+    /// Number of steps that the code states.
     pub fn steps(&self) -> u32 {
         crate::gx::steps(&self.code)
     }
 }
 
-/// Why nothing can be learned from a project and a list.
+/// Reason for which nothing can be learned from a project and a list.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Mismatch {
     /// The project is not one of GX Developer or GX Works2.
@@ -89,7 +89,7 @@ pub enum Mismatch {
         shorter: &'static str,
         /// Step or number of the instruction.
         place: String,
-        /// What follows in the other.
+        /// The instruction at this place in the other.
         next: String,
     },
     /// One code stands for two instructions.
@@ -99,13 +99,13 @@ pub enum Mismatch {
     Ambiguous {
         /// The code.
         code: String,
-        /// What it is first.
+        /// First meaning.
         first: SmolStr,
-        /// Where.
+        /// Its place.
         first_place: String,
-        /// What it is later.
+        /// Later meaning.
         second: SmolStr,
-        /// Where.
+        /// Its place.
         second_place: String,
     },
 }
@@ -169,7 +169,7 @@ pub fn learn(
     }
 }
 
-/// Whether both are what they should be, and can be read but for codes.
+/// Checks that both are of the right kind, and readable apart from codes.
 fn readable(project: &Read, export: &Read) -> Result<(), Mismatch> {
     let is_list = |read: &Read| !read.program.kind.is_project();
     if is_list(project) {
@@ -241,7 +241,7 @@ impl Item<'_> {
         self.instr.is_some_and(|instr| instr.mnemonic == "NOP")
     }
 
-    /// Whether this is the instruction of the list, as far as it is known.
+    /// Returns true if this is the instruction of the list, as far as it is known.
     fn is(&self, listed: &Instr, same: impl Fn(&str, &str) -> bool) -> bool {
         let operands = match (self.unproven, self.instr) {
             (Some(unproven), _) => &unproven.operands,
@@ -278,8 +278,8 @@ impl std::fmt::Display for Item<'_> {
     }
 }
 
-/// Whether operands are the same. A list shows a float with the digits that fit its column; an operand that could not
-/// be read may be anything.
+/// Returns true if operands are equal. A list shows a float with the digits that fit its column; an operand that could
+/// not be read may be anything.
 fn equal(project: &OperandKind, listed: &OperandKind) -> bool {
     match (project, listed) {
         (OperandKind::Unreadable(_), _) => true,

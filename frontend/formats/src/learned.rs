@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LearnedCodes(BTreeMap<Vec<u8>, SmolStr>);
 
-/// Why a code cannot be learned.
+/// Reason for which a code cannot be learned.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LearnError {
     /// It is not the code of an instruction.
@@ -20,9 +20,9 @@ pub enum LearnError {
     Known {
         /// The code.
         code: String,
-        /// What it is known to be.
+        /// Known meaning.
         known: &'static str,
-        /// What it was to be.
+        /// Meaning to be learned.
         mnemonic: String,
     },
 }
@@ -60,7 +60,7 @@ impl LearnedCodes {
 pub struct Unproven {
     /// Its code: the bytes between the lengths of its token, operands not included.
     pub code: Vec<u8>,
-    /// What it was read as.
+    /// Reading of the code.
     pub reading: Reading,
     /// Its place in the program's instructions; if it was not read, of the one that follows it.
     pub at: usize,
@@ -74,7 +74,7 @@ pub struct Unproven {
     pub span: Span,
 }
 
-/// What an instruction whose code nothing proves was read as.
+/// Reading of an instruction whose code nothing proves.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Reading {
     /// As this, which follows from the codes around it.
@@ -86,7 +86,7 @@ pub enum Reading {
 }
 
 impl Unproven {
-    /// Whether it is one of the program's instructions.
+    /// Returns true if it is one of the program's instructions.
     pub fn is_read(&self) -> bool {
         matches!(self.reading, Reading::Derived(_))
     }
@@ -96,7 +96,7 @@ impl Unproven {
         hex(&self.code)
     }
 
-    /// How many steps its code states.
+    /// Number of steps that its code states.
     pub fn steps(&self) -> u32 {
         crate::gx::steps(&self.code)
     }

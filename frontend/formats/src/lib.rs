@@ -40,13 +40,13 @@ static TABLES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/ta
 /// A program and what its reader found.
 #[derive(Clone, Debug, Default)]
 pub struct Read {
-    /// What could be read.
+    /// The readable part.
     pub program: Program,
-    /// What is wrong with the source. After an error the program is incomplete and must not be compiled.
+    /// Findings in the source. After an error the program is incomplete and must not be compiled.
     pub diagnostics: Diagnostics,
     /// Instructions of a project whose codes nothing proves, in order.
     pub unproven: Vec<Unproven>,
-    /// How a list export begins, if this is one; [`print::to_csv_with`] writes it again.
+    /// Head of a list export, if this is one; [`print::to_csv_with`] writes it again.
     pub export_head: Option<ExportHead>,
 }
 
@@ -77,7 +77,7 @@ impl ReadOptions {
 /// Files over this size are rejected, in bytes: a list of a million steps takes a tenth of it.
 pub const MAX_SIZE: u64 = 128 << 20;
 
-/// Why nothing at all could be read.
+/// Reason for which nothing could be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file or folder cannot be opened or read.
@@ -85,7 +85,7 @@ pub enum ReadError {
     Io {
         /// Its path.
         path: String,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The file is larger than any program.
@@ -107,9 +107,9 @@ pub enum ReadError {
     Unpublished {
         /// The file's name.
         name: String,
-        /// What it is.
+        /// Description of the file.
         what: &'static str,
-        /// What to do instead.
+        /// Alternative.
         help: &'static str,
     },
     /// The content is in no known encoding or format.
@@ -183,7 +183,7 @@ pub fn read_from(
     read_bytes_with(name, &bytes, options)
 }
 
-/// What lies beside a `MAIN.wpg` in its project, or with it in one folder.
+/// Files that accompany a `MAIN.wpg` in its project, or in one folder with it.
 fn beside(main: &Path) -> Result<gx::Beside, ReadError> {
     let resource = main.ancestors().nth(3);
     let beside = |place: &[&str], name: &str| {
@@ -299,7 +299,7 @@ fn limited(source: impl io::Read) -> io::Result<Option<Vec<u8>>> {
     Ok((bytes.len() as u64 <= MAX_SIZE).then_some(bytes))
 }
 
-/// Where a GX Developer project has its program, from its folder on.
+/// Paths of the program in a GX Developer project, from its folder on.
 const GX_DEVELOPER: [&[&str]; 4] = [
     &["Resource", "POU", "Body", "MAIN.wpg"],
     &["POU", "Body", "MAIN.wpg"],

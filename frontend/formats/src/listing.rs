@@ -9,7 +9,7 @@ const MARGIN: usize = 12;
 #[derive(Default)]
 pub(crate) struct Listing {
     text: String,
-    /// Where the current line begins.
+    /// Start of the current line.
     line_start: usize,
     /// The current line, from 1; 0 before the first.
     line: u32,

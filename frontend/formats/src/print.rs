@@ -85,7 +85,7 @@ fn il_words(out: &mut String, instr: &Instr, comment: Option<&str>) {
     il_written(out, &words, comment);
 }
 
-/// What the source has in place of a pointer, as AutoShop writes it: a label `L1`, a jump to it, a call by name.
+/// Text of the source in place of a pointer, as AutoShop writes it: a label `L1`, a jump to it, a call by name.
 fn autoshop_words(instr: &Instr, source: &Source) -> Option<String> {
     let other = |span, pointer: Device| {
         let written = source.slice(span);
@@ -140,9 +140,9 @@ pub struct LaidOut {
 pub struct Change {
     /// Its number, from 1.
     pub line: usize,
-    /// How it is written in the source.
+    /// Text in the source.
     pub before: String,
-    /// How it is laid out: two lines where a label and an instruction share one, none where an empty line goes.
+    /// Formatted text: two lines where a label and an instruction share one, none for an empty line to be removed.
     pub after: String,
 }
 
@@ -170,7 +170,7 @@ pub fn lay_out(program: &Program) -> LaidOut {
         let here = instrs.partition_point(|instr| instr.span.start < start + whole.len() as u32);
         let (of_line, others) = instrs.split_at(here);
         instrs = others;
-        // What AutoShop leaves out between windows is not in the text.
+        // Instructions that AutoShop omits between windows are not in the text.
         let implied = of_line.partition_point(|instr| instr.span.range().is_empty());
         let after = line(&of_line[implied..], start, before, width, source);
         if after.is_empty() {

@@ -6,10 +6,10 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
 
-/// How much of a table shows whether it is a list export, in bytes: its headers are in the first rows.
+/// Size of the part of a table that shows whether it is a list export, in bytes: its headers are in the first rows.
 const HEAD: u64 = 64 << 10;
 
-/// Whether a folder is itself a program: that of a GX Developer project, or of a list export.
+/// Returns true if a folder is itself a program: that of a GX Developer project, or of a list export.
 pub fn is_project(folder: &Path) -> bool {
     main_file(folder).is_ok()
 }
@@ -61,12 +61,12 @@ fn head(path: &Path) -> Option<Vec<u8>> {
     read.is_ok().then_some(head)
 }
 
-/// Whether a file of bytes is an image of program memory, not firmware or something else.
+/// Returns true if a file of bytes is an image of program memory, not firmware or something else.
 fn is_memory(path: &Path) -> bool {
     head(path).is_none_or(|head| image::is_image(&head))
 }
 
-/// Whether a table is a list export, not comments or something else.
+/// Returns true if a table is a list export, not comments or something else.
 fn is_export(path: &Path) -> bool {
     let Some(mut head) = head(path) else {
         return true;

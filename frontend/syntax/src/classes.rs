@@ -2,7 +2,7 @@
 
 use crate::{DeviceClass, OperandKind};
 
-/// What an operand may be: a set of classes.
+/// Set of operand classes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Classes(pub u32);
 
@@ -129,12 +129,12 @@ impl Classes {
             .map(|(_, name)| name)
     }
 
-    /// Whether no class is in it.
+    /// Returns true if it contains no class.
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// Whether the sets share a class.
+    /// Returns true if the sets share a class.
     pub const fn meets(self, other: Classes) -> bool {
         self.0 & other.0 != 0
     }

@@ -60,11 +60,11 @@ pub struct Code {
     pub id: &'static str,
     /// Name for messages and options, e.g. `double-coil`.
     pub name: &'static str,
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
     /// The FX family's error number for it, where there is one.
     pub plc_error: Option<u16>,
-    /// What it is, in half a line.
+    /// Title, in half a line.
     pub title: &'static str,
     /// Explanation for `rungc explain`.
     pub text: &'static str,
@@ -120,12 +120,12 @@ static NOT_EASED: [(&Code, &str); 6] = [
 ];
 
 impl Code {
-    /// Whether the error is a limit of the PLC that a compiled program does not share, so that it can be made a
+    /// Checks whether the error is a limit of the PLC that a compiled program does not share, so that it can be made a
     /// warning.
     ///
     /// # Errors
     ///
-    /// Why it cannot, as the end of a sentence.
+    /// The reason for which it cannot, as the end of a sentence.
     pub fn can_be_eased(&self) -> Result<(), &'static str> {
         if EASED.iter().any(|code| code.id == self.id) {
             return Ok(());

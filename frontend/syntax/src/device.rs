@@ -68,12 +68,12 @@ impl DeviceClass {
         Self::ALL.into_iter().find(|class| class.prefix() == prefix)
     }
 
-    /// Whether its numbers are written in octal.
+    /// Returns true if its numbers are written in octal.
     pub const fn is_octal(self) -> bool {
         matches!(self, DeviceClass::X | DeviceClass::Y)
     }
 
-    /// How a device of this class is written: octal and padded to three digits for X and Y, decimal otherwise.
+    /// Notation of a device of this class: octal and padded to three digits for X and Y, decimal otherwise.
     pub const fn number(self, number: u32) -> Number {
         Number {
             class: self,

@@ -3,7 +3,7 @@
 use crate::{Device, Span, codes};
 use std::borrow::Cow;
 
-/// How bad it is.
+/// Severity of a finding.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
 pub enum Severity {
     /// Worth knowing; never fails a build, and is never raised to an error.
@@ -37,27 +37,27 @@ impl Severity {
 /// A second place that a diagnostic points to.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Label {
-    /// Where.
+    /// Position.
     pub span: Span,
-    /// What is there.
+    /// Text at the position.
     pub text: Cow<'static, str>,
 }
 
 /// A change of the program's text that does what a diagnostic proposes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fix {
-    /// What it does, in the imperative: `write INCP`.
+    /// Effect, in the imperative: `write INCP`.
     pub title: Cow<'static, str>,
-    /// What to replace; no edit overlaps another.
+    /// Replacements; no edit overlaps another.
     pub edits: Vec<Edit>,
-    /// Whether it is certainly what was meant, so that it may be applied unseen; others are suggestions.
+    /// True if it is certainly the intention, so that it may be applied automatically; others are suggestions.
     pub certain: bool,
 }
 
 /// A piece of text to replace.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Edit {
-    /// What is replaced; an empty span is a place to insert at.
+    /// Text to be replaced; an empty span is an insertion.
     pub span: Span,
     /// The new text.
     pub text: String,
@@ -141,13 +141,13 @@ pub struct Diagnostic {
     pub message: String,
     /// The place it is about.
     pub span: Span,
-    /// What to write at that place; may be empty.
+    /// Text at that place; may be empty.
     pub label: Cow<'static, str>,
     /// Other places involved.
     pub others: Vec<Label>,
     /// All devices that it is about, where the message names only some; empty otherwise.
     pub devices: Vec<Device>,
-    /// What to do about it.
+    /// Advice.
     pub help: Option<Cow<'static, str>>,
     /// The same as a change of the text, where it is known.
     pub fix: Option<Fix>,
@@ -279,12 +279,12 @@ impl Diagnostics {
         self.extend(compiled.iter().cloned());
     }
 
-    /// How many there are.
+    /// Number of diagnostics.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -298,12 +298,12 @@ impl Diagnostics {
         }
     }
 
-    /// Whether any of them is an error.
+    /// Returns true if any of them is an error.
     pub fn has_errors(&self) -> bool {
         self.0.iter().any(|d| d.severity == Severity::Error)
     }
 
-    /// How many have this severity.
+    /// Number of diagnostics with this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.0.iter().filter(|d| d.severity == severity).count()
     }

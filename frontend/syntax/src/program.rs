@@ -10,13 +10,13 @@ use std::net::SocketAddr;
 /// A whole program from one source.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
-    /// What diagnostics quote.
+    /// Source for diagnostics to quote.
     pub source: Source,
-    /// What kind of file it came from.
+    /// Kind of the source file.
     pub kind: SourceKind,
     /// Title of the project, where the source has one.
     pub title: Option<String>,
-    /// What the project calls this program, where it gives programs names, e.g. `MAIN`.
+    /// Name of the program in the project, where programs have names, e.g. `MAIN`.
     pub pou: Option<String>,
     /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
     pub cpu: Option<String>,
@@ -28,11 +28,11 @@ pub struct Program {
     pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
-    /// What the project sets for its PLC, where the source says so.
+    /// PLC parameters of the project, if the source has them.
     pub parameters: Option<Parameters>,
 }
 
-/// What a project sets for its PLC: the PLC parameters of the editors.
+/// PLC parameters of a project, as set in the editors.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Parameters {
     /// Devices that keep their values over power-off, of those for which this can be chosen; `None` if nothing is said.
@@ -47,18 +47,18 @@ pub struct Parameters {
     pub programs: Vec<String>,
     /// Special modules that are fitted to it; empty if nothing is said.
     pub modules: Vec<FittedModule>,
-    /// What the PLC asks of servers over TCP; empty if nothing is said.
+    /// Requests of the PLC to servers over TCP; empty if none are stated.
     pub requests: Vec<NetworkRequest>,
     /// Devices that something outside the program reads, as the settings say.
     pub read_outside: Vec<DeviceRun>,
     /// Devices that something outside the program writes.
     pub written_outside: Vec<DeviceRun>,
-    /// Whether a keyword keeps the program from being read.
+    /// True if a keyword protects the program from being read.
     pub protected: bool,
 }
 
 impl Parameters {
-    /// How many steps remain for the program.
+    /// Number of steps that remain for the program.
     pub fn program_steps(&self) -> Option<u32> {
         let blocks = self
             .comment_blocks
@@ -74,7 +74,7 @@ pub struct FittedModule {
     pub unit: u16,
     /// Its kind, as the table of modules names it.
     pub kind: &'static str,
-    /// How many milliseconds it takes to answer in a simulation. H1U and H2U wait for remote modules.
+    /// Response time in a simulation, in milliseconds. H1U and H2U wait for remote modules.
     pub delay_ms: u16,
     /// Channels, counted from 0, and the analog pins of a board that they are.
     pub pins: Vec<(u8, String)>,
@@ -91,7 +91,7 @@ pub struct NetworkRequest {
     pub function: u8,
     /// The first address in the server.
     pub address: u16,
-    /// How many coils or registers.
+    /// Number of coils or registers.
     pub count: u16,
     /// Number of the first register D of the buffer.
     pub buffer: u32,
@@ -106,7 +106,7 @@ pub struct DeviceRun {
     pub class: DeviceClass,
     /// First number (a value: X010 is 8).
     pub first: u32,
-    /// How many; 0 is none.
+    /// Number of devices; 0 is none.
     pub count: u32,
 }
 
@@ -120,7 +120,7 @@ impl fmt::Display for DeviceRun {
 }
 
 impl Program {
-    /// Whether all of it could be read. If not, its reader has reported an error.
+    /// Returns true if all of it could be read. If not, its reader has reported an error.
     pub fn is_complete(&self) -> bool {
         self.unread.is_empty() && !self.instrs.iter().any(Instr::is_broken)
     }
@@ -147,7 +147,7 @@ pub enum SourceKind {
 }
 
 impl SourceKind {
-    /// What it is called.
+    /// Display name.
     pub const fn title(self) -> &'static str {
         match self {
             SourceKind::Il => "instruction list",
@@ -160,7 +160,7 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is a text that a user writes: places in it are lines and columns.
+    /// Returns true for a text that a user writes: its places are lines and columns.
     pub const fn is_text(self) -> bool {
         match self {
             SourceKind::Il | SourceKind::Ladder => true,
@@ -172,7 +172,7 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is an instruction list, a line for each instruction: fixes can change it.
+    /// Returns true for an instruction list, with a line for each instruction: fixes can change it.
     pub const fn is_list(self) -> bool {
         match self {
             SourceKind::Il => true,
@@ -185,7 +185,7 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is a table whose rows places can name.
+    /// Returns true for a table whose rows places can name.
     pub const fn has_rows(self) -> bool {
         match self {
             SourceKind::Csv => true,
@@ -198,8 +198,8 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is a project of an editor or the memory of a PLC, which hold instructions by their codes and
-    /// lengths; else a list of mnemonics.
+    /// Returns true for a project of an editor or the memory of a PLC, which hold instructions by their codes and
+    /// lengths; others are lists of mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
             SourceKind::Il | SourceKind::Ladder | SourceKind::Csv | SourceKind::Plcopen => false,
@@ -213,7 +213,7 @@ impl SourceKind {
 pub struct Instr {
     /// Mnemonic in upper case as written, with `D` prefix and `P` suffix, e.g. `DADDP`, `LD>=`, `P12`.
     pub mnemonic: SmolStr,
-    /// Where the mnemonic is.
+    /// Position of the mnemonic.
     pub mnemonic_span: Span,
     /// The operands in order.
     pub operands: Operands,
@@ -221,11 +221,11 @@ pub struct Instr {
     pub span: Span,
     /// The step number that the source states.
     pub step: Option<u32>,
-    /// What people have written about it; most instructions have nothing. See [`Instr::statement`] and [`Instr::note`].
+    /// Comments on it; most instructions have none. See [`Instr::statement`] and [`Instr::note`].
     pub remarks: Option<Box<Remarks>>,
 }
 
-/// What people have written about an instruction.
+/// Comments of users on an instruction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks {
     /// Line statement (heading) above the instruction.
@@ -264,9 +264,9 @@ pub type Operands = SmallVec<[Operand; 1]>;
 /// One operand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operand {
-    /// Where it is.
+    /// Position.
     pub span: Span,
-    /// What it is.
+    /// Kind and value.
     pub kind: OperandKind,
 }
 
@@ -300,7 +300,7 @@ impl fmt::Display for Index {
     }
 }
 
-/// What an operand is.
+/// Kind and value of an operand.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperandKind {
     /// `X000`, `D10`, `D0Z3`, `P4`, `I001`, `N0`.
@@ -391,7 +391,7 @@ impl fmt::Display for OperandKind {
 }
 
 impl Instr {
-    /// Whether an operand could not be read.
+    /// Returns true if an operand could not be read.
     pub fn is_broken(&self) -> bool {
         let mut operands = self.operands.iter();
         operands.any(|operand| matches!(operand.kind, OperandKind::Unreadable(_)))

@@ -44,7 +44,7 @@ impl std::fmt::Debug for Span {
 /// made by the reader, one line per row of the export (or per instruction of the project), so that line N is row N.
 #[derive(Clone, Debug, Default)]
 pub struct Source {
-    /// What to call it in diagnostics and in generated headers: the file's name without its folder.
+    /// Name in diagnostics and in generated headers: the file's name without its folder.
     pub name: String,
     /// The text.
     pub text: String,
@@ -56,7 +56,7 @@ pub struct Source {
 /// Length of the blocks in bytes.
 const BLOCK: usize = 4_096;
 
-/// How many characters begin in these bytes of a text.
+/// Number of characters that begin in these bytes of a text.
 fn characters(bytes: &[u8]) -> usize {
     let begins = |&&byte: &&u8| byte & 0xC0 != 0x80;
     bytes.iter().filter(begins).count()
@@ -95,7 +95,7 @@ impl Source {
         (line, self.characters(start, offset) as u32 + 1)
     }
 
-    /// How many characters begin between two byte offsets. In long lines only the ends are looked at.
+    /// Number of characters that begin between two byte offsets. Long lines are counted by block, except at the ends.
     fn characters(&self, start: usize, end: usize) -> usize {
         let count = |from: usize, to: usize| characters(&self.text.as_bytes()[from..to]);
         let (first, last) = (start.div_ceil(BLOCK), end / BLOCK);
@@ -131,7 +131,7 @@ impl Source {
             .filter(|(_, line)| !line.is_empty())
     }
 
-    /// How many lines the text has.
+    /// Number of lines.
     pub fn line_count(&self) -> u32 {
         self.line_starts.len() as u32
     }

@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-/// Whether a character acts on the text around it instead of showing itself: control characters (C0, DEL, C1), the line
-/// and paragraph separators, and the controls of bidirectional text, with which source can be made to read otherwise
-/// than it compiles (Unicode Technical Report 36, §3.8; rustc rejects them in comments).
+/// Returns true if a character acts on the text around it instead of showing itself: control characters (C0, DEL, C1),
+/// the line and paragraph separators, and the controls of bidirectional text, with which source can be made to read
+/// otherwise than it compiles (Unicode Technical Report 36, §3.8; rustc rejects them in comments).
 pub fn acts(c: char) -> bool {
     c.is_control()
         || matches!(

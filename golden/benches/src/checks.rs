@@ -1,4 +1,4 @@
-//! How checking grows with a program's length, on programs that could make a careless check look at everything again
+//! Growth of checking with a program's length, on programs that could make a careless check examine everything again
 //! and again.
 
 use crate::clock::Clock;

@@ -19,7 +19,7 @@ impl Clock {
         }
     }
 
-    /// What this process has worked since.
+    /// Time that this process has worked since.
     pub fn taken(&self) -> Duration {
         match (self.processor, processor_time()) {
             (Some(start), Some(now)) => now.saturating_sub(start),
@@ -41,8 +41,7 @@ fn processor_time() -> Option<Duration> {
     None
 }
 
-/// What programs that were started, and have ended, have worked; `None` where the system does not report it. In steps
-/// of 10 ms.
+/// Time that ended child processes have worked; `None` where the system does not report it. In steps of 10 ms.
 pub fn of_others() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     // After the name, which may contain spaces: cutime and cstime are fields 16 and 17 of proc(5), the state is

@@ -1,4 +1,4 @@
-//! How long compiling takes, and how much memory: from a list to C and Rust, and to a program that runs.
+//! Time and memory of compiling: from a list to C and Rust, and to a program that runs.
 
 use crate::clock::{self, Clock};
 use crate::ladder::{Kind, Ladder};
@@ -10,7 +10,7 @@ use rungc_models::ModelId;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// What is done with a list.
+/// Processing of a list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 pub enum Work {
     /// Read and checked.
@@ -173,7 +173,7 @@ pub fn native_table(steps: u32) -> Result<Table> {
     Ok(table)
 }
 
-/// How long it takes to emit C and to make a program of it, and whether that needs the runtime library.
+/// Time to emit C and to build a program from it, and whether that needs the runtime library.
 fn native(ladder: &Ladder) -> Result<(Duration, Duration, bool)> {
     tools::need(&["make", "cc"])?;
     let folder = tools::folder()?;

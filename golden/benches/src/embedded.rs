@@ -53,7 +53,7 @@ const COUNTED_SCANS: u32 = 200;
 /// Instructions that QEMU executes in one tick of the core's clock: a nanosecond each, at 168 MHz.
 pub(crate) const INSTRUCTIONS_PER_TICK: f64 = 1000.0 / 168.0;
 
-/// How to optimise.
+/// Optimisation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Level {
     /// For size.
@@ -80,7 +80,7 @@ impl Level {
     }
 }
 
-/// What one implementation takes.
+/// Resources of one implementation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Figures {
     /// Bytes of flash that a scan needs: code and constants, whatever is reached from there.
@@ -94,17 +94,17 @@ pub struct Figures {
 /// One implementation, and what it takes, or why that is not known.
 #[derive(Debug)]
 pub struct Measured {
-    /// What it is.
+    /// Implementation.
     pub code: Code,
     /// Its figures.
     pub figures: Result<Figures>,
 }
 
-/// What is built of one implementation.
+/// Build of one implementation.
 struct Build {
     code: Code,
     prefix: &'static str,
-    /// What is linked, and the function that scans: of C the program's own, of Rust the adaptor's, which it is part of.
+    /// Linked objects, and the function that scans: of C the program's own, of Rust the adaptor's, which includes it.
     parts: Result<(Vec<PathBuf>, String)>,
 }
 
@@ -249,7 +249,7 @@ fn sizes(image: &Path) -> Result<(u64, u64)> {
     }
 }
 
-/// What was counted.
+/// Counts of a run.
 struct Counted {
     /// Checksum of the states of all devices.
     sum: u32,
@@ -274,7 +274,7 @@ fn count_instructions(objects: &[PathBuf], prefix: &str, folder: &Path) -> Resul
     read_counts(&tools::qemu(&image)?)
 }
 
-/// What `bare.c` printed: checksum and ticks of the loop alone, then of the subject.
+/// Parses the output of `bare.c`: checksum and ticks of the loop alone, then of the subject.
 fn read_counts(printed: &str) -> Result<Counted> {
     let hex = |word: &str| u32::from_str_radix(word, 16).ok();
     let row = |line: &str| match line.split(' ').collect::<Vec<_>>()[..] {

@@ -1,4 +1,4 @@
-//! What emitted C takes on a Cortex-M4 beside C written by hand, as recorded in `figures.toml`.
+//! Resources of emitted C on a Cortex-M4 beside C written by hand, as recorded in `figures.toml`.
 
 use crate::embedded::{self, Level, Measured};
 use crate::ladder::{Kind, Ladder};
@@ -14,7 +14,7 @@ pub const STEPS: u32 = 1000;
 const HEAD: &str =
     "# Cortex-M4, -Os, programs of 1000 steps. Regenerate with `cargo xtask generate figures`.\n\n";
 
-/// What one implementation takes.
+/// Resources of one implementation.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Record {
@@ -26,7 +26,7 @@ pub struct Record {
     pub instructions: u64,
 }
 
-/// What the implementations of one program take.
+/// Resources of one program's implementations.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Program {

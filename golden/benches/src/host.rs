@@ -20,10 +20,10 @@ const COMPILERS: [&str; 2] = ["gcc", "clang"];
 /// The longest programs that are timed as many instances: clang takes more than ten minutes for 100,000 steps.
 const LANES_STEPS: u32 = 20_000;
 
-/// How thoroughly to time.
+/// Effort of timing.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// How often each implementation has its turn.
+    /// Number of turns of each implementation.
     pub rounds: u32,
     /// About how long a turn is.
     pub turn_us: u32,
@@ -32,15 +32,15 @@ pub struct Effort {
 /// One implementation, and what came out.
 #[derive(Clone, Debug)]
 pub struct Timed {
-    /// What it is.
+    /// Implementation.
     pub code: Code,
     /// Its compiler.
     pub compiler: String,
-    /// What came out, or why nothing did.
+    /// Outcome, or the reason for which there is none.
     pub result: std::result::Result<Outcome, String>,
 }
 
-/// What came out.
+/// Outcome of timing.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Checksum of the states of all devices after each of [`CHECKED_SCANS`] scans.
@@ -57,12 +57,12 @@ impl Timed {
         Some(fastest / f64::from(self.code.instances()))
     }
 
-    /// How many times as long as `other` it takes: the median of all rounds, since both had their turns in each.
+    /// Time relative to `other`: the median of all rounds, since both had their turns in each.
     pub fn ratio(&self, other: &Timed) -> Option<f64> {
         self.compared(other, |mine, others| mine / others)
     }
 
-    /// How many nanoseconds longer than `other` a scan takes: the median of all rounds.
+    /// Nanoseconds by which a scan takes longer than `other`: the median of all rounds.
     pub fn longer(&self, other: &Timed) -> Option<f64> {
         self.compared(other, |mine, others| mine - others)
     }
@@ -88,7 +88,7 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// What one implementation is built from and as.
+/// Sources and settings of one implementation's build.
 struct Build {
     code: Code,
     compiler: String,
@@ -101,7 +101,7 @@ pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> 
     let folder = tools::folder()?;
     let mut builds = Vec::new();
     for compiler in compilers {
-        // What calls the runtime does not run in lanes.
+        // Programs that call the runtime do not run in lanes.
         let fits = !ladder.kind.calls() && ladder.steps <= LANES_STEPS;
         let lanes = fits.then_some(Code::Lanes);
         for code in [Code::Hand, Code::C].into_iter().chain(lanes) {

@@ -1,4 +1,4 @@
-//! How fast the interpreter is, which `rungc run` and `rungc test` use.
+//! Speed of the interpreter, which `rungc run` and `rungc test` use.
 
 use crate::clock::Clock;
 use crate::host::{self, Effort};

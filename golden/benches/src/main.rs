@@ -24,7 +24,7 @@ struct Args {
     /// --only, the others stay.
     #[arg(long, value_name = "FILE")]
     update: Option<PathBuf>,
-    /// What to measure; by default everything.
+    /// Sections to measure; by default all.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     only: Vec<Section>,
     /// Do one piece of work, which another process measures.
@@ -35,7 +35,7 @@ struct Args {
     steps: Option<u32>,
 }
 
-/// What is measured.
+/// Section of the measurements.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Section {
     /// Time of a scan of contacts and coils.
@@ -52,15 +52,15 @@ enum Section {
     Size,
     /// Instructions of a scan on a microcontroller.
     Icount,
-    /// How long compiling takes, and how much memory.
+    /// Time and memory of compiling.
     Compile,
-    /// How checking grows with programs that are hard to check.
+    /// Growth of checking with programs that are hard to check.
     Checks,
-    /// How fast the interpreter is.
+    /// Speed of the interpreter.
     Interp,
-    /// How fast pulse outputs are simulated.
+    /// Speed of simulated pulse outputs.
     Pulses,
-    /// How long test suites take, and mutants.
+    /// Time of test suites, and of mutants.
     Tests,
 }
 

@@ -3,11 +3,11 @@
 use crate::table::Table;
 use crate::tools;
 
-/// What the tables are between.
+/// Marks before and after the tables.
 const BEGIN: &str = "<!-- tables -->\n";
 const END: &str = "<!-- end of the tables -->\n";
 
-/// How the title of a table begins.
+/// Prefix of a table's title.
 const TITLE: &str = "### ";
 
 /// A page with new tables: in place of all that it has, or, if not `whole`, of those with the same titles; others stay,

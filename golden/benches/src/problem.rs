@@ -1,8 +1,8 @@
-//! Why something could not be measured.
+//! Reasons for which something could not be measured.
 
 use std::path::PathBuf;
 
-/// Why something could not be measured.
+/// Reason for which something could not be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// A program that is needed is not there.
@@ -11,17 +11,17 @@ pub enum Problem {
     /// A program failed.
     #[error("{command} failed:\n{output}")]
     Failed {
-        /// What was run.
+        /// The command.
         command: String,
-        /// What it printed.
+        /// Its output.
         output: String,
     },
     /// Reading or writing failed.
     #[error("{}: {error}", path.display())]
     File {
-        /// Which file.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error.
         error: std::io::Error,
     },
     /// Something about rungc is wrong: implementations differ, a program does not compile.
@@ -29,11 +29,11 @@ pub enum Problem {
     Wrong(String),
 }
 
-/// What can be measured, or why not.
+/// A measurement, or the reason for which there is none.
 pub type Result<T> = std::result::Result<T, Problem>;
 
 impl Problem {
-    /// Whether a tool is missing, rather than something wrong.
+    /// Returns true if a tool is missing, rather than something wrong.
     pub fn is_missing(&self) -> bool {
         matches!(self, Problem::Missing(_))
     }

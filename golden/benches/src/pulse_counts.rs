@@ -1,4 +1,4 @@
-//! How many instructions pulse outputs take on a Cortex-M4, and how fast they can be.
+//! Instructions that pulse outputs take on a Cortex-M4, and the resulting limit of their speed.
 
 use crate::embedded::{INSTRUCTIONS_PER_TICK, board_folder, linker};
 use crate::problem::{Problem, Result};
@@ -60,7 +60,7 @@ pub fn measure() -> Result<[Count; 2]> {
     read(&tools::qemu(&image)?)
 }
 
-/// What `pulses.c` printed.
+/// Parses the output of `pulses.c`.
 fn read(printed: &str) -> Result<[Count; 2]> {
     let row = |line: &str| {
         let numbers = line.split(' ').skip(1).map(|word| word.parse::<f64>().ok());

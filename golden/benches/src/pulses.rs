@@ -1,4 +1,4 @@
-//! How fast pulse outputs are simulated.
+//! Speed of simulated pulse outputs.
 
 use crate::clock::Clock;
 use crate::problem::{Problem, Result};

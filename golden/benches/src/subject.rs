@@ -14,7 +14,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What all adaptors share.
+/// Common parts of all adaptors.
 const SUBJECT_H: &str = include_str!("../templates/subject.h");
 
 /// The adaptor of emitted C that runs many instances.
@@ -23,31 +23,31 @@ const LANES_ADAPTOR: &str = include_str!("../templates/lanes.c");
 /// The adaptor of emitted Rust.
 const RUST_ADAPTOR: &str = include_str!("../templates/adaptor.rs");
 
-/// How far the input that changes before a scan is from the one before: all of them have their turn
+/// Distance between the inputs that change before successive scans: all of them have their turn
 /// (`templates/subject.h`).
 pub const INPUT_STRIDE: usize = 37;
 
-/// Where Rust is built: beside the workspace's own output, so that what all programs share is built once.
+/// Output folder of Rust builds: beside the workspace's own output, so that shared parts are built once.
 const RUST_OUTPUT: &str = concat!(env!("RUNGC_ROOT"), "/target/benches");
 
 /// The runtime that emitted Rust depends on.
 const RUNTIME: &str = concat!(env!("RUNGC_ROOT"), "/runtime-rt/rt");
 
-/// What is measured.
+/// Implementation to measure.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Code {
     /// C as an engineer writes it.
     Hand,
-    /// What rungc emits.
+    /// Emitted C.
     C,
-    /// What rungc emits for many instances at once.
+    /// Emitted C for many instances at once.
     Lanes,
-    /// What rungc emits.
+    /// Emitted Rust.
     Rust,
 }
 
 impl Code {
-    /// How many instances of the program one scan is of.
+    /// Number of instances executed by one scan.
     pub fn instances(self) -> u32 {
         if self == Code::Lanes { LANES } else { 1 }
     }
@@ -144,7 +144,7 @@ struct CAdaptor<'a> {
     prefix: &'a str,
     header: String,
     plc_type: String,
-    /// What the adaptor itself remembers.
+    /// State of the adaptor itself.
     memory: &'static str,
     reset: String,
     scan: String,

@@ -1,4 +1,4 @@
-//! How long test suites take: many cases of a program, and the mutants of programs that cases judge.
+//! Time of test suites: many cases of a program, and the mutants of programs that cases judge.
 
 use crate::clock::Clock;
 use crate::ladder::{Kind, Ladder};
@@ -21,10 +21,10 @@ use std::time::Instant;
 /// Steps of a case, and scans of each.
 const STEPS: u32 = 3;
 const SCANS: u32 = 5;
-/// What a step sets, and what it expects.
+/// Numbers of settings and expectations in a step.
 const SETS: u32 = 10;
 const EXPECTS: u32 = 9;
-/// How long a scan takes, as in test files that do not say it.
+/// Scan time, as in test files that do not specify it.
 const SCAN_MS: u32 = 10;
 
 /// A test file of cases whose inputs are random, and which expect what the interpreter does.

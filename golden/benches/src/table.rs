@@ -13,7 +13,7 @@ pub enum Cell {
     Number {
         /// The number.
         value: f64,
-        /// How many digits.
+        /// Number of digits.
         #[serde(skip)]
         digits: usize,
     },
@@ -75,7 +75,7 @@ fn grouped(number: &str) -> String {
 /// A table.
 #[derive(Clone, Debug, Serialize)]
 pub struct Table {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Names of the columns.
     pub columns: Vec<String>,

@@ -13,10 +13,10 @@ use std::time::{Duration, Instant};
 /// QEMU for a microcontroller.
 pub const QEMU: &str = "qemu-system-arm";
 
-/// How long an image may run.
+/// Time limit of an image.
 const QEMU_TIME: Duration = Duration::from_secs(120);
 
-/// Whether a program is there.
+/// Returns true if a program is installed.
 pub fn is_there(program: &str) -> bool {
     let mut command = Command::new(program);
     command.arg("--version").stdin(Stdio::null());
@@ -209,7 +209,7 @@ pub fn runtime_object(folder: &Path) -> Result<PathBuf> {
     Ok(object)
 }
 
-/// What an outer cargo has set is not for the inner one.
+/// Removes the settings of an outer cargo, which are not for the inner one.
 fn without_toolchain(mut cargo: Command) -> Command {
     for variable in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
         cargo.env_remove(variable);

@@ -1,4 +1,4 @@
-//! What a PLC's partners say on each kind of line: good frames, and whole ones with a wrong meaning.
+//! Partners of a PLC on each kind of line: good frames, and complete ones with a wrong meaning.
 
 mod masters;
 mod slaves;
@@ -23,7 +23,7 @@ pub struct Partner {
     pub plc_asks: bool,
     /// A character has 7 bits.
     pub seven_bits: bool,
-    /// Where the last of several frames that the PLC has sent begins.
+    /// Start of the last of several frames that the PLC has sent.
     pub last: fn(&[u8]) -> usize,
     /// A good frame, to the request of the PLC if it asks. What it writes is noted in the registers.
     pub good: fn(&[u8], &mut Random, &mut Registers) -> Good,
@@ -39,11 +39,11 @@ pub struct Partner {
 pub struct Good {
     /// The frame.
     pub frame: Bytes,
-    /// What the PLC answers; nothing if it is empty.
+    /// Expected answer of the PLC; none if it is empty.
     pub answer: Bytes,
 }
 
-/// What registers D are to hold.
+/// Expected contents of registers D.
 pub struct Registers(pub Vec<u16>);
 
 impl Registers {

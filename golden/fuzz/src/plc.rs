@@ -40,7 +40,7 @@ pub struct Plc {
     pub longest_ns: u64,
 }
 
-/// What this thread has used of the processor, in nanoseconds.
+/// Processor time of this thread, in nanoseconds.
 pub(crate) fn used_ns() -> u64 {
     let used = clock_gettime(ClockId::ThreadCPUTime);
     used.tv_sec as u64 * 1_000_000_000 + used.tv_nsec as u64
@@ -79,7 +79,7 @@ impl Plc {
         }
     }
 
-    /// How long a character takes.
+    /// Duration of a character.
     fn character_us(&mut self) -> u64 {
         let line = self.hal.line(self.port);
         line.map_or(1000, |line| line.format().character_us().into())
@@ -101,7 +101,7 @@ impl Plc {
         }
     }
 
-    /// What the PLC has sent by now.
+    /// Characters sent by the PLC so far.
     pub fn sent(&mut self) -> Vec<u8> {
         let now_us = self.now_us as u32;
         let line = self.hal.line(self.port).expect("the port is there");

@@ -10,15 +10,15 @@ use crate::text::Bytes;
 use rungc_rt::comm::CAN_PORT;
 use std::fmt;
 
-/// How long a PLC may take to answer, or a master to ask, in microseconds: an answer with an end that does not come is
-/// given up after a second.
+/// Time-out for a PLC's answer or a master's request, in microseconds: an answer without an end is abandoned after a
+/// second.
 const PATIENCE_US: u64 = 2_000_000;
 
-/// How long a partner waits after a bad frame whether it is rejected: a frame of a computer link says itself how long,
-/// up to 150 ms.
+/// Time for which a partner waits after a bad frame for its rejection: a frame of a computer link contains its own
+/// waiting time, up to 150 ms.
 const REFUSAL_US: u64 = 200_000;
 
-/// What came of a storm.
+/// Outcome of a storm.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
     /// Frames sent.

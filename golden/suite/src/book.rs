@@ -82,7 +82,7 @@ pub fn summary(written: &str) -> String {
     text
 }
 
-/// Whether a line of `SUMMARY.md` lists a page below a generated chapter.
+/// Returns true if a line of `SUMMARY.md` lists a page below a generated chapter.
 fn is_stale(line: &str) -> bool {
     line.starts_with("  - [")
         && ["(checks/", "(instructions/", "(special-devices/"]
@@ -184,7 +184,7 @@ fn instructions() -> Vec<Page> {
     [first, support()].into_iter().chain(pages).collect()
 }
 
-/// Which model has which instruction.
+/// Support of instructions by model.
 fn support() -> Page {
     let text = format!(
         "# Support by model\n\nEvery instruction of the supported PLCs is read, checked and counted in steps. Those that cannot be compiled are \

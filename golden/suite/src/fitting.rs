@@ -15,7 +15,7 @@ const INDEXES: [(DeviceClass, u32); 4] = [
     (DeviceClass::V, 1),
 ];
 
-/// What operands are drawn for.
+/// Position for which operands are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'p> {
     pub(crate) model: &'static Model,
@@ -25,7 +25,7 @@ pub(crate) struct Place<'p> {
     pub(crate) classes: &'p [Classes],
     /// Numbers that the first operand has, if it is a device.
     pub(crate) first: Option<(u32, u32)>,
-    /// Whether constants are to be as small as the others allow, so that many devices are left.
+    /// True if constants are to be as small as the others allow, so that many devices are left.
     pub(crate) is_small: bool,
 }
 
@@ -73,12 +73,12 @@ fn letters_of_group(class: Classes) -> Option<DeviceClass> {
     }
 }
 
-/// Whether operands of a class are groups of bits.
+/// Returns true if operands of a class are groups of bits.
 pub(crate) fn is_group(class: Classes) -> bool {
     letters_of_group(class).is_some()
 }
 
-/// Whether operands of a class are integer constants.
+/// Returns true if operands of a class are integer constants.
 fn is_constant(class: Classes) -> bool {
     class == Classes::K || class == Classes::H
 }
@@ -94,7 +94,7 @@ fn multiple_from(value: u32, of: u32) -> Option<u32> {
     value.checked_next_multiple_of(of.max(1))
 }
 
-/// How many words one value of an operand takes.
+/// Number of words in one value of an operand.
 pub(crate) fn words(param: &Param, form: Form) -> u32 {
     let is_wide = match param.shape {
         Shape::Value => form.wide,
@@ -109,7 +109,7 @@ impl Fitting<'_, '_> {
         words(param, self.place.form)
     }
 
-    /// How many values an operand takes, as far as it is known.
+    /// Number of values of an operand, as far as it is known.
     fn extent(&self, param: &Param) -> u32 {
         match param.extent {
             Extent::One | Extent::Through(_) => 1,
@@ -350,7 +350,7 @@ impl Fitting<'_, '_> {
         self.number(at, letters, count, 1).map(named)
     }
 
-    /// Whether a counter must be one of 32 bits.
+    /// Returns true if a counter must be one of 32 bits.
     fn wants_counter32(&self, param: &Param) -> bool {
         param.shape == Shape::Pair || param.shape == Shape::Value && self.place.form.wide
     }
@@ -379,7 +379,7 @@ impl Fitting<'_, '_> {
         Some(first + if pairs { even } else { place * step })
     }
 
-    /// Where an operand of `count` devices may begin: the first and the last number, and how far apart they are.
+    /// Range of first numbers for an operand of `count` devices, and their distance.
     fn starts(
         &self,
         at: usize,

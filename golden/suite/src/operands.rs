@@ -8,10 +8,10 @@ use rungc_models::runs::FIRST_COUNTER32;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Classes, DeviceClass};
 
-/// How many devices of a class programs use, so that instructions meet each other's results.
+/// Number of devices of a class that programs use, so that instructions meet each other's results.
 pub(crate) const CROWD: u32 = 24;
 
-/// How many words of the buffer memory of module 0 programs use.
+/// Number of words in the buffer memory of module 0 that programs use.
 pub const BUFFER_WORDS: u32 = 16;
 
 /// Special relays that change what instructions do or show what they did.
@@ -44,7 +44,7 @@ pub fn in_any_rung(model: ModelId) -> Vec<Candidate> {
     found
 }
 
-/// Whether nothing else of a program belongs to a basic instruction but the rest of its rung.
+/// Returns true if a basic instruction needs nothing else of a program but the rest of its rung.
 fn stands_alone(basic: Basic) -> bool {
     use Basic::{And, Andf, Andp, Ani, Inv, Ld, Ldf, Ldi, Ldp, Mef, Mep, Nop, Or, Orf, Ori, Orp};
     use Basic::{Out, Plf, Pls, Rst, Set, Wdt};
@@ -81,7 +81,7 @@ fn select(model: ModelId, is_wanted: impl Fn(&Inst) -> bool) -> Vec<Candidate> {
         .collect()
 }
 
-/// Whether an instruction has a form on a model.
+/// Returns true if an instruction has a form on a model.
 pub fn has_form(inst: &Inst, form: Form, model: ModelId) -> bool {
     let has = inst.forms_on(model);
     let width = if form.wide { Forms::W32 } else { Forms::W16 };
@@ -188,7 +188,7 @@ impl Candidate {
     }
 }
 
-/// Whether an instruction after a contact compiles.
+/// Returns true if an instruction after a contact compiles.
 pub fn accepted(instruction: &str, model: ModelId) -> bool {
     let program = format!("LD M0\n{instruction}\nEND\n");
     let read = rungc_frontend::read_text("draw.il", &program);
@@ -199,8 +199,8 @@ pub fn accepted(instruction: &str, model: ModelId) -> bool {
     !read.diagnostics.has_errors() && compile(&read.program, &options).module.is_some()
 }
 
-/// How often operands are drawn. Almost all fit the first time; what a rule's function finds, and what the whole
-/// instruction demands, is left to the compiler.
+/// Attempts to draw operands. Almost all fit the first time; the conditions of rules' functions, and those on the whole
+/// instruction, are left to the compiler.
 const TRIES: u32 = 6;
 const WISHES: u32 = 24;
 
@@ -216,7 +216,7 @@ pub(crate) fn each(classes: Classes) -> Vec<Classes> {
 #[derive(Clone, Copy, Debug)]
 struct List {
     params: &'static [Param],
-    /// What the first operand is.
+    /// Class of the first operand.
     first: Classes,
     /// Its numbers, where these decide.
     numbers: Option<(u32, u32)>,
@@ -281,7 +281,7 @@ fn lists(inst: &Inst, model: ModelId) -> Vec<List> {
             continue;
         };
         match variant.when {
-            // What comes later is not looked at.
+            // Later conditions are not examined.
             When::Always => break,
             When::Indexed => continue,
             When::First(first, low, high) => {
@@ -310,9 +310,9 @@ fn lists(inst: &Inst, model: ModelId) -> Vec<List> {
 /// An operand of a class that an instruction is to have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Wish {
-    /// Which of the lists of operands that the instruction may have.
+    /// Index of the list of operands that the instruction may have.
     list: usize,
-    /// Which operand.
+    /// Index of the operand.
     at: usize,
     class: Classes,
 }

@@ -19,9 +19,9 @@ struct Writer<'c> {
     next_label: u32,
     /// Subroutines to be written after FEND, in this order.
     subroutines: Vec<Subroutine>,
-    /// How many calls lead to what is written now.
+    /// Number of nested calls that lead to the code being written.
     depth: u32,
-    /// How often instructions with a limit were used.
+    /// Number of uses of instructions with a limit.
     uses: BTreeMap<&'static str, u32>,
     /// Depth of loops, and of MC.
     loops: u32,
@@ -119,7 +119,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the model has the instruction that a line begins with.
+    /// Returns true if the model has the instruction that a line begins with.
     fn knows(&self, line: &str) -> bool {
         let found = line.split(' ').next().and_then(rungc_catalogue::find);
         found.is_some_and(|found| found.inst.models.has(self.model))

@@ -125,7 +125,7 @@ fn spoilt(rng: &mut Rng, instruction: &str) -> String {
     words.join(" ")
 }
 
-/// What occurs in programs.
+/// Contents of programs by rows of the catalogue.
 #[derive(Clone, Debug, Default)]
 pub struct Occurring {
     /// Models, with spellings of forms.
@@ -153,7 +153,7 @@ impl Occurring {
         }
     }
 
-    /// How many instructions of models, in how many forms, and how many operands of how many classes there are.
+    /// Numbers of instructions of models by form, and of operands by class.
     pub fn counts(&self) -> (usize, usize) {
         (self.rows.len(), self.operands.len())
     }

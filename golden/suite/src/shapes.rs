@@ -1,4 +1,4 @@
-//! How random programs lead a scan: counts of the shapes that only few programs have.
+//! Shapes of control flow in random programs: counts of those that only few programs have.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -32,7 +32,7 @@ const ALL: [&str; 12] = [
     AT_COUNTS,
 ];
 
-/// How many there are of each, by name.
+/// Number of each, by name.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Shapes(BTreeMap<&'static str, u32>);
 
@@ -84,7 +84,7 @@ impl Shapes {
         self.add_jumps(&lines);
     }
 
-    /// How jumps lie to each other.
+    /// Counts the relative positions of jumps.
     fn add_jumps(&mut self, lines: &[Vec<&str>]) {
         let labels = lines.iter().enumerate();
         let labels: BTreeMap<&str, usize> = labels
@@ -112,7 +112,7 @@ impl Shapes {
         *self.0.entry(name).or_default() += u32::from(is_one);
     }
 
-    /// How many there are of the shape of which there are fewest.
+    /// Number of the rarest shape.
     pub fn least(&self) -> u32 {
         self.0.values().copied().min().unwrap_or(0)
     }
@@ -125,7 +125,7 @@ impl fmt::Display for Shapes {
     }
 }
 
-/// Whether a line is a pointer of this class.
+/// Returns true if a line is a pointer of this class.
 fn is_label(line: &str, class: char) -> bool {
     let number = line.strip_prefix(class).unwrap_or_default();
     !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())

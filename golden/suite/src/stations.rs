@@ -2,7 +2,7 @@
 
 use crate::rng::Rng;
 
-/// What all stations of a row have in common.
+/// Common properties of all stations in a row.
 struct Row {
     rungs: Vec<Rung>,
     /// Relay of the first station from which the others count, and how far the stations are apart.
@@ -16,7 +16,7 @@ struct Row {
 /// Contacts and coils, each a verb and what it names.
 struct Rung(Vec<(&'static str, Named)>);
 
-/// What a station names.
+/// Device that a station names.
 #[derive(Clone, Copy)]
 enum Named {
     /// An input or output, and how far that of the next station is.
@@ -136,7 +136,7 @@ fn contact(rng: &mut Rng) -> (&'static str, Named) {
     (verb, numbered(rng, class, after))
 }
 
-/// What a rung does to a timer, counter or register.
+/// Instruction of a rung on a timer, counter or register.
 fn action(rng: &mut Rng) -> (&'static str, Named) {
     let (verb, class, after) = rng
         .pick(&[

@@ -13,10 +13,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// How long, and with what.
+/// Options of a campaign.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// How many hours of the processor to use, or by the clock where the system does not say; each way gets at least
+    /// Processor time to use in hours, or time by the clock where the system does not report it; each way gets at least
     /// one batch.
     #[arg(long, default_value_t = 1.0)]
     hours: f64,
@@ -63,7 +63,7 @@ const WAYS: [&str; 16] = [
     "cortex-m4 rust",
 ];
 
-/// What was compared, as the test says it.
+/// Extent of comparisons, as the test reports it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Extent {
     programs: u64,
@@ -71,11 +71,11 @@ struct Extent {
     instructions: u64,
 }
 
-/// What became of the batches of a way.
+/// Results of a way's batches.
 #[derive(Debug, Default)]
 struct Tally {
     way: &'static str,
-    /// What is missing on this computer, so that the way is left out.
+    /// Tool missing on this computer, so that the way is left out.
     lacks: Option<String>,
     batches: u64,
     compared: Extent,
@@ -84,7 +84,7 @@ struct Tally {
     /// Batches that did not come to compare anything.
     broken: u64,
     seconds: f64,
-    /// What the batches said that failed.
+    /// Outputs of the failed batches.
     kept: Vec<PathBuf>,
 }
 
@@ -146,7 +146,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
 /// Programs in the first batch of each way.
 const FIRST_PROGRAMS: u64 = 10;
 
-/// Whose turn it is: a way that has had no batch, then the one that has taken the least time; `None` at the end.
+/// Index of the next way: one that has had no batch, then the one that has taken the least time; `None` at the end.
 fn next(tallies: &[Tally], args: &Args, clock: &Clock) -> Option<usize> {
     let ways = || (0..tallies.len()).filter(|&way| tallies[way].lacks.is_none());
     let compared: u64 = tallies
@@ -176,13 +176,13 @@ struct Batch {
     seed: u64,
 }
 
-/// What became of a batch.
+/// Result of a batch.
 #[derive(Debug, Default)]
 struct Outcome {
     /// `None` if the test did not come to that.
     extent: Option<Extent>,
     differing: u64,
-    /// What the test says, if it fails.
+    /// Message of the test, if it fails.
     failure: Option<String>,
 }
 
@@ -203,7 +203,7 @@ impl Tally {
 /// The time that programs take which this one starts.
 struct Clock {
     begin: Instant,
-    /// What they had taken before.
+    /// Time that they had taken before.
     before: f64,
 }
 
@@ -266,7 +266,7 @@ fn build() -> Result<PathBuf, Problem> {
     path.ok_or_else(|| "cargo names no executable of the differential test".into())
 }
 
-/// What of the tools of a way is missing on this computer, if anything.
+/// Tool of a way that is missing on this computer, if any.
 fn lacking(way: &str) -> Option<String> {
     let (first, flags) = way.split_once(' ').unwrap_or((way, ""));
     match first {
@@ -283,7 +283,7 @@ fn lacking(way: &str) -> Option<String> {
     }
 }
 
-/// Whether a compiler makes executables with these flags: what sanitizers link with is a separate package.
+/// Returns true if a compiler makes executables with these flags: the libraries of sanitizers are a separate package.
 fn links(compiler: &str, flags: &str) -> std::io::Result<bool> {
     let folder = tempfile::tempdir()?;
     fs::write(
@@ -298,7 +298,7 @@ fn links(compiler: &str, flags: &str) -> std::io::Result<bool> {
     Ok(output.status.success())
 }
 
-/// What makes a batch again, as variables of the environment.
+/// Environment variables that repeat a batch.
 fn variables(args: &Args, batch: &Batch) -> [(&'static str, String); 5] {
     [
         ("RUNGC_RANDOM_WAY", batch.way.to_string()),
@@ -331,7 +331,7 @@ fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Outcome, Pro
     })
 }
 
-/// What was compared, from what the test says: `compared with 1 engines: 7 programs, 70 scans, 900 instructions`.
+/// Extent of comparisons, from the test's report: `compared with 1 engines: 7 programs, 70 scans, 900 instructions`.
 fn extent(said: &str) -> Option<Extent> {
     let (_, after) = said.split_once("compared with ")?;
     let (_, counts) = after.lines().next()?.split_once(": ")?;
@@ -346,7 +346,7 @@ fn extent(said: &str) -> Option<Extent> {
     })
 }
 
-/// How many programs differ, from how the test fails.
+/// Number of programs that differ, from the test's failure message.
 fn differing(why: &str) -> u64 {
     let before = why.split_once(" programs differ").map(|(before, _)| before);
     let number = before.and_then(|before| before.split_whitespace().next_back()?.parse().ok());
@@ -368,7 +368,7 @@ fn keep(folder: &Path, args: &Args, batch: &Batch, output: &str) -> Result<PathB
     Ok(path)
 }
 
-/// What was compared on each way, as a table, which Markdown takes.
+/// Extent of comparisons on each way, as a table in Markdown.
 fn table(tallies: &[Tally], seconds: f64) -> String {
     let widest = tallies.iter().map(|tally| tally.way.len()).max();
     let width = widest.unwrap_or(0) + 2;

@@ -118,7 +118,7 @@ static inline rungc_operand rungc_ER(int32_t number)
     return rungc_device(RUNGC_CLASS_ER, number);
 }
 
-/* Where a call is: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
+/* Location of a call: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
 static inline rungc_site rungc_at(uint32_t step)
 {
     rungc_site site;

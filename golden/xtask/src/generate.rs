@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Write the generated files, or check that they are up to date.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// What to make [default: everything that comes out the same on every machine]
+    /// Outputs to make [default: everything that comes out the same on every machine]
     what: Vec<What>,
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
@@ -38,7 +38,7 @@ pub enum What {
 }
 
 impl What {
-    /// Those that come out the same on every machine.
+    /// Outputs that are the same on every machine.
     const SAME_EVERYWHERE: [What; 4] = [What::Header, What::Book, What::Commands, What::Diagram];
 }
 

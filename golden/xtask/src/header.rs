@@ -65,12 +65,12 @@ const TOP: &str = "/*
  * for each instruction that is not worth inlining. Only the functions that a program calls are linked.
  */";
 
-/// What stands before all other types.
+/// Types before all others.
 const OPAQUE: &str = "
-/* What serial ports do under some protocols. */
+/* Implementation of protocols for serial ports. */
 typedef struct rungc_codec rungc_codec;
 
-/* What a model serves by Modbus. */
+/* Devices that a model serves by Modbus. */
 typedef struct rungc_modbus_profile rungc_modbus_profile;";
 
 /// Operands and sites, as emitted code writes them.

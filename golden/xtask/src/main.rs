@@ -36,7 +36,7 @@ enum Chore {
     Size(size::Args),
 }
 
-/// What stopped a chore, as a message.
+/// Error of a chore, as a message.
 type Problem = Box<dyn std::error::Error>;
 
 /// The repository's root.

@@ -1,4 +1,4 @@
-//! What the `rungc` command prints and draws for the book.
+//! Output and drawings of the `rungc` command for the book.
 
 use crate::generate::Made;
 use crate::{Problem, root, tools};
@@ -77,7 +77,7 @@ pub fn diagrams() -> Result<Made, Problem> {
     Ok(made)
 }
 
-/// What the commands of a page draw, with the files that the page shows.
+/// Draws the commands of a page, with the files that the page shows.
 fn draw(rungc: &Path, folder: &Path, page: &str, made: &mut Made) -> Result<(), Problem> {
     let page = fs::read_to_string(root().join(page))?;
     for (name, text) in shown(&page) {
@@ -131,7 +131,7 @@ fn build() -> Result<PathBuf, Problem> {
     executable.ok_or_else(|| "cargo has built no executable of rungc".into())
 }
 
-/// What the command prints in a folder.
+/// Output of the command in a folder.
 fn run(rungc: &Path, folder: &Path, args: &[&str]) -> Result<String, Problem> {
     tools::output(Command::new(rungc).args(args).current_dir(folder))
 }

@@ -16,7 +16,7 @@ pub fn cargo(args: &[&str]) -> Command {
     command
 }
 
-/// What a program prints on standard output. If it fails, the error shows what it printed on standard error.
+/// Standard output of a program. If it fails, the error shows what it printed on standard error.
 pub fn output(command: &mut Command) -> Result<String, Problem> {
     let output = command.output()?;
     if !output.status.success() {
@@ -35,7 +35,7 @@ pub fn run(command: &mut Command) -> Result<(), Problem> {
     }
 }
 
-/// What emitted C takes on a microcontroller, as recorded in `golden/benches/figures.toml`.
+/// Resources of emitted C on a microcontroller, as recorded in `golden/benches/figures.toml`.
 pub fn figures() -> Result<String, Problem> {
     Ok(figures::record(&figures::measure()?)?)
 }
@@ -52,7 +52,7 @@ pub fn snapshots() -> Result<(), Problem> {
     run(cargo(&args).envs([("INSTA_UPDATE", "always"), ("INSTA_FORCE_PASS", "1")]))
 }
 
-/// How a PNG begins: its signature, and a header with width and height.
+/// Length of a PNG's head: its signature, and a header with width and height.
 const PNG_HEAD: usize = 24;
 
 /// Takes the book's pictures of pages from tests in a browser, and puts them into the book. If they are only checked,

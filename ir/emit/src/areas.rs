@@ -1,4 +1,4 @@
-//! How the runtime finds devices by their numbers.
+//! Lookup of devices by number at run time.
 
 use crate::storage::{Field, Storage};
 use rungc_ir::Module;
@@ -16,7 +16,7 @@ fn rank(class: DeviceClass) -> Option<usize> {
 pub struct Area<'a> {
     /// The field that they begin with.
     pub field: &'a Field,
-    /// How many they are.
+    /// Number of devices.
     pub count: u32,
 }
 
@@ -56,8 +56,8 @@ pub fn areas<'a>(storage: &'a Storage<'_>) -> Vec<Area<'a>> {
     areas.into_iter().map(|(_, area)| area).collect()
 }
 
-/// How an operand says which of the `areas` holds a device ([`rungc_rt::Operand::area`]): counted from the last, which
-/// is 1. `None`: in none of them, or in one that is too far from the last to be said.
+/// Number of the area that holds a device, as operands give it ([`rungc_rt::Operand::area`]): counted from the last,
+/// which is 1. `None`: no area holds it, or one too far from the last to be represented.
 pub fn named(areas: &[Area], class: DeviceClass, number: u32) -> Option<u8> {
     let after = areas.partition_point(|area| {
         (rank(area.field.class), area.field.first) <= (rank(class), number)

@@ -9,16 +9,16 @@ pub type Bounds = (i64, i64);
 const I16: Bounds = (i16::MIN as i64, i16::MAX as i64);
 const I32: Bounds = (i32::MIN as i64, i32::MAX as i64);
 
-/// How many operators deep a look at the operands of an operator goes.
+/// Depth of operators to which operands are examined.
 const DEPTH: u32 = 3;
 
-/// Whether these bounds lie within 32 bits.
+/// Returns true if these bounds lie within 32 bits.
 pub fn fits((low, high): Bounds) -> bool {
     low >= I32.0 && high <= I32.1
 }
 
-/// Whether an operator's result lies within 32 bits for all values of its operands, so that it needs no wrapping. The
-/// divisor of a quotient is not 0.
+/// Returns true if an operator's result lies within 32 bits for all values of its operands, so that it needs no
+/// wrapping. The divisor of a quotient is not 0.
 pub fn is_exact(module: &Module, op: BinOp, a: ExprId, b: ExprId) -> bool {
     let (a, b) = (of(module, a, DEPTH), of(module, b, DEPTH));
     result(op, a, b).is_some_and(fits)

@@ -14,10 +14,10 @@ pub fn heading(network: &Network, clean: impl Fn(&str) -> String) -> String {
     }
 }
 
-/// What is above the choice between parts.
+/// Comment above the choice between parts.
 pub const PARTS: &str = "The jumps here do not nest, so the stretches between labels are functions: each answers which one is next.";
 
-/// What is above a single part that jumps back to itself.
+/// Comment above a single part that jumps back to itself.
 pub const ONE_PART: &str = "A jump back repeats it.";
 
 /// The device that a statement writes, if it is known: its comment is beside the statement.

@@ -1,4 +1,4 @@
-//! What a scan, STOP, power-off and the watchdog do, beyond the program's functions.
+//! Effects of a scan, STOP, power-off and the watchdog, beyond the program's functions.
 
 use crate::plan::{Plan, statements};
 use crate::storage::Storage;
@@ -14,7 +14,7 @@ use rungc_rt::special::{
 };
 use rungc_syntax::DeviceClass;
 
-/// What of these the statements of a program ask for.
+/// Services that the statements of a program request.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 pub struct Asked {
     /// Clears the general devices ([`Stmt::Clear`]).
@@ -40,19 +40,19 @@ impl Asked {
     }
 }
 
-/// Whether a special relay is stored and means on the model what it means on most.
+/// Returns true if a special relay is stored and has its usual meaning on the model.
 pub fn keeps(module: &Module, storage: &Storage, relay: Relay) -> bool {
     is_stored(storage, relay) && module.model.scan_keeps(relay)
 }
 
-/// What asks for scans of constant length, if all of it is stored.
+/// Devices that request scans of constant length, if all of them are stored.
 pub fn constant_scan(module: &Module, storage: &Storage) -> Option<ConstantScan> {
     let asks = module.model.constant_scan()?;
     let relay = asks.relay.is_none_or(|relay| is_stored(storage, relay));
     (relay && is_stored(storage, asks.register)).then_some(asks)
 }
 
-/// What puts the PLC in RUN and STOP other than its switch, if all of it is stored.
+/// Devices that put the PLC in RUN and STOP other than its switch, if all of them are stored.
 pub fn run_command(module: &Module, storage: &Storage) -> Option<RunCommand> {
     let command = module.model.run_command()?;
     let stored = match command {
@@ -69,17 +69,17 @@ fn is_stored<D: SpecialDevice>(storage: &Storage, device: D) -> bool {
     storage.find(D::CLASS, device.number()).is_some()
 }
 
-/// Whether a program reads or sets the real-time clock.
+/// Returns true if a program reads or sets the real-time clock.
 pub fn asks_clock(module: &Module) -> bool {
     calls_any(module, &CLOCK_FUNCTIONS)
 }
 
-/// Whether a program looks at the power supply or the battery.
+/// Returns true if a program reads the state of the power supply or the battery.
 pub fn asks_supply(module: &Module) -> bool {
     calls_any(module, &[RtFn::PowerSupply])
 }
 
-/// Whether a program calls one of these functions.
+/// Returns true if a program calls one of these functions.
 fn calls_any(module: &Module, functions: &[RtFn]) -> bool {
     let mut calls = false;
     for function in &module.functions {
@@ -100,7 +100,7 @@ const CLOCK_FUNCTIONS: [RtFn; 6] = [
     RtFn::ClockRefreshShort,
 ];
 
-/// What becomes of latched devices at power-on.
+/// Treatment of latched devices at power-on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Latches {
     /// They keep their values.
@@ -111,7 +111,7 @@ pub enum Latches {
     Lost(u32, i16),
 }
 
-/// What becomes of the latched devices of a program.
+/// Treatment of a program's latched devices at power-on.
 pub fn latches(module: &Module, storage: &Storage) -> Latches {
     let Some((register, key)) = module.model.latch_key else {
         return Latches::Kept;
@@ -125,13 +125,13 @@ pub fn latches(module: &Module, storage: &Storage) -> Latches {
     }
 }
 
-/// Whether a program keeps something over power-off.
+/// Returns true if a program retains data over power-off.
 pub fn keeps_any(module: &Module) -> bool {
     let lost = matches!(latches(module, &Storage::new(module)), Latches::Lost(..));
     !lost && !module.retained().is_empty()
 }
 
-/// How many steps a scan may repeat ([`Stmt::Watch`]).
+/// Number of steps that a scan may repeat ([`Stmt::Watch`]).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Budget {
     /// [`rungc_ir::node::STEPS_PER_MS`] for each millisecond in this register D, at least one.
@@ -140,7 +140,7 @@ pub enum Budget {
     Steps(u32),
 }
 
-/// What the watchdog gives each scan; `None` if the program has nothing that it could cut short.
+/// Budget of the watchdog for each scan; `None` if it could not interrupt any part of the program.
 pub fn budget(module: &Module, storage: &Storage) -> Option<Budget> {
     let register = D_WATCHDOG_MS.number();
     let is_stored = storage.find(DeviceClass::D, register).is_some();
@@ -150,7 +150,7 @@ pub fn budget(module: &Module, storage: &Storage) -> Option<Budget> {
     })
 }
 
-/// What a special device shows of an error.
+/// Effect of an error on a special device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shown {
     /// A relay turns on.
@@ -166,7 +166,7 @@ pub enum Shown {
 /// A special device, and what it shows.
 pub type Shows = (DeviceClass, u32, Shown);
 
-/// What stored special devices show when the watchdog stops the PLC ([`rungc_rt::trip_watchdog`]).
+/// Effects on stored special devices when the watchdog stops the PLC ([`rungc_rt::trip_watchdog`]).
 pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
     use DeviceClass::{D, M};
     let shows = match model.error_relay {
@@ -181,8 +181,8 @@ pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
     stored(storage, shows)
 }
 
-/// What stored special devices show of the first operation error, as long as the first of them, a relay, is on; then
-/// what they show of each one ([`rungc_rt::report`]).
+/// Effects on stored special devices of the first operation error, while the first of them, a relay, is on; then their
+/// effects of each error ([`rungc_rt::report`]).
 pub fn fault_shows(model: &Model, storage: &Storage) -> [Vec<Shows>; 2] {
     use DeviceClass::{D, M};
     let relay = model.error_relay.number();

@@ -9,7 +9,7 @@ use rungc_ir::node::{
     AccessKind, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Stmt, TempId, TimerCoil,
 };
 
-/// Who asks for an edge.
+/// User of an edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Asker {
     /// An expression that is the edge alone: a condition, a value, a drive.
@@ -18,7 +18,7 @@ pub enum Asker {
     Operand(ExprId),
 }
 
-/// What of `next` asks for the edge before it, if nothing else does and `next` evaluates it exactly once.
+/// The part of `next` that uses the edge before it, if nothing else does and `next` evaluates it exactly once.
 pub fn asker(
     module: &Module,
     plan: &Plan,

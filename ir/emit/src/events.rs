@@ -1,4 +1,4 @@
-//! What happens outside the scan, and what of the program takes notice of it.
+//! Events outside the scan, and the parts of the program that react to them.
 
 use rungc_ir::Module;
 use rungc_ir::node::{Cell, FunctionKind, Stmt};
@@ -28,7 +28,7 @@ pub fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
     module.cells.iter().filter(|cell| cell.follows_time)
 }
 
-/// Whether the time between scans means something.
+/// Returns true if time between scans affects the program.
 pub fn follows_time(module: &Module) -> bool {
     module.sends_pulses()
         || module.has_ports()
@@ -55,7 +55,7 @@ pub fn set_outside(module: &Module) -> BTreeSet<usize> {
     found
 }
 
-/// Whether edges do no more than set flags, so that they may come at any time.
+/// Returns true if edges only set flags, so that they may come at any time.
 pub fn edges_only_note(module: &Module) -> bool {
     let mut only = true;
     for (at, _, _) in edges(module) {

@@ -1,4 +1,4 @@
-//! How conditions are turned for readers.
+//! Rewriting of conditions for readability.
 
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Ty};
@@ -27,8 +27,8 @@ pub fn opposite(module: &Module, e: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
     (module.ty(a) != Ty::F32).then(|| (op.opposite(), a, b))
 }
 
-/// Whether a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` answers for what a backend
-/// has a name or a place for; it is asked first, of each operand.
+/// Returns true if a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` decides for
+/// expressions that a backend has named or placed; it is called first, for each operand.
 pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bool>) -> bool {
     known(e).unwrap_or_else(|| {
         let expr = module.expr(e);
@@ -37,7 +37,7 @@ pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bo
     })
 }
 
-/// Whether two expressions are alike, so that they have the same value where they are side by side.
+/// Returns true if two expressions are identical, so that they have the same value where they are side by side.
 pub fn same(module: &Module, a: ExprId, b: ExprId) -> bool {
     let shell = |e: ExprId| {
         let mut expr = *module.expr(e);

@@ -36,17 +36,17 @@ impl Sizes {
         sizes
     }
 
-    /// How many operations it is.
+    /// Number of operations.
     pub fn size(&self, e: ExprId) -> u64 {
         self.size[e].into()
     }
 
-    /// How deep it nests.
+    /// Depth of nesting.
     pub fn depth(&self, e: ExprId) -> u32 {
         self.depth[e]
     }
 
-    /// Whether it is large enough that sharing inside matters.
+    /// Returns true if it is large enough that sharing inside matters.
     pub fn is_large(&self, e: ExprId) -> bool {
         self.size[e] > LARGE
     }

@@ -6,10 +6,10 @@ use rungc_ir::node::ExprId;
 use rungc_ir::walk::operands;
 use rustc_hash::FxHashMap;
 
-/// How much of an expression a language writes in one place.
+/// Limits of an expression written inline.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// How deep it may nest: readers and compilers have limits.
+    /// Largest depth of nesting: readers and compilers have limits.
     pub depth: u32,
     /// From how many operations on a part that occurs several times gets a name.
     pub shared: u64,

@@ -12,34 +12,35 @@ use typed_index_collections::TiVec;
 /// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear
 /// time.
 const FUNCTION_WEIGHT: u64 = 1200;
-/// How deep blocks may nest in one function (C99 promises 127 levels).
+/// Largest depth of blocks in one function (C99 promises 127 levels).
 const MAX_NESTING: u32 = 24;
 
 /// A function of the emitted program.
 pub struct Function<'m> {
-    /// Which of [`Module::functions`] it belongs to.
+    /// Index in [`Module::functions`] of the function it belongs to.
     pub root: usize,
-    /// What its name adds to the root's: nothing, `_2`, `_P12`.
+    /// Suffix to the root's name: nothing, `_2`, `_P12`.
     pub suffix: String,
     /// Its statements.
     pub body: Vec<Node<'m>>,
-    /// How it ends.
+    /// Kind of its end.
     pub flow: Flow,
     /// Its size, in operations.
     pub weight: u64,
-    /// Whether its own statements call the runtime.
+    /// True if its own statements call the runtime.
     pub calls_runtime: bool,
-    /// Whether it or a function that it calls does, so that it needs the hardware.
+    /// True if it or a function that it calls calls the runtime, so that it needs the hardware.
     pub needs_hardware: bool,
 }
 
 impl Function<'_> {
-    /// Whether it is a whole function of the module, or what is left of one after blocks and parts have been outlined.
+    /// Returns true if it is a whole function of the module, or the rest of one after blocks and parts have been
+    /// outlined.
     pub fn is_whole(&self) -> bool {
         self.suffix.is_empty()
     }
 
-    /// Whether nothing in it looks at the program's struct: it only jumps, if it does that.
+    /// Returns true if it does not use the program's struct: it only jumps, if it does that.
     pub fn is_idle(&self) -> bool {
         let idle = |node: &Node| {
             matches!(
@@ -61,14 +62,14 @@ impl Function<'_> {
         Some((*steps.first()?, *steps.last()?))
     }
 
-    /// Whether it ends with its own jump or return.
+    /// Returns true if it ends with its own jump or return.
     pub fn ends_by_jump(&self) -> bool {
         let last = self.body.last();
         matches!(last, Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return)))
     }
 }
 
-/// How a function ends.
+/// Kind of end of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Flow {
     /// No result; runs to its end or returns.
@@ -98,9 +99,9 @@ pub enum Node<'m> {
     },
     /// `for`.
     For {
-        /// How often.
+        /// Number of iterations.
         count: ExprId,
-        /// What.
+        /// Repeated statements.
         body: Vec<Node<'m>>,
     },
     /// A loop over stations: rungs that are alike.
@@ -109,7 +110,7 @@ pub enum Node<'m> {
     Parts {
         /// State and function of each.
         parts: Vec<(u32, usize)>,
-        /// Whether a part may continue outside of them.
+        /// True if a part may continue outside of them.
         leaves: bool,
     },
     /// A call of a block of this function that is a separate function.
@@ -145,7 +146,7 @@ impl Node<'_> {
 
 /// A loop over stations.
 pub struct Stations<'m> {
-    /// How many there are.
+    /// Number of stations.
     pub count: u32,
     /// The rungs of one.
     pub body: Vec<Node<'m>>,
@@ -165,7 +166,7 @@ pub fn statements<'m>(nodes: &[Node<'m>], visit: &mut dyn FnMut(&'m Stmt)) {
     }
 }
 
-/// Where control may go from a body other than its end.
+/// Exits of a body other than its end.
 #[derive(Clone, Default)]
 struct Leaves {
     returns: bool,
@@ -264,7 +265,7 @@ impl<'m> Plan<'m> {
         }
     }
 
-    /// What the whole function of a root is in the plan; `None` if it is not emitted.
+    /// Whole function of a root in the plan; `None` if it is not emitted.
     pub fn whole(&self, root: usize) -> Option<&Function<'m>> {
         self.functions.get((*self.whole.get(root)?)?)
     }
@@ -284,7 +285,7 @@ impl<'m> Plan<'m> {
         &self.temps[temp]
     }
 
-    /// Whether nothing is left of a network, so that it needs no heading.
+    /// Returns true if nothing remains of a network, so that it needs no heading.
     pub fn is_silent(module: &Module, node: &Node, next: Option<&Node>) -> bool {
         let Node::Stmt(Stmt::Network(network)) = node else {
             return false;
@@ -295,7 +296,7 @@ impl<'m> Plan<'m> {
     }
 }
 
-/// Whether a function of the module has no statements.
+/// Returns true if a function of the module has no statements.
 fn is_empty(module: &Module, root: usize) -> bool {
     let function = module.functions.get(root);
     function.is_none_or(|function| function.body.is_empty())
@@ -341,7 +342,7 @@ struct Builder<'m> {
     sizes: Sizes,
     states: HashMap<(usize, LabelId), u32>,
     state_names: Vec<Vec<String>>,
-    /// How many blocks have been outlined so far, by root.
+    /// Number of blocks outlined so far, by root.
     outlined: Vec<u32>,
 }
 

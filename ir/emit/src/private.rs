@@ -7,7 +7,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{Cell, Flag, Table, Ty};
 use rungc_rt::comm::Protocols;
 
-/// What a private field holds.
+/// Contents of a private field.
 #[derive(Clone, Copy, Debug)]
 pub enum Private<'m> {
     /// Time and mode: [`rungc_rt::Sys`].
@@ -16,12 +16,12 @@ pub enum Private<'m> {
     Edges(u32),
     /// A flag.
     Flag {
-        /// Which.
+        /// The flag.
         flag: &'m Flag,
         /// It is set outside the scan, perhaps in an interrupt handler.
         outside: bool,
     },
-    /// When the period of this flag began, in milliseconds since power-on.
+    /// Start of the current period of this flag, in milliseconds since power-on.
     PeriodStart(&'m Flag),
     /// A cell.
     Cell(&'m Cell),
@@ -42,7 +42,7 @@ pub enum Private<'m> {
 }
 
 impl Private<'_> {
-    /// Whether RUN begins with it as at power-on, so that what begins RUN clears it.
+    /// Returns true if RUN resets it to its power-on value, so that it is cleared when RUN begins.
     pub fn begins_with_run(self) -> bool {
         match self {
             Private::Edges(_) | Private::Flag { .. } | Private::PeriodStart(_) => true,

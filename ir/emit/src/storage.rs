@@ -7,7 +7,7 @@ use rungc_models::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_specia
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 
-/// What a device is stored as.
+/// Storage type of a device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// A bit.
@@ -25,8 +25,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What a device of this class and number is stored as outside a grid; `None` for what is not a device (labels,
-    /// nesting levels).
+    /// Storage type of a device of this class and number outside a grid; `None` for classes that are not devices
+    /// (labels, nesting levels).
     pub fn of(class: DeviceClass, number: u32) -> Option<Kind> {
         use DeviceClass::*;
         Some(match class {
@@ -48,12 +48,12 @@ impl Kind {
         }
     }
 
-    /// Whether it has a contact, a value and a coil, as timers and counters have.
+    /// Returns true if it has a contact, a value and a coil, as timers and counters have.
     pub fn has_members(self) -> bool {
         matches!(self, Kind::Timer | Kind::Counter16 | Kind::Counter32)
     }
 
-    /// Where its state as a bit is; `None` if it has none.
+    /// Member with its state as a bit; `None` if it has none.
     pub fn bit(self) -> Option<Member> {
         match self {
             Kind::Bit | Kind::NumericBit => Some(Member::Whole),
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// Where its value as a 16-bit word is; `None` if it has none.
+    /// Member with its value as a 16-bit word; `None` if it has none.
     pub fn word(self) -> Option<Member> {
         match self {
             Kind::Word => Some(Member::Whole),
@@ -83,7 +83,7 @@ impl Kind {
     }
 }
 
-/// What of a stored device is meant.
+/// Member of a stored device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Member {
     /// All of it: a bit or a word.
@@ -94,7 +94,7 @@ pub enum Member {
     Value,
 }
 
-/// What RUN/STOP and power-off do to a run of devices.
+/// Effect of RUN/STOP and power-off on a run of devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Keep {
     /// X: never cleared, set by the host.
@@ -145,20 +145,20 @@ pub struct Field {
     pub class: DeviceClass,
     /// First number.
     pub first: u32,
-    /// How many devices, with those that a grid leaves out.
+    /// Number of devices, including those that a grid leaves out.
     pub count: u32,
     /// An array, even of one.
     pub array: bool,
-    /// How the array is divided into columns, if a loop over rungs goes through it.
+    /// Columns of the array, if a loop over rungs traverses it.
     pub grid: Option<Grid>,
-    /// What each device is.
+    /// Storage type of each device.
     pub kind: Kind,
-    /// Where it is.
+    /// Section of the struct.
     pub section: Section,
 }
 
 impl Field {
-    /// Whether its name carries the number it begins with; an array that begins with device 0 is named by its class
+    /// Returns true if its name includes its first number; an array that begins with device 0 is named by its class
     /// alone.
     pub fn is_numbered(&self) -> bool {
         !self.array || self.first != 0
@@ -174,7 +174,7 @@ impl Field {
         self.grid.filter(|grid| grid.stored_columns < grid.columns)
     }
 
-    /// How many devices each dimension has: columns, if there are several, and rows.
+    /// Number of devices in each dimension: columns, if there are several, and rows.
     pub fn dimensions(&self) -> (Option<u32>, u32) {
         match self.columns() {
             Some(grid) => (Some(grid.stored_columns), self.count.div_ceil(grid.columns)),
@@ -182,13 +182,13 @@ impl Field {
         }
     }
 
-    /// How many devices it has room for.
+    /// Number of devices that it can store.
     pub fn room(&self) -> u32 {
         let (columns, rows) = self.dimensions();
         columns.unwrap_or(1) * rows
     }
 
-    /// Whether it holds a device of its class.
+    /// Returns true if it holds a device of its class.
     pub fn holds(&self, number: u32) -> bool {
         (self.first..self.end()).contains(&number)
             && self.grid.is_none_or(|grid| grid.stores(number))
@@ -209,7 +209,7 @@ impl Field {
         self.end() - 1
     }
 
-    /// Where in it one of its devices is.
+    /// Position of one of its devices.
     pub fn at(&self, number: u32) -> At {
         match self.columns() {
             Some(grid) => {
@@ -222,7 +222,7 @@ impl Field {
     }
 }
 
-/// Where in a field a device is.
+/// Position of a device in a field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum At {
     /// It is the field.
@@ -231,21 +231,21 @@ pub enum At {
     Element(u32),
     /// An element of an array of columns.
     Column {
-        /// Which column.
+        /// Number of the column.
         column: u32,
-        /// Where in it.
+        /// Row in the column.
         row: u32,
     },
 }
 
-/// Where the device of a loop's current iteration is.
+/// Location of the device of a loop's current iteration.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundSlot<'a> {
     /// The field.
     pub field: &'a Field,
-    /// Which column, if there are several.
+    /// Number of the column, if there are several.
     pub column: Option<u32>,
-    /// Where in it the device of iteration 0 is; those of the next iterations follow.
+    /// Row of the device of iteration 0; those of the next iterations follow.
     pub row: u32,
 }
 
@@ -254,9 +254,9 @@ pub struct RoundSlot<'a> {
 pub struct Run {
     /// First number.
     pub first: u32,
-    /// How many.
+    /// Number of devices.
     pub count: u32,
-    /// What happens to it.
+    /// Treatment in STOP and at power-off.
     pub keep: Keep,
 }
 
@@ -268,7 +268,7 @@ pub struct Storage<'m> {
     model: &'static Model,
     /// By class and number.
     fields: Vec<Field>,
-    /// Where each class begins in `fields`.
+    /// Range of each class in `fields`.
     of_class: [(usize, usize); DeviceClass::ALL.len()],
     /// For each class by number: which of its fields holds the device, [`NO_FIELD`] if none does.
     by_number: [Vec<u32>; DeviceClass::ALL.len()],
@@ -314,7 +314,7 @@ impl<'m> Storage<'m> {
         &self.fields[from..to]
     }
 
-    /// How many bytes the devices take, without padding.
+    /// Size of the devices in bytes, without padding.
     pub fn bytes(&self) -> u64 {
         let bytes = |field: &Field| u64::from(field.room()) * u64::from(field.kind.size().0);
         self.fields.iter().map(bytes).sum()
@@ -347,7 +347,7 @@ impl<'m> Storage<'m> {
         field.holds(number).then_some((field, number))
     }
 
-    /// Where the device of a loop's current iteration is, which advances by this many numbers with each iteration.
+    /// Location of the device of a loop's current iteration, which advances by this many numbers with each iteration.
     pub fn round_slot(&self, class: DeviceClass, number: u32, by: u32) -> Option<RoundSlot<'_>> {
         let field = self.find(class, number)?;
         let grid = field.grid.filter(|grid| grid.columns == by)?;
@@ -365,7 +365,7 @@ impl<'m> Storage<'m> {
             .filter(|f| f.array && f.grid.is_none() && f.end() - number >= count)
     }
 
-    /// Whether a device is a bit that is stored as a number.
+    /// Returns true if a device is a bit that is stored as a number.
     pub fn is_numeric_bit(&self, class: DeviceClass, number: u32) -> bool {
         let field = self.find(class, number);
         field.is_some_and(|field| field.kind == Kind::NumericBit)
@@ -389,18 +389,18 @@ impl<'m> Storage<'m> {
     }
 }
 
-/// How much of the program's struct the devices of a class take, in bytes on a 32-bit machine.
+/// Size of the devices of a class in the program's struct, in bytes on a 32-bit machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Memory {
     /// The class.
     pub class: DeviceClass,
-    /// How many are stored.
+    /// Number of stored devices.
     pub devices: u32,
     /// Their bytes, without what aligns fields.
     pub bytes: u32,
 }
 
-/// What the devices of a program take, by their classes; the rest of the struct is private.
+/// Sizes of a program's devices, by class; the rest of the struct is private.
 pub fn memory(module: &Module) -> Vec<Memory> {
     let storage = Storage::new(module);
     let of = |class: DeviceClass| {
@@ -417,7 +417,7 @@ pub fn memory(module: &Module) -> Vec<Memory> {
     all.filter(|memory| memory.devices > 0).collect()
 }
 
-/// Which of the fields of one class holds a device, by number.
+/// Index of the field that holds a device, by number, among the fields of one class.
 fn fields_by_number(fields: &[Field]) -> Vec<u32> {
     let end = fields.last().map_or(0, Field::end);
     let mut by_number = vec![NO_FIELD; end as usize];
@@ -496,7 +496,7 @@ fn pieces(module: &Module) -> Vec<Piece> {
     pieces
 }
 
-/// What happens to the devices of an area from this one on.
+/// Treatment of the devices of an area from this one on.
 fn keep(area: &Area, first: u32) -> Keep {
     match (area.class, is_special(area.class, first), area.latched) {
         (DeviceClass::X, ..) => Keep::Input,

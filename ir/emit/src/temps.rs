@@ -17,15 +17,15 @@ pub struct Temp {
     prefix: &'static str,
     /// Step number of the network.
     step: Option<u32>,
-    /// Which of this name, from 0.
+    /// Number of the temporary among those of its name, from 0.
     ordinal: u32,
-    /// How often it is used.
+    /// Number of uses.
     pub used: u32,
-    /// Where it lives.
+    /// Scope of the variable.
     home: Home,
 }
 
-/// Where a temporary lives.
+/// Scope of a temporary.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub enum Home {
     /// A constant of its block: declared by the one statement that gives it its value, and read below that.
@@ -38,7 +38,7 @@ pub enum Home {
 }
 
 impl Temp {
-    /// Where it lives.
+    /// Scope of the variable.
     pub fn home(&self) -> Home {
         self.home
     }
@@ -88,7 +88,7 @@ pub(crate) fn temps(module: &Module, functions: &[Function], sizes: &Sizes) -> T
     scopes.temps
 }
 
-/// Where a temporary occurs first.
+/// First occurrence of a temporary.
 #[derive(Clone, Copy, Default)]
 struct First {
     function: Option<usize>,

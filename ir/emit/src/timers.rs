@@ -1,4 +1,4 @@
-//! What timers have to remember.
+//! Memories of timers.
 
 use crate::plan::{Node, Plan};
 use crate::storage::Storage;

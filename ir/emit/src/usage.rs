@@ -9,21 +9,21 @@ use std::fmt::Write;
 /// Columns of an option with its value.
 const OPTION_WIDTH: usize = 24;
 
-/// What a host can do; its language decides.
+/// Capabilities of a host, which depend on its language.
 #[derive(Clone, Copy, Debug)]
 pub struct Host {
-    /// What `--serial` connects a port to, by examples.
+    /// Examples of the ends that `--serial` connects a port to.
     pub lines: &'static [&'static str],
-    /// Whether it opens servers.
+    /// True if it opens servers.
     pub servers: bool,
-    /// Whether it has connections and a log.
+    /// True if it has connections and a log.
     pub io: bool,
 }
 
-/// What an option takes.
+/// Kind of an option's value.
 #[derive(Clone, Copy, Debug)]
 pub enum Takes {
-    /// What a serial port is connected to: `COM1=/dev/ttyUSB0`.
+    /// End of a serial port: `COM1=/dev/ttyUSB0`.
     Line,
     /// The address of a server.
     Address(Speaks),
@@ -40,9 +40,9 @@ pub enum Takes {
 /// An option with a value.
 #[derive(Clone, Copy, Debug)]
 pub struct Valued {
-    /// How it is written.
+    /// Name as written.
     pub name: &'static str,
-    /// What it takes.
+    /// Kind of its value.
     pub takes: Takes,
 }
 

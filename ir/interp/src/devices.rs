@@ -1,4 +1,4 @@
-//! Where the interpreter keeps devices: every device of the model, whether the program uses it or not.
+//! Storage of devices in the interpreter: every device of the model, whether the program uses it or not.
 
 use rungc_ir::Module;
 use rungc_models::Range;
@@ -6,7 +6,7 @@ use rungc_models::runs::{IndexAlias, is_special, rt_class};
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
 
-/// What the model says about one number of a class.
+/// Properties of one number of a class, according to the model.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]
 struct Presence {
     exists: bool,
@@ -15,7 +15,7 @@ struct Presence {
     spared: bool,
 }
 
-/// Where the devices of a class are in their bank: number 0 at `start`.
+/// Range of a class's devices in their bank: number 0 at `start`.
 #[derive(Clone, Copy, Default)]
 struct Row {
     start: u32,
@@ -41,7 +41,7 @@ struct Bank<T> {
     rows: [Row; CLASSES],
 }
 
-/// How many classes are storage.
+/// Number of classes that are storage.
 const CLASSES: usize = Class::ER as usize + 1;
 
 impl<T: Clone + Default> Bank<T> {
@@ -80,7 +80,7 @@ impl<T: Clone + Default> Bank<T> {
         }
     }
 
-    /// Where a device is, if the model has it.
+    /// Index of a device, if the model has it.
     fn slot(&self, class: Class, number: u32) -> Option<usize> {
         let row = self.rows[class as usize];
         if number >= row.length {
@@ -121,7 +121,7 @@ pub(crate) struct Devices {
     aliases: &'static [IndexAlias],
 }
 
-/// What all devices of a model hold.
+/// Values of all devices of a model.
 #[derive(Clone)]
 pub(crate) struct Cells {
     bits: Vec<bool>,
@@ -132,7 +132,7 @@ pub(crate) struct Cells {
 }
 
 impl Devices {
-    /// What they hold now.
+    /// Current values.
     pub(crate) fn cells(&self) -> Cells {
         Cells {
             bits: self.bits.cells.clone(),
@@ -180,7 +180,7 @@ impl Devices {
         (class, number)
     }
 
-    /// Where a bit device is; `None` for contacts of timers and counters, which are in their own memory.
+    /// Index of a bit device; `None` for contacts of timers and counters, which are in their own memory.
     pub(crate) fn bit_slot(&self, class: Class, number: u32) -> Option<BitSlot> {
         let i = self.bits.slot(class, number)?;
         u32::try_from(i).ok().map(BitSlot)

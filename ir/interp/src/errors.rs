@@ -6,26 +6,26 @@ use rungc_rt::{Class, Plc};
 /// The classes of index registers.
 const INDEX_CLASSES: [Class; 2] = [Class::Z, Class::V];
 
-/// How many index registers of each class are kept.
+/// Number of index registers recorded of each class.
 const INDEXES: usize = 8;
 
 /// An operation error at one instruction, each time that it happened.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct OperationError {
-    /// When it happened first, in milliseconds since power-on.
+    /// Time of the first occurrence, in milliseconds since power-on.
     pub first_ms: u32,
     /// Step of the instruction.
     pub step: u32,
     /// The PLC's code: 6706.
     pub code: u16,
-    /// How often it has happened.
+    /// Number of occurrences.
     pub times: u64,
     /// Z0 to Z7 and V0 to V7, as they were the first time.
     indexes: [[i16; INDEXES]; INDEX_CLASSES.len()],
 }
 
 impl OperationError {
-    /// What an index register held when it happened first.
+    /// Value of an index register at the first occurrence.
     pub fn index(&self, class: Class, number: u32) -> Option<i16> {
         let i = INDEX_CLASSES.iter().position(|&index| index == class)?;
         self.indexes[i].get(number as usize).copied()

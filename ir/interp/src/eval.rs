@@ -16,7 +16,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// What a temporary of this type holds before it is first assigned.
+    /// Value of a temporary of this type before its first assignment.
     pub(crate) fn zero(ty: Ty) -> Self {
         match ty {
             Ty::Bit => Value::Bit(false),
@@ -225,7 +225,7 @@ impl<'m> Machine<'m> {
         self.word(class, number).unwrap_or(0)
     }
 
-    /// Where the high word of the pair at (class, number) is.
+    /// Device with the high word of the pair at (class, number).
     pub(crate) fn high_word(&self, class: Class, number: u32) -> (Class, u32) {
         if class == Class::Z && self.module.model.z_pairs_with_v {
             (Class::V, number)

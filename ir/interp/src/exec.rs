@@ -1,4 +1,4 @@
-//! What statements do, as [`rungc_ir::node`] specifies.
+//! Execution of statements, as [`rungc_ir::node`] specifies it.
 
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
@@ -12,7 +12,7 @@ use rungc_rt::{
 };
 use rungc_syntax::DeviceClass;
 
-/// How a body ended.
+/// Completion of a body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Flow {
     /// At its end.
@@ -23,7 +23,7 @@ pub(crate) enum Flow {
     Goto(LabelId),
 }
 
-/// Where a driven instruction is, in its 16-bit or 32-bit form.
+/// Site of a driven instruction, in its 16-bit or 32-bit form.
 fn site_of_form(step: u32, wide: bool) -> Site {
     Site {
         wide,

@@ -12,7 +12,7 @@ use rungc_models::runs::rt_class;
 use rungc_rt::Class;
 use typed_index_collections::TiVec;
 
-/// What an item does with its input.
+/// Operation of an item on its input.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Join {
     /// Begins a block with it (LD).
@@ -23,7 +23,7 @@ pub(crate) enum Join {
     Or,
 }
 
-/// Where an item has its input from.
+/// Source of an item's input.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Input {
     /// A device.
@@ -64,7 +64,7 @@ pub(crate) struct Strided {
 pub(crate) struct Logic {
     items: Vec<Item>,
     pub(crate) strided: Vec<Strided>,
-    /// Where the list of each expression is, by handle; none if it is not logic that a statement uses.
+    /// List of each expression, by handle; none if it is not logic that a statement uses.
     lists: TiVec<ExprId, List>,
 }
 
@@ -198,7 +198,7 @@ impl Decoder<'_> {
         (id, inverted)
     }
 
-    /// What an expression that joins no others is to an item.
+    /// Input of an item for an expression that joins no others.
     fn input(&mut self, id: ExprId) -> Input {
         let expr = self.module.expr(id);
         if let Expr::Temp(temp) = *expr {

@@ -72,7 +72,7 @@ pub struct Machine<'m> {
     pub(crate) temps: TiVec<TempId, Value>,
     pub(crate) edges: TiVec<EdgeId, bool>,
     pub(crate) flags: TiVec<FlagId, bool>,
-    /// When the period of each flag that has one began.
+    /// Start of the current period of each flag that has one.
     pub(crate) periods: Vec<u32>,
     pub(crate) cells: TiVec<CellId, i32>,
     pub(crate) tables: TiVec<TableId, Vec<i32>>,
@@ -91,11 +91,11 @@ pub struct Machine<'m> {
     /// Of the module's serial ports, in their order.
     pub(crate) ports: Vec<Port>,
     pub(crate) type_code: u16,
-    /// What it keeps over power-off, and how records of that name it.
+    /// Data retained over power-off, and its name in records.
     pub(crate) retained: (String, Vec<RetainedRun>),
-    /// What partners on a line read as program memory, from 8000h on.
+    /// Program memory that partners on a line read, from 8000h on.
     pub(crate) program_memory: Option<&'m [u8]>,
-    /// Who looks on.
+    /// Observer of the execution.
     pub(crate) observer: Option<Box<dyn Observer>>,
 }
 
@@ -172,7 +172,7 @@ impl<'m> Machine<'m> {
         self.observer = Some(observer);
     }
 
-    /// Whether a bit expression without `And`, `Or` and `Not` is on now.
+    /// Returns true if a bit expression without `And`, `Or` and `Not` is on now.
     pub fn is_on(&self, id: ExprId) -> bool {
         self.eval(id) == Value::Bit(true)
     }
@@ -188,12 +188,12 @@ impl<'m> Machine<'m> {
         self.axes.get(i)
     }
 
-    /// Whether a private bit of the module is on.
+    /// Returns true if a private bit of the module is on.
     pub fn flag(&self, flag: FlagId) -> bool {
         self.flags[flag]
     }
 
-    /// Whether the watchdog has stopped the program.
+    /// Returns true if the watchdog has stopped the program.
     pub fn watchdog_tripped(&self) -> bool {
         self.last_error.stop == Stop::Watchdog
     }
@@ -487,7 +487,7 @@ impl Plc for Machine<'_> {
     }
 
     fn program_byte(&self, offset: u32) -> Option<u8> {
-        /// What erased memory holds.
+        /// Value of erased memory.
         const ERASED: u8 = 0xff;
         let memory = self.program_memory?;
         Some(memory.get(offset as usize).copied().unwrap_or(ERASED))

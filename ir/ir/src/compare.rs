@@ -1,4 +1,4 @@
-//! Which devices of two modules can have different values, given the same inputs at the same times.
+//! Comparison of two modules: the devices that can have different values, given the same inputs at the same times.
 //!
 //! Each module becomes a sequence of atoms: its statements, with the conditions and loops around them as separate
 //! values. An atom is a text, what it reads and what it writes. Private memory has names made of what is stored in
@@ -21,7 +21,7 @@ use rungc_rt::special::D_FIRST_ERROR_STEP;
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// How the behaviour of two modules compares.
+/// Result of comparing the behaviour of two modules.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Behaviour {
     /// All devices have the same values.
@@ -30,7 +30,7 @@ pub enum Behaviour {
     CanDiffer {
         /// Devices that can have different values, in order; all others have the same.
         devices: Vec<DeviceRun>,
-        /// Whether modules, pulse outputs or serial ports can be used differently, too.
+        /// True if modules, pulse outputs or serial ports can be used differently, too.
         hardware: bool,
         /// Steps of instructions that are taken to use all special devices, as nothing says which ones they use, and
         /// that read what can differ or are not the same. Others read and write less, so that more devices may be the
@@ -79,11 +79,11 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
                 taint.write(atom);
             }
         }
-        // Whether an error is the first one, the errors before it decide.
+        // Earlier errors decide whether an error is the first one.
         if ERRORS.into_iter().any(|run| taint.meets(run)) {
             ERRORS.into_iter().for_each(|run| taint.add(run));
         }
-        // What a port is set up to do, and so what it writes, is in special devices.
+        // The set-up of a port, and so its writes, is in special devices.
         taint.all |= ports && taint.has_special();
         if taint.size() == before {
             break;
@@ -111,7 +111,7 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
     }
 }
 
-/// Whether a program reads at which step an error occurred.
+/// Returns true if a program reads at which step an error occurred.
 fn reads_steps(module: &Module) -> bool {
     let first = D_FIRST_ERROR_STEP.number();
     let stored = |number| module.layout.area(DeviceClass::D, number).is_some();
@@ -121,11 +121,11 @@ fn reads_steps(module: &Module) -> bool {
 /// Numbers of devices are below this.
 const NUMBERS: usize = 1 << 16;
 
-/// What can differ.
+/// Devices and names that can differ.
 #[derive(Default)]
 struct Taint {
     devices: FxHashMap<DeviceClass, Vec<bool>>,
-    /// How many devices there are in `devices`.
+    /// Number of devices in `devices`.
     count: usize,
     names: FxHashSet<u32>,
     /// Everything.

@@ -1,4 +1,4 @@
-//! Which devices a compiled program stores, and how: decided once for both backends.
+//! Layout of the devices that a compiled program stores: decided once for both backends.
 //!
 //! A device that is only ever named directly becomes a separate field; devices that are indexed, moved in blocks or
 //! handed to a runtime function as a run become arrays. Special devices that the program never looks at are not stored.
@@ -18,7 +18,7 @@ pub struct Area {
     pub class: DeviceClass,
     /// First number.
     pub first: u32,
-    /// How many.
+    /// Number of devices.
     pub count: u32,
     /// An array (even of one) rather than a separate field.
     pub array: bool,
@@ -27,9 +27,9 @@ pub struct Area {
 }
 
 impl Area {
-    /// Whether M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); what M8031 clears,
-    /// going to STOP clears as well. Inputs and special devices are never cleared (h1u-h2u-programming §8.9). Cleared
-    /// timers and counters forget their coil, too.
+    /// Returns true if M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); devices that
+    /// M8031 clears are also cleared in STOP. Inputs and special devices are never cleared (h1u-h2u-programming §8.9).
+    /// Cleared timers and counters forget their coil, too.
     pub fn is_cleared(&self, latched: bool) -> bool {
         let special = is_special(self.class, self.first);
         self.class != DeviceClass::X && !special && self.latched == latched
@@ -45,11 +45,11 @@ pub struct Grid {
     pub class: DeviceClass,
     /// First number.
     pub first: u32,
-    /// How many; need not be a multiple of the columns.
+    /// Number of devices; need not be a multiple of the columns.
     pub count: u32,
     /// The number of columns, at least 1: the stride of the loop, by which the devices of a column are apart.
     pub columns: u32,
-    /// How many of the columns are stored, at least 1: the first ones. The program names no device of the others.
+    /// Number of stored columns, at least 1: the first ones. The program names no device of the others.
     pub stored_columns: u32,
 }
 
@@ -60,7 +60,7 @@ impl Grid {
         (n % self.columns, n / self.columns)
     }
 
-    /// Whether it stores a device.
+    /// Returns true if it stores a device.
     pub fn stores(&self, number: u32) -> bool {
         (self.first..self.end()).contains(&number) && self.position(number).0 < self.stored_columns
     }
@@ -120,7 +120,7 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// Whether a host may look at a device, and write it.
+    /// Returns true if a host may read and write a device.
     pub fn observes(&self, model: &Model, class: DeviceClass, number: u32) -> bool {
         let mut observed = self.observe.iter();
         self.observe_all
@@ -128,7 +128,7 @@ impl Wanted {
     }
 }
 
-/// What is known of one device while the layout is built.
+/// Marks of a device while the layout is built.
 const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
 
@@ -211,7 +211,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// What is accessed is stored: in an array where an index leads to it, or as a run.
+    /// Stores the devices of an access: in an array if an index selects them, or as a run.
     fn store(&mut self, used: Footprint) {
         let Place { class, number, .. } = used.place;
         if let (None, Some(count)) = (used.place.index, used.count) {

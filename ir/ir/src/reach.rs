@@ -1,4 +1,4 @@
-//! Which devices an access may meet: the one rule that the layout, the validator and the passes share.
+//! Devices that an access may reach: the one rule that the layout, the validator and the passes share.
 //!
 //! A place without an index names one device, and the access starts there. **An index leads to any device of the class
 //! that the model has**, general or special, regardless of the number it is added to ([`Expr::InRange`]); where it
@@ -22,7 +22,7 @@ use typed_index_collections::TiSlice;
 pub struct Footprint {
     /// The first device.
     pub place: Place,
-    /// How many; `None`: to the end of the run.
+    /// Number of devices; `None`: to the end of the run.
     pub count: Option<u32>,
     /// They are one unit that code by number finds only in an array: a group of bits, or what the runtime is handed.
     pub in_array: bool,
@@ -75,7 +75,7 @@ impl Footprint {
     }
 }
 
-/// What an access uses: the words of a pair are each by themselves, since that of Z is V and Z on some models.
+/// Reports the devices of an access: the words of a pair separately, since that of Z is V and Z on some models.
 pub(crate) fn of_access(
     model: &Model,
     access: Access,
@@ -99,14 +99,15 @@ pub(crate) fn of_access(
     }
 }
 
-/// What an expression itself reads.
+/// Reports the devices that an expression itself reads.
 pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Footprint)) {
     if let Expr::Read(access) = *expr {
         of_access(model, access, false, found);
     }
 }
 
-/// What a statement itself accesses, in addition to what its expressions read. The runtime may write what it is handed.
+/// Reports the devices that a statement itself accesses, in addition to the reads of its expressions. The runtime may
+/// write the operands passed to it.
 pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
     match *stmt {
         Stmt::Write(access, _) => of_access(model, access, true, found),

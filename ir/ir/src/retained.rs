@@ -1,4 +1,4 @@
-//! What a module keeps over power-off, for hosts that save it.
+//! Data that a module retains over power-off, for hosts that save it.
 
 use crate::Module;
 use crate::layout::Area;
@@ -34,7 +34,7 @@ impl Module {
         runs
     }
 
-    /// How records of latched devices name the program and its model: `motor (fx3u)`.
+    /// Name of the program and its model in records of latched devices: `motor (fx3u)`.
     pub fn retained_as(&self) -> String {
         let model = format!(" ({})", self.model.name);
         let room = OWNER_MAX.saturating_sub(model.len());

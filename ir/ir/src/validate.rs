@@ -142,13 +142,13 @@ fn no_recursion(module: &Module) -> Result<(), String> {
 
 struct Checker<'m> {
     module: &'m Module,
-    /// Which temporaries have a value here.
+    /// Temporaries that have a value here.
     assigned: TiVec<TempId, bool>,
     /// Those assigned so far, in order.
     log: Vec<TempId>,
     /// Labels of the parts around, innermost last.
     labels: Vec<LabelId>,
-    /// How many iterations the loop over rungs around has.
+    /// Number of iterations of the surrounding loop over rungs.
     iterations: u32,
 }
 
@@ -207,7 +207,7 @@ impl Checker<'_> {
                     }
                     self.body(&part.body)?;
                 }
-                // What the last part assigns is assigned: the parts end where it does.
+                // Temporaries assigned by the last part are assigned afterwards: the parts end where it does.
                 self.labels.truncate(outer);
                 Ok(true)
             }
@@ -284,7 +284,7 @@ impl Checker<'_> {
         taken
     }
 
-    /// What is wrong with evaluating an expression here.
+    /// Fault of an expression evaluated here.
     fn fault_in(&self, id: ExprId) -> Option<String> {
         let Some(expr) = self.module.exprs.get(id) else {
             return Some(format!("{id:?} does not exist"));
@@ -361,7 +361,7 @@ impl Checker<'_> {
         (0..self.iterations).map(move |n| first.saturating_add(n.saturating_mul(by)))
     }
 
-    /// Whether a coil leads to timers of one kind, if it is that of a loop's iterations.
+    /// Returns true if a coil selects timers of one kind, if it is that of a loop's iterations.
     fn leads_to_one_kind(&self, place: Place) -> bool {
         let kind = |number| self.module.model.timer(number);
         let mut numbers = self.in_iterations(place.number, place.index);
@@ -381,7 +381,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a statement accesses that the layout lacks.
+    /// Device that a statement accesses and the layout lacks.
     fn unstored_target(&self, stmt: &Stmt) -> Option<String> {
         let mut missing = None;
         reach::of_stmt(self.module.model, stmt, &mut |used| {
@@ -452,7 +452,7 @@ impl Checker<'_> {
         coil.place.index.is_some() && is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16)
     }
 
-    /// Whether the runs of a block are ordinary devices of one kind, which all exist.
+    /// Returns true if the runs of a block are ordinary devices of one kind, which all exist.
     fn block(&self, block: &Block) -> bool {
         use DeviceClass::{D, M, R, S, X, Y};
         let model = self.module.model;

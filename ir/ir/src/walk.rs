@@ -225,7 +225,7 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
     }
 }
 
-/// Whether a statement itself calls the runtime.
+/// Returns true if a statement itself calls the runtime.
 pub fn calls_runtime(stmt: &Stmt) -> bool {
     matches!(stmt, Stmt::Call(_) | Stmt::Fetch(_) | Stmt::Send(_))
 }
@@ -329,11 +329,11 @@ pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
     }
 }
 
-/// How many coils of timers are very many: more than any machine needs. Each takes a hundred bytes of code where
-/// compilers inline it.
+/// Number of timer coils that counts as very many: more than any machine needs. Each takes a hundred bytes of code
+/// where compilers inline it.
 const MANY_TIMERS: usize = 1000;
 
-/// Whether a program has too many timer coils to expand each inline.
+/// Returns true if a program has too many timer coils to expand each inline.
 pub fn has_many_timers(module: &Module) -> bool {
     let mut coils = 0;
     for function in &module.functions {
@@ -355,7 +355,7 @@ pub fn callees(body: &[Stmt]) -> Vec<usize> {
     found
 }
 
-/// Which functions the scan cycle calls, by number. Subroutines that nothing calls are left out of emitted code.
+/// Functions that the scan cycle calls, by number. Subroutines that nothing calls are left out of emitted code.
 pub fn called_functions(module: &Module) -> Vec<bool> {
     let mut called = vec![false; module.functions.len()];
     // `Begin`, `Main` and `End` come first.

@@ -11,7 +11,7 @@ use crate::walk::{for_exprs, operands, statements};
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
-/// How much something does at most.
+/// Upper bound of executed operations.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Cost {
     /// Steps of the PLC program.
@@ -48,11 +48,11 @@ impl Cost {
 pub struct OpenLoop {
     /// Step where its network starts.
     pub step: u32,
-    /// What each further iteration does; one is counted.
+    /// Cost of each further iteration; one is counted.
     pub iteration: Cost,
 }
 
-/// What happens between two scans or in the midst of one.
+/// Event between two scans or within one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Event {
     /// The interrupt routine of this pointer.
@@ -63,12 +63,12 @@ pub enum Event {
     Edge(u32),
 }
 
-/// What a program does at most.
+/// Worst-case cost of a program.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Worst {
     /// A scan, without interrupts.
     pub scan: Cost,
-    /// What comes on top each time that it happens.
+    /// Additional cost of each event.
     pub events: Vec<(Event, Cost)>,
     /// Loops for which `scan` holds only if they run once, in the order of the program.
     pub open_loops: Vec<OpenLoop>,
@@ -122,9 +122,9 @@ struct Finder<'m> {
     lengths: Vec<u64>,
     /// Operations of each expression.
     sizes: TiVec<ExprId, u64>,
-    /// What functions cost that were looked at.
+    /// Costs of the functions examined so far.
     known: BTreeMap<usize, Cost>,
-    /// Whether interrupts are left aside.
+    /// True if interrupts are left aside.
     aside: bool,
     /// Step of the network that is looked at.
     step: u32,
@@ -293,7 +293,7 @@ impl<'m> Finder<'m> {
     }
 }
 
-/// What an expression does in addition to its operands: a constant or an existing temporary does nothing.
+/// Operations of an expression in addition to its operands: none for a constant or an existing temporary.
 fn own(expr: &Expr) -> u64 {
     let nothing = matches!(
         expr,

@@ -15,9 +15,9 @@ pub(super) struct Section {
     /// Its function.
     function: u32,
     interrupt: Advanced,
-    /// Where it continues: 0 is its start.
+    /// Position at which it continues: 0 is its start.
     at: CellId,
-    /// How many other places there are.
+    /// Number of other positions.
     places: u32,
 }
 

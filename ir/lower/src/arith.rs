@@ -212,14 +212,14 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether something looks at the zero, borrow or carry flag.
+    /// Returns true if the zero, borrow or carry flag is used.
     pub(super) fn looks_at_flags(&self) -> bool {
         let flags = [M_ZERO, M_BORROW, M_CARRY];
         flags.iter().any(|&flag| self.specials.has(flag))
     }
 
-    /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different
-    /// signs) has left the range if its sign is another.
+    /// Conditions for the flags of a result: 0, too small, too large. A sum of two values of one sign (a difference of
+    /// two of different signs) has left the range if its sign is another.
     fn sum_flags(
         &mut self,
         op: BinOp,

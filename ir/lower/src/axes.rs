@@ -36,7 +36,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// When RUN begins, the parameters that something looks at have their values; the first scan may set others.
+    /// Emits the initial values of the parameters in use, assigned when RUN begins; the first scan may set others.
     pub(super) fn axis_defaults(&mut self) {
         let starts = self.model.axis_starts();
         let looked_at = starts.filter(|&(register, _)| {

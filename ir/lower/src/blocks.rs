@@ -24,7 +24,8 @@ const SHIFTED_WORDS: u32 = 2048;
 /// Of how many bits DECO takes a number.
 const DECODED: u32 = 8;
 
-/// Whether an instruction on a block that a runtime function implements is inline code, judging by its operands.
+/// Returns true if an instruction on a block that a runtime function implements is inline code, judging by its
+/// operands.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the other functions of the runtime are called"
@@ -67,7 +68,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     }
 }
 
-/// How many devices of a class ZRST resets inline.
+/// Number of devices of a class that ZRST resets inline.
 fn resets(class: DeviceClass) -> u32 {
     use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
     match class {
@@ -77,7 +78,7 @@ fn resets(class: DeviceClass) -> u32 {
     }
 }
 
-/// How many of these are reset one by one at most.
+/// Most devices of a class that are reset one by one.
 fn resets_singly(class: DeviceClass) -> u32 {
     match resets(class) {
         u32::MAX => BITS,
@@ -85,7 +86,7 @@ fn resets_singly(class: DeviceClass) -> u32 {
     }
 }
 
-/// Whether no device of a run is special.
+/// Returns true if no device of a run is special.
 fn ordinary(first: Device, count: u32) -> bool {
     !is_special(first.class, first.number) && !is_special(first.class, first.number + count - 1)
 }
@@ -166,7 +167,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// What `make` emits is executed if both runs of devices exist; else the instruction faults.
+    /// Executes the statements of `make` if both runs of devices exist; else the instruction faults.
     fn with_blocks(&mut self, runs: [(Device, u32); 2], make: impl FnOnce(&mut Self)) {
         let exist = runs
             .iter()
@@ -327,8 +328,8 @@ impl Lowerer<'_> {
         self.emit(Stmt::Write(Access::bit(place), on));
     }
 
-    /// Whether an instruction has a long run that is not copied or filled as a whole: some of its devices are special,
-    /// or those that enter a shift overlap so that one by one they enter more than once.
+    /// Returns true if an instruction has a long run that is not copied or filled as a whole: some of its devices are
+    /// special, or those that enter a shift overlap so that one by one they enter more than once.
     #[expect(
         clippy::wildcard_enum_match_arm,
         reason = "the other functions of the runtime are called"

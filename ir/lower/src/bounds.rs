@@ -134,7 +134,7 @@ pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagno
     }
 }
 
-/// How many bytes devices take.
+/// Size of devices in bytes.
 fn size(model: &Model, class: DeviceClass, (first, last): (u32, u32)) -> u64 {
     use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
     let each = match class {

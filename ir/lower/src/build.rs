@@ -114,7 +114,7 @@ impl Lowerer<'_> {
         self.add(Expr::Temp(out))
     }
 
-    /// What `make` emits, as a body. It makes no jumps.
+    /// Body of the statements that `make` emits. It makes no jumps.
     pub(super) fn body(&mut self, make: impl FnOnce(&mut Self)) -> Body {
         let outer = std::mem::take(&mut self.out);
         make(self);
@@ -122,7 +122,7 @@ impl Lowerer<'_> {
         inner.into_iter().filter_map(Item::into_stmt).collect()
     }
 
-    /// What `make` emits is executed if `cond` is on.
+    /// Executes the statements of `make` if `cond` is on.
     pub(super) fn when(&mut self, cond: ExprId, make: impl FnOnce(&mut Self)) {
         match self.known_bit(cond) {
             Some(true) => make(self),

@@ -117,7 +117,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether an instruction is driven and no other runs; it then runs until it is not driven any more.
+    /// Condition that an instruction is driven and no other runs; it then runs until it is not driven any more.
     fn alone(&mut self, drive: ExprId, runs: CellId, own: i32) -> ExprId {
         let drive = self.settled(drive);
         let (none, own) = (self.add(Expr::I32(0)), self.add(Expr::I32(own)));
@@ -330,7 +330,8 @@ fn in_words<'o>(params: &[Param], operands: &'o [Operand]) -> Cow<'o, [Operand]>
     words
 }
 
-/// How many devices (bits of a group) each operand occupies from the named one on; `None`: to the end of its class.
+/// Number of devices (bits of a group) that each operand occupies from the named one on; `None`: to the end of its
+/// class.
 pub(super) fn extents<'o>(
     resolution: &Resolution,
     operands: &'o [Operand],
@@ -347,7 +348,7 @@ pub(super) fn extents<'o>(
     })
 }
 
-/// How many devices there are from one to the other.
+/// Number of devices from the first to the last.
 fn through(first: &OperandKind, last: &OperandKind) -> Option<u32> {
     match (first, last) {
         (OperandKind::Device(first, None), OperandKind::Device(last, None)) => {

@@ -42,7 +42,7 @@ impl Lowerer<'_> {
         self.emit(Stmt::SetCell(cell, edges));
     }
 
-    /// When the first scan ends, registers of edges are read.
+    /// Emits the reading of the edges' registers at the end of the first scan.
     pub(super) fn first_captures(&mut self) {
         let captures = std::mem::take(&mut self.interrupts.captures);
         if captures.is_empty() {
@@ -56,7 +56,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether an edge interrupts; `None`: always.
+    /// Condition for an edge to interrupt; `None`: always.
     pub(super) fn captured(&mut self, input: u32, kind: EdgeKind) -> Option<ExprId> {
         let mut captures = self.interrupts.captures.iter();
         let &(capture, cell) = captures.find(|(capture, _)| capture.inputs.contains(&input))?;

@@ -277,7 +277,7 @@ impl Lowerer<'_> {
     }
 }
 
-/// Whether a class holds words (T and C are both).
+/// Returns true if a class holds words (T and C are both).
 fn is_word(class: DeviceClass) -> bool {
     use DeviceClass::{D, ER, R, V, Z};
     matches!(class, D | R | ER | V | Z)

@@ -12,7 +12,7 @@ pub use rungc_ir::ranges::Bound;
 use rungc_models::{Fit, Model, ModelId, Variant};
 use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
 
-/// How to compile.
+/// Options of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct CompileOptions {
     /// The model; else the one that the program's source names, else FX3U.
@@ -32,7 +32,7 @@ pub struct CompileOptions {
     pub programmer: bool,
     /// Slaves by Modbus RTU do not answer QLink, which takes memory.
     pub without_qlink: bool,
-    /// What operands with an index can reach.
+    /// Ranges of operands with an index.
     pub bounds: Vec<Bound>,
     /// Simplify the module.
     pub optimise: bool,
@@ -43,12 +43,12 @@ pub struct CompileOptions {
     pub warn: Vec<&'static str>,
 }
 
-/// What came of it.
+/// Result of a compilation.
 #[derive(Debug)]
 pub struct Compiled {
     /// The module; `None` if there were errors, or if the program's reader could not read all of it.
     pub module: Option<Module>,
-    /// Where its parts come from, if that was asked for.
+    /// Sources of its parts, if requested.
     pub marks: Option<Marks>,
     /// All findings.
     pub diagnostics: Diagnostics,

@@ -87,7 +87,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// When a scan ends: a table that does not work has its first row before it.
+    /// Emits the reset of a table that is not enabled to its first row, at the end of a scan.
     pub(super) fn begin_rows(&mut self) {
         let Some((table, row)) = self.interrupts.rows else {
             return;

@@ -22,9 +22,9 @@ const WORD: u32 = 16;
 #[derive(Clone)]
 pub(super) struct Rows {
     mode: &'static TableMode,
-    /// Where its rows are.
+    /// First device of its rows.
     first: Place,
-    /// How many there are; `None` if that is known only in a run.
+    /// Number of rows; `None` if it is known only at run time.
     count: Option<u32>,
     /// It works through its rows.
     armed: FlagId,
@@ -32,17 +32,17 @@ pub(super) struct Rows {
     begins: Option<FlagId>,
     /// The row that waits, from 0.
     row: CellId,
-    /// How many rows there are.
+    /// Number of rows.
     rows: CellId,
-    /// What the rows wait for.
+    /// Counts that the rows wait for.
     counts: TableId,
-    /// What they say.
+    /// Words that they output.
     words: TableId,
     /// Bits that it writes.
     target: Option<(BitTarget, Width)>,
 }
 
-/// Which bits a pattern writes.
+/// Bits that a pattern writes.
 #[derive(Clone, Copy)]
 enum Width {
     /// This many, starting with the first.
@@ -226,7 +226,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// When the scan ends, tables that were driven in it begin, and the relays of those that have ended go off.
+    /// Emits the end of the scan for tables: those driven in it begin, and the relays of those that have ended go off.
     pub(super) fn begin_tables(&mut self) {
         for table in std::mem::take(&mut self.high_speed.tables) {
             if table.mode.done_for_a_scan {
@@ -366,7 +366,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether the last row was reached.
+    /// Emits whether the last row was reached.
     fn show_done(&mut self, table: &Rows, on: bool) {
         if let Some(relay) = table.mode.done.filter(|&relay| self.specials.has(relay)) {
             let on = self.bit_const(on);

@@ -7,17 +7,17 @@ use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt, 
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, OperandKind};
 
-/// What is shown of pulses a minute, in milliseconds: ten times their number.
+/// Numerator of pulses per minute for a time in milliseconds, displayed times ten.
 const TEN_MINUTES: i32 = 600_000;
 
-/// What an SPD knows.
+/// State of an SPD.
 #[derive(Clone, Copy)]
 struct Window {
     /// It is driven.
     on: FlagId,
     /// Length, at least 1 while it is on.
     length: CellId,
-    /// When it began.
+    /// Start of the window.
     began: CellId,
     /// Pulses in it.
     count: CellId,
@@ -124,7 +124,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Where it shows the last window's pulses, the running window's, and what is left of it.
+    /// Targets for the last window's pulses, the running window's, and its remaining time.
     fn shown(&mut self, input: Device, wide: bool, guards: &mut Guards) -> Shown {
         let none = Shown {
             parts: [Target::None; 3],
@@ -202,7 +202,7 @@ impl Lowerer<'_> {
     }
 }
 
-/// Where an SPD shows what it counts.
+/// Targets of the counts of an SPD.
 struct Shown {
     parts: [Target; 3],
     /// The relay that makes it show the pulses a minute, and where.

@@ -17,7 +17,7 @@ const DECODED: i32 = 4;
 const ENCODED_OF_WORD: i32 = 4;
 const ENCODED_OF_BITS: i32 = 5;
 
-/// Whether such an instruction is inline code, judging by its operands.
+/// Returns true if such an instruction is inline code, judging by its operands.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the other functions of the runtime are called"
@@ -49,12 +49,12 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     }
 }
 
-/// Whether it is a register or a constant.
+/// Returns true for a register or a constant.
 fn is_whole(operand: &OperandKind) -> bool {
     register(operand).is_some() || constant(operand).is_some()
 }
 
-/// Whether an instruction that is inline code reads the flag of its row, so that others have to set it.
+/// Returns true if an instruction that is inline code reads the flag of its row, so that others have to set it.
 pub(super) fn reads_flag(function: RtFn) -> bool {
     matches!(function, RtFn::Rcr | RtFn::Rcl)
 }
@@ -106,7 +106,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether a word is a number of at most four decimal digits.
+    /// Condition that a word is a number of at most four decimal digits.
     fn has_four_digits(&mut self, value: ExprId) -> ExprId {
         let (least, most) = (self.int(0, false), self.int(9999, false));
         let not_below = self.add(Expr::Cmp(CmpOp::Ge, value, least));
@@ -149,7 +149,7 @@ impl Lowerer<'_> {
             } else {
                 carry
             };
-            // Where the carry flag goes; the value is below and above it.
+            // Position of the carry flag; the value is below and above it.
             let seam = width - places;
             let mut rotated = this.rotated(carry, seam, wide);
             if seam > 0 {

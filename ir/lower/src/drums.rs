@@ -15,10 +15,10 @@ use rungc_syntax::{Device, DeviceClass, Instr};
 const BITS: i32 = 16;
 /// The most columns of a matrix of switches.
 const COLUMNS: i32 = 8;
-/// How long a column of switches is selected before it is read.
+/// Time for which a column of switches is selected before it is read.
 const COLUMN_MS: i32 = rungc_rt::fnc::keys::MTR_MS;
 
-/// Whether such an instruction is inline code, judging by its operands.
+/// Returns true if such an instruction is inline code, judging by its operands.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let is_bits = |i| kind(i).and_then(bits).is_some();
@@ -33,14 +33,14 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     }
 }
 
-/// What an MTR remembers.
+/// Memory of an MTR.
 #[derive(Clone, Copy)]
 struct Matrix {
     /// The column that is selected.
     column: CellId,
     /// For how long.
     ms: CellId,
-    /// Whether the last scan drove it.
+    /// True if the last scan drove it.
     driven: CellId,
 }
 
@@ -96,7 +96,7 @@ impl Lowerer<'_> {
         self.settled(element)
     }
 
-    /// Whether a value lies from `on` up to, but without, `off`.
+    /// Condition that a value lies from `on` up to, but without, `off`.
     fn is_inside(&mut self, value: ExprId, on: ExprId, off: ExprId) -> ExprId {
         let reached = self.add(Expr::Cmp(CmpOp::Ge, value, on));
         let before = self.add(Expr::Cmp(CmpOp::Lt, value, off));
@@ -169,7 +169,7 @@ impl Lowerer<'_> {
         self.emit(Stmt::SetCell(matrix.driven, driven));
     }
 
-    /// What one more MTR remembers.
+    /// Creates the memory of another MTR.
     fn matrix(&mut self) -> Matrix {
         self.matrices += 1;
         let n = self.matrices;
@@ -181,7 +181,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// When a column has been selected long enough its switches are taken over, and it is the turn of the next.
+    /// Emits the scan of the switches: when a column has been selected long enough its switches are read, and the next
+    /// is selected.
     fn scan_matrix(
         &mut self,
         matrix: Matrix,
@@ -236,7 +237,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether it is the turn of column `k`.
+    /// Condition that column `k` is selected.
     fn is_column(&mut self, matrix: Matrix, k: u32) -> ExprId {
         let column = self.add(Expr::Cell(matrix.column));
         self.is_int(column, k as i32, true)

@@ -1,4 +1,4 @@
-//! What edges of input terminals do, outside the scan.
+//! Actions at edges of input terminals, outside the scan.
 
 use super::Lowerer;
 use super::operand::fixed;
@@ -85,7 +85,7 @@ impl Lowerer<'_> {
         self.add(Expr::Flag(flag))
     }
 
-    /// What `make` emits is done at an edge, after what was added for it before.
+    /// Adds the statements of `make` to the actions at an edge, after those added before.
     pub(super) fn on_edge(&mut self, input: u32, kind: EdgeKind, make: impl FnOnce(&mut Self)) {
         let body = self.body(make);
         let key = (input, kind == EdgeKind::Rising);

@@ -12,7 +12,7 @@ use rungc_syntax::DeviceClass::D;
 /// The first X and Y of the extension modules of HM.
 const FIRST_TERMINAL: u32 = 0o20;
 
-/// How many X, how many Y and how many registers the extension modules of HM may have.
+/// Most X, Y and registers of the extension modules of HM.
 const MOST_TERMINALS: u32 = 128;
 const MOST_WORDS: u32 = 384;
 
@@ -34,10 +34,10 @@ struct Extension {
     writes: u32,
 }
 
-/// How the extension modules of HM share terminals and registers.
+/// Terminals and registers of HM's extension modules.
 struct Extensions {
     modules: Vec<Extension>,
-    /// What the registers from D7100 on show.
+    /// Values of the registers from D7100 on.
     shown: Vec<(Register, i16)>,
 }
 

@@ -37,7 +37,7 @@ pub(super) struct Routine {
     pub(super) start: usize,
 }
 
-/// Where functions begin and end and what is jumped to.
+/// Boundaries of functions, and the targets of jumps.
 pub(super) struct Flow {
     /// The main program first.
     pub(super) regions: Vec<Region>,
@@ -45,7 +45,7 @@ pub(super) struct Flow {
     subroutines: FxHashMap<u32, usize>,
     /// Calls that would be recursive: (region of the call, region called).
     recursive: FxHashSet<(usize, usize)>,
-    /// How many calls are open, where they may nest deeper than the model allows.
+    /// Number of open calls, if they may nest deeper than the model allows.
     open_calls: Option<CellId>,
     /// Pointers that a jump goes to.
     jumped_to: FxHashSet<u32>,
@@ -55,7 +55,7 @@ pub(super) struct Flow {
     current: usize,
     /// Assignments at the start of the current function.
     prologue: Vec<(TempId, ExprId)>,
-    /// Whether the instruction at hand cannot be reached.
+    /// True if the current instruction is unreachable.
     dead: bool,
 }
 
@@ -138,7 +138,7 @@ impl Flow {
         flow
     }
 
-    /// Whether there are coils that not every scan executes: routines or jumps.
+    /// Returns true if there are coils that not every scan executes: routines or jumps.
     pub(super) fn skips(&self) -> bool {
         self.regions.len() > 1 || !self.jumped_to.is_empty()
     }
@@ -230,7 +230,7 @@ impl Flow {
         self.regions[self.current].function
     }
 
-    /// Whether the function at hand is the main program.
+    /// Returns true if the current function is the main program.
     pub(super) fn in_main(&self) -> bool {
         self.current == 0
     }
@@ -272,7 +272,7 @@ impl Flow {
         }
     }
 
-    /// How deep calls may nest: the longest chain of calls that begins in each region.
+    /// Depth of nested calls: the longest chain of calls that begins in each region.
     fn depths(&self, resolved: &Resolved) -> Vec<u32> {
         let mut calls: Vec<Vec<usize>> = Vec::with_capacity(self.regions.len());
         for (i, region) in self.regions.iter().enumerate() {
@@ -281,7 +281,7 @@ impl Flow {
             calls.push(made);
         }
         let mut depths = vec![0; calls.len()];
-        // What is known spreads by a level of calls in each round; without recursive calls it comes to an end.
+        // Knowledge spreads by a level of calls in each round; without recursive calls it converges.
         loop {
             let next: Vec<u32> = calls
                 .iter()
@@ -424,7 +424,7 @@ impl Lowerer<'_> {
         body
     }
 
-    /// Whether the instruction at hand is a label that a jump goes to.
+    /// Returns true if the current instruction is the target of a jump.
     fn revives(&self) -> bool {
         self.resolution()
             .label

@@ -26,7 +26,7 @@ pub(super) struct Used {
     preset: CellId,
 }
 
-/// What a comparison looks at.
+/// Value that a comparison observes.
 #[derive(Clone, Copy)]
 pub(super) enum Counted {
     /// A high-speed counter, by its number: at each count.
@@ -40,16 +40,16 @@ pub(super) struct Compare {
     pub(super) counted: Counted,
     /// It is driven.
     pub(super) armed: FlagId,
-    /// What the count is compared with: one value, or the ends of a zone.
+    /// Values that the count is compared with: one value, or the ends of a zone.
     pub(super) values: Vec<CellId>,
-    /// Whether the count was not below the value; `None` where only an equal count acts.
+    /// State of the comparison: the count was not below the value; `None` if only an equal count acts.
     pub(super) reached: Option<FlagId>,
     pub(super) action: Action,
     /// Its instruction.
     pub(super) at: usize,
 }
 
-/// What a comparison does.
+/// Action of a comparison.
 pub(super) enum Action {
     /// Switches a bit.
     Switch(OperandKind, bool),
@@ -72,7 +72,7 @@ pub(super) struct HighSpeed {
     pub(super) compares: Vec<Compare>,
     /// Tables that begin when a scan ends.
     pub(super) tables: Vec<Rows>,
-    /// How many comparisons are driven, and how many may be, in a program that has more.
+    /// Number of driven comparisons, and its limit, in a program that has more.
     limit: Option<(CellId, u32)>,
 }
 
@@ -123,7 +123,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// What `make` emits is done if one more comparison may be driven; else the instruction faults.
+    /// Executes the statements of `make` if one more comparison may be driven; else the instruction faults.
     pub(super) fn one_more(&mut self, make: impl FnOnce(&mut Self)) {
         let Some((driven, most)) = self.high_speed.limit else {
             return make(self);
@@ -175,7 +175,7 @@ impl Lowerer<'_> {
             this.emit(Stmt::SetCell(preset, value));
             this.emit(Stmt::SetFlag(on, drive));
         });
-        // What was written to it, or kept since power was on, does not outlast a reset input that is on.
+        // A written or retained value does not outlast a reset input that is on.
         if let Some(held) = self.held(counter) {
             let resets = self.and(drive, held);
             let place = counter_place(counter.number);
@@ -262,7 +262,7 @@ impl Lowerer<'_> {
         Some(())
     }
 
-    /// What operand `i` names to be looked at.
+    /// Value that operand `i` names for comparison.
     fn counted(&mut self, i: usize, guards: &mut Guards) -> Option<Counted> {
         let operand = self.operand(i)?;
         if let OperandKind::Device(device, None) = *operand
@@ -313,7 +313,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// What a comparison looks at, now.
+    /// Current value of a comparison's count.
     fn count_of(&mut self, compare: &Compare) -> ExprId {
         match compare.counted {
             Counted::Counter(number) => self.add(Expr::Read(Access::pair(counter_place(number)))),
@@ -358,7 +358,7 @@ impl Lowerer<'_> {
         })
     }
 
-    /// What the edges of the counters' inputs do.
+    /// Emits the actions at edges of the counters' inputs.
     pub(super) fn counter_edges(&mut self) {
         let used = std::mem::take(&mut self.high_speed.used);
         let compares = std::mem::take(&mut self.high_speed.compares);
@@ -470,7 +470,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether its reset input holds a counter at 0; `None` if none does so.
+    /// Condition that its reset input holds a counter at 0; `None` if none does so.
     fn held(&mut self, counter: &Counter) -> Option<ExprId> {
         let reset = counter
             .reset
@@ -557,7 +557,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether one of two bits is on.
+    /// Condition that exactly one of two bits is on.
     fn differ(&mut self, a: ExprId, b: ExprId) -> ExprId {
         let (not_a, not_b) = (self.not(a), self.not(b));
         let first = self.and(a, not_b);
@@ -606,7 +606,7 @@ impl Lowerer<'_> {
     }
 }
 
-/// Whether a class has bits that a program switches.
+/// Returns true if a class has bits that a program switches.
 fn is_coil(class: DeviceClass) -> bool {
     matches!(class, DeviceClass::Y | DeviceClass::M | DeviceClass::S)
 }

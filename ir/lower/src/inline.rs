@@ -1,11 +1,11 @@
-//! Which instructions that the runtime has functions for are inline code.
+//! Selection of the instructions that are inline code although the runtime has functions for them.
 
 use super::{Lowerer, blocks, digits, drums, queues, times, words};
 use rungc_rt::RtFn;
 use rungc_syntax::Instr;
 
-/// Whether an instruction is inline code, judging by its operands. It may still be a call where flags ask for more than
-/// the code here does.
+/// Returns true if an instruction is inline code, judging by its operands. It may still be a call where flags ask for
+/// more than the code here does.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     words::is_inline(function, instr)
         || digits::is_inline(function, instr)
@@ -15,8 +15,8 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         || drums::is_inline(function, instr)
 }
 
-/// Whether the flags of an instruction's row are to be stored: by those that the runtime executes, and by those that
-/// read them.
+/// Returns true if the flags of an instruction's row are to be stored: by those that the runtime executes, and by those
+/// that read them.
 pub(super) fn has_flags(function: RtFn, instr: &Instr) -> bool {
     !is_inline(function, instr) || digits::reads_flag(function)
 }

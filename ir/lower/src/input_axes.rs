@@ -144,7 +144,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether a relay requests an interrupt that the ladder and comparisons request.
+    /// Returns true if a relay requests an interrupt that the ladder and comparisons request.
     pub(super) fn is_request(&self, target: &OperandKind) -> bool {
         let OperandKind::Device(
             Device {

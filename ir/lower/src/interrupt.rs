@@ -16,13 +16,13 @@ use rungc_syntax::{Device, codes};
 /// Name of the flag that EI sets.
 const ENABLED: &str = "interrupts_enabled";
 
-/// What requests one thing to be done.
+/// Source of a request and its action.
 pub(super) struct Request {
     pub(super) source: Option<Source>,
     pub(super) what: What,
 }
 
-/// What is done on request.
+/// Action on a request.
 pub(super) enum What {
     /// A routine runs.
     Routine {
@@ -53,7 +53,7 @@ impl What {
         }
     }
 
-    /// Whether a relay requests it or says whether it may be done, where relays keep requests.
+    /// Returns true if a relay requests it or enables it, where relays keep requests.
     fn heeds(&self, relay: Relay) -> bool {
         match *self {
             What::Routine { interrupt, .. } => {
@@ -101,7 +101,7 @@ pub(super) struct Interrupts {
 
 /// Requests that wait for EI.
 struct Stored {
-    /// How many there are.
+    /// Number of requests.
     count: CellId,
     /// The place of each source's among them, from 1; 0: it has none.
     places: Vec<CellId>,
@@ -477,7 +477,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
+    /// Condition that a routine may run; a relay that is not used keeps its state at power-on.
     pub(super) fn allowed(&mut self, gate: Gate) -> ExprId {
         let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate else {
             return self.bit_const(true);
@@ -505,7 +505,7 @@ fn keep_last_of_relays(requests: &mut Vec<Request>) {
     }
 }
 
-/// What a source requests.
+/// Requests of a source.
 fn of(requests: &[Request], source: Source) -> impl Iterator<Item = &Request> {
     requests
         .iter()

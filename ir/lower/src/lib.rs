@@ -78,9 +78,9 @@ use std::cell::OnceCell;
 pub struct LowerOptions {
     /// Name of the module; else it is made from the name of the source.
     pub name: Option<String>,
-    /// What a host looks at.
+    /// Devices that a host reads.
     pub wanted: Wanted,
-    /// What operands with an index can reach.
+    /// Ranges of operands with an index.
     pub bounds: Vec<Bound>,
 }
 
@@ -168,7 +168,7 @@ struct Lowerer<'a> {
     resolved: &'a Resolved<'a>,
     model: &'static Model,
     module: Module,
-    /// How deep each expression's tree is.
+    /// Depth of each expression's tree.
     depths: TiVec<ExprId, u8>,
     /// Runs of devices of each class, see [`Model::runs`].
     runs: Vec<Vec<(u32, u32)>>,
@@ -177,7 +177,7 @@ struct Lowerer<'a> {
     diagnostics: Diagnostics,
     /// The instruction at hand.
     at: usize,
-    /// What the body at hand holds so far.
+    /// Items of the current body.
     out: Vec<Item>,
     /// Bodies around it, from the outermost.
     open: Vec<Open>,
@@ -189,25 +189,26 @@ struct Lowerer<'a> {
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
     signals: signals::Signals,
-    /// Which of the instructions runs that run one at a time, from 1, and how many there are so far.
+    /// Number of the instruction that runs, of those that run one at a time, from 1, and the count of such instructions
+    /// so far.
     exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
     observed: &'a [(DeviceClass, u32)],
     /// Functions that work on serial ports, of those that the program calls.
     port_functions: Vec<RtFn>,
-    /// What operands with an index can reach, where that is given.
+    /// Ranges of operands with an index, where given.
     bounds: &'a [Bound],
     /// Operands with an index.
     indexes: Vec<bounds::IndexUse>,
     /// The ordinary registers that instructions name, once it was asked.
     named: OnceCell<Vec<bool>>,
-    /// How many SPD there are so far.
+    /// Number of SPD so far.
     densities: usize,
-    /// How many matrices of switches are inline code.
+    /// Number of inline matrices of switches.
     matrices: usize,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
-    /// Where the parts of the module come from, if that is asked for.
+    /// Sources of the module's parts, if requested.
     marks: Option<Marks>,
 }
 
@@ -337,7 +338,7 @@ impl<'a> Lowerer<'a> {
         };
         let is_label = matches!(lower, Lower::Basic(Basic::Label));
         if is_label {
-            // What is said of a label is said of what follows it.
+            // A note on a label applies to the code after it.
             if self.heading.is_none() {
                 self.heading = instr.note().map(shortened);
             }
@@ -409,7 +410,7 @@ impl<'a> Lowerer<'a> {
         self.basic_at(self.at) == Some(basic)
     }
 
-    /// Which basic instruction is at `i`.
+    /// Basic instruction at `i`.
     fn basic_at(&self, i: usize) -> Option<Basic> {
         basic_of(self.resolved, i)
     }
@@ -462,7 +463,7 @@ impl<'a> Lowerer<'a> {
     }
 }
 
-/// Which basic instruction is at `i` of a program.
+/// Basic instruction at `i` of a program.
 fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
     resolved.instrs.get(i)?.basic()
 }

@@ -11,14 +11,14 @@ use rungc_rt::{CmpOp, EdgeKind};
 pub(super) struct Logic {
     /// Results of the blocks that are open; the last is the one that contacts join.
     pub(super) stack: Vec<ExprId>,
-    /// What MPS has pushed.
+    /// Bits pushed by MPS.
     branches: Vec<ExprId>,
     /// State of the bus that coils hang on, a temporary: of the innermost master control, or of the step. `None` is
     /// always on.
     pub(super) bus: Option<ExprId>,
     /// The zones of master control that are open: level and the bus around each.
     pub(super) zones: Vec<(u32, Option<ExprId>)>,
-    /// Whether an LD begins a rung, rather than a block that ANB or ORB joins to the code before it.
+    /// True for each LD that begins a rung, rather than a block that ANB or ORB joins to the code before it.
     pub(super) starts_rung: Vec<bool>,
 }
 
@@ -42,7 +42,7 @@ impl Logic {
     }
 }
 
-/// Which LDs begin a rung.
+/// Finds the LDs that begin a rung.
 fn starts_of_rungs(resolved: &Resolved) -> Vec<bool> {
     let mut starts = vec![false; resolved.instrs.len()];
     let mut blocks: Vec<usize> = Vec::new();
@@ -71,7 +71,7 @@ fn starts_of_rungs(resolved: &Resolved) -> Vec<bool> {
 }
 
 impl Lowerer<'_> {
-    /// Whether nothing after the instruction at hand uses the result it consumes.
+    /// Returns true if nothing after the current instruction uses the result it consumes.
     fn result_is_dead(&self) -> bool {
         let mut i = self.at + 1;
         while basic_of(self.resolved, i) == Some(Basic::Nop) {
@@ -118,7 +118,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// What `make` emits is executed while the instruction at hand is driven.
+    /// Executes the statements of `make` while the current instruction is driven.
     pub(super) fn driven(&mut self, make: impl FnOnce(&mut Self)) {
         let drive = self.drive_of_form();
         self.when(drive, make);

@@ -1,4 +1,4 @@
-//! Which instruction each part of a module comes from, for tools that say what of a program was executed.
+//! Sources of a module's parts: the instruction each comes from, for tools that report the executed parts of a program.
 //!
 //! A marked module has more [`Stmt::Network`]s than others: one after the drive of each output is known.
 
@@ -7,7 +7,7 @@ use rungc_ir::node::{EdgeId, ExprId, Network, Stmt};
 use std::collections::BTreeSet;
 use typed_index_collections::TiVec;
 
-/// Where the parts of a module come from. Instructions are positions in [`rungc_syntax::Program::instrs`].
+/// Sources of a module's parts. Instructions are positions in [`rungc_syntax::Program::instrs`].
 #[derive(Clone, Debug, Default)]
 pub struct Marks {
     /// By expression: the instruction that it was made for. Expressions of the scan itself are not in it.
@@ -20,7 +20,7 @@ pub struct Marks {
     pub edges: BTreeSet<EdgeId>,
 }
 
-/// What a [`Stmt::Network`] of a marked module stands before.
+/// Meaning of a [`Stmt::Network`] in a marked module.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Mark {
     /// A network that begins with this instruction.
@@ -29,7 +29,7 @@ pub enum Mark {
     Output {
         /// The instruction.
         instr: u32,
-        /// Whether it is driven.
+        /// Condition of the drive.
         drive: ExprId,
     },
 }

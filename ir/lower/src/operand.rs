@@ -17,7 +17,7 @@ const OUT_OF_RANGE: u16 = 6706;
 #[derive(Default)]
 pub(super) struct Guards {
     demanded: Vec<ExprId>,
-    /// Whether operands were fetched; where one was not, the fault is reported already.
+    /// Conditions that operands were fetched; the fault of one that was not is already reported.
     fetched: Vec<ExprId>,
 }
 
@@ -32,7 +32,7 @@ impl Guards {
     }
 }
 
-/// Where a result goes.
+/// Target of a result.
 #[derive(Clone, Copy)]
 pub(super) enum Target {
     /// A word; takes the low word of a 32-bit value.
@@ -41,7 +41,7 @@ pub(super) enum Target {
     Pair(Place),
     /// A group of bits.
     Nibbles(Place, u8),
-    /// What only the runtime writes; 32 bits of it.
+    /// Operand that only the runtime writes; 32 bits of it.
     Sent(Arg, bool),
     /// Nowhere: the operand was reported.
     None,
@@ -57,7 +57,7 @@ pub(super) enum BitTarget {
 }
 
 impl Lowerer<'_> {
-    /// What `make` emits is executed where `guards` hold; else the instruction faults.
+    /// Executes the statements of `make` where `guards` hold; else the instruction faults.
     pub(super) fn guarded(&mut self, guards: Guards, make: impl FnOnce(&mut Self)) {
         self.guarded_or(guards, make, |_| {});
     }
@@ -273,7 +273,7 @@ impl Lowerer<'_> {
         place
     }
 
-    /// Whether `count` devices from `number` on lie in one run of the model.
+    /// Returns true if `count` devices from `number` on lie in one run of the model.
     pub(super) fn exists(&self, class: DeviceClass, number: u32, count: u32) -> bool {
         let end = u64::from(number) + u64::from(count.max(1)) - 1;
         self.runs[class as usize]

@@ -8,7 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// Jumps nested deeper than this become parts, so that bodies do not nest too deep.
 const MAX_NESTING: usize = 12;
 
-/// What a body holds before its jumps are resolved.
+/// Item of a body before its jumps are resolved.
 #[derive(Debug)]
 pub(super) enum Item {
     /// A statement.
@@ -53,7 +53,7 @@ impl Item {
 struct Group {
     first: usize,
     end: usize,
-    /// Whether its jumps go forward and nest.
+    /// True if its jumps go forward and nest.
     nests: bool,
 }
 
@@ -61,7 +61,7 @@ struct Group {
 struct Leap {
     from: usize,
     to: usize,
-    /// Whether the jump is in a nested body.
+    /// True if the jump is in a nested body.
     nested: bool,
 }
 
@@ -154,7 +154,7 @@ fn groups(leaps: Vec<Leap>) -> Vec<Group> {
     groups
 }
 
-/// What a jump over it leaves out.
+/// Statements that a jump over them skips.
 struct Skipped {
     stay: ExprId,
     target: u32,

@@ -36,8 +36,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether UINIT sets up a protocol with a work area, whose registers name others: free protocol, or master of a
-    /// computer link (hm-motion-controller §6.2).
+    /// Returns true if UINIT sets up a protocol with a work area, whose registers name others: free protocol, or master
+    /// of a computer link (hm-motion-controller §6.2).
     fn takes_work_area(&self) -> bool {
         const LINK_MASTER: i64 = 2;
         const FREE: i64 = 5;
@@ -78,7 +78,7 @@ impl Lowerer<'_> {
         flags.retain(|&(class, number)| model.has(class, number));
     }
 
-    /// Whether the program names a device that chooses what the port speaks.
+    /// Returns true if the program names a device that selects the protocol of the port.
     fn sets_up(&self, wiring: &'static PortWiring) -> bool {
         let chooses = |device: Device| {
             wiring.sets().any(|set| {

@@ -38,7 +38,7 @@ impl Lowerer<'_> {
         (known && is_slave && alone).then_some(number)
     }
 
-    /// What a port may speak.
+    /// Protocols that a port may speak.
     fn protocols(&self, wiring: &PortWiring, choices: &Choices, wanted: &Wanted) -> Protocols {
         let mut protocols = match self.model.ports {
             Ports::Inovance | Ports::L01s | Ports::Hm => self.chosen(wiring, choices),
@@ -52,7 +52,7 @@ impl Lowerer<'_> {
         protocols.without(self.unused())
     }
 
-    /// What the values of its registers and relays can choose for a port.
+    /// Protocols that the values of its registers and relays can select for a port.
     fn chosen(&self, wiring: &PortWiring, choices: &Choices) -> Protocols {
         if wiring.choice == Choice::Can {
             let canlink = match self.port_functions.contains(&RtFn::Cannet) {

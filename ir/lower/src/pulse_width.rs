@@ -14,7 +14,7 @@ struct Measured {
     meter: &'static Meter,
     /// The time.
     clock: CellId,
-    /// When its input rose.
+    /// Time at which its input rose.
     rose: CellId,
     /// It has risen while it was measured.
     known: FlagId,
@@ -50,7 +50,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether all of these relays are on.
+    /// Condition that all of these relays are on.
     fn all_on(&mut self, relays: &[Relay]) -> ExprId {
         let mut all = self.bit_const(true);
         for &relay in relays {

@@ -14,7 +14,7 @@ use rungc_syntax::{Device, Instr};
 /// The most words of a queue, with that which counts its entries.
 const LONGEST: i32 = 2048;
 
-/// Which operand of such an instruction is the queue.
+/// Index of the operand of such an instruction that is the queue.
 fn queue_of(function: RtFn) -> Option<usize> {
     match function == RtFn::Sfwr {
         true => Some(1),
@@ -22,7 +22,7 @@ fn queue_of(function: RtFn) -> Option<usize> {
     }
 }
 
-/// Whether such an instruction is inline code, judging by its operands.
+/// Returns true if such an instruction is inline code, judging by its operands.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let queue = queue_of(function).and_then(kind).and_then(register);

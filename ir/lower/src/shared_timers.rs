@@ -8,7 +8,7 @@ use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};
 use std::collections::BTreeSet;
 
-/// How often a scan executes something at most: not at all, once, or more often.
+/// Most executions in a scan: none, one, or more.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Times {
     Never,
@@ -76,7 +76,7 @@ fn mark_body(body: &mut [Stmt], is_shared: &impl Fn(u32) -> bool) {
     }
 }
 
-/// How often a scan runs each function. Interrupts come as often as they are requested.
+/// Most executions of each function in a scan. Interrupts come as often as they are requested.
 fn function_times(module: &Module) -> Vec<Times> {
     let by_host: Vec<Times> = module
         .functions
@@ -91,7 +91,7 @@ fn function_times(module: &Module) -> Vec<Times> {
         })
         .collect();
     let mut times = by_host.clone();
-    // What is known of callers spreads by a level of calls in each round; there is no recursion.
+    // Knowledge of callers spreads by a level of calls in each round; there is no recursion.
     loop {
         let mut next = by_host.clone();
         for (function, &times) in module.functions.iter().zip(&times) {

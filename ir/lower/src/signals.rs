@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 /// An instruction that looks at inputs.
 struct Looker {
-    /// Which one.
+    /// Position of the instruction.
     at: usize,
     function: RtFn,
     /// Its private memory.
@@ -201,7 +201,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether this input stops pulses now.
+    /// Condition that this input stops pulses now.
     fn is_stop_input(&mut self, stop: StopInput, input: u32) -> ExprId {
         let enabled = self.add(Expr::Read(Access::bit(stop.enable)));
         let chosen = self.add(Expr::Read(Access::word(stop.register)));

@@ -1,5 +1,4 @@
-//! Which special relays and registers something looks at. What the scan or an instruction would write to the others is
-//! left out.
+//! Special relays and registers in use. What the scan or an instruction would write to the others is left out.
 
 use super::call::extents;
 use super::{LowerOptions, Lowerer, inline};
@@ -20,11 +19,11 @@ const RUN_FLAGS: std::ops::RangeInclusive<u32> = 8000..=8003;
 pub(super) struct Specials {
     relays: Vec<bool>,
     registers: Vec<bool>,
-    /// Those that the called functions use as flags.
+    /// Devices that the called functions use as flags.
     pub(super) flags: Vec<(DeviceClass, u32)>,
     /// Classes that called functions may access anywhere.
     pub(super) whole: Vec<DeviceClass>,
-    /// Whether the program writes one of M8000–M8003.
+    /// True if the program writes one of M8000–M8003.
     pub(super) writes_run_flags: bool,
 }
 
@@ -56,7 +55,7 @@ impl Specials {
         specials
     }
 
-    /// Whether something looks at a special device.
+    /// Returns true if a special device is used.
     pub(super) fn has<D: SpecialDevice>(&self, device: D) -> bool {
         let set = match D::CLASS == DeviceClass::M {
             true => &self.relays,
@@ -124,7 +123,7 @@ impl Specials {
                 | OperandKind::Buffer { .. }
                 | OperandKind::Unreadable(_) => continue,
             };
-            // Where an index leads is found out from what is lowered.
+            // The range of an index is determined from the lowered code.
             if index.is_some() {
                 continue;
             }
@@ -140,13 +139,14 @@ impl Specials {
 }
 
 impl Lowerer<'_> {
-    /// Whether an instruction names an ordinary register, among others or with an index, or something observes it.
+    /// Returns true if an instruction names an ordinary register, among others or with an index, or something observes
+    /// it.
     pub(super) fn looks_at(&self, register: Register) -> bool {
         let observed = (DeviceClass::D, register.number());
         self.observed.contains(&observed) || self.names(register)
     }
 
-    /// Whether an instruction names an ordinary register, among others or with an index.
+    /// Returns true if an instruction names an ordinary register, among others or with an index.
     pub(super) fn names(&self, register: Register) -> bool {
         let named = self.named.get_or_init(|| self.named_registers());
         named.get(usize::from(register.0)).copied().unwrap_or(false)
@@ -199,7 +199,7 @@ impl Lowerer<'_> {
     }
 }
 
-/// Which of the run flags an instruction reads as a contact.
+/// Index of the run flag that an instruction reads as a contact.
 fn run_flag_contact(resolved: &Resolved, i: usize) -> Option<usize> {
     let inst = resolved.instrs[i].inst?;
     match resolved.program.instrs[i].operands.first()?.kind {

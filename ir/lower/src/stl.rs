@@ -21,7 +21,7 @@ pub(super) const ANNUNCIATORS: std::ops::RangeInclusive<u32> = 900..=999;
 pub(super) struct Steps {
     /// States that a block leaves by a transition.
     left: FxHashSet<u32>,
-    /// Whether the STL at an instruction continues a row of STLs.
+    /// True for each STL that continues a row of STLs.
     pub(super) continues_row: Vec<bool>,
     /// Marks of the states that are left.
     marks: FxHashMap<u32, EdgeId>,
@@ -147,7 +147,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether SET or OUT of a device is a transition here.
+    /// Returns true if SET or OUT of a device is a transition here.
     pub(super) fn is_transition(&self, device: Device) -> bool {
         device.class == DeviceClass::S
             && !self.steps.current.is_empty()

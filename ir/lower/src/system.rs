@@ -1,5 +1,5 @@
-//! What the PLC itself does around the program: special relays and registers, END processing. Only for devices that
-//! something looks at.
+//! Processing by the PLC itself around the program: special relays and registers, END processing. Emitted only for
+//! devices that are used.
 
 use super::Lowerer;
 use super::operand::fixed;
@@ -121,7 +121,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether a special device is one that the scan keeps on this model, and something looks at it.
+    /// Returns true if a special device is one that the scan updates on this model, and is used.
     pub(super) fn keeps<D: SpecialDevice>(&self, device: D) -> bool {
         self.specials.has(device) && self.model.scan_keeps(device)
     }

@@ -10,7 +10,7 @@ use rungc_syntax::Instr;
 /// The hour, the minute and the second.
 type Time = [ExprId; 3];
 
-/// Whether such an instruction is inline code, judging by its operands.
+/// Returns true if such an instruction is inline code, judging by its operands.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let times = if function == RtFn::Tcmp {
         3..4
@@ -85,7 +85,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether one time is before another: the hour decides, then the minute, then the second.
+    /// Condition that one time is before another: the hour decides, then the minute, then the second.
     fn is_before(&mut self, a: Time, b: Time) -> ExprId {
         let mut parts = a.into_iter().zip(b).rev();
         let mut before = self.bit_const(false);

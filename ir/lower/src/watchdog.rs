@@ -18,12 +18,12 @@ use std::collections::BTreeMap;
 /// milliseconds.
 const SHORT: u64 = 20_000;
 
-/// What is known of a function.
+/// Properties of a function.
 #[derive(Clone, Copy, Default)]
 struct Known {
     /// Steps that a call of it executes at most, but for those that it watches itself.
     steps: u64,
-    /// Whether it may be cut short.
+    /// True if it may be cut short.
     watches: bool,
 }
 
@@ -60,7 +60,7 @@ struct Watcher<'m> {
     known: BTreeMap<usize, Known>,
     /// Step of the network at hand.
     step: u32,
-    /// Whether the function at hand may be cut short.
+    /// True if the current function may be cut short.
     watches: bool,
 }
 

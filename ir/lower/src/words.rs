@@ -12,8 +12,8 @@ use rungc_syntax::{DeviceClass, Instr, OperandKind};
 /// A value is not a float, or outside a function's domain.
 const DOMAIN: u16 = rungc_rt::Fault::DOMAIN.0;
 
-/// Whether an instruction that a runtime function implements is inline code, judging by its operands. Such an
-/// instruction stores no flags that nothing looks at.
+/// Returns true if an instruction that a runtime function implements is inline code, judging by its operands. Such an
+/// instruction stores no flags that are not used.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the other functions of the runtime are called"
@@ -50,12 +50,12 @@ pub(super) fn constant(operand: &OperandKind) -> Option<i32> {
     operand.constant().map(|value| value as i32)
 }
 
-/// Whether it is a register that holds floats in pairs.
+/// Returns true if it is a register that holds floats in pairs.
 fn is_register(operand: &OperandKind) -> bool {
     matches!(operand, OperandKind::Device(device, _) if matches!(device.class, DeviceClass::D | DeviceClass::R))
 }
 
-/// Whether it is a float that inline code reads.
+/// Returns true if it is a float that inline code reads.
 fn is_float(operand: &OperandKind) -> bool {
     matches!(operand, OperandKind::Float(_)) || is_register(operand) || constant(operand).is_some()
 }
@@ -98,8 +98,8 @@ impl Lowerer<'_> {
         true
     }
 
-    /// Whether something looks at a flag that inline code does not set: float arithmetic has flags for results too
-    /// small and too large.
+    /// Returns true if a flag is used that inline code does not set: float arithmetic has flags for results too small
+    /// and too large.
     fn calls_for_flags(&self, function: RtFn) -> bool {
         matches!(function, RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv)
             && [M_BORROW, M_CARRY]
@@ -107,7 +107,7 @@ impl Lowerer<'_> {
                 .any(|&flag| self.specials.has(flag))
     }
 
-    /// Where `cond` holds, what `make` emits; elsewhere the instruction faults with `code`.
+    /// Executes the statements of `make` where `cond` holds; elsewhere the instruction faults with `code`.
     pub(super) fn checked(&mut self, cond: ExprId, code: u16, make: impl FnOnce(&mut Self)) {
         let then = self.body(make);
         let step = self.step();

@@ -1,4 +1,4 @@
-//! Which devices each instruction reads and writes.
+//! Devices that each instruction reads and writes.
 
 use crate::resolve::Resolved;
 use rungc_catalogue::{Extent, Param, Role, Shape};
@@ -9,15 +9,15 @@ use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
 pub(crate) struct Access {
     /// The first device.
     pub(crate) first: Device,
-    /// How many; `None` if that is only known at run time, so that any device of the class may be meant.
+    /// Number of devices; `None` if it is only known at run time, so that any device of the class may be meant.
     pub(crate) count: Option<u32>,
-    /// How many devices make one value: 2 for a 32-bit value in registers.
+    /// Number of devices per value: 2 for a 32-bit value in registers.
     pub(crate) each: u32,
-    /// What is done with them.
+    /// Kind of access.
     pub(crate) role: Role,
-    /// Whether an index register decides which devices they are.
+    /// True if an index register selects the devices.
     pub(crate) indexed: bool,
-    /// Where the operand is.
+    /// Position of the operand.
     pub(crate) span: Span,
 }
 
@@ -91,7 +91,7 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
     })
 }
 
-/// How many values an operand takes, if that can be known.
+/// Number of values of an operand, if known.
 fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32> {
     let constant = |operand: &Operand| operand.kind.constant();
     match param.extent {

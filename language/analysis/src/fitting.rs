@@ -5,7 +5,7 @@ use rungc_catalogue::{Form, Inst};
 use rungc_models::Model;
 use rungc_syntax::{Instr, Operands, Program, Span};
 
-/// Whether an instruction of this name takes these operands on a model, and this many steps with them.
+/// Returns true if an instruction of this name accepts these operands on a model, and has this many steps with them.
 pub fn fits(mnemonic: &str, steps: u32, operands: &Operands, model: &'static Model) -> bool {
     let program = Program {
         instrs: vec![Instr {

@@ -1,4 +1,4 @@
-//! Which devices keep their values over power-off: what the model says, and for some devices the project's parameters.
+//! Devices that retain their values over power-off: by the model, and for some devices by the project's parameters.
 
 use rungc_models::runs::is_border;
 use rungc_models::{Model, Range};
@@ -57,7 +57,7 @@ pub fn ranges(program: &Program, model: &Model) -> Cow<'static, [Range]> {
     }
 }
 
-/// Where in a range something may change, its beginning included, in order.
+/// Numbers in a range at which something may change, its beginning included, in order.
 fn borders(range: Range, model: &Model, latched: &[DeviceRun]) -> Vec<u32> {
     let can = |number| model.can_choose_latch(range.class, number);
     let chosen = |&number: &u32| can(number) || number.checked_sub(1).is_some_and(can);
@@ -88,7 +88,7 @@ fn is_latched(range: Range, number: u32, model: &Model, latched: &[DeviceRun]) -
     }
 }
 
-/// What of a project's parameters the model does not allow.
+/// Checks a project's parameters against the model.
 pub fn check(program: &Program, model: &Model) -> Diagnostics {
     let mut out = Diagnostics::new();
     let Some(parameters) = &program.parameters else {

@@ -1,4 +1,4 @@
-//! What is known of a program before it is compiled, and everything that is wrong with it.
+//! Analysis of a program before it is compiled, with all diagnostics.
 //!
 //! [`resolve`] gives every instruction its catalogue row, form and step number, and holds its operands to the row;
 //! [`check`] looks at the program as a whole; [`xref`] lists the uses of each device; [`latches`] applies the project's

@@ -18,20 +18,20 @@ use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
 };
 
-/// What is known of one instruction.
+/// Resolution of one instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolution {
     /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported). A form that the
     /// row does not have was reported too.
     pub inst: Option<&'static Inst>,
-    /// Whether `inst` is only what was probably meant, by which the structure of the program is judged; what is wrong
-    /// with the instruction was reported.
+    /// True if `inst` is only a guess, by which the structure of the program is judged; the error in the instruction
+    /// was reported.
     pub meant: bool,
-    /// What implements it on the model; `None` if there is no row.
+    /// Implementation on the model; `None` if there is no row.
     pub lower: Option<Lower>,
     /// Its form.
     pub form: Form,
-    /// What its operands are; none if there is no row.
+    /// Parameters; none if there is no row.
     pub params: &'static [Param],
     /// Step number of its first word, as the source counts where it does.
     pub step: u32,
@@ -40,7 +40,7 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Which basic instruction it is.
+    /// Basic instruction, if it is one.
     pub fn basic(&self) -> Option<Basic> {
         self.inst?.basic()
     }

@@ -1,4 +1,4 @@
-//! Which instructions use each device, and how.
+//! Instructions that use each device, and the kind of use.
 
 use crate::accesses::{self, Access};
 use crate::resolve::Resolved;
@@ -8,7 +8,7 @@ use rungc_models::runs::is_special;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What an instruction does with a device.
+/// Use of a device by an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum UseKind {
     /// A contact.
@@ -54,7 +54,7 @@ impl UseKind {
     }
 }
 
-/// How far a use goes from its first device on.
+/// Range of a use from its first device on.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Reach {
     /// This many devices.
@@ -72,9 +72,9 @@ pub struct Use {
     pub instr: usize,
     /// The first device.
     pub first: Device,
-    /// How many follow.
+    /// Number of devices.
     pub reach: Reach,
-    /// What is done with them.
+    /// Kind of use.
     pub kind: UseKind,
 }
 

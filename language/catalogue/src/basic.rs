@@ -19,8 +19,8 @@ const LIKE_FX2N: ModelSet = INOVANCE.or(ModelSet::FX1).or(ModelSet::FX2N);
 /// are meant to be.
 const ANY: u32 = u32::MAX;
 
-/// What the basic instructions of FX3U take no index register with: states, special relays, 32-bit counters, bits of
-/// words and words (FX3 programming manual §5.7, §7.13). Other models index in applied instructions only.
+/// Devices that the basic instructions of FX3U do not index: states, special relays, 32-bit counters, bits of words and
+/// words (FX3 programming manual §5.7, §7.13). Other models index in applied instructions only.
 const DIRECT: &[(DeviceClass, u32, u32)] = &[
     (DeviceClass::S, 0, ANY),
     (DeviceClass::M, 8000, ANY),

@@ -41,7 +41,7 @@ pub fn explain(name: &str) -> Option<String> {
     Some(page)
 }
 
-/// What a special device means on each model that has it.
+/// Meanings of a special device on each model that has it.
 fn special_page(name: &str) -> Option<String> {
     let rows: Vec<_> = ModelId::ALL
         .into_iter()
@@ -115,7 +115,7 @@ fn operands(params: &[Param], models: &[&Model]) -> String {
     text
 }
 
-/// What an operand denotes, what is done with it, and what it must obey.
+/// Meaning of an operand, its use, and its rules.
 fn meaning(param: &Param, params: &[Param]) -> String {
     let thing = match param.shape {
         Shape::Bit => "bit",
@@ -310,7 +310,7 @@ fn special_of(name: &str, model: ModelId) -> Option<&'static special::Special> {
     Model::get(model).special(class, name.get(1..)?.parse().ok()?)
 }
 
-/// What the PLC's error codes that instructions raise mean (h1u-h2u-programming §8.2).
+/// Titles of the PLC's error codes that instructions raise (h1u-h2u-programming §8.2).
 fn error_title(code: u16) -> &'static str {
     match code {
         6376 | 6377 => "the port or its range is wrong",
@@ -365,8 +365,8 @@ fn support(inst: &Inst, model: ModelId) -> Support {
     }
 }
 
-/// Which instruction works on which model, in Markdown: ✓ works, a number: it cannot be compiled, for the reason given
-/// below, – the model has none.
+/// Table of instructions and models, in Markdown: ✓ works, a number: it cannot be compiled, for the reason given below,
+/// – the model has none.
 pub fn support_table() -> String {
     let mut reasons: Vec<&str> = Vec::new();
     let mut text = "| instruction | FNC | |".to_owned();
@@ -420,7 +420,7 @@ pub fn special_table(model: ModelId) -> String {
 }
 
 impl Inst {
-    /// Whether it has a form on a model.
+    /// Returns true if it has a form on a model.
     pub fn has_form_on(&self, form: Form, model: ModelId) -> bool {
         let forms = self.forms_on(model);
         let width = if form.wide { Forms::W32 } else { Forms::W16 };

@@ -38,7 +38,7 @@ const fn number(name: &'static str) -> Param {
 }
 const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
 const TO: &[Param] = &[MODULE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
-/// What H1U and H2U write to a module: constants appear in the worked examples, groups of inputs nowhere.
+/// Operands that H1U and H2U write to a module: constants appear in the worked examples, groups of inputs nowhere.
 const WRITTEN: Classes = VALUES.without(Classes::KNX);
 /// H1U has only remote modules.
 const REMOTE: Param = count("m1", 100, 162);

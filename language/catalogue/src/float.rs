@@ -9,7 +9,7 @@ use rungc_rt::RtFn;
 const NUMBERS: Classes = CONSTANTS.or(Classes::E).or(REAL_RESULTS);
 /// Only floats. The manual of H1U and H2U also marks V and Z for the functions that came last.
 const REALS: Classes = Classes::E.or(REAL_RESULTS).or(INDEX);
-/// Where floats go.
+/// Targets of floats.
 const REAL_RESULTS: Classes = DATA.or(Classes::BUFFER);
 
 const TWO: &[Param] = &[
@@ -54,7 +54,7 @@ const fn function(name: &'static str, fnc: u16, title: &'static str, function: R
 
 /// Functions that FX3S and FX3G lack.
 const NOT_FX3SG: ModelSet = NOT_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
-/// Those that FX2N lacks too.
+/// Models without the instructions that FX2N lacks too.
 const WITHOUT_SMALL_FX: ModelSet = NOT_FX3SG.without(ModelSet::FX2N);
 /// The same and HM.
 const WITHOUT_SMALL_FX_HM: ModelSet = WITHOUT_SMALL_FX.without(HM);

@@ -1,6 +1,6 @@
 //! The forms of an instruction.
 
-/// Which form of an instruction is written.
+/// Form in which an instruction is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Form {
     /// 32-bit (prefix D).

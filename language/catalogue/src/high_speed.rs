@@ -75,7 +75,7 @@ const RESET_FX: &[Param] = &[
     FAST_COUNTER,
     mixed_out("D", COILS.or(Classes::C)),
 ];
-/// Whether a rule holds for what HSZ names, or HSZ names no relay that chooses a table.
+/// Returns true if a rule holds for the operands of HSZ, or HSZ names no relay that selects a table.
 fn table_holds(operands: &[Operand], rule: fn(&OperandKind, &OperandKind) -> bool) -> bool {
     match operands {
         [first, rows, _, mode] => {

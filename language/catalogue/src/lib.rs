@@ -40,7 +40,7 @@ use rungc_models::{Model, ModelId, ModelSet};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{Classes, DeviceClass, Operand, OperandKind};
 
-/// What kind of thing an operand denotes.
+/// Kind of object that an operand denotes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shape {
     /// A bit.
@@ -62,7 +62,7 @@ pub enum Shape {
     Mixed,
 }
 
-/// What an instruction does with an operand.
+/// Use of an operand by an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Role {
     /// Only reads it.
@@ -73,8 +73,8 @@ pub enum Role {
     ReadWrite,
 }
 
-/// How many devices an operand occupies from the named one on, in units of its [`Shape`] (a `Value` of the 32-bit form
-/// counts 2 words).
+/// Number of devices that an operand occupies from the named one on, in units of its [`Shape`] (a `Value` of the 32-bit
+/// form counts 2 words).
 #[derive(Clone, Copy, Debug)]
 pub enum Extent {
     /// One.
@@ -85,7 +85,7 @@ pub enum Extent {
     Operand {
         /// Position of the operand that holds the count.
         i: usize,
-        /// How many more.
+        /// Number to add.
         extra: i32,
     },
     /// Up to the device that operand `i` names, inclusive.
@@ -133,7 +133,7 @@ pub enum Rule {
     ClassLike(usize),
     /// A device not before operand `i`; either both or neither are special.
     NotBefore(usize),
-    /// What this function finds in all operands; the text says what is demanded.
+    /// A check of all operands; the text describes the demand.
     Holds(fn(&[Operand]) -> bool, &'static str),
 }
 
@@ -142,33 +142,33 @@ pub enum Rule {
 pub struct Param {
     /// Name in the manual: `S1`, `D`, `n`.
     pub name: &'static str,
-    /// What it may be.
+    /// Allowed classes.
     pub classes: Classes,
     /// Classes among them that only some models accept here.
     pub only_on: Option<(Classes, ModelSet)>,
-    /// What it denotes.
+    /// Kind of object.
     pub shape: Shape,
-    /// What is done with it.
+    /// Use by the instruction.
     pub role: Role,
-    /// How much it occupies.
+    /// Number of devices.
     pub extent: Extent,
-    /// Which constants it takes.
+    /// Allowed constants.
     pub limits: Limits,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],
-    /// Whether it is an output that sends pulses: one of the model's, unless `numbers` says more.
+    /// True for an output that sends pulses: one of the model's, unless `numbers` says more.
     pub sends_pulses: bool,
-    /// Whether it is one of those that keep a position.
+    /// True for an output that keeps a position.
     pub keeps_position: bool,
     /// Its bits name inputs X.
     pub names_inputs: bool,
-    /// What else it must obey.
+    /// Additional rules.
     pub rules: &'static [Rule],
-    /// Whether it may carry an index register.
+    /// True if it may carry an index register.
     pub indexable: bool,
     /// Devices of these classes and numbers, first to last, that may not, although others may.
     pub unindexed: &'static [(DeviceClass, u32, u32)],
-    /// Whether it may be left out (only last ones).
+    /// True if it may be omitted (only last ones).
     pub optional: bool,
 }
 
@@ -182,8 +182,8 @@ impl Param {
         }
     }
 
-    /// What it may be on a model: without the classes that only others accept, and without notations and devices that
-    /// the model does not have at all.
+    /// Classes allowed on a model: without those that only others accept, and without notations and devices that the
+    /// model does not have at all.
     pub fn classes_on(&self, model: &Model) -> Classes {
         self.classes_without(model.missing(), model.id)
     }
@@ -216,13 +216,13 @@ impl Forms {
         Forms(self.0 | other.0)
     }
 
-    /// Whether `form` is one of them.
+    /// Returns true if `form` is one of them.
     pub const fn has(self, form: Forms) -> bool {
         self.0 & form.0 == form.0
     }
 }
 
-/// How an instruction is written.
+/// Spelling of an instruction's forms.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Spelling {
     /// `D` in front of the 32-bit form, `P` after the pulse form: `DADDP`.
@@ -235,7 +235,7 @@ pub enum Spelling {
     Wide(&'static str),
 }
 
-/// Whether contacts drive it.
+/// Position relative to contacts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Drive {
     /// It begins or continues the contact logic (LD, AND, ANB, MPS, INV, …).
@@ -313,7 +313,7 @@ pub enum Basic {
     Next,
 }
 
-/// Where a contact comparison joins the logic.
+/// Operation by which a contact comparison joins the logic.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[allow(missing_docs, reason = "the names are the instructions")]
 pub enum Join {
@@ -322,7 +322,7 @@ pub enum Join {
     Or,
 }
 
-/// What implements a row.
+/// Implementation of a row.
 #[derive(Clone, Copy, Debug)]
 pub enum Lower {
     /// Lowering knows it by name.
@@ -372,7 +372,7 @@ pub enum Comparison {
     Table,
 }
 
-/// When a [`Variant`] holds.
+/// Condition of a [`Variant`].
 #[derive(Clone, Copy, Debug)]
 pub enum When {
     /// Always.
@@ -396,13 +396,13 @@ impl When {
     }
 }
 
-/// What a [`When`] looks at in the operands that are written.
+/// Properties of the written operands that a [`When`] depends on.
 struct Written {
     /// Class of the first one; `NONE` if there is none.
     class: Classes,
     /// Number of the first one, if it is a device.
     number: Option<u32>,
-    /// Whether one of them has an index register.
+    /// True if one of them has an index register.
     indexed: bool,
 }
 
@@ -411,7 +411,7 @@ impl Written {
         let first = operands.first().map(|operand| &operand.kind);
         Written {
             class: match first {
-                // What was meant decides what goes with it.
+                // The intended device decides which operands fit.
                 Some(OperandKind::Unreadable(Some(device))) => Classes::of_device(device.class),
                 first => first.map_or(Classes::NONE, Classes::of),
             },
@@ -435,8 +435,8 @@ impl Written {
     }
 }
 
-/// What is otherwise than the row says, on some models or with some operands. Of the variants that hold, the first that
-/// has something to say about a thing decides it.
+/// Deviation from the row, on some models or with some operands. Of the variants that hold, the first that has
+/// something to say about a thing decides it.
 #[derive(Clone, Copy, Debug)]
 pub struct Variant {
     /// On these models …
@@ -458,7 +458,7 @@ pub struct Inst {
     pub name: &'static str,
     /// Other spellings of `name`.
     pub aliases: &'static [&'static str],
-    /// How its forms are written.
+    /// Spelling of its forms.
     pub spelling: Spelling,
     /// FNC number, where it has one.
     pub fnc: Option<u16>,
@@ -468,7 +468,7 @@ pub struct Inst {
     pub text: &'static str,
     /// A small program that shows it, where one that is made from its operands would not do; see [`Inst::example_on`].
     pub example: Option<&'static str>,
-    /// Where the manual describes it: `h1u-h2u-programming §4.3.2`.
+    /// Source in the manuals: `h1u-h2u-programming §4.3.2`.
     pub source: &'static str,
     /// Its forms.
     pub forms: Forms,
@@ -476,13 +476,13 @@ pub struct Inst {
     pub steps: (u8, u8),
     /// Its operands, where no variant says otherwise; see [`Inst::params_of`].
     pub params: &'static [Param],
-    /// What is otherwise on some models or with some operands.
+    /// Deviations on some models or with some operands.
     pub variants: &'static [Variant],
-    /// Whether contacts drive it.
+    /// Position relative to contacts.
     pub drive: Drive,
     /// Special relays and registers that it reads or writes.
     pub flags: &'static [&'static str],
-    /// How often a program may use it; `None`: any number of times.
+    /// Most uses in a program; `None`: any number of times.
     pub max_uses: Option<u32>,
     /// The PLC's error codes that it can raise in a run.
     pub errors: &'static [u16],
@@ -491,14 +491,14 @@ pub struct Inst {
     /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more
     /// operand.
     pub twin: Option<DeviceClass>,
-    /// What implements it; see [`Inst::lower_on_model`].
+    /// Implementation; see [`Inst::lower_on_model`].
     lower: Lower,
     /// Models on which something else implements it.
     lower_on: &'static [(ModelSet, Lower)],
 }
 
 impl Inst {
-    /// Which basic instruction it is, on all models.
+    /// Basic instruction, if it is one on all models.
     pub const fn basic(&self) -> Option<Basic> {
         match self.lower {
             Lower::Basic(basic) => Some(basic),
@@ -506,7 +506,7 @@ impl Inst {
         }
     }
 
-    /// What implements it on a model.
+    /// Implementation on a model.
     pub fn lower_on_model(&self, model: ModelId) -> Lower {
         self.lower_on
             .iter()
@@ -524,14 +524,14 @@ impl Inst {
             .unwrap_or(self.forms)
     }
 
-    /// What its operands are on a model, given those that are written (OUT T0 has one more than OUT Y000).
+    /// Parameters on a model, given the written operands (OUT T0 has one more than OUT Y000).
     pub fn params_of(&self, operands: &[Operand], model: &Model) -> &'static [Param] {
         let written = Written::of(operands);
         let stated = self.stated(&written, model, |variant| variant.params);
         stated.unwrap_or(self.params)
     }
 
-    /// How many steps it takes in the program memory.
+    /// Number of steps in the program memory.
     pub fn steps_of(&self, form: Form, operands: &[Operand], model: &Model) -> u32 {
         self.params_and_steps(form, operands, model).1
     }
@@ -559,7 +559,7 @@ impl Inst {
         (params, u32::from(if form.wide { wide } else { narrow }))
     }
 
-    /// What the first variant states that says something of it and holds.
+    /// Statement of the first applicable variant that has one.
     fn stated<T>(
         &self,
         written: &Written,

@@ -1,4 +1,4 @@
-//! Which constants an operand takes.
+//! Constants allowed for an operand.
 
 /// The values of a constant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,7 +21,7 @@ impl Limits {
         }
     }
 
-    /// Whether a value is one of them.
+    /// Returns true if a value is allowed.
     pub fn allow(&self, value: i64) -> bool {
         let ranges = self.ranges();
         let in_one = |&(min, max): &(i64, i64)| (min..=max).contains(&value);

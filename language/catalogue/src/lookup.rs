@@ -211,7 +211,8 @@ impl Inst {
         stems
     }
 
-    /// Whether this spelling of the 32-bit form has no D in front although the instruction's list name would have one.
+    /// Returns true if this spelling of the 32-bit form has no D in front although the instruction's list name would
+    /// have one.
     fn is_bare(&self, spelling: &str) -> bool {
         let with_pulse = |name: &str| spelling == name || spelling.strip_suffix('P') == Some(name);
         self.has_only_wide_form()
@@ -219,7 +220,7 @@ impl Inst {
             && (with_pulse(self.name) || self.aliases.iter().any(|name| with_pulse(name)))
     }
 
-    /// Whether it has no 16-bit form, so that its name without D means the 32-bit form too (`ECMP` is `DECMP`).
+    /// Returns true if it has no 16-bit form, so that its name without D means the 32-bit form too (`ECMP` is `DECMP`).
     fn has_only_wide_form(&self) -> bool {
         !self.forms.has(Forms::W16)
     }

@@ -33,7 +33,7 @@ const fn whatever(name: &'static str) -> Param {
     mixed(name, VALUES.or(BITS)).optional()
 }
 
-/// What the list of §8.1 names and no section describes.
+/// Row for an instruction that the list of §8.1 names and no section describes.
 const fn named_only(name: &'static str, title: &'static str) -> Inst {
     const OPERANDS: &[Param] = &[
         whatever("1"),

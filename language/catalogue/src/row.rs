@@ -83,10 +83,10 @@ pub(super) const NOT_FX1: ModelSet = ModelSet::ALL.without(ModelSet::FX1);
 pub(super) const NOT_HM_FX1: ModelSet = NOT_HM.without(ModelSet::FX1);
 /// FX2N, FX3U and what descends from them: FX3S and FX3G lack what JY997D16601 §3 gives to FX3U alone.
 pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
-/// Those that special modules can be attached to: not HM, FX1S and FX3S.
+/// Models to which special modules can be attached: not HM, FX1S and FX3S.
 pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without(ModelSet::FX3S);
 
-/// What a row says that does not say what implements it; a test finds none.
+/// Reason of a row without an implementation; a test finds none.
 pub(super) const UNSAID: &str = "the row does not say what implements it";
 
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
@@ -306,7 +306,7 @@ impl Param {
         Param { extent, ..self }
     }
 
-    /// How much it occupies is known only in a run.
+    /// Parameter whose extent is known only at run time.
     pub(super) const fn open_ended(self) -> Self {
         self.len_of(|_| None)
     }

@@ -6,7 +6,7 @@ use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
-/// What is missing of the inverter instructions: when a request is repeated, and which codes its errors have.
+/// Reason for the missing inverter instructions: when a request is repeated, and which codes its errors have.
 const INVERTER: &str = "the exchange with Mitsubishi inverters is in no manual at hand; RS2 can send its frames, and ADPRW reaches \
                         inverters by Modbus";
 const CASSETTE: &str = "it works on a memory cassette, which a compiled program does not have";
@@ -42,7 +42,7 @@ fn words_of_digits(constants: &[Option<i64>]) -> Option<u32> {
 }
 
 const BOARDS: ModelSet = ModelSet::COMPATIBLE;
-/// How many coils or registers a Modbus request is about: at most 2000 and 125 (Modbus application protocol §6).
+/// Number of coils or registers in a Modbus request: at most 2000 and 125 (Modbus application protocol §6).
 const COUNT: Param = number("n", 2000);
 
 /// Words of a Modbus request's data: coils are packed sixteen to a word. The low byte of operand 0 is the function,

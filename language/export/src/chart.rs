@@ -18,7 +18,7 @@ const GRID: (i64, i64) = (250, 160);
 /// Size of a step.
 const STEP: (i64, i64) = (60, 30);
 
-/// What lets the first scan begin a flow.
+/// Contact by which the first scan begins a flow.
 const FIRST_SCAN: &str = "M8002";
 
 /// Instructions that change the order of execution, which actions cannot.
@@ -41,7 +41,7 @@ pub(super) struct Parts {
     pub before: Ladder,
     /// The chart.
     pub chart: Xml,
-    /// How many variables keep a result in its actions.
+    /// Number of variables that store a result in its actions.
     pub kept: usize,
     /// Networks after the last state.
     pub after: Ladder,
@@ -73,7 +73,7 @@ pub(super) fn parts(words: &mut Words, ladder: &Ladder) -> Result<Parts, Refused
     })
 }
 
-/// What the networks of a program are to its chart.
+/// Networks of a program by their place in its chart.
 struct Sections {
     before: Ladder,
     after: Ladder,
@@ -173,7 +173,7 @@ impl Sections {
     }
 }
 
-/// What a node feeds without some instructions; nothing if nothing is left.
+/// Node without some of its instructions; `None` if nothing is left.
 fn without(node: &Node, left_out: &BTreeSet<InstrIndex>) -> Option<Node> {
     let items = node.items.iter().filter_map(|item| match item {
         Item::Output(output) => (!left_out.contains(&output.instr)).then_some(item.clone()),
@@ -250,7 +250,7 @@ fn outputs<'n>(node: &'n Node, before: &[&'n Series]) -> Vec<(Output, Vec<&'n Se
     all.collect()
 }
 
-/// Whether INV, MEP or MEF changes the result of a node or of a branch.
+/// Returns true if INV, MEP or MEF changes the result of a node or of a branch.
 fn is_changed(node: &Node) -> bool {
     let here = node
         .series
@@ -342,7 +342,7 @@ impl Writer<'_, '_> {
             .filter(|t| !t.from.is_empty())
             .collect();
         let transitions: Vec<_> = leaving.iter().map(|_| self.id()).collect();
-        // What leads to a transition: its step, the choice after it, or the end of parallel branches.
+        // Sources of a transition: its step, the choice after it, or the end of parallel branches.
         let mut choices = BTreeMap::new();
         for (state, step) in steps.iter().enumerate() {
             let ways = leaving.iter().filter(|t| t.from.contains(&state)).count();
@@ -377,7 +377,7 @@ impl Writer<'_, '_> {
                 ),
             };
             for to in &transition.to {
-                // What leads back is a jump.
+                // A transition back is a jump.
                 if transition.from.iter().all(|state| state < to) {
                     arrivals.entry(*to).or_default().push(from);
                 } else {
@@ -404,7 +404,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Where an element stands: rows after its state, in quarters of the distance to the next.
+    /// Position of an element: rows after its state, in quarters of the distance to the next.
     fn place(&self, state: usize, quarter: i64) -> (i64, i64) {
         let row = i64::try_from(state).unwrap_or(i64::MAX / GRID.1) + 1;
         (GRID.0, row * GRID.1 + quarter * GRID.1 / 4)
@@ -508,7 +508,7 @@ impl Writer<'_, '_> {
         });
     }
 
-    /// What a state drives: lists whose networks begin with its step, so that they end with it.
+    /// Writes the actions of a state: lists whose networks begin with its step, so that they end with it.
     fn actions(&mut self, step: usize, state: usize, actions: &[(Vec<usize>, Node)]) {
         let (x, y) = self.place(state, 0);
         let chart = self.chart;

@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 use words::Words;
 use xml::Xml;
 
-/// When projects are said to be made: the same program always becomes the same file.
+/// Fixed creation time of projects: the same program always becomes the same file.
 const MADE: &str = "2000-01-01T00:00:00";
 
 /// Language of a program in a project.
@@ -88,7 +88,7 @@ pub fn to_plcopen(
     text
 }
 
-/// How many places that read back otherwise are shown one by one.
+/// Most differences in the list read back that are shown one by one.
 const SHOWN: usize = 5;
 
 /// Says where a project reads back as another list, and as which.
@@ -175,13 +175,13 @@ struct Pou {
     name: &'static str,
     /// The element of its body.
     language: &'static str,
-    /// What the body holds.
+    /// Contents of the body.
     content: Xml,
-    /// How many variables keep a result, as MPS does.
+    /// Number of variables that store a result, as MPS does.
     kept: usize,
 }
 
-/// Why a program cannot be written.
+/// Reason why a program cannot be written.
 struct Refused {
     code: &'static Code,
     at: InstrIndex,

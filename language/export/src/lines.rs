@@ -13,10 +13,10 @@ use std::fmt::Write as _;
 /// A list while it is written.
 pub(super) struct Lines<'s, 'a> {
     pub text: String,
-    /// How many variables keep a result.
+    /// Number of variables that store a result.
     pub kept: usize,
     words: &'s mut Words<'a>,
-    /// How many jumps skip a function.
+    /// Number of jumps that skip a function.
     skips: usize,
 }
 
@@ -190,7 +190,7 @@ impl<'s, 'a> Lines<'s, 'a> {
         self.line(")");
     }
 
-    /// What the result drives.
+    /// Writes an output driven by the result.
     pub fn output(&mut self, output: Output) {
         match self.words.output(output) {
             Drive::Coil {
@@ -240,7 +240,7 @@ impl<'s, 'a> Lines<'s, 'a> {
     }
 }
 
-/// How a contact or block joins the result before it.
+/// Operator by which a contact or block joins the result before it.
 const fn operator(entry: Entry) -> &'static str {
     match entry {
         Entry::Ld => "LD",

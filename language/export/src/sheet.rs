@@ -16,7 +16,7 @@ const BLOCK: (i64, i64) = (100, 20);
 /// Space between rows.
 const GAP: i64 = 30;
 
-/// Where power comes from: an element, its output and the place of that.
+/// Source of power: an element, its output and the output's position.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Source {
     id: u32,
@@ -30,7 +30,7 @@ pub(super) struct Sheet<'s, 'a> {
     pub xml: Xml,
     words: &'s mut Words<'a>,
     ids: u32,
-    /// Where the next row begins.
+    /// Top of the next row.
     bottom: i64,
 }
 
@@ -225,7 +225,7 @@ impl<'s, 'a> Sheet<'s, 'a> {
                 self.special(&mnemonic, &named(operands), &["OUT"], column, y)
             }
         };
-        // What leads to a comparison is an input of AND.
+        // The logic before a comparison is an input of AND.
         let is_rail =
             matches!(&from[..], [source] if source.output.is_empty() && source.x < COLUMN);
         if is_rail {
@@ -434,7 +434,7 @@ impl<'s, 'a> Sheet<'s, 'a> {
     }
 }
 
-/// What leads to a pin of a block.
+/// Connection of a block's pin.
 enum Pin {
     Power(Vec<Source>),
     Text(String),

@@ -1,4 +1,4 @@
-//! What instructions are called in IEC 61131-3: contacts, coils, functions, blocks and their variables.
+//! Counterparts of instructions in IEC 61131-3: contacts, coils, functions, blocks and their variables.
 
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{ArithOp, Basic, Form, Lower};
@@ -22,14 +22,14 @@ pub(super) enum Gate {
         function: &'static str,
         words: [String; 2],
     },
-    /// What only rungc knows: its mnemonic as a contact at the rail, and its operands.
+    /// An instruction without a counterpart: its mnemonic as a contact at the rail, and its operands.
     Special {
         mnemonic: String,
         operands: Vec<String>,
     },
 }
 
-/// What contacts drive.
+/// Output driven by contacts.
 pub(super) enum Drive {
     /// A coil.
     Coil {
@@ -49,7 +49,7 @@ pub(super) enum Drive {
         words: Vec<String>,
         to: Device,
     },
-    /// What only rungc knows.
+    /// An instruction without a counterpart.
     Special {
         mnemonic: String,
         operands: Vec<String>,
@@ -88,7 +88,7 @@ impl<'a> Words<'a> {
         &self.resolved.program.instrs[at]
     }
 
-    /// What an instruction is, whichever its form; nothing of one that was only guessed.
+    /// Implementation of an instruction, whichever its form; `None` for one that was only guessed.
     pub fn lower(&self, at: InstrIndex) -> Option<Lower> {
         let resolution = &self.resolved.instrs[at];
         resolution.lower.filter(|_| !resolution.meant)
@@ -102,7 +102,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// What an instruction of 16 bits is that acts in each scan.
+    /// Implementation of an instruction of 16 bits that acts in each scan.
     fn plain(&self, at: InstrIndex) -> Option<Lower> {
         let plain = self.resolved.instrs[at].form == Form::default();
         self.lower(at).filter(|_| plain)
@@ -116,7 +116,7 @@ impl<'a> Words<'a> {
             .collect()
     }
 
-    /// Whether a network is the END of the program, which a project does not have.
+    /// Returns true if a network is the END of the program, which a project does not have.
     pub fn is_end(&self, node: &Node) -> bool {
         let last = self.resolved.program.instrs.len() - 1;
         matches!(&node.items[..], [Item::Output(output)]
@@ -268,7 +268,7 @@ fn quoted(operand: &OperandKind) -> String {
     }
 }
 
-/// What a comparison's mnemonic ends with: `=`, `D>=`.
+/// Suffix of a comparison's mnemonic: `=`, `D>=`.
 fn how(instr: &Instr) -> &str {
     let mnemonic = instr.mnemonic.as_str();
     let joins = ["LD", "AND", "OR"].into_iter();

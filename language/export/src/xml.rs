@@ -71,13 +71,13 @@ fn clean(text: &str) -> String {
     text.chars().filter(fits).collect()
 }
 
-/// Where an element stands.
+/// Writes the position of an element.
 pub(super) fn position(xml: &mut Xml, x: i64, y: i64) {
     let (x, y) = (x.to_string(), y.to_string());
     xml.leaf("position", &[("x", &x), ("y", &y)]);
 }
 
-/// Where a pin is in its element.
+/// Writes the position of a pin in its element.
 pub(super) fn relative(xml: &mut Xml, x: i64, y: i64) {
     let (x, y) = (x.to_string(), y.to_string());
     xml.leaf("relPosition", &[("x", &x), ("y", &y)]);

@@ -20,7 +20,7 @@ pub fn ladder(resolved: &Resolved) -> Ladder {
     Ladder { networks }
 }
 
-/// What an instruction does to the contact logic.
+/// Effect of an instruction on the contact logic.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Class {
     /// A contact that starts a block, continues one, or lies parallel to one.
@@ -113,8 +113,8 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
 const ONE_BLOCK: Undrawable =
     "INV, MEP or MEF changes the result of a block, not of all that is to its left";
 
-/// Whether the result of a block to the right of other contacts is changed. A drawing would say that all is changed
-/// that is to the left, back to the rail.
+/// Returns true if the result of a block to the right of other contacts is changed. In a drawing everything to the left
+/// would be changed, back to the rail.
 fn changes_a_block(node: &Node) -> bool {
     fn changes(series: &[Part]) -> bool {
         series.iter().any(|part| match part {
@@ -151,8 +151,8 @@ fn changes_a_block(node: &Node) -> bool {
     in_node(node, true)
 }
 
-/// Where the network after one that cannot be drawn may start: at the next contact, label or box on the rail after an
-/// output.
+/// Position at which the network after an undrawable one may start: at the next contact, label or box on the rail after
+/// an output.
 fn end_of_list(instrs: &[Class], start: InstrIndex) -> InstrIndex {
     let mut after_output = instrs[start] == Class::Unknown;
     let mut at = start + 1;
@@ -169,7 +169,7 @@ fn end_of_list(instrs: &[Class], start: InstrIndex) -> InstrIndex {
     at
 }
 
-/// How deep branches may be nested in a picture. The deepest real programs need about ten.
+/// Most levels of nested branches in a picture. The deepest real programs need about ten.
 const DEEPEST: usize = 100;
 const TOO_DEEP: Undrawable = "its branches are nested more than 100 deep";
 
@@ -184,7 +184,7 @@ struct Reader<'a> {
 /// Parts that a LD has started.
 struct Block {
     series: Series,
-    /// How deep its parallel branches are nested.
+    /// Depth of its nested parallel branches.
     depth: usize,
 }
 
@@ -196,7 +196,7 @@ impl Reader<'_> {
         self.instrs.get(self.at).copied()
     }
 
-    /// What follows the labels.
+    /// Reads the network after its labels.
     fn network(&mut self) -> Result<Node, Undrawable> {
         match self.peek() {
             None => return Ok(Node::default()),
@@ -290,7 +290,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the LD after an output starts a block that ANB puts after the output's node, and not another network.
+    /// Returns true if the LD after an output starts a block that ANB puts after the output's node, and not another
+    /// network.
     fn continues(&self) -> bool {
         let mut depth = 0_usize;
         for class in &self.instrs[self.at..] {

@@ -1,4 +1,4 @@
-//! Where power flows in a drawn network: its nets, each of which is all that wires connect, and the cells between them.
+//! Flow of power in a drawn network: its nets, each consisting of connected wires, and the cells between them.
 //!
 //! Power flows from left to right, as the list computes it; it never flows back through a branch.
 
@@ -7,7 +7,7 @@ use crate::layout::{Cell, Grid};
 /// A contact, result, coil or box with the nets on both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Link {
-    /// What lies between the nets.
+    /// Cell between the nets.
     pub cell: Cell,
     /// The net to its left.
     pub from: usize,
@@ -18,7 +18,7 @@ pub struct Link {
 /// The circuit of a network. Nets have numbers from 0, the left rail.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Circuit {
-    /// How many nets.
+    /// Number of nets.
     pub nets: usize,
     /// The cells, each after those that feed it.
     pub links: Vec<Link>,
@@ -77,7 +77,7 @@ impl Circuit {
     }
 }
 
-/// How many folds lie above or at each row: what a row feeds comes in the same band or in a later one.
+/// Number of folds above or at each row: cells fed by a row are in the same band or in a later one.
 fn bands(grid: &Grid) -> Vec<usize> {
     let mut bands = vec![0; grid.rows];
     for placed in &grid.placed {
@@ -91,7 +91,7 @@ fn bands(grid: &Grid) -> Vec<usize> {
 /// Crossings that are being connected: each leads to another one of its net, the last to itself.
 struct Nets {
     leads_to: Vec<usize>,
-    /// Whether a wire or a cell ends there.
+    /// True if a wire or a cell ends there.
     used: Vec<bool>,
     columns: usize,
 }

@@ -36,7 +36,8 @@ impl<'a> Drawn<'a> {
             .collect()
     }
 
-    /// What a network writes, as far as its instructions name it: the operands of those at the right rail.
+    /// Operands that a network writes, as far as its instructions name them: those of the instructions at the right
+    /// rail.
     fn outputs(self, at: usize) -> Vec<String> {
         let instrs = &self.resolved.program.instrs;
         let mut outputs = Vec::new();
@@ -54,7 +55,7 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// What became of a network. Positions of networks count from 0.
+/// Change of a network. Positions of networks count from 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Change {
     /// It is new.
@@ -110,7 +111,7 @@ impl Change {
         }
     }
 
-    /// What happened, as a heading.
+    /// Heading for the change.
     pub(crate) fn title(self) -> String {
         let verb = match self {
             Change::Remarked { .. } => "has other statements or notes",
@@ -125,7 +126,7 @@ impl Change {
         }
     }
 
-    /// What happened, in a word.
+    /// Verb for the change.
     pub fn verb(self) -> &'static str {
         match self {
             Change::Added { .. } => "added",
@@ -140,7 +141,7 @@ impl Change {
 /// A value that differs between two programs, if they have it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Differing<K> {
-    /// What it is the value of.
+    /// Key of the value.
     pub key: K,
     /// In the old program.
     pub old: Option<String>,
@@ -148,7 +149,7 @@ pub struct Differing<K> {
     pub new: Option<String>,
 }
 
-/// How two programs differ.
+/// Differences between two programs.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub struct Comparison {
     /// Their networks, in the order of the new program, a removed one where it was.
@@ -160,12 +161,12 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether nothing differs.
+    /// Returns true if nothing differs.
     pub fn is_empty(&self) -> bool {
         self.networks.is_empty() && self.comments.is_empty() && self.parameters.is_empty()
     }
 
-    /// How many networks were changed in this way.
+    /// Number of networks changed in this way.
     pub fn count(&self, verb: &str) -> usize {
         let changes = self.networks.iter();
         changes.filter(|change| change.verb() == verb).count()
@@ -305,7 +306,7 @@ impl Pairing<'_> {
 
     /// Pairs each network with the next one that has half of its instructions.
     fn alike(&mut self, old: &[usize], new: &[usize]) {
-        /// How many networks are tried: one that changed and was moved far is a new one to its reader.
+        /// Number of networks tried: a changed network that was moved far appears as a new one to its reader.
         const NEAR: usize = 20;
         let mut rest = new;
         for &old in old {
@@ -350,7 +351,7 @@ fn parameters(programs: [&Program; 2]) -> Vec<Differing<&'static str>> {
         .collect()
 }
 
-/// What a program says of itself and of its PLC, in a fixed order.
+/// Properties of a program and its PLC, in a fixed order.
 fn settings(program: &Program) -> [(&'static str, Option<String>); 7] {
     let parameters = program.parameters.as_ref();
     let number = |of: fn(&Parameters) -> Option<u32>| {

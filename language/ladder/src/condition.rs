@@ -3,7 +3,7 @@
 use crate::face::{Face, operand_text};
 use crate::network::{Branch, Contact, Part, Series, Shape};
 
-/// What contacts in series demand.
+/// Condition of contacts in series.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Condition {
     factors: Vec<Factor>,
@@ -24,7 +24,7 @@ impl Condition {
         }
     }
 
-    /// Whether it demands nothing.
+    /// Returns true if it is always fulfilled.
     pub(crate) fn is_always(&self) -> bool {
         self.factors.is_empty()
     }

@@ -1,4 +1,4 @@
-//! What stands in, above and beneath the cells of a ladder.
+//! Texts in, above and beneath the cells of a ladder.
 
 use crate::layout::{Cell, Measure, Placed};
 use crate::network::{Contact, InstrIndex, Network, Output, Shape};
@@ -32,7 +32,7 @@ fn cell_width(resolved: &Resolved, networks: &[(usize, &Network)], comments: boo
 #[derive(Clone, Copy)]
 pub(crate) struct Face<'a> {
     pub(crate) resolved: &'a Resolved<'a>,
-    /// Whether comments are drawn.
+    /// True if comments are drawn.
     pub(crate) comments: bool,
     /// Characters of a column, with the boundary to its left.
     pub(crate) cell: usize,
@@ -65,7 +65,7 @@ impl<'a> Face<'a> {
         }
     }
 
-    /// How many columns a text takes, with some wire on both sides.
+    /// Number of columns of a text, with some wire on both sides.
     pub(crate) fn columns(&self, text: &str) -> usize {
         (text.width() + 3).div_ceil(self.cell)
     }
@@ -99,7 +99,7 @@ impl<'a> Face<'a> {
         format!("({})", operands.join(" "))
     }
 
-    /// What is above a cell.
+    /// Text above a cell.
     pub(crate) fn name(&self, cell: Cell) -> String {
         match cell {
             Cell::Contact(Contact {
@@ -111,7 +111,7 @@ impl<'a> Face<'a> {
         }
     }
 
-    /// What lies in a cell.
+    /// Symbol in a cell.
     pub(crate) fn symbol(&self, cell: Cell) -> String {
         match cell {
             Cell::Contact(contact) => match contact.shape {

@@ -1,11 +1,11 @@
-//! Where the parts of a network lie: on a grid of rows and columns, as in the editors.
+//! Layout of a network: its parts on a grid of rows and columns, as in the editors.
 //!
 //! Contacts follow each other from the left rail; branches lie below each other; coils and boxes lie at the right rail.
 //! What is wider than the page continues on the rows below.
 
 use crate::network::{Branch, Contact, InstrIndex, Item, Node, Output, Part};
 
-/// How many columns the contents of cells take.
+/// Widths of cells in columns.
 pub trait Measure {
     /// A contact or comparison; at least 1.
     fn contact(&self, contact: Contact) -> usize;
@@ -13,7 +13,7 @@ pub trait Measure {
     fn output(&self, output: Output) -> usize;
 }
 
-/// What lies in cells.
+/// Contents of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Cell {
     /// A contact or comparison.
@@ -35,9 +35,9 @@ pub struct Placed {
     pub row: usize,
     /// Its first column.
     pub column: usize,
-    /// How many columns it takes.
+    /// Number of columns.
     pub span: usize,
-    /// What it is.
+    /// Contents.
     pub cell: Cell,
 }
 
@@ -45,30 +45,30 @@ pub struct Placed {
 /// the right one.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
-    /// How many rows.
+    /// Number of rows.
     pub rows: usize,
-    /// How many columns.
+    /// Number of columns.
     pub columns: usize,
-    /// What lies on it, by row and column.
+    /// Placed cells, by row and column.
     pub placed: Vec<Placed>,
-    /// Whether a wire runs through a cell, by row and column; cells that hold something are not wires.
+    /// True for each cell with a wire through it, by row and column; cells with contents are not wires.
     wires: Vec<bool>,
-    /// Whether a wire runs down from a row at a boundary, by row and boundary.
+    /// True for each wire that runs down from a row at a boundary, by row and boundary.
     downs: Vec<bool>,
 }
 
 impl Grid {
-    /// Whether a wire runs through a cell that is otherwise empty.
+    /// Returns true if a wire runs through a cell that is otherwise empty.
     pub fn wire(&self, row: usize, column: usize) -> bool {
         self.wires[row * self.columns + column]
     }
 
-    /// Whether a wire at a boundary runs from a row to the one below.
+    /// Returns true if a wire at a boundary runs from a row to the one below.
     pub fn down(&self, row: usize, boundary: usize) -> bool {
         self.downs[row * (self.columns + 1) + boundary]
     }
 
-    /// What lies on a row, from left to right.
+    /// Cells of a row, from left to right.
     pub fn row(&self, row: usize) -> &[Placed] {
         let start = self.placed.partition_point(|placed| placed.row < row);
         let rest = &self.placed[start..];
@@ -113,7 +113,7 @@ impl<M: Measure> Sheet<'_, M> {
         let (needed, _) = self.items_size(node);
         for (i, part) in parts.iter().enumerate() {
             let (width, _) = self.part_size(part);
-            // What follows must have room: the mark of a fold, or the outputs.
+            // The next element needs space: the mark of a fold, or the outputs.
             let after = if i + 1 == parts.len() { needed } else { 1 };
             if column > 1 && column + width + after > columns {
                 self.put(row, column, 1, Cell::FoldOut(folds));

@@ -22,7 +22,7 @@ pub enum Listed {
     Mpp,
 }
 
-/// How a contact joins the logic.
+/// Operation by which a contact joins the logic.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Entry {
     /// It starts a block.

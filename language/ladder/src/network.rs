@@ -10,25 +10,25 @@ pub struct Ladder {
     pub networks: Vec<Network>,
 }
 
-/// What is connected to the left rail at one place, with the labels before it.
+/// A circuit connected to the left rail at one place, with the labels before it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Network {
     /// Its instructions.
     pub instrs: std::ops::Range<InstrIndex>,
-    /// How many of them are labels (`P0`, `I001`), which come first.
+    /// Number of labels (`P0`, `I001`) among them, which come first.
     pub labels: usize,
-    /// What the rest draws.
+    /// Contents after the labels.
     pub body: NetworkBody,
 }
 
-/// What a network draws.
+/// Contents of a network.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetworkBody {
     /// Contacts and outputs.
     Rung(Node),
     /// Instructions that have no picture, as a list.
     List {
-        /// Why they have none, as the end of "cannot be drawn: …".
+        /// Reason, as the end of "cannot be drawn: …".
         why: &'static str,
     },
 }
@@ -36,13 +36,13 @@ pub enum NetworkBody {
 /// Contacts, and what they feed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Node {
-    /// What lies between the rail, or the node before, and this node; empty if its items are connected there directly.
+    /// Parts between the rail, or the node before, and this node; empty if its items are connected there directly.
     pub series: Series,
-    /// What is connected to the node, from top to bottom.
+    /// Items connected to the node, from top to bottom.
     pub items: Vec<Item>,
 }
 
-/// What is connected to a node.
+/// Item connected to a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Item {
     /// A coil or an applied instruction.
@@ -58,14 +58,14 @@ pub enum Item {
 pub struct Output {
     /// Its instruction.
     pub instr: InstrIndex,
-    /// Whether it is drawn as a coil (`OUT`), not as a box.
+    /// True if it is drawn as a coil (`OUT`), not as a box.
     pub coil: bool,
 }
 
 /// Parts one after another, from left to right.
 pub type Series = Vec<Part>;
 
-/// What a series consists of.
+/// Part of a series.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Part {
     /// A contact of a device, or a comparison.
@@ -83,11 +83,11 @@ pub enum Part {
 pub struct Contact {
     /// Its instruction.
     pub instr: InstrIndex,
-    /// What it looks like.
+    /// Symbol.
     pub shape: Shape,
 }
 
-/// What a contact looks like.
+/// Symbol of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Normally open.
@@ -107,11 +107,11 @@ pub enum Shape {
 pub struct Branch {
     /// Its parts; at least one.
     pub series: Series,
-    /// How the list joins it to the branches above.
+    /// Operation that joins it to the branches above.
     pub join: Join,
 }
 
-/// How the list joins a branch to those above.
+/// Operation by which the list joins a branch to those above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
     /// It is the first.

@@ -69,9 +69,9 @@ pub fn document(title: &str, resolved: &Resolved, ladder: &Ladder) -> Vec<u8> {
 struct Sheets<'a> {
     title: &'a str,
     pages: Vec<Page>,
-    /// What the outline names: text, page, place below the upper edge.
+    /// Entries of the outline: text, page, place below the upper edge.
     outline: Vec<(String, usize, f64)>,
-    /// How much of the page is full.
+    /// Height of the page in use.
     y: f64,
 }
 
@@ -110,7 +110,7 @@ impl Sheets<'_> {
         self.y += LINE;
     }
 
-    /// What the program is, and the devices that it uses.
+    /// Draws the cover: the properties of the program, and the devices that it uses.
     fn cover(&mut self, resolved: &Resolved, ladder: &Ladder, chart: Option<&Chart>) {
         self.outline("Devices");
         let title = self.title.to_string();

@@ -25,7 +25,7 @@ const MASTER: f64 = 26.0;
 /// A place, in pixels from the upper left corner.
 pub(crate) type Point = (f64, f64);
 
-/// What is drawn. Classes are those of the style sheets: `wire`, `rail`, `name`, `text`, `comment`, `margin`, `area`,
+/// Drawing element. Classes are those of the style sheets: `wire`, `rail`, `name`, `text`, `comment`, `margin`, `area`,
 /// `box`; `middle` and `end` say where a text is anchored.
 #[derive(Clone, Debug)]
 pub(crate) enum Mark {
@@ -58,12 +58,12 @@ pub(crate) enum Mark {
     Live(Live, Vec<Mark>),
 }
 
-/// What marks show of a running program, by its number in the network's [`Circuit`].
+/// State of a running program that marks show, by its number in the network's [`Circuit`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Live {
-    /// Whether a net has power.
+    /// Power of a net.
     Net(usize),
-    /// Whether a contact conducts, a coil is on, a box is driven.
+    /// State of a link: a contact conducts, a coil is on, a box is driven.
     Link(usize),
     /// The values that a link works with.
     Value(usize),
@@ -88,7 +88,7 @@ pub(crate) fn line(class: &'static str, from: Point, to: Point) -> Mark {
     Mark::Line { class, from, to }
 }
 
-/// How pictures of a program's networks are drawn.
+/// Settings for pictures of a program's networks.
 #[derive(Clone, Copy)]
 pub(crate) struct Drafter<'a> {
     face: Face<'a>,
@@ -161,7 +161,7 @@ struct Draft<'a> {
     grid: &'a Grid,
     /// Its circuit, if the picture shows where power flows.
     circuit: Option<&'a Circuit>,
-    /// Where the wire of each row lies.
+    /// Height of each row's wire.
     wires: Vec<f64>,
     height: f64,
 }
@@ -188,7 +188,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// Where a boundary lies.
+    /// Position of a boundary.
     fn x(&self, boundary: usize) -> f64 {
         MARGIN + (boundary * self.face.cell) as f64 * CHARACTER
     }
@@ -308,7 +308,7 @@ impl<'a> Draft<'a> {
     fn placed(&self, placed: Placed, index: usize) -> Mark {
         let y = self.wires[placed.row];
         let (left, right) = (self.x(placed.column), self.x(placed.column + placed.span));
-        // What a pointer hits.
+        // Area that a pointer hits.
         let mut marks = vec![Mark::Frame {
             class: "area",
             at: (left, y - ABOVE + 2.0),

@@ -26,7 +26,7 @@ const LAST_INITIAL: u32 = 9;
 pub struct Chart {
     /// States, in the order in which their sections begin.
     pub states: Vec<State>,
-    /// What leads from states to states, in order.
+    /// Transitions between states, in order.
     pub transitions: Vec<Transition>,
     /// Instructions outside the sections that switch states.
     pub others: Vec<Other>,
@@ -37,22 +37,22 @@ pub struct Chart {
 pub struct State {
     /// Its device.
     pub device: Device,
-    /// What its comment, or the statement or note on its STL, calls it.
+    /// Name, from its comment, or the statement or note on its STL.
     pub name: Option<String>,
     /// Number of the network that begins its first section, counted from 1.
     pub network: usize,
-    /// What its sections drive.
+    /// Actions of its sections.
     pub actions: Vec<Action>,
 }
 
 impl State {
-    /// Whether it may begin a flow.
+    /// Returns true if it may begin a flow.
     pub fn is_initial(&self) -> bool {
         self.device.number <= LAST_INITIAL
     }
 }
 
-/// What a state drives.
+/// Action of a state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Action {
     /// A coil or box, and under which condition it is driven: `(Y004) if /T2`.
@@ -61,7 +61,7 @@ pub struct Action {
     pub device: Option<Device>,
 }
 
-/// What leads from states to others.
+/// Transition from states to others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Transition {
     /// Positions of the states that are left, all of which are on; empty if other parts of the program begin a flow.
@@ -143,11 +143,11 @@ impl Chart {
 struct Reader<'a> {
     face: Face<'a>,
     chart: Chart,
-    /// Where each state is in the chart.
+    /// Position of each state in the chart.
     position: BTreeMap<Device, usize>,
     /// The states of the section at hand; none outside.
     current: Vec<usize>,
-    /// Whether the instruction before was STL.
+    /// True if the previous instruction was STL.
     in_row: bool,
     network: usize,
 }
@@ -228,7 +228,7 @@ impl Reader<'_> {
         let same = |made: &&mut Transition| {
             made.from == self.current && made.condition == condition && !made.from.is_empty()
         };
-        // What one condition sets begins together.
+        // States set by one condition begin together.
         if let Some(made) = self.chart.transitions.iter_mut().find(same) {
             if !made.to.contains(&target) {
                 made.to.push(target);

@@ -14,7 +14,7 @@ use svg::{Document, Node};
 /// The style of a picture that is a separate file.
 const STYLE: &str = include_str!("page/picture.css");
 
-/// How pictures of a program's networks are drawn.
+/// Settings for pictures of a program's networks.
 #[derive(Clone, Copy)]
 pub struct Painter<'a> {
     drafter: Drafter<'a>,

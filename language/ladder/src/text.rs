@@ -7,12 +7,12 @@ use rungc_analysis::resolve::Resolved;
 use std::fmt::Write as _;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-/// How a ladder is drawn.
+/// Style of a drawn ladder.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// Characters a line may have; more only where a network's branches need them.
     pub width: usize,
-    /// Whether the comments of devices are drawn beneath them.
+    /// True if the comments of devices are drawn beneath them.
     pub comments: bool,
 }
 
@@ -83,7 +83,7 @@ pub fn draw_alike(networks: &[(&Resolved, &Network)], style: Style) -> Vec<Strin
     drawn.collect()
 }
 
-/// What lies to the left of the rail: the widths of the columns of numbers, and of labels and steps.
+/// Space to the left of the rail: the widths of the columns of numbers, and of labels and steps.
 #[derive(Clone, Copy)]
 struct Margin {
     numbers: usize,
@@ -122,13 +122,13 @@ fn labels(network: &Network) -> std::ops::Range<InstrIndex> {
     network.instrs.start..network.instrs.start + network.labels
 }
 
-/// What all networks have in common.
+/// Common properties of all networks.
 #[derive(Clone, Copy)]
 struct Page<'a> {
     face: Face<'a>,
     width: usize,
     margin: Margin,
-    /// Whether numbers and steps are shown.
+    /// True if numbers and steps are shown.
     counted: bool,
     /// The instruction whose symbol is marked.
     marked: Option<InstrIndex>,
@@ -163,7 +163,7 @@ impl Page<'_> {
         }
     }
 
-    /// What lies to the left of the rail on a line.
+    /// Text to the left of the rail on a line.
     fn lead(&self, number: impl std::fmt::Display, step: &str) -> String {
         let Margin { numbers, steps } = self.margin;
         if !self.counted {

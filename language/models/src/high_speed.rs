@@ -20,7 +20,7 @@ pub struct HighSpeed {
     pub held_by_reset: bool,
     /// Relays that change what reset inputs do.
     pub reset_relays: Option<ResetRelays>,
-    /// How many comparisons at the count it makes at a time, tables among them; `None`: any number.
+    /// Most comparisons at the count at a time, tables among them; `None`: any number.
     pub most_comparisons: Option<u32>,
     /// A comparison acts when the count crosses the value in either direction, also where the program changes one of
     /// them, and not only at a count that equals it: the zones in which such comparisons run.
@@ -31,7 +31,7 @@ pub struct HighSpeed {
     pub axes: &'static [Axis],
     /// The relay of input X000, after which the others' follow, that makes SPD show pulses a minute.
     pub per_minute: Option<Relay>,
-    /// What measures pulses.
+    /// Meters of pulses.
     pub meters: &'static [Meter],
     /// Registers that count the rising edges of inputs from X000 on.
     pub edge_counts: &'static [Register],
@@ -63,7 +63,7 @@ pub struct ResetRelays {
 /// Units of hardware that fast inputs and outputs share.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FastUnits {
-    /// How many there are.
+    /// Total number of units.
     pub total: u32,
     /// Those of a pulse output.
     pub output: u32,
@@ -90,7 +90,7 @@ impl FastUnits {
     }
 }
 
-/// How the inputs of a counter count.
+/// Counting mode of a counter's inputs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// One input; a relay says in which direction (M8235 for C235).
@@ -108,9 +108,9 @@ pub enum Kind {
 pub struct Counter {
     /// Number.
     pub number: u32,
-    /// How it counts.
+    /// Counting mode.
     pub kind: Kind,
-    /// What counts: one input, or two.
+    /// Inputs that count: one or two.
     pub counts: &'static [u32],
     /// Sets it to 0.
     pub reset: Option<u32>,
@@ -173,8 +173,8 @@ const COUNTERS: &[Counter] = &{
     ]
 };
 
-/// What the FX family's models have in common: comparisons act at a count that equals the value, and an edge of a reset
-/// input resets.
+/// Common properties of the FX family's models: comparisons act at a count that equals the value, and an edge of a
+/// reset input resets.
 pub(crate) const FX: HighSpeed = HighSpeed {
     counters: COUNTERS,
     four_fold: &[],
@@ -199,7 +199,7 @@ pub(crate) const FOUR_FOLD: &[(u32, Relay)] = &[
     (255, Relay(8199)),
 ];
 
-/// How a table of rows that wait for counts works.
+/// Mode of a table of rows that wait for counts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct TableMode {
     /// The relay that HSZ names instead of bits; `None`: HSCT.
@@ -220,14 +220,14 @@ pub struct TableMode {
     pub done: Option<Relay>,
     /// … for a scan; else until the table begins again or is not driven.
     pub done_for_a_scan: bool,
-    /// What the row that waits says, shown instead of done.
+    /// Word of the waiting row that is shown, instead of done.
     pub shows: Option<Shown>,
 }
 
 /// Pairs of registers that show a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Shown {
-    /// What it says.
+    /// Register for the word.
     pub word: Register,
     /// The count that it waits for.
     pub count: Register,
@@ -289,7 +289,7 @@ pub struct Axis {
     pub captured: Register,
     /// Pair for the count when a comparison last requested an interrupt.
     pub compared: Register,
-    /// How the counter counts: 0 phases, 1 direction, 2 up, 3 down.
+    /// Counting mode: 0 phases, 1 direction, 2 up, 3 down.
     pub mode: Register,
     /// Pulses of the last millisecond.
     pub per_ms: Register,
@@ -297,7 +297,7 @@ pub struct Axis {
     pub capture: [u32; 2],
 }
 
-/// What measures the pulses of an input.
+/// Meter of an input's pulses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Meter {
     /// The input.

@@ -5,7 +5,7 @@ use rungc_rt::{EdgeKind, Register, Relay};
 /// The interrupts of a model.
 #[derive(Clone, Debug)]
 pub struct Interrupts {
-    /// What a pointer I stands for; see [`Interrupts::find`].
+    /// Meaning of a pointer I; see [`Interrupts::find`].
     pub pointers: fn(u32) -> Option<Interrupt>,
     /// Interrupts whose routines may be left in the middle.
     pub advanced: Option<AdvancedPointers>,
@@ -22,7 +22,7 @@ pub struct Interrupts {
 }
 
 impl Interrupts {
-    /// What pointer I`number` stands for; `None` if it is one that nothing here requests, or an advanced interrupt.
+    /// Meaning of pointer I`number`; `None` if it is one that nothing here requests, or an advanced interrupt.
     pub fn find(&self, number: u32) -> Option<Interrupt> {
         (self.pointers)(number)
     }
@@ -33,14 +33,14 @@ impl Interrupts {
     }
 }
 
-/// What requests an interrupt.
+/// Source of an interrupt.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum Source {
     /// An edge of an input terminal.
     Input {
         /// Terminal X, a plain number.
         number: u32,
-        /// Which change.
+        /// Kind of edge.
         kind: EdgeKind,
     },
     /// This many milliseconds of RUN have passed.
@@ -81,11 +81,11 @@ pub enum Gate {
 /// An interrupt routine's own conditions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Interrupt {
-    /// What requests it; `None`: only its request relay.
+    /// Source; `None`: only its request relay.
     pub source: Option<Source>,
     /// The relay that keeps the request, and may be set by the program (HM); it goes off when the routine begins.
     pub request: Option<Relay>,
-    /// Whether it may run. A request that is not kept in a relay is lost if not.
+    /// Condition for it to run. A request that is not kept in a relay is lost if not.
     pub gate: Gate,
 }
 
@@ -100,7 +100,7 @@ pub struct Advanced {
     pub request: Relay,
     /// The relay that requests the next entry of a routine that is active; it goes off then.
     pub again: Relay,
-    /// What else requests the next entry.
+    /// Additional source of the next entry.
     pub source: Option<Source>,
 }
 
@@ -109,7 +109,7 @@ pub struct Advanced {
 pub struct AdvancedPointers {
     /// Pointer of the first.
     pub pointer: u32,
-    /// How many there are.
+    /// Number of pointers.
     pub count: u32,
     /// The first, which the system requests again each millisecond.
     pub first: Advanced,
@@ -128,7 +128,7 @@ impl AdvancedPointers {
     }
 }
 
-/// What the edges of two inputs interrupt, as a register says (hm-motion-controller §5.5.6).
+/// Edges of two inputs that interrupt, selected by a register (hm-motion-controller §5.5.6).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Capture {
     /// The register. Its low digit is 0 if the first input's falling edge interrupts, its high digit 1 if the second
@@ -141,7 +141,7 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// Which bits of the register must have which value for an edge to interrupt.
+    /// Mask and value of the register's bits for which an edge interrupts.
     pub fn demands(&self, input: u32, kind: EdgeKind) -> Option<(i32, i32)> {
         match (self.inputs.iter().position(|&own| own == input)?, kind) {
             (0, EdgeKind::Falling) => Some((0x0f, 0)),
@@ -157,7 +157,7 @@ impl Capture {
 pub struct PulseCatch {
     /// Relay of X000; those of the next inputs follow.
     pub first: Relay,
-    /// How many inputs.
+    /// Number of inputs.
     pub inputs: u32,
 }
 
@@ -181,7 +181,7 @@ pub struct CountRows {
     pub enable: Relay,
     /// The counter's number.
     pub counter: Register,
-    /// How many rows there are, at most as many as pointers.
+    /// Number of rows, at most as many as pointers.
     pub rows: Register,
     /// The number of the first register D of the rows, which are pairs.
     pub first: Register,
@@ -191,7 +191,7 @@ pub struct CountRows {
     pub done: Relay,
     /// Pointer of the first row.
     pub pointer: u32,
-    /// How many pointers there are.
+    /// Number of pointers.
     pub most: u32,
 }
 
@@ -201,7 +201,7 @@ impl CountRows {
         self.pointer..self.pointer + self.most
     }
 
-    /// What pointer I`number` stands for, if it is one of a row.
+    /// Meaning of pointer I`number`, if it is one of a row.
     pub(crate) fn find(&self, number: u32) -> Option<Interrupt> {
         self.pointers().contains(&number).then_some(Interrupt {
             source: Some(Source::Row { pointer: number }),
@@ -211,7 +211,7 @@ impl CountRows {
     }
 }
 
-/// What requests interrupts, to decide which comes first.
+/// Kind of source, to decide the order of interrupts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// A count of a high-speed counter.
@@ -248,7 +248,7 @@ impl Precedence {
     }
 }
 
-/// What the FX family's models have in common: of interrupts that are requested together the lower pointer runs first.
+/// Common properties of the FX family's models: of interrupts that are requested together the lower pointer runs first.
 pub(crate) const FX: Interrupts = Interrupts {
     pointers: fx_pointer,
     advanced: None,

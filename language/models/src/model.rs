@@ -77,7 +77,7 @@ models! {
     Fx3uCompatible = fx3::FX3U_COMPATIBLE,
 }
 
-/// How well a model fits a CPU type.
+/// Similarity of a model and a CPU type.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fit {
     /// It is this model, or one that a program cannot distinguish from it.
@@ -132,7 +132,7 @@ pub struct Range {
     pub first: u32,
     /// Last number, inclusive.
     pub last: u32,
-    /// Whether it keeps its value over RUN/STOP and power-off.
+    /// True if it retains its value over RUN/STOP and power-off.
     pub latched: bool,
 }
 
@@ -143,7 +143,7 @@ pub struct Timers {
     pub first: u32,
     /// Last number, inclusive.
     pub last: u32,
-    /// How they behave.
+    /// Their type.
     pub kind: TimerKind,
 }
 
@@ -158,7 +158,7 @@ pub struct FastTimers {
     pub unit_ms: u16,
 }
 
-/// Which errors of a program a model's manual numbers.
+/// Program errors that a model's manual numbers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ErrorNumbers {
     /// None.
@@ -172,7 +172,7 @@ pub enum ErrorNumbers {
 /// All that is known of a model.
 #[derive(Debug)]
 pub struct Model {
-    /// Which.
+    /// Identifier.
     pub id: ModelId,
     /// The model whose instructions it has, with their forms and operands: itself, or the one whose programs it takes.
     /// Rows of the catalogue that name this model hold for it, too.
@@ -200,48 +200,48 @@ pub struct Model {
     pub latch_choices: &'static [(DeviceClass, u32, u32)],
     /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
     pub latch_key: Option<(Register, i16)>,
-    /// Whether latched timers and counters keep their contacts over power-off, not only their values.
+    /// True if latched timers and counters retain their contacts over power-off, not only their values.
     pub keeps_contacts: bool,
     /// The pointer that is END: CJ to it ends the scan, and it is not a label.
     pub end_pointer: Option<u32>,
     /// Program capacity in steps.
     pub max_steps: u32,
-    /// How long instructions take on the real PLC; `None` where nothing is printed.
+    /// Execution times of instructions on the real PLC; `None` if none are published.
     pub instruction_times: Option<InstructionTimes>,
-    /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
+    /// True if a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
     pub error_relay: Relay,
-    /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than
+    /// True if that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than
     /// with RUN.
     pub errors_last_a_scan: bool,
-    /// Whether M8046 shows active annunciators as well as states.
+    /// True if M8046 shows active annunciators as well as states.
     pub annunciators_are_states: bool,
     /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes
     /// know only 6706, for devices and values.
     pub value_error: u16,
-    /// Which errors that are found before a run have a number.
+    /// Errors found before a run that have a number.
     pub error_numbers: ErrorNumbers,
     /// Notations of operands that it knows, of those that are neither devices nor integers: E, TEXT, WORD_BIT, BUFFER.
     pub notations: Classes,
-    /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
+    /// True if its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
     pub bare_names: bool,
     /// Steps of an applied instruction: 1 plus this many for each operand of the 16-bit and of the 32-bit form; `None`:
     /// as the catalogue's rows say.
     pub steps_per_operand: Option<(u8, u8)>,
-    /// Whether its clock shows years of two digits, and takes such.
+    /// True if its clock shows and accepts years of two digits.
     pub two_digit_years: bool,
-    /// How deep FOR may nest.
+    /// Most levels of FOR.
     pub max_for: u32,
-    /// How deep CALL may nest.
+    /// Most levels of CALL.
     pub max_call: u32,
-    /// What its serial ports are.
+    /// Serial ports.
     pub ports: Ports,
-    /// Where it has special modules.
+    /// Locations of special modules.
     pub module_places: &'static [Place],
-    /// Whether it finds out which board is in its slot.
+    /// True if it detects the board in its slot.
     pub finds_boards: bool,
-    /// What its pulse outputs are.
+    /// Pulse outputs.
     pub pulses: Pulses,
     /// Their numbers, as far as instructions name them by output.
     pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
@@ -273,13 +273,13 @@ impl Model {
             .find(|r| r.class == class && (r.first..=r.last).contains(&number))
     }
 
-    /// Whether the project's parameters choose if a device is latched.
+    /// Returns true if the project's parameters determine whether a device is latched.
     pub fn can_choose_latch(&self, class: DeviceClass, number: u32) -> bool {
         let mut choices = self.latch_choices.iter();
         choices.any(|&(of, first, last)| of == class && (first..=last).contains(&number))
     }
 
-    /// Whether the model has a device.
+    /// Returns true if the model has a device.
     pub fn has(&self, class: DeviceClass, number: u32) -> bool {
         self.range(class, number).is_some()
     }

@@ -7,11 +7,11 @@
 pub struct PlcError {
     /// The code: 6706.
     pub code: u16,
-    /// What it says, in a few words.
+    /// Title, in a few words.
     pub title: &'static str,
-    /// What has happened, and what the PLC does then.
+    /// Meaning, and the PLC's reaction.
     pub meaning: &'static str,
-    /// What to do about it.
+    /// Remedy.
     pub remedy: &'static str,
 }
 
@@ -32,13 +32,13 @@ const fn row(
 /// The code of the watchdog.
 pub const WATCHDOG: u16 = rungc_rt::special::WATCHDOG_CODE as u16;
 
-/// What most operation errors do.
+/// Effect of most operation errors.
 const SKIPPED: &str = "The instruction is skipped and the scan continues.";
-/// What PID does after an error in its parameters.
+/// Effect of an error in PID's parameters.
 const PID_STOPS: &str = "PID stops until its contact turns off and on again.";
-/// What PID does after an overflow.
+/// Effect of an overflow in PID.
 const PID_GOES_ON: &str = "PID continues with the limit of the range.";
-/// What to do about an overflow of PID.
+/// Remedy for an overflow in PID.
 const PID_RANGE: &str =
     "Scale the measured value and the set value down, or choose a smaller gain.";
 
@@ -209,7 +209,7 @@ pub fn find(code: u16) -> Option<&'static PlcError> {
     at.ok().map(|i| &PLC_ERRORS[i])
 }
 
-/// What a code says, in a few words.
+/// Title of a code, in a few words.
 pub fn title(code: u16) -> &'static str {
     find(code).map_or("operation error", |error| error.title)
 }

@@ -26,7 +26,7 @@ impl IndexAlias {
         }
     }
 
-    /// Whether its special register is one of D`first` to D`last`.
+    /// Returns true if its special register is one of D`first` to D`last`.
     pub fn is_within(&self, first: u32, last: u32) -> bool {
         (first..=last).contains(&self.register.number())
     }
@@ -67,8 +67,8 @@ pub fn name_class(class: Class) -> DeviceClass {
     }
 }
 
-/// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit
-/// counters are separate from the devices before them.
+/// Returns true if a run ends before device `number` of `class` although the model has more: the special devices and
+/// the 32-bit counters are separate from the devices before them.
 pub fn is_border(class: DeviceClass, number: u32) -> bool {
     match class {
         DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,
@@ -77,17 +77,17 @@ pub fn is_border(class: DeviceClass, number: u32) -> bool {
     }
 }
 
-/// Whether a device is a special relay or register.
+/// Returns true if a device is a special relay or register.
 pub fn is_special(class: DeviceClass, number: u32) -> bool {
     matches!(class, DeviceClass::M | DeviceClass::D) && number >= FIRST_SPECIAL
 }
 
-/// Whether a device is a 32-bit counter.
+/// Returns true if a device is a 32-bit counter.
 pub fn is_counter32(class: DeviceClass, number: u32) -> bool {
     class == DeviceClass::C && number >= FIRST_COUNTER32
 }
 
-/// How many words hold `count` bits from bit number `bit` of a word on.
+/// Number of words that hold `count` bits from bit number `bit` of a word on.
 pub fn words_of_bits(bit: u8, count: u32) -> u32 {
     u32::from(bit).saturating_add(count.max(1)).div_ceil(16)
 }
@@ -104,7 +104,7 @@ impl Model {
         alias.map_or((class, number), |alias| (alias.class, alias.index))
     }
 
-    /// Whether one of the registers `first` to `last` of a class is another name of an index register.
+    /// Returns true if one of the registers `first` to `last` of a class is another name of an index register.
     pub fn has_alias(&self, class: DeviceClass, first: u32, last: u32) -> bool {
         self.aliases_within(class, first, last).next().is_some()
     }
@@ -134,7 +134,7 @@ impl Model {
         runs
     }
 
-    /// Whether `count` devices from `first` on all exist, in one run: [`rungc_ir::node::Expr::InRange`].
+    /// Returns true if `count` devices from `first` on all exist, in one run: [`rungc_ir::node::Expr::InRange`].
     pub fn in_range(&self, class: DeviceClass, first: i64, count: u32) -> bool {
         let last = first + i64::from(count.max(1)) - 1;
         self.runs(class)

@@ -37,7 +37,7 @@ impl SpecialDevice for Register {
     }
 }
 
-/// Whether a program may write it.
+/// Access allowed to a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Access {
     /// The PLC writes it; a program should only read it.
@@ -46,7 +46,7 @@ pub enum Access {
     ReadWrite,
 }
 
-/// Whether it does what it means.
+/// Status of a special device's function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Status {
     /// The scan driver keeps it.
@@ -60,7 +60,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Why the device is inert on a PLC with special modules at these places; `None` if it works.
+    /// Reason for which the device is inert on a PLC with special modules at these places; `None` if it works.
     pub fn inert(self, places: &[Place]) -> Option<Reason> {
         match self {
             Status::Inert(reason) => Some(reason),
@@ -70,27 +70,27 @@ impl Status {
     }
 }
 
-/// Why a special device is inert, and what a program that relies on it misses.
+/// Reason for which a special device is inert, and the effect on a program that relies on it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Reason {
     /// The reason, as the end of a sentence.
     pub text: &'static str,
-    /// Who misses it.
+    /// Programs that it affects.
     pub missed: Missed,
 }
 
-/// Which programs behave differently because a special device is inert.
+/// Programs that behave differently because a special device is inert.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Missed {
     /// None: it serves people and their tools, or reports faults that cannot happen here.
     Never,
-    /// Those that write it.
+    /// Programs that write it.
     ByWriters,
-    /// Those that write it, and those that read it and wait for it to change.
+    /// Programs that write it, and programs that read it and wait for it to change.
     ByAll,
 }
 
-/// What asks for scans of constant length.
+/// Devices that request scans of constant length.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ConstantScan {
     /// While it is on; `None`: always.
@@ -99,7 +99,8 @@ pub struct ConstantScan {
     pub register: Register,
 }
 
-/// What puts the PLC in RUN and STOP, other than its switch. It acts when a scan begins, in RUN or in STOP.
+/// Devices that put the PLC in RUN and STOP, other than its switch. They take effect when a scan begins, in RUN or in
+/// STOP.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum RunCommand {
     /// M8036 puts it in RUN while M8035 is on, and goes off (h1u-h2u-programming §8.9).
@@ -118,30 +119,30 @@ pub struct Special {
     pub first: u32,
     /// Last number, inclusive.
     pub last: u32,
-    /// Whether a program may write it.
+    /// Access allowed to a program.
     pub access: Access,
     /// Value at power-on.
     pub default: i16,
-    /// Whether it works.
+    /// Status of its function.
     pub status: Status,
-    /// What it means.
+    /// Meaning.
     pub meaning: &'static str,
 }
 
 impl Special {
-    /// Whether it does what it means.
+    /// Returns true if it works as described.
     pub fn works(&self) -> bool {
         !matches!(self.status, Status::Inert(_))
     }
 
-    /// Whether the scan driver keeps it.
+    /// Returns true if the scan driver updates it.
     pub fn is_kept_by_scan(&self) -> bool {
         matches!(self.status, Status::Scan)
     }
 }
 
 impl Model {
-    /// What a device means on the model.
+    /// Row of a device on the model.
     pub fn special(&self, class: DeviceClass, number: u32) -> Option<&'static Special> {
         self.special.iter().find_map(|table| {
             let after = table.partition_point(|row| (row.class, row.first) <= (class, number));
@@ -155,32 +156,33 @@ impl Model {
         self.special.iter().copied().flatten()
     }
 
-    /// Whether a special device does on this model what it means.
+    /// Returns true if a special device works on this model.
     pub fn special_works<D: SpecialDevice>(&self, device: D) -> bool {
         let row = self.special(D::CLASS, device.number());
         row.is_some_and(Special::works)
     }
 
-    /// Whether a special device is one that the scan keeps on this model: M8034, for one, switches outputs off on most
-    /// models and is an interrupt request on HM.
+    /// Returns true if a special device is one that the scan updates on this model: M8034, for one, switches outputs
+    /// off on most models and is an interrupt request on HM.
     pub fn scan_keeps<D: SpecialDevice>(&self, device: D) -> bool {
         let row = self.special(D::CLASS, device.number());
         row.is_some_and(Special::is_kept_by_scan)
     }
 
-    /// Whether its registers from D8030 on are an oscilloscope's (HM). On L01S, they are the values of analog inputs,
-    /// in one row.
+    /// Returns true if its registers from D8030 on are an oscilloscope's (HM). On L01S, they are the values of analog
+    /// inputs, in one row.
     pub fn has_oscilloscope(&self) -> bool {
         let row = self.special(DeviceClass::D, D_SCOPE_STATE.number());
         row.is_some_and(|row| row.is_kept_by_scan() && row.first == row.last)
     }
 
-    /// Whether M8005 to M8008 and D8005 to D8008 show the power supply and the battery. On HM, they are something else.
+    /// Returns true if M8005 to M8008 and D8005 to D8008 show the power supply and the battery. On HM, they have other
+    /// meanings.
     pub fn shows_power_supply(&self) -> bool {
         self.scan_keeps(D_BATTERY)
     }
 
-    /// What asks for scans of constant length on this model.
+    /// Devices that request scans of constant length on this model.
     pub fn constant_scan(&self) -> Option<ConstantScan> {
         let (relay, register) = (M_CONSTANT_SCAN, D_CONSTANT_SCAN);
         if self.scan_keeps(relay) && self.scan_keeps(register) {
@@ -195,7 +197,7 @@ impl Model {
         })
     }
 
-    /// What puts the PLC in RUN and STOP on this model, other than its switch.
+    /// Devices that put the PLC in RUN and STOP on this model, other than its switch.
     pub fn run_command(&self) -> Option<RunCommand> {
         let forced = self.scan_keeps(M_FORCE_ENABLE) && self.scan_keeps(M_FORCED_RUN);
         let remote = self.scan_keeps(D_REMOTE) && self.scan_keeps(M_REMOTE_RUN);
@@ -225,7 +227,7 @@ impl Model {
         row.map_or(0, |row| row.default)
     }
 
-    /// Whether a special relay is on at power-on.
+    /// Returns true if a special relay is on at power-on.
     pub fn is_on_at_power_on(&self, relay: Relay) -> bool {
         let row = self.special(DeviceClass::M, relay.number());
         row.is_some_and(|row| row.default != 0)
@@ -256,7 +258,7 @@ const fn because(missed: Missed, text: &'static str) -> Reason {
     Reason { text, missed }
 }
 
-// Why a device is inert.
+// Reasons for which devices are inert.
 pub(crate) const POWER: Reason = because(
     Missed::Never,
     "of supply and battery, only a failure and the voltage are watched",

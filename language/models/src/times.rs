@@ -1,4 +1,4 @@
-//! How long instructions take on the real PLC, as far as its manuals print it.
+//! Execution times of instructions on the real PLC, as far as its manuals give them.
 
 /// The printed times of a model, in nanoseconds.
 #[derive(Clone, Copy, Debug)]
@@ -9,6 +9,6 @@ pub struct InstructionTimes {
     pub longer: &'static [(&'static str, u32)],
     /// The shortest applied instruction; `None` where nothing is printed of applied instructions.
     pub applied: Option<u32>,
-    /// Where that is printed.
+    /// Source of the times.
     pub source: &'static str,
 }

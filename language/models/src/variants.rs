@@ -15,17 +15,17 @@ pub struct Variant {
     pub title: &'static str,
     /// Its family.
     pub model: ModelId,
-    /// How many inputs the base unit has, from X000 on; `None`: it comes with several numbers.
+    /// Number of inputs of the base unit, from X000 on; `None`: it is sold with several numbers.
     pub inputs: Option<u32>,
-    /// How many outputs the base unit has, from Y000 on.
+    /// Number of outputs of the base unit, from Y000 on.
     pub outputs: Option<u32>,
-    /// How many outputs send pulses, from Y000 on.
+    /// Number of outputs that send pulses, from Y000 on.
     pub pulse_outputs: u32,
     /// Instructions of its family that it does not have.
     pub lacks: &'static [&'static [&'static str]],
     /// Devices of its family that it does not have: class, first and last number.
     pub lacks_devices: &'static [(DeviceClass, u32, u32)],
-    /// Where that is said.
+    /// Source of the data.
     pub source: &'static str,
 }
 
@@ -55,14 +55,14 @@ impl Plc {
     }
 }
 
-/// What H2U-MTQ and H2U-MTP do not have (h1u-h2u-programming §8.6).
+/// Instructions missing from H2U-MTQ and H2U-MTP (h1u-h2u-programming §8.6).
 const NO_FLOATS: &[&str] = &[
     "CANTX", "CANRX", "RS2", "MODBUS2", "ECMP", "EZCP", "EMOV", "EBCD", "EBIN", "EADD", "ESUB",
     "EMUL", "EDIV", "EXP", "LOGE", "LOG10", "ESQR", "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN",
     "RAD", "DEG", "SINH", "COSH", "TANH", "DSZR", "ABS",
 ];
 
-/// What H2U-MTP does not have in addition: everything at high-speed inputs (§8.5).
+/// Instructions missing from H2U-MTP in addition: everything at high-speed inputs (§8.5).
 const NO_FAST_INPUTS: &[&str] = &["SPD", "HSCS", "HSCR", "HSZ"];
 
 /// Interrupts of a table of counts, and the speed per minute of SPD, which the XP generation does not have (§8.1,
@@ -79,7 +79,7 @@ const NOT_ON_XP: &[(DeviceClass, u32, u32)] = &[
 /// High-speed counters, interrupts of inputs, pulse catch.
 const FAST_INPUTS: &[(DeviceClass, u32, u32)] = &[(C, 235, 255), (I, 0, 501), (M, 8170, 8177)];
 
-/// What the XP generation of H2U is.
+/// The XP generation of H2U.
 const H2U_XP: Variant = Variant {
     name: "h2u-xp",
     title: "Inovance H2U-XP",
@@ -200,12 +200,12 @@ impl Variant {
         VARIANTS.each_ref().map(|variant| variant.name).join(", ")
     }
 
-    /// Whether it has an instruction that its family has.
+    /// Returns true if it has an instruction of its family.
     pub fn has_instruction(&self, name: &str) -> bool {
         !self.lacks.iter().any(|group| group.contains(&name))
     }
 
-    /// Whether it has a device that its family has.
+    /// Returns true if it has a device of its family.
     pub fn has(&self, class: DeviceClass, number: u32) -> bool {
         let mut lacking = self.lacks_devices.iter();
         !lacking.any(|&(of, first, last)| of == class && (first..=last).contains(&number))

@@ -169,7 +169,7 @@ impl Reader {
         })
     }
 
-    /// When an entry is sent: it has one of four keys.
+    /// Condition for sending an entry, given by one of four keys.
     fn when(&mut self, at: Span, table: &DeTable<'_>) -> Option<When> {
         const HELP: &str =
             "add for example `every = 100` (ms), `event = \"M100\"` or `sync = true`";
@@ -203,7 +203,7 @@ impl Reader {
     }
 }
 
-/// What a station is.
+/// Name of a station's role.
 fn name(is_master: bool) -> &'static str {
     match is_master {
         true => "master",

@@ -64,7 +64,7 @@ impl Reader {
         Some(row)
     }
 
-    /// Where a row asks: COM1 if it does not say.
+    /// Connection of a row: COM1 if none is given.
     fn line(&mut self, table: &DeTable<'_>) -> Option<Line> {
         if let Some(named) = self.get(table, "host") {
             if let Some(port) = table.get("port") {
@@ -93,7 +93,7 @@ impl Reader {
         port.map(Line::Port)
     }
 
-    /// What a row reads or writes.
+    /// Transfer of a row.
     fn transfer(&mut self, at: Span, table: &DeTable<'_>) -> Option<modbus::Transfer> {
         let (key, named) = match (self.get(table, "read"), self.get(table, "write")) {
             (Some(named), None) => ("read", named),

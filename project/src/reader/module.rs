@@ -16,7 +16,7 @@ const DELAY: &str = "answers-after";
 /// The longest time that can be given there, in milliseconds.
 const LONGEST_MS: u32 = 60_000;
 
-/// How many modules a PLC has at most.
+/// Most modules of a PLC.
 const MOST: usize = 8;
 
 impl Reader {
@@ -125,7 +125,7 @@ impl Reader {
     }
 }
 
-/// What is wrong with the number of a kind of module, and what helps.
+/// Error in the number of a kind of module, and the remedy.
 fn misplaced(unit: u16, kind: &Kind) -> Option<(String, &'static str)> {
     let name = kind.name;
     match (kind.place, unit) {

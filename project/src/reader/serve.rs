@@ -47,7 +47,7 @@ impl Reader {
         }
     }
 
-    /// Where a protocol is served: at one place, or at those of a list.
+    /// Addresses at which a protocol is served: one, or those of a list.
     fn ends<T>(
         &mut self,
         table: &DeTable<'_>,

@@ -1,4 +1,4 @@
-//! What a file says, and what is said about its mistakes.
+//! Settings in files, and the messages about their mistakes.
 
 use crate::common::{mistakes, parse};
 use proptest::prelude::*;

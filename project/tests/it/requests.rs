@@ -1,4 +1,4 @@
-//! What a program asks of servers over TCP.
+//! Requests of a program to servers over TCP.
 
 use rungc_models::{Model, ModelId};
 use rungc_project::{Error, Project};

@@ -12,9 +12,10 @@ mod tls;
 
 use rungc_rt::io::{Connection, Kind, Opener};
 
-/// What opens the other end of a connection.
+/// Returns the opener of a connection's other end.
 ///
 /// # Errors
+///
 /// This system or this build has no driver for it.
 pub fn opener(connection: &Connection) -> Result<Opener, String> {
     match connection.kind {

@@ -28,7 +28,7 @@ const WAITING: usize = 256;
 const ONLINE: &str = "online";
 const OFFLINE: &str = "offline";
 
-/// What the thread of the connection reports.
+/// News from the thread of the connection.
 enum News {
     /// The broker has accepted the connection.
     Connected,
@@ -45,14 +45,15 @@ struct Broker {
     thread: Option<JoinHandle<()>>,
     /// The topic that shows whether the PLC is there.
     status: Option<String>,
-    /// What was published last, by topic.
+    /// Values last published, by topic.
     published: BTreeMap<String, String>,
 }
 
-/// What opens a broker.
+/// Returns the opener of a broker.
 ///
 /// # Errors
-/// A connection by TLS, which this build lacks.
+///
+/// The connection is by TLS, which this build lacks.
 pub fn opener(connection: &Connection) -> Result<Opener, String> {
     match connection.is_encrypted() && cfg!(not(feature = "tls")) {
         true => Err(String::from(
@@ -143,7 +144,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     Ok(Box::new(broker))
 }
 
-/// Why there is no connection; `accepted`: whether there was one.
+/// Reason for which there is no connection; `accepted`: whether there was one.
 #[cfg(not(feature = "tls"))]
 fn explained(error: &ConnectionError, _: &Connection, _accepted: bool) -> String {
     error.to_string()

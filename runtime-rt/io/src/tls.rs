@@ -9,10 +9,11 @@ use rustls::{AlertDescription, CertificateError, ClientConfig, Error, RootCertSt
 use std::io::ErrorKind;
 use std::sync::Arc;
 
-/// What encrypts a connection, if that is asked for.
+/// Encryption of a connection, if it is requested.
 ///
 /// # Errors
-/// A file that cannot be read, or does not have what its key says.
+///
+/// A file cannot be read, or does not have the contents that its key names.
 pub fn transport(connection: &Connection) -> Result<Option<Transport>, String> {
     let option = |key: &str| connection.options.get(key);
     let Some(ca) = option("ca") else {
@@ -60,7 +61,7 @@ fn private_key(path: &str) -> Result<PrivateKeyDer<'static>, String> {
     PrivateKeyDer::from_pem_slice(&read(path)?).map_err(none)
 }
 
-/// Why there is no connection, and what to do. `accepted`: whether the broker had accepted it before.
+/// Reason for which there is no connection, and a remedy. `accepted`: whether the broker had accepted it before.
 pub fn explained(error: &ConnectionError, connection: &Connection, accepted: bool) -> String {
     let option = |key: &str| connection.options.get(key).map(String::as_str);
     let (Some(ca), false) = (option("ca"), accepted) else {
@@ -81,11 +82,11 @@ pub fn explained(error: &ConnectionError, connection: &Connection, accepted: boo
     }
 }
 
-/// What a port says that does not speak TLS.
+/// Message for a port that does not speak TLS.
 const NO_TLS: &str =
     "the broker does not answer by TLS: name its port for it, usually 8883, or leave out `ca`";
 
-/// How to have a certificate.
+/// Advice on certificates.
 const ASKED_FOR: &str = "name a certificate of the PLC with `certificate` and `key`";
 
 /// The part of an error that is TLS's.
@@ -108,7 +109,7 @@ fn of_io(error: &ConnectionError) -> Option<&std::io::Error> {
     }
 }
 
-/// Whether the broker has closed the connection without a word.
+/// Returns true if the broker has closed the connection without a reason.
 fn is_closed(error: &ConnectionError) -> bool {
     let closed = |error: &std::io::Error| {
         matches!(

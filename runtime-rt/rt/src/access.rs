@@ -8,8 +8,8 @@ fn is_counter32(class: Class, number: i32) -> bool {
     class == Class::C && number >= FIRST_COUNTER32 as i32
 }
 
-/// What emitted Rust does with indexed devices. It asks whether they exist before; where one does not, a read gives 0
-/// and a write is lost.
+/// Access to indexed devices in emitted Rust. It asks whether they exist before; where one does not, a read gives 0 and
+/// a write is lost.
 pub trait Access: Plc {
     /// State of a bit device.
     fn bit_at(&self, class: Class, number: i32) -> bool {
@@ -89,7 +89,7 @@ pub trait Access: Plc {
         }
     }
 
-    /// Where the high word of a pair is.
+    /// The device that holds the high word of a pair.
     fn high_word(&self, class: Class, number: i32) -> (Class, i32) {
         if class == Class::Z && self.z_pairs_with_v() {
             (Class::V, number)

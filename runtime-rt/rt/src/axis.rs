@@ -12,7 +12,7 @@ use crate::word::{pair, words};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Axis {
-    /// What it sends.
+    /// Generator of its pulses.
     pub generator: Generator,
     /// Pulses sent on the output of this number since power-on; those sent in reverse count down.
     pub sent: i32,
@@ -28,9 +28,9 @@ pub struct Axis {
     pub completed: bool,
     /// The program has taken over what an interrupt sent on it, and not given it back yet.
     pub taken: bool,
-    /// Whether the pin is on.
+    /// True if the pin is on.
     pub on: bool,
-    /// Whether the pin is on where a pulse is off.
+    /// True if the pin is inverted: on where a pulse is off.
     pub inverted: bool,
     /// Pulses that have ended, but are not counted in registers yet.
     pub uncounted: i32,
@@ -57,7 +57,7 @@ impl Axis {
         }
     }
 
-    /// Whether a train has been sent to its end since this was last asked.
+    /// Returns true once after a train has been sent to its end.
     pub fn take_end(&mut self) -> bool {
         core::mem::take(&mut self.ended)
     }
@@ -101,7 +101,7 @@ impl Axis {
         sent.taken = true;
     }
 
-    /// What an interrupt is to send; nothing of it has been sent.
+    /// A copy for an interrupt to send, none of which has been sent yet.
     pub(crate) fn unsent(&self) -> Axis {
         Axis {
             uncounted: 0,
@@ -137,7 +137,7 @@ pub(crate) fn set_long(plc: &mut dyn Plc, low: Register, value: i32) {
     }
 }
 
-/// Whether one of these relays is on.
+/// Returns true if one of these relays is on.
 pub(crate) fn any_is_on(plc: &dyn Plc, relays: &[Option<Relay>]) -> bool {
     let mut relays = relays.iter().flatten();
     relays.any(|relay| relay.is_on(plc))
@@ -197,7 +197,7 @@ pub fn pass(plc: &mut dyn Plc, from_us: u32, until_us: u32, most: u32) -> u32 {
     reached
 }
 
-/// How many pulses one of the outputs sends by `now_us`, the one that sends most.
+/// The largest number of pulses that any of the outputs sends by `now_us`.
 fn most_sent(plc: &mut dyn Plc, now_us: u32) -> u32 {
     let outputs = plc.pulses().outputs().len() as u32;
     let mut most = 0;

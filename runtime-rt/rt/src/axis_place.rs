@@ -26,7 +26,7 @@ pub const RIGHT: u32 = 11;
 pub const RETURN: u32 = 12;
 /// Its speed over the DOG.
 pub const CREEP: u32 = 13;
-/// Which signals are looked at, and how, as bits.
+/// Modes of the signals, as bits: which are evaluated, and how.
 pub const EVENTS: u32 = 14;
 /// Pulses after the DOG.
 pub const BEHIND: u32 = 15;
@@ -48,9 +48,9 @@ pub const INTERRUPT: u32 = 24;
 pub const INPUTS: [u32; 6] = [DOG, ZERO, LEFT, RIGHT, EMERGENCY, INTERRUPT];
 /// Pair: position at the interrupt.
 pub const INTERRUPT_POSITION: u32 = 26;
-/// How many of them there are.
+/// Number of these words.
 pub const COUNT: u32 = 28;
 /// Pair: the pulses of Y000; those of the other outputs follow.
 pub const PULSES: Register = Register(80);
-/// How many outputs are counted so.
+/// Number of outputs counted this way.
 pub const OUTPUTS: u32 = 9;

@@ -92,7 +92,7 @@ use crate::plc::Class;
 use crate::program::Program;
 pub use crate::pulse_side::{SharedAxes, send_pulses};
 
-/// What time it is.
+/// Time source of a board.
 pub trait Timebase {
     /// Microseconds since the board began, wrapping. Their resolution is that of pulses and scans.
     fn now_us(&mut self) -> u32;
@@ -103,7 +103,7 @@ pub trait Timebase {
 pub struct InputEdge {
     /// The input X.
     pub input: u32,
-    /// Whether it turned on.
+    /// True for a rising edge.
     pub level: bool,
 }
 
@@ -115,22 +115,22 @@ pub trait EdgeInterrupt {
         None
     }
 
-    /// Whether the edges of this input are noted. Its X then follows them and not [`Hal::input`], so that the phases of
-    /// an encoder stay in order; the first scan alone takes it from the pin.
+    /// Returns true if the edges of this input are recorded by an interrupt. Its X then follows them and not
+    /// [`Hal::input`], so that the phases of an encoder stay in order; the first scan alone takes it from the pin.
     fn notes_edges(&self, input: u32) -> bool {
         let _ = input;
         false
     }
 }
 
-/// What a hardware counter has counted.
+/// Counts of a hardware counter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Counted {
     /// A timer with an external clock has counted pulses.
     Pulses {
         /// The input X.
         input: u32,
-        /// How many since last asked.
+        /// Pulses since the last call.
         count: u32,
     },
     /// A timer in encoder mode has counted quarters of a cycle.
@@ -139,7 +139,7 @@ pub enum Counted {
         a: u32,
         /// The input X of phase B.
         b: u32,
-        /// What the timer showed when last asked, wrapping. Its two lowest bits are the phases: 0 both off, 1 A on, 2
+        /// State of the timer at the last call, wrapping. Its two lowest bits are the phases: 0 both off, 1 A on, 2
         /// both on, 3 B on.
         from: u32,
         /// Quarters since then; those in which B leads are negative.
@@ -150,14 +150,14 @@ pub enum Counted {
 /// Inputs that a hardware counter counts, for rates at which an interrupt for each edge is too slow. The program gets
 /// them as that many edges, so its comparisons act at the count; but only as soon as the main loop asks.
 pub trait CounterInput {
-    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` after
-    /// the last one.
+    /// Counts of this counter since the last call, possibly none. Counters are numbered from 0; `None` after the last
+    /// one.
     fn counted(&mut self, counter: u32) -> Option<Counted> {
         let _ = counter;
         None
     }
 
-    /// Whether a hardware counter has this input. Its X then follows the counts and not [`Hal::input`].
+    /// Returns true if a hardware counter uses this input. Its X then follows the counts and not [`Hal::input`].
     fn counts(&self, input: u32) -> bool {
         let _ = input;
         false
@@ -181,7 +181,7 @@ pub trait Board: Timebase + EdgeInterrupt + CounterInput + PulseOutput {}
 
 impl<T: Timebase + EdgeInterrupt + CounterInput + PulseOutput> Board for T {}
 
-/// How a program runs on a board.
+/// Settings of a program on a board.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Setup {
     /// Inputs X from 0 on that a scan reads with [`Hal::input`].
@@ -201,13 +201,13 @@ pub struct Driver<P, B> {
     /// The board.
     pub board: B,
     setup: Setup,
-    /// When the millisecond began that it is, by the board's time; `None` before the first poll.
+    /// Start of the current millisecond by the board's time; `None` before the first poll.
     millisecond: Option<u32>,
     /// Milliseconds since the first poll.
     now_ms: u32,
-    /// When the next scan begins.
+    /// Start of the next scan.
     next_scan: u32,
-    /// How long the last one took, in microseconds.
+    /// Duration of the last scan, in microseconds.
     scan_us: u32,
     /// An interrupt sends the pulses while scans run.
     shares_pulses: bool,
@@ -402,12 +402,12 @@ fn phases(quarter: u32) -> [bool; 2] {
     [matches!(quarter % 4, 1 | 2), quarter % 4 >= 2]
 }
 
-/// Whether a moment has come.
+/// Returns true if a moment has passed.
 fn has_come(moment: u32, now_us: u32) -> bool {
     now_us.wrapping_sub(moment) <= u32::MAX / 2
 }
 
-/// When the scan of this moment begins: then, even if it is a little late, or now if others were missed.
+/// Start of the scan due at this moment: the moment itself, even if it is a little late, or now if scans were missed.
 fn beginning(moment: u32, period: u32, now_us: u32) -> u32 {
     if now_us.wrapping_sub(moment) < period {
         moment

@@ -33,7 +33,7 @@ use crate::plc::{Class, Site, State};
 use crate::wiring::Pulses;
 use core::ffi::c_void;
 
-/// What an area of devices is made of.
+/// Storage type of an area of devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Kind {
@@ -55,18 +55,18 @@ pub enum Kind {
 pub struct Area {
     /// Their class.
     pub class: Class,
-    /// What each is.
+    /// Type of each device.
     pub kind: Kind,
     /// First number.
     pub first: u32,
-    /// How many.
+    /// Number of devices.
     pub count: u32,
-    /// How many numbers it is from a device to the next one in memory: 1, or more in an array of this many columns, each as long as the
-    /// longest has to be.
+    /// Distance between consecutive devices in memory, in numbers: 1, or more in an array of this many columns, each as
+    /// long as the longest has to be.
     pub columns: u32,
-    /// How many of the columns are stored: the first ones.
+    /// Number of columns stored: the first ones.
     pub kept: u32,
-    /// Where they begin in the struct, in bytes.
+    /// Offset in the struct, in bytes.
     pub offset: usize,
 }
 
@@ -100,63 +100,63 @@ pub struct Alias {
 pub struct Text {
     /// Its characters.
     pub bytes: *const u8,
-    /// How many.
+    /// Number of characters.
     pub length: usize,
 }
 
-/// What a program's struct looks like. All pointers are valid for their counts, for as long as the program runs.
+/// Layout of a program's struct. All pointers are valid for their counts, for as long as the program runs.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Layout {
     /// Areas, sorted by class and first number.
     pub areas: *const Area,
-    /// How many.
+    /// Number of areas.
     pub area_count: usize,
-    /// What the model has, sorted likewise.
+    /// Ranges of devices that the model has, sorted likewise.
     pub ranges: *const Range,
-    /// How many.
+    /// Number of ranges.
     pub range_count: usize,
     /// Index registers with a second name.
     pub aliases: *const Alias,
-    /// How many.
+    /// Number of aliases.
     pub alias_count: usize,
     /// Texts.
     pub texts: *const Text,
-    /// How many.
+    /// Number of texts.
     pub text_count: usize,
-    /// Where the struct holds its `plc_sys`.
+    /// Offset of its `plc_sys`.
     pub sys: usize,
-    /// Where the struct holds its `plc_error`; 0 if it has none.
+    /// Offset of its `plc_error`; 0 if it has none.
     pub error: usize,
-    /// Where the struct holds its `plc_on_error *`; 0 if it has none.
+    /// Offset of its `plc_on_error *`; 0 if it has none.
     pub on_error: usize,
-    /// Where the struct holds its private memories.
+    /// Offset of its private memories.
     pub states: usize,
-    /// How many; slots are numbered from 1.
+    /// Number of private memories; slots are numbered from 1.
     pub state_count: u16,
-    /// Whether a 32-bit access to Zn takes Vn as its high word.
+    /// True if a 32-bit access to Zn takes Vn as its high word.
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error.
     pub error_relay: u16,
     /// Code of an error in an operand's value.
     pub value_error: u16,
-    /// Where the struct holds its pulse outputs.
+    /// Offset of its pulse outputs.
     pub axes: usize,
     /// Their numbers Y, in order.
     pub outputs: *const u8,
-    /// How many.
+    /// Number of pulse outputs.
     pub output_count: usize,
     /// The pulse outputs that the model has.
     pub pulses: Pulses,
     /// Its serial ports, in the order of their numbers.
     pub ports: *const PortPlace,
-    /// How many.
+    /// Number of serial ports.
     pub port_count: usize,
-    /// What it serves by Modbus, and how much a frame may be about; NULL if no port speaks it.
+    /// Devices served by Modbus, and the limits of a frame; NULL if no port speaks it.
     pub modbus: *const Profile,
-    /// What the ports do, by protocols.
+    /// Implementations of the ports' protocols.
     pub codecs: *const *const Codec,
-    /// How many.
+    /// Number of protocols.
     pub codec_count: usize,
     /// The serial ports that the model has.
     pub port_family: Ports,
@@ -164,21 +164,21 @@ pub struct Layout {
     pub type_code: u16,
 }
 
-/// Where a program's struct holds a serial port.
+/// Location of a serial port in a program's struct.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct PortPlace {
     /// Its special devices.
     pub wiring: *const PortWiring,
-    /// Where in the struct.
+    /// Offset in the struct.
     pub offset: usize,
     /// Characters of the longest frame.
     pub length: u16,
     /// Its number in the model's manual.
     pub number: u8,
-    /// Whether there is memory for the progress of its protocols.
+    /// True if there is memory for the progress of its protocols.
     pub has_progress: bool,
-    /// Whether there is memory for what its protocols keep.
+    /// True if there is memory for the state of its protocols.
     pub keeps: bool,
 }
 
@@ -244,28 +244,28 @@ pub struct HalTable {
     >,
     /// Takes a character to be sent after those before it; false if there is no room for it now.
     pub send: Option<extern "C" fn(context: *mut c_void, port: u8, byte: u8, now_us: u32) -> bool>,
-    /// How many characters of those are not out by `now_us`, to the end of their stop bits.
+    /// Number of those characters that are not out by `now_us`, to the end of their stop bits.
     pub unsent: Option<extern "C" fn(context: *mut c_void, port: u8, now_us: u32) -> u16>,
     /// Takes the oldest frame that has come by CAN; false if there is none.
     pub can_receive: Option<extern "C" fn(context: *mut c_void, frame: *mut CanFrame) -> bool>,
     /// Takes a frame to be sent by CAN after those before it; false if there is no room for it now.
     pub can_send: Option<extern "C" fn(context: *mut c_void, frame: *const CanFrame) -> bool>,
-    /// Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
+    /// Returns true while frames taken by `can_send` are not on the bus yet; `NULL`: never.
     pub can_is_sending: Option<extern "C" fn(context: *mut c_void) -> bool>,
-    /// Whether the power supply fails now; `NULL`: nothing watches it.
+    /// Returns true if the power supply fails now; `NULL`: it is not monitored.
     pub power_fails: Option<extern "C" fn(context: *mut c_void) -> bool>,
     /// Voltage of the battery in tenths of a volt; false if nothing measures it.
     pub battery: Option<extern "C" fn(context: *mut c_void, tenths: *mut u16) -> bool>,
 }
 
-/// What a host does at an operation error: `plc_on_error`.
+/// Callback of a host for operation errors: `plc_on_error`.
 pub(crate) type OnError = extern "C" fn(plc: *const c_void, code: u16, step: u16);
 
 /// A program's devices: its struct, what it looks like, and the hardware.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Map {
-    /// What the struct looks like.
+    /// Layout of the struct.
     pub layout: *const Layout,
     /// The struct. Nothing else may use it during a call.
     pub plc: *mut c_void,
@@ -275,7 +275,7 @@ pub struct Map {
     pub none: State,
 }
 
-/// What a partner on a line has asked of the RUN/STOP switch.
+/// Request of a partner on a line to operate the RUN/STOP switch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Request {

@@ -1,4 +1,5 @@
-//! What a static library without the standard library does when it meets a bug: this crate never panics on any input.
+//! Panic handler of the static library without the standard library: only a bug reaches it, as this crate never panics
+//! on any input.
 
 use core::panic::PanicInfo;
 

@@ -131,7 +131,7 @@ pub extern "C" fn rungc_virtual_reset() {
     with(|hal| *hal = VirtualHal::new());
 }
 
-/// What follows is for the hardware of this PLC, 0 for the first; false if there are not so many.
+/// Selects the PLC, 0 for the first, that the following calls are for; false if there are not so many.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_select(plc: u32) -> bool {
     let plc = usize::try_from(plc).unwrap_or(PLCS);
@@ -212,8 +212,8 @@ pub extern "C" fn rungc_virtual_set_running(running: bool) {
     with(|hal| hal.set_running(running));
 }
 
-/// What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a
-/// degree Celsius (2). False if there is no such input.
+/// Connects a signal to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree
+/// Celsius (2). False if there is no such input.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_set_signal(
     unit: u16,
@@ -230,7 +230,7 @@ pub extern "C" fn rungc_virtual_set_signal(
         .is_some()
 }
 
-/// What is at a channel of a module, in millionths of that unit; false if there is no such channel.
+/// Signal at a channel of a module, in millionths of that unit; false if there is no such channel.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_get_signal(
     unit: u16,

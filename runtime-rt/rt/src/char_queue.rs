@@ -28,9 +28,9 @@ const TIMES: u32 = 1 << (32 - TIME);
 #[derive(Debug)]
 pub struct CharQueue<const N: usize> {
     pub(crate) slots: [AtomicU32; N],
-    /// Where the oldest character is; the main loop's.
+    /// Index of the oldest character; written by the main loop.
     pub(crate) first: AtomicU16,
-    /// Where the next one goes; the interrupt's.
+    /// Index for the next character; written by the interrupt.
     pub(crate) end: AtomicU16,
     /// A character found no room, and none came after it; the interrupt's.
     pub(crate) lost: AtomicBool,

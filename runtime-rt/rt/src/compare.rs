@@ -13,7 +13,7 @@ pub enum CmpOp {
 }
 
 impl CmpOp {
-    /// Whether it holds. No comparison with NaN does, but `Ne`.
+    /// Returns true if the comparison holds. No comparison with NaN does, but `Ne`.
     pub fn holds<T: PartialOrd>(self, a: T, b: T) -> bool {
         match self {
             CmpOp::Eq => a == b,

@@ -10,7 +10,7 @@ use crate::special::{Register, Relay};
 use crate::word;
 use core::cell::RefCell;
 
-/// What an instruction works on. Operands are named by position, from 0; offsets count devices from the named one.
+/// Context of an instruction call. Operands are named by position, from 0; offsets count devices from the named one.
 pub struct Cx<'a> {
     /// The devices.
     pub plc: &'a mut dyn Plc,
@@ -18,7 +18,7 @@ pub struct Cx<'a> {
     pub hal: RefCell<&'a mut dyn Hal>,
     /// The operands in order.
     pub ops: &'a [Operand],
-    /// Where the call is, and its form.
+    /// Location of the call, and its form.
     pub site: Site,
 }
 
@@ -100,12 +100,12 @@ impl<'a> Cx<'a> {
         self.ops.get(i).copied().ok_or(Fault::DEVICE)
     }
 
-    /// Whether this is the 32-bit form.
+    /// Returns true for the 32-bit form.
     pub fn wide(&self) -> bool {
         self.site.wide
     }
 
-    /// Whether the drive contact is on.
+    /// Returns true if the drive contact is on.
     pub fn drive(&self) -> bool {
         self.site.drive
     }
@@ -303,7 +303,7 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Where the high word of a pair is.
+    /// The device that holds the high word of a pair.
     fn high_word(&self, op: Operand, offset: i32) -> Result<(Class, u32), Fault> {
         if op.class == Class::Z && self.plc.z_pairs_with_v() {
             Ok((Class::V, at(op, offset)?))
@@ -344,7 +344,7 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Whether operand `i` is a constant.
+    /// Returns true if operand `i` is a constant.
     pub fn is_constant(&self, i: usize) -> bool {
         self.op(i).is_ok_and(|op| op.kind == OperandKind::Const)
     }
@@ -448,7 +448,7 @@ impl<'a> Cx<'a> {
         Ok(())
     }
 
-    /// Whether operand `i` names a bit (X, Y, M, S or a bit of a word) rather than a word.
+    /// Returns true if operand `i` names a bit (X, Y, M, S or a bit of a word) rather than a word.
     pub fn is_bit(&self, i: usize) -> bool {
         self.op(i).is_ok_and(|op| match op.kind {
             OperandKind::Device => matches!(op.class, Class::X | Class::Y | Class::M | Class::S),
@@ -457,7 +457,7 @@ impl<'a> Cx<'a> {
         })
     }
 
-    /// Whether operand `i` is numbered in octal: X or Y.
+    /// Returns true if operand `i` is numbered in octal: X or Y.
     pub fn is_octal(&self, i: usize) -> bool {
         self.op(i)
             .is_ok_and(|op| matches!(op.class, Class::X | Class::Y))
@@ -543,13 +543,13 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Whether operands `a` and `b` denote the same devices.
+    /// Returns true if operands `a` and `b` denote the same devices.
     pub fn same(&self, a: usize, b: usize) -> bool {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.within(0) == b.within(0))
     }
 
-    /// Whether operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b` must be
-    /// copied from its end.
+    /// Returns true if operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b`
+    /// must be copied from its end.
     pub fn begins_behind(&self, a: usize, b: usize) -> bool {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b))
             if (a.kind, a.class) == (b.kind, b.class) && b.value > a.value

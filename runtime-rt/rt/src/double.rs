@@ -25,7 +25,7 @@ pub struct Double {
     pub sys: Sys,
     /// Hardware.
     pub hal: VirtualHal,
-    /// Where errors are shown.
+    /// Relay that shows errors.
     pub error_relay: u32,
     /// Code of an error in a value.
     pub value_error: u16,
@@ -47,7 +47,7 @@ pub fn relay(n: i32) -> Operand {
     d(Class::M, n)
 }
 
-/// How many devices a class has.
+/// Number of devices of a class.
 fn size(class: Class) -> u32 {
     match class {
         Class::X | Class::Y | Class::T | Class::C => 256,

@@ -6,13 +6,13 @@
 pub struct Edge(pub bool);
 
 impl Edge {
-    /// Whether `input` came on since the last execution.
+    /// Returns true if `input` came on since the last execution.
     pub fn rising(&mut self, input: bool) -> bool {
         let before = core::mem::replace(&mut self.0, input);
         input & !before
     }
 
-    /// Whether `input` went off since the last execution.
+    /// Returns true if `input` went off since the last execution.
     pub fn falling(&mut self, input: bool) -> bool {
         let before = core::mem::replace(&mut self.0, input);
         !input & before
@@ -29,7 +29,7 @@ pub enum EdgeKind {
 }
 
 impl EdgeKind {
-    /// What the input does, for names: `rises`.
+    /// Verb for the edge, for names: `rises`.
     pub fn verb(self) -> &'static str {
         match self {
             EdgeKind::Rising => "rises",

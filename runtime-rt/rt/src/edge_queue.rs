@@ -19,11 +19,11 @@ use core::sync::atomic::{AtomicU16, AtomicUsize, Ordering};
 pub struct EdgeQueue<const N: usize> {
     /// An input's number, and in the lowest bit whether it turned on.
     slots: [AtomicU16; N],
-    /// Where the oldest edge is; the main loop's.
+    /// Index of the oldest edge; written by the main loop.
     first: AtomicUsize,
-    /// Where the next one goes; the interrupt's.
+    /// Index for the next character; written by the interrupt.
     end: AtomicUsize,
-    /// How many found no room, wrapping; the interrupt's.
+    /// Edges lost because the queue was full, wrapping; written by the interrupt.
     lost: AtomicUsize,
 }
 
@@ -68,7 +68,7 @@ impl<const N: usize> EdgeQueue<N> {
         })
     }
 
-    /// How many edges were lost since power-on, wrapping.
+    /// Number of edges lost since power-on, wrapping.
     pub fn lost(&self) -> usize {
         self.lost.load(Ordering::Relaxed)
     }

@@ -22,7 +22,7 @@ impl Fault {
     pub const MODULE: Fault = Fault(6750);
 }
 
-/// What put the PLC in STOP.
+/// Reason for STOP.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(u16)]
 pub enum Stop {
@@ -44,7 +44,7 @@ pub struct LastError {
     pub code: u16,
     /// Step of the instruction that it happened to.
     pub step: u16,
-    /// What put the PLC in STOP.
+    /// Reason why the PLC is in STOP.
     pub stop: Stop,
     /// Step of the loop or the jump that the watchdog found too long.
     pub stop_step: u16,
@@ -60,7 +60,7 @@ impl LastError {
     };
 }
 
-/// What an instruction returns.
+/// Result of an instruction.
 pub type Done = Result<(), Fault>;
 
 /// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068

@@ -32,7 +32,7 @@ pub(crate) const DAY_MS: u64 = 86_400_000;
 /// Days after which the calendar repeats, in weeks and leap years: 400 years.
 const CYCLE_DAYS: u64 = 146_097;
 
-/// Whether `year` of the Gregorian calendar has 366 days.
+/// Returns true if `year` of the Gregorian calendar has 366 days.
 fn is_leap(year: u32) -> bool {
     year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
 }
@@ -78,7 +78,8 @@ impl Clock {
         })
     }
 
-    /// Whether every field is in its range and the month has such a day. The weekday need not agree with the date.
+    /// Returns true if every field is in its range and the month has such a day. The weekday need not agree with the
+    /// date.
     pub fn is_valid(&self) -> bool {
         (1..=days_in_month(self.year.into(), self.month)).contains(&self.day.into())
             && self.hour < 24
@@ -154,7 +155,8 @@ pub trait SerialPort {
     /// Takes a character to be sent after those before it, at `now_us` if there are none; false if there is no room for
     /// it now. On a half-duplex line the driver is on from the first of them to the stop bit of the last.
     fn send(&mut self, byte: u8, now_us: u32) -> bool;
-    /// How many characters taken by [`SerialPort::send`] are not out by `now_us`, to the end of their stop bits.
+    /// Number of characters accepted by [`SerialPort::send`] that are not out by `now_us`, to the end of their stop
+    /// bits.
     fn unsent(&mut self, now_us: u32) -> u16;
 }
 
@@ -164,7 +166,7 @@ pub trait SerialPort {
 pub struct CanFrame {
     /// The identifier; bit 31 marks one of 29 bits.
     pub id: u32,
-    /// How many bytes of data there are.
+    /// Number of data bytes.
     pub len: u8,
     /// The data; 0 after its end.
     pub data: [u8; 8],
@@ -179,11 +181,11 @@ pub trait CanBus {
     fn receive(&mut self) -> Option<CanFrame>;
     /// Takes a frame to be sent after those before it; false if there is no room for it now.
     fn send(&mut self, frame: &CanFrame) -> bool;
-    /// Whether frames taken by [`CanBus::send`] are not on the bus yet.
+    /// Returns true while frames accepted by [`CanBus::send`] are not on the bus yet.
     fn is_sending(&mut self) -> bool;
 }
 
-/// What an instruction may ask of the hardware. Every method has a default that means "not fitted".
+/// Hardware services available to instructions. Every method has a default that means "not fitted".
 pub trait Hal {
     /// Reads the real-time clock.
     fn clock(&mut self) -> Option<Clock> {
@@ -215,8 +217,8 @@ pub trait Hal {
         let _ = channel;
         None
     }
-    /// Whether the power supply fails now, so that the PLC runs on what its capacitors hold; `None` if nothing watches
-    /// it.
+    /// Returns true if the power supply fails now, so that the PLC runs on the charge of its capacitors; `None` if it
+    /// is not monitored.
     fn power_fails(&mut self) -> Option<bool> {
         None
     }

@@ -1,4 +1,4 @@
-//! What PLC instructions do at run time.
+//! Runtime of PLC instructions.
 //!
 //! `no_std`, no allocation, no panics. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C
 //! all call the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`]

@@ -1,4 +1,4 @@
-//! What waits in both directions between the interrupt of a UART and the main loop.
+//! Queues in both directions between the interrupt of a UART and the main loop.
 
 use crate::board::CharQueue;
 use crate::comm::Received;
@@ -16,7 +16,7 @@ pub struct BothQueues<const RECEIVE: usize, const SEND: usize> {
     to_send: [AtomicU8; SEND],
     /// The next byte to be sent.
     first: AtomicU16,
-    /// Where the next one goes.
+    /// Index for the next byte.
     end: AtomicU16,
 }
 
@@ -70,7 +70,7 @@ impl<const RECEIVE: usize, const SEND: usize> BothQueues<RECEIVE, SEND> {
         Some(byte)
     }
 
-    /// How many bytes wait to be sent.
+    /// Number of bytes waiting to be sent.
     pub fn waiting(&self) -> u16 {
         let [first, end] = [&self.first, &self.end].map(|at| at.load(Ordering::Relaxed));
         (end + SEND as u16 - first) % SEND as u16
@@ -106,7 +106,7 @@ pub struct TurnQueue<const N: usize> {
 }
 
 impl<const N: usize> TurnQueue<N> {
-    /// How many bytes the words have room for, plus one.
+    /// Capacity of the words in bytes, plus one.
     const ROOM: u16 = (BYTES * N) as u16;
 
     /// An empty one.
@@ -165,7 +165,7 @@ impl<const N: usize> TurnQueue<N> {
         Some(bytes[usize::from(first) % BYTES])
     }
 
-    /// How many bytes wait to be sent.
+    /// Number of bytes waiting to be sent.
     pub fn waiting(&self) -> u16 {
         if !self.sends.load(Ordering::Relaxed) {
             return 0;

@@ -2,7 +2,7 @@
 
 use crate::plc::Class;
 
-/// How to read an [`Operand`]. The numbers are part of the C ABI.
+/// Interpretation of an [`Operand`]. The numbers are part of the C ABI.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum OperandKind {
@@ -26,14 +26,14 @@ pub enum OperandKind {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(C)]
 pub struct Operand {
-    /// How to read it.
+    /// Interpretation of `value`.
     pub kind: OperandKind,
     /// Device class, where it is a device.
     pub class: Class,
     /// Digits of a group, the bit of a word, or the number of a module.
     pub digits: u8,
-    /// Where emitted C stores the device: which of its areas, counted from the last, which is 1. It is looked at first; 0, or an area
-    /// that does not hold the device: it is searched by its number.
+    /// Hint for the area that stores the device in emitted C, counted from the last, which is 1. It is looked at first;
+    /// 0, or an area that does not hold the device: it is searched by its number.
     pub area: u8,
     /// Device number, address, constant, or bits of a float.
     pub value: i32,

@@ -56,9 +56,9 @@ pub struct Sys {
     pub dt_ms: u32,
     /// Duration of the last scan in microseconds (D8010 shows it in 0.1 ms).
     pub scan_us: u32,
-    /// Whether this is the first scan after RUN began (M8002).
+    /// True in the first scan after RUN began (M8002).
     pub first_scan: bool,
-    /// Whether the PLC is in RUN.
+    /// True if the PLC is in RUN.
     pub running: bool,
     /// Another odd number in each scan, wrapping, and so never 0: what is done once in each scan remembers it.
     pub scan: u16,
@@ -111,11 +111,11 @@ impl Sys {
 pub struct Site {
     /// Step number, reported in D8069 if the instruction faults.
     pub step: u32,
-    /// Which [`State`] belongs to it; 0 for instructions without.
+    /// Number of its [`State`]; 0 for instructions without.
     pub slot: u16,
     /// 32-bit form.
     pub wide: bool,
-    /// Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
+    /// True if the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
     pub drive: bool,
     /// An input has changed that the instruction looks at, perhaps between two scans: it is driven as it was last ([`crate::Needs::signals`]).
     pub signal: bool,
@@ -165,9 +165,9 @@ impl Site {
 /// Devices of consecutive numbers that a program stores in one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredRun {
-    /// How many; at least 1.
+    /// Number of devices; at least 1.
     pub count: u32,
-    /// Where, for [`Plc::bit_in`] and the like; 0: nowhere in particular.
+    /// Area for [`Plc::bit_in`] and the like; 0: no particular area.
     pub area: u8,
 }
 
@@ -243,7 +243,7 @@ pub trait Plc {
         let _ = number;
         None
     }
-    /// What its serial ports do, by protocols; a port does nothing under one that is missing.
+    /// Protocol implementations of its serial ports; under a missing protocol a port does nothing.
     fn codecs(&self) -> &'static [&'static Codec] {
         &[]
     }
@@ -253,7 +253,7 @@ pub trait Plc {
         let _ = index;
         None
     }
-    /// What it serves by Modbus, and how much a frame may be about.
+    /// Devices served by Modbus, and the limits of a frame.
     fn modbus(&self) -> &'static Profile {
         &modbus::NOTHING
     }
@@ -279,7 +279,7 @@ pub trait Plc {
         let _ = index;
         &[]
     }
-    /// Whether a 32-bit access to Zn takes Vn as its high word (FX, H1U/H2U) rather than Zn+1 (HM).
+    /// Returns true if a 32-bit access to Zn takes Vn as its high word (FX, H1U/H2U) rather than Zn+1 (HM).
     fn z_pairs_with_v(&self) -> bool {
         true
     }

@@ -12,10 +12,9 @@ pub trait Program: Plc {
     /// the special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
-    /// How many milliseconds a scan is to last at least, from its start to the start of the next one, if the program
-    /// asks for scans of constant length: M8039 and D8039, or D8059 on L01S. A scan that takes longer is followed at
-    /// once by the next. The `scan_us` of the next scan includes the time in which it waited (h1u-h2u-programming
-    /// §8.9).
+    /// Minimum scan time in milliseconds, from the start of a scan to the start of the next one, if the program asks
+    /// for scans of constant length: M8039 and D8039, or D8059 on L01S. A scan that takes longer is followed at once by
+    /// the next. The `scan_us` of the next scan includes the time in which it waited (h1u-h2u-programming §8.9).
     fn constant_scan_ms(&self) -> Option<u16> {
         None
     }
@@ -47,7 +46,7 @@ pub trait Program: Plc {
         None
     }
 
-    /// How many pulses output Y `number` has sent since power-on; those in reverse count down.
+    /// Pulses sent by output Y `number` since power-on; those in reverse count down.
     fn pulses_sent(&mut self, number: u32) -> i32 {
         self.axis(number).map_or(0, |axis| axis.sent)
     }
@@ -68,7 +67,7 @@ pub trait Program: Plc {
     /// latched devices are kept only if the key register holds the key.
     fn power_cycle(&mut self);
 
-    /// What the program keeps over power-off, for a host that saves it ([`crate::retain`]).
+    /// Values retained over power-off, for a host that saves them ([`crate::retain`]).
     fn retained(&self) -> Retained<'_> {
         Retained::NOTHING
     }

@@ -5,7 +5,7 @@
 //! 2as). So ramps need no clock, the way down begins where as many pulses are left as it takes, and a train ends with
 //! exactly the pulses that it was given.
 
-/// What of a pulse has passed is counted in millihertz times microseconds.
+/// A whole pulse in the unit of its progress, millihertz times microseconds.
 const FULL: u64 = 1_000_000_000;
 
 /// A train of pulses. Speeds are in millihertz, up to 4 MHz.
@@ -15,13 +15,13 @@ pub struct Train {
     pub speed: u32,
     /// Square of the speed that ramps begin and end with, in mHz².
     pub lowest: u64,
-    /// How much a pulse adds to the square of the speed on the way up, in mHz²; 0: any speed at once.
+    /// Increase of the square of the speed per pulse on the way up, in mHz²; 0: any speed at once.
     pub up: u64,
-    /// How much it takes away on the way down.
+    /// Decrease per pulse on the way down.
     pub down: u64,
     /// Pulses; 0: without end.
     pub total: u32,
-    /// Whether positions count down.
+    /// True if positions count down.
     pub reverse: bool,
 }
 
@@ -49,23 +49,23 @@ impl Train {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Generator {
-    /// What has passed of the present pulse.
+    /// Progress of the present pulse.
     phase: u64,
-    /// What a whole pulse is.
+    /// Progress of a whole pulse.
     full: u64,
     /// Square of the speed.
     square: u64,
     lowest: u64,
     up: u64,
     down: u64,
-    /// How much passes in a microsecond.
+    /// Progress per microsecond.
     rate: u32,
     speed: u32,
     total: u32,
     sent: u32,
     /// Time of the last call, in microseconds, wrapping.
     now_us: u32,
-    /// How much of a pulse it is on.
+    /// On-time of a pulse.
     on: u32,
     busy: bool,
     reverse: bool,
@@ -245,7 +245,7 @@ impl Generator {
         count
     }
 
-    /// How many pulses end by `now_us` if nothing changes.
+    /// Number of pulses that end by `now_us` if nothing changes.
     pub fn count_by(&self, now_us: u32) -> u32 {
         let mut copy = *self;
         copy.advance(now_us)
@@ -284,7 +284,7 @@ impl Generator {
         self.now_us = now_us;
     }
 
-    /// How many pulses, the present one included, have its speed for certain.
+    /// Number of pulses, the present one included, that are certain to have its speed.
     fn alike(&self) -> u32 {
         if self.modulates {
             return u32::MAX;
@@ -346,12 +346,12 @@ impl Generator {
         self.phase = 0;
     }
 
-    /// Whether a train is being sent.
+    /// Returns true if a train is being sent.
     pub fn is_busy(&self) -> bool {
         self.busy
     }
 
-    /// Whether it comes down to its end, after all pulses or by [`Generator::stop`].
+    /// Returns true while it slows down towards its end, after all pulses or by [`Generator::stop`].
     pub fn is_ending(&self) -> bool {
         if !self.busy || self.total == 0 || self.down == 0 {
             return false;
@@ -360,22 +360,22 @@ impl Generator {
         u64::from(self.total - self.sent) <= above.div_ceil(self.down) + 1
     }
 
-    /// Whether [`Generator::stop`] is bringing it down.
+    /// Returns true while [`Generator::stop`] slows it down.
     pub fn is_stopping(&self) -> bool {
         self.busy && self.stopped
     }
 
-    /// Whether the last train was sent to its end.
+    /// Returns true if the last train was sent to its end.
     pub fn is_complete(&self) -> bool {
         !self.busy && !self.stopped && self.total != 0 && self.sent >= self.total
     }
 
-    /// Whether it is a signal of [`Generator::modulate`].
+    /// Returns true if it is a signal of [`Generator::modulate`].
     pub fn modulates(&self) -> bool {
         self.modulates
     }
 
-    /// Whether positions count down.
+    /// Returns true if positions count down.
     pub fn is_reverse(&self) -> bool {
         self.reverse
     }

@@ -9,11 +9,11 @@ use crate::axis::Axis;
 use crate::hal::Hal;
 use crate::plc::Plc;
 
-/// What an interrupt shares with the program: the pulse outputs from Y000 on, as many as emitted programs say with
+/// Pulse outputs shared between an interrupt and the program, from Y000 on; emitted programs give their number in
 /// `PULSE_OUTPUTS`. All are `None` at power-on. It is in a `static` protected by a lock, see [`crate::board`].
 pub type SharedAxes<const N: usize> = [Option<Axis>; N];
 
-/// How soon the interrupt comes again while the program has its outputs, in microseconds.
+/// Delay before the interrupt retries while the program holds its outputs, in microseconds.
 const RETRY_US: u32 = 5;
 
 /// Drives the pins of pulse outputs whose time has come, in the interrupt of a timer; returns in how many microseconds

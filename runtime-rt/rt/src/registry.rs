@@ -6,7 +6,7 @@ use crate::fault::Done;
 use crate::fnc;
 use crate::wiring::Looks;
 
-/// What a function needs from the program around it.
+/// Requirements of a function on the surrounding program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Needs {
     /// Private memory ([`crate::State`]).
@@ -43,7 +43,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// What it looks at.
+    /// Registers that it reads.
     pub const fn looks(self) -> Looks {
         let Needs {
             ramps,
@@ -94,7 +94,7 @@ macro_rules! registry {
                 match self { $(RtFn::$variant => &[$(stringify!($operand)),*],)* }
             }
 
-            /// What it needs.
+            /// Requirements of the function.
             pub const fn needs(self) -> Needs {
                 #[allow(unused_mut, reason = "functions that need nothing change nothing")]
                 match self { $(RtFn::$variant => {

@@ -34,7 +34,7 @@ pub struct RetainedRun {
     pub class: Class,
     /// The first number.
     pub first: u16,
-    /// How many.
+    /// Number of devices.
     pub count: u16,
 }
 
@@ -49,7 +49,7 @@ impl RetainedRun {
     }
 }
 
-/// What a program keeps over power-off.
+/// Data that a program retains over power-off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Retained<'a> {
     /// The program and its model, as in `motor (fx3u)`: records of another program are not loaded. At most
@@ -57,7 +57,7 @@ pub struct Retained<'a> {
     pub program: &'a str,
     /// Its latched devices; empty if there are none.
     pub runs: &'a [RetainedRun],
-    /// Whether the contacts of timers and counters are kept with their values.
+    /// True if the contacts of timers and counters are retained with their values.
     pub contacts: bool,
     /// On models with a latch key: the register D and what it must hold when power fails; else latched devices are
     /// lost.
@@ -73,7 +73,7 @@ impl Retained<'_> {
         key: None,
     };
 
-    /// Whether a device is among them.
+    /// Returns true if a device is among them.
     pub fn contains(&self, class: Class, number: u32) -> bool {
         self.runs.iter().any(|run| {
             let first = u32::from(run.first);
@@ -81,7 +81,7 @@ impl Retained<'_> {
         })
     }
 
-    /// How long a record of them is, in bytes.
+    /// Length of a record of them, in bytes.
     pub fn record_len(&self) -> u32 {
         record::length(self)
     }
@@ -107,7 +107,7 @@ impl Owner {
     }
 }
 
-/// What loading came to.
+/// Result of loading.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Loaded {
     /// Nothing was saved yet: latched devices are as the PLC leaves the factory.
@@ -116,8 +116,8 @@ pub enum Loaded {
     Foreign(Owner),
     /// The program's latched devices have their values again.
     Restored {
-        /// How many devices of the record this version of the program does not keep; their values are gone with the
-        /// next save.
+        /// Number of devices of the record that this version of the program does not retain; their values are gone with
+        /// the next save.
         dropped: u32,
     },
 }

@@ -1,4 +1,4 @@
-//! Which devices a model has, for code that knows them by number only.
+//! Ranges of a model's devices, for code that knows devices by number only.
 
 use crate::plc::{Class, StoredRun};
 
@@ -13,7 +13,7 @@ pub const FIRST_COUNTER32: u32 = 200;
 pub struct Runs(pub &'static [(Class, u32, u32)]);
 
 impl Runs {
-    /// Whether `count` devices from `first` on all exist, in one run.
+    /// Returns true if `count` devices from `first` on all exist, in one run.
     pub fn hold(self, class: Class, first: i32, count: u32) -> bool {
         let first = i64::from(first);
         let last = first + i64::from(count.max(1)) - 1;
@@ -22,14 +22,14 @@ impl Runs {
             .any(|&(c, from, to)| c == class && i64::from(from) <= first && last <= i64::from(to))
     }
 
-    /// Whether a device is among them.
+    /// Returns true if a device is among them.
     pub fn has(self, class: Class, number: u32) -> bool {
         self.0
             .iter()
             .any(|&(c, from, to)| c == class && from <= number && number <= to)
     }
 
-    /// What [`crate::Plc::stored_run`] says where these are the devices that are stored.
+    /// Result of [`crate::Plc::stored_run`] if these are the stored devices.
     pub fn stored_run(self, class: Class, number: u32) -> Option<StoredRun> {
         let mut runs = self.0.iter();
         let holds = |run: &&(Class, u32, u32)| run.0 == class && (run.1..=run.2).contains(&number);
@@ -40,7 +40,7 @@ impl Runs {
         })
     }
 
-    /// What [`crate::Plc::bit`] says of a device that is not stored: off if the model has it.
+    /// Result of [`crate::Plc::bit`] for a device that is not stored: off if the model has it.
     pub fn bit(self, class: Class, number: u32) -> Option<bool> {
         let is_bit = matches!(
             class,
@@ -49,7 +49,7 @@ impl Runs {
         (is_bit && self.has(class, number)).then_some(false)
     }
 
-    /// What [`crate::Plc::word`] says of a device that is not stored: 0 if the model has it.
+    /// Result of [`crate::Plc::word`] for a device that is not stored: 0 if the model has it.
     pub fn word(self, class: Class, number: u32) -> Option<i16> {
         let is_word = match class {
             Class::X | Class::Y | Class::M | Class::S => false,
@@ -59,12 +59,12 @@ impl Runs {
         (is_word && self.has(class, number)).then_some(0)
     }
 
-    /// What [`crate::Plc::counter32`] says of a counter that is not stored: 0 if the model has it.
+    /// Result of [`crate::Plc::counter32`] for a counter that is not stored: 0 if the model has it.
     pub fn counter32(self, number: u32) -> Option<i32> {
         (number >= FIRST_COUNTER32 && self.has(Class::C, number)).then_some(0)
     }
 
-    /// What [`crate::Plc::reset`] says of a timer or counter that is not stored.
+    /// Result of [`crate::Plc::reset`] for a timer or counter that is not stored.
     pub fn reset(self, class: Class, number: u32) -> Option<()> {
         (matches!(class, Class::T | Class::C) && self.has(class, number)).then_some(())
     }

@@ -44,7 +44,7 @@ macro_rules! numbered {
 numbered!(Relay Register);
 
 impl Relay {
-    /// Whether it is on; one that the program does not use is off.
+    /// Returns true if it is on; a relay that the program does not use is off.
     pub(crate) fn is_on(self, plc: &(impl Plc + ?Sized)) -> bool {
         plc.bit(Class::M, self.number()) == Some(true)
     }
@@ -67,7 +67,7 @@ impl Register {
     }
 }
 
-// What the scan maintains.
+// Devices that the scan maintains.
 
 /// On in RUN; M8001 is its opposite.
 pub const M_RUNNING: Relay = Relay(8000);
@@ -115,7 +115,7 @@ pub const D_BATTERY_LOW: Register = Register(8006);
 pub const M_POWER_FAILS: Relay = Relay(8007);
 /// The same, and goes off when the PLC stops because of it.
 pub const M_POWER_FAILURE: Relay = Relay(8008);
-/// How often [`M_POWER_FAILS`] came on.
+/// Number of times [`M_POWER_FAILS`] came on.
 pub const D_POWER_FAILURES: Register = Register(8007);
 /// For how many milliseconds of failing power the PLC runs.
 pub const D_POWER_FAILURE_MS: Register = Register(8008);
@@ -174,9 +174,9 @@ pub const M_FIRST_ERROR: Relay = Relay(8068);
 pub const D_FIRST_ERROR_STEP: Register = Register(8068);
 /// Step of the last operation error.
 pub const D_ERROR_STEP: Register = Register(8069);
-/// What D8004 shows of M8067, an operation error.
+/// Value of D8004 for M8067, an operation error.
 pub const OPERATION_ERROR_BCD: i16 = 0x8067_u16 as i16;
-/// What D8004 shows of M8061, which the watchdog switches on.
+/// Value of D8004 for M8061, which the watchdog switches on.
 pub const WATCHDOG_BCD: i16 = 0x8061_u16 as i16;
 /// Hours at which the ten logged errors came (H1U, H2U), the oldest first.
 pub const D_LOGGED_HOURS: Register = Register(8490);
@@ -215,7 +215,7 @@ pub const M_XCH_BYTES: Relay = Relay(8160);
 pub const M_BYTE_MODE: Relay = Relay(8161);
 /// FROM and TO move as many elements as D8164 says.
 pub const M_TRANSFER_COUNT: Relay = Relay(8164);
-/// How many elements FROM and TO move with M8164.
+/// Number of elements that FROM and TO move with M8164.
 pub const D_TRANSFER_COUNT: Register = Register(8164);
 /// SORT2 sorts in descending order.
 pub const M_DESCENDING: Relay = Relay(8165);
@@ -283,17 +283,17 @@ pub const D_ANALOG_INPUTS: Register = Register(8030);
 pub const D_ANALOG_ENABLE: Register = Register(8114);
 /// Values of the built-in analog outputs of L01S.
 pub const D_ANALOG_OUTPUTS: Register = Register(8050);
-/// What analog boards of H1U and H2U exchange with the PLC: twenty registers.
+/// Registers exchanged with the analog boards of H1U and H2U: twenty.
 pub const D_BOARD: Register = Register(8220);
 /// The type of the board that is fitted.
 pub const D_BOARD_TYPE: Register = Register(8199);
-/// How many extension modules L01S has.
+/// Number of extension modules of L01S.
 pub const D_MODULE_COUNT: Register = Register(8108);
 /// Their types, two in each of sixteen registers.
 pub const D_MODULE_TYPES: Register = Register(8260);
-/// Where the extension modules of HM have their words, seven registers for each of six modules.
+/// Words of the extension modules of HM, seven registers for each of six modules.
 pub const D_EXTENSIONS: Register = Register(7100);
-/// How many there are.
+/// Number of extension modules.
 pub const D_EXTENSION_COUNT: Register = Register(7142);
 /// Times between exchanges of digital, of analog modules, and what they were.
 pub const D_EXTENSION_TIMES: Register = Register(7143);
@@ -305,20 +305,20 @@ pub const D_EXTENSION_DATA: Register = Register(7200);
 pub const M_VIRTUAL_INPUTS: Relay = Relay(8160);
 /// Stand for the inputs of motion instructions from X000 on (HM).
 pub const M_MOTION_INPUTS: Relay = Relay(8096);
-/// What uses output Y000 of HM; the other outputs follow.
+/// User of output Y000 of HM; the other outputs follow.
 pub const D_OUTPUT_USE: Register = Register(8180);
 
 // The oscilloscope of HM (hm-motion-controller §5.6).
 
 /// 0: a hand starts it, 1 and 2: a register that reaches the threshold from below, from above.
 pub const D_SCOPE_MODE: Register = Register(8030);
-/// What starts it: not 0, or the number of a register.
+/// Trigger source: not 0, or the number of a register.
 pub const D_SCOPE_TRIGGER: Register = Register(8031);
 /// The threshold.
 pub const D_SCOPE_THRESHOLD: Register = Register(8032);
 /// Time between two samples.
 pub const D_SCOPE_PERIOD: Register = Register(8033);
-/// How many samples it takes.
+/// Number of samples to take.
 pub const D_SCOPE_SAMPLES: Register = Register(8034);
 /// First register of the record.
 pub const D_SCOPE_FIRST: Register = Register(8035);
@@ -326,7 +326,7 @@ pub const D_SCOPE_FIRST: Register = Register(8035);
 pub const D_SCOPE_AREA_FIRST: Register = Register(8036);
 /// Last register of that area.
 pub const D_SCOPE_AREA_LAST: Register = Register(8037);
-/// What it does, and what starts it.
+/// State of the oscilloscope and its trigger.
 pub const D_SCOPE_STATE: Register = Register(8038);
 /// Samples so far.
 pub const D_SCOPE_TAKEN: Register = Register(8039);

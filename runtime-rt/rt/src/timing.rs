@@ -2,7 +2,7 @@
 
 use crate::plc::Sys;
 
-/// How a timer behaves.
+/// Type of a timer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(C)]
 pub struct TimerKind {
@@ -112,7 +112,7 @@ impl Timer {
         self.done
     }
 
-    /// What END does for a free-running timer: with its coil on, it continues timing in a scan that did not execute it.
+    /// Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it.
     pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
         if self.coil != 0 {
             self.run(kind, true, self.preset, sys);
@@ -126,7 +126,7 @@ impl Timer {
 pub struct Counter16 {
     /// Current value.
     pub value: i16,
-    /// Whether its coil was on at the last execution.
+    /// True if its coil was on at the last execution.
     pub coil: bool,
     /// Its contact.
     pub done: bool,
@@ -169,7 +169,7 @@ impl Counter16 {
 pub struct Counter32 {
     /// Current value.
     pub value: i32,
-    /// Whether its coil was on at the last execution.
+    /// True if its coil was on at the last execution.
     pub coil: bool,
     /// Its contact.
     pub done: bool,

@@ -161,16 +161,14 @@ impl VirtualHal {
         Some(())
     }
 
-    /// What is connected to an input of a fitted module from now on; channels are counted from 1. `None` if there is
-    /// no such input.
+    /// Connects a signal to an input of a fitted module; channels are counted from 1. `None` if there is no such input.
     pub fn set_signal(&mut self, unit: u16, channel: u8, signal: Signal) -> Option<()> {
         let channel = channel.checked_sub(1)?;
         self.module_mut(unit)?.connect(channel, signal)
     }
 
-    /// What is at a channel of a fitted module, in millionths of the quantity's unit: what is connected to an input,
-    /// or what an output puts out; 0 if it is another quantity. Channels are counted from 1. `None` if there is no
-    /// such channel.
+    /// Signal at a channel of a fitted module, in millionths of the quantity's unit: that connected to an input, or
+    /// that of an output; 0 if it is another quantity. Channels are counted from 1. `None` if there is no such channel.
     pub fn signal(&self, unit: u16, channel: u8, quantity: Quantity) -> Option<i32> {
         let channel = channel.checked_sub(1)?;
         self.module(unit)?.signal(channel, quantity)

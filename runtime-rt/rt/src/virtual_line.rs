@@ -51,7 +51,7 @@ pub struct VirtualLine {
     format: LineFormat,
     to_plc: Queue,
     from_plc: Queue,
-    /// When the last character that the PLC sends is out; nanoseconds beyond the microsecond.
+    /// End of the last character that the PLC sends; nanoseconds beyond the microsecond.
     end_us: u32,
     end_ns: u32,
 }
@@ -67,7 +67,7 @@ impl VirtualLine {
         }
     }
 
-    /// How the PLC has set up the line.
+    /// Line format set up by the PLC.
     pub fn format(&self) -> LineFormat {
         self.format
     }

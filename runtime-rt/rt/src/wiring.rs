@@ -30,7 +30,7 @@ pub struct Clear {
     pub chooses: Option<Relay>,
     /// The hexadecimal digits of the register are those of the output's octal number.
     pub octal: bool,
-    /// How long it is on, in milliseconds, in addition to the scan in which it starts.
+    /// On-time in milliseconds, in addition to the scan in which it starts.
     pub ms: u32,
 }
 
@@ -166,7 +166,7 @@ const fn d(number: u16) -> Option<Register> {
     Some(Register(number))
 }
 
-/// What D8145 to D8148 say for all outputs (h1u-h2u-programming §4.3.11).
+/// Ramps of all outputs, set by D8145 to D8148 (h1u-h2u-programming §4.3.11).
 const D8145: Ramps = Ramps {
     base: Register(8145),
     highest: Register(8146),
@@ -452,7 +452,7 @@ pub enum Pulses {
     Board3u = 8,
 }
 
-/// What a family's pulse outputs have in common.
+/// Common properties of a family's pulse outputs.
 struct Family {
     outputs: &'static [Wiring],
     highest_hz: u32,
@@ -461,7 +461,7 @@ struct Family {
     conflict: u16,
 }
 
-/// What most families have in common.
+/// Properties of most families.
 const PLAIN: Family = Family {
     outputs: &[],
     highest_hz: 100_000,
@@ -527,7 +527,7 @@ impl Pulses {
         self.family().highest_hz
     }
 
-    /// Whether DRVI and DRVA raise a speed below √(highest speed / 2·time) to it.
+    /// Returns true if DRVI and DRVA raise a speed below √(highest speed / 2·time) to it.
     pub const fn raises_speeds(self) -> bool {
         self.family().raises_speeds
     }
@@ -543,7 +543,7 @@ impl Pulses {
     }
 }
 
-/// Which registers an instruction reads in addition to its operands, and those in which pulses are counted.
+/// Registers that an instruction reads in addition to its operands, and those in which pulses are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Looks {
     /// The position, and speeds and times of ramps.

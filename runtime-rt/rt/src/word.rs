@@ -72,12 +72,12 @@ pub const fn swap32(value: i32) -> i32 {
     ((bytes & 0x00ff_00ff) << 8 | bytes >> 8 & 0x00ff_00ff) as i32
 }
 
-/// How many bits are on (SUM).
+/// Number of bits that are on (SUM).
 pub const fn ones16(value: i16) -> i16 {
     value.count_ones() as i16
 }
 
-/// How many bits are on (DSUM).
+/// Number of bits that are on (DSUM).
 pub const fn ones32(value: i32) -> i32 {
     value.count_ones() as i32
 }
@@ -102,12 +102,12 @@ pub fn from_bcd32(value: i32) -> i32 {
     from_nibbles(value as u32) as i32
 }
 
-/// Whether no digit of four bits is above 9.
+/// Returns true if no digit of four bits is above 9.
 pub fn is_bcd16(value: i16) -> bool {
     is_bcd(value as u16 as u32)
 }
 
-/// Whether no digit of four bits is above 9.
+/// Returns true if no digit of four bits is above 9.
 pub fn is_bcd32(value: i32) -> bool {
     is_bcd(value as u32)
 }
@@ -121,7 +121,7 @@ pub const fn root(value: i32) -> i32 {
     }
 }
 
-/// Which is the highest bit that is on, counted from 0; 0 if none is (ENCO).
+/// Number of the highest bit that is on, counted from 0; 0 if none is (ENCO).
 pub const fn highest_bit(value: i32) -> i32 {
     (31 - (value | 1).leading_zeros()) as i32
 }
@@ -141,7 +141,7 @@ pub const fn truncate(value: f32) -> i32 {
     value as i64 as i32
 }
 
-/// Whether it is a number and not infinite.
+/// Returns true if the value is finite and not NaN.
 pub const fn is_finite(value: f32) -> bool {
     value.is_finite()
 }

@@ -1,4 +1,4 @@
-//! Where what is built once is kept: a folder of the user's cache, which may be deleted at any time.
+//! Cache of build results: a folder of the user's cache, which may be deleted at any time.
 
 use etcetera::BaseStrategy;
 use std::collections::HashSet;
@@ -15,7 +15,7 @@ pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
 /// File by which a folder is locked.
 const LOCK: &str = ".lock";
 
-/// How many folders of one kind are used at the same time at most.
+/// Most folders of one kind that are used at the same time.
 const SLOTS: usize = 64;
 
 /// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches`

@@ -17,7 +17,7 @@ use std::fmt::Write;
 /// into the published package.
 pub static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
 
-/// How the manifest names the crate that the runtime depends on, and how it does where that lies beside the sources.
+/// Dependency on the crate that the runtime needs, in the manifest, and where its sources are included.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
 
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and

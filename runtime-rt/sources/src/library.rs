@@ -10,24 +10,24 @@ use std::{env, fs};
 /// The library's file.
 pub const FILE: &str = "librungc_rt.a";
 
-/// How to build it.
+/// Build recipe.
 #[derive(Clone, Debug)]
 pub struct Recipe<'a> {
     /// The cargo to call, with its environment.
     pub cargo: &'a Command,
-    /// What identifies the toolchain.
+    /// Identification of the toolchain.
     pub rustc: &'a OsStr,
     /// rustc's name of the target; `None` is this machine.
     pub target: Option<&'a str>,
-    /// What to optimise for.
+    /// Goal of the optimisation.
     pub optimise: Optimise,
-    /// Whether it has connections, and with them the standard library in it.
+    /// True if it has connections, and with them the standard library in it.
     pub std: bool,
     /// More arguments of cargo, such as `-Zbuild-std=core`.
     pub cargo_args: &'a [String],
 }
 
-/// What the library is optimised for.
+/// Goal of the library's optimisation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Optimise {
     /// Speed: a host.
@@ -46,21 +46,21 @@ impl Optimise {
     }
 }
 
-/// Why there is no library.
+/// Reason for which there is no library.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// Cargo cannot be started.
     #[error("cannot run {}: {error}", cargo.display())]
     Cargo {
-        /// What was called.
+        /// The called program.
         cargo: OsString,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
     /// Cargo failed.
     #[error("cargo failed:\n{said}")]
     Failed {
-        /// What it printed.
+        /// Its output.
         said: String,
     },
     /// Files cannot be written.
@@ -68,13 +68,13 @@ pub enum Error {
     Io {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
 }
 
-/// Whether arguments or the environment make cargo build the standard library, too. The crates that this needs may come
-/// from the registry.
+/// Returns true if arguments or the environment make cargo build the standard library, too. The crates that this needs
+/// may come from the registry.
 pub fn builds_std(cargo_args: &[String]) -> bool {
     env::var_os("CARGO_UNSTABLE_BUILD_STD").is_some()
         || cargo_args.iter().any(|arg| arg.contains("build-std"))
@@ -213,7 +213,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf,
     Ok(built.join("release").join(FILE))
 }
 
-/// What the compiler says of itself; empty if it cannot be asked.
+/// Version output of the compiler; empty if it cannot be called.
 fn toolchain(rustc: &OsStr) -> Vec<u8> {
     let output = Command::new(rustc).arg("-vV").output();
     output.map(|output| output.stdout).unwrap_or_default()

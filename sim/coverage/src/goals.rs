@@ -1,4 +1,4 @@
-//! What a case could reach.
+//! Goals of test cases.
 
 use crate::observe::{DECIDED_OFF, DECIDED_ON, EXECUTED, EXPIRED, OFF, ON};
 use rungc_analysis::resolve::{Resolved, resolve};
@@ -14,13 +14,13 @@ use rungc_syntax::{DeviceClass, Program};
 pub struct Goal {
     /// Of which instruction, a position in [`Program::instrs`].
     pub instr: usize,
-    /// What.
+    /// Kind of the goal.
     pub what: What,
-    /// Whether it is a contact that conducts while its device is off.
+    /// True if it is a contact that conducts while its device is off.
     pub inverted: bool,
 }
 
-/// What can be reached of an instruction.
+/// Kind of goal that an instruction can have.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum What {
     /// The network that begins with it is executed.
@@ -44,7 +44,7 @@ pub enum What {
 }
 
 impl What {
-    /// What is missing if it was not reached, after the instruction: `OUT Y000` "was never on".
+    /// Message about a goal that was not reached, after the instruction: `OUT Y000` "was never on".
     pub const fn missing(self) -> &'static str {
         match self {
             What::Executed => "was never executed",
@@ -82,7 +82,7 @@ impl Goal {
 /// The relays that show RUN: M8000 is on and M8001 off in every scan, so their contacts decide in one way at most.
 const RUN_MONITORS: [u32; 2] = [8000, 8001];
 
-/// What a case can reach of a program.
+/// Goals of a program.
 pub(crate) fn goals(
     program: &Program,
     model: &'static Model,
@@ -146,7 +146,7 @@ fn outputs(resolved: &Resolved, instr: u32, always: bool, goals: &mut Vec<Goal>)
     goals.extend(whats.map(|&what| goal(instr, what)));
 }
 
-/// Whether it is a contact of a device.
+/// Returns true if it is a contact of a device.
 pub(crate) fn is_contact(basic: Basic) -> bool {
     use Basic::{And, Andf, Andp, Ani, Ld, Ldf, Ldi, Ldp, Or, Orf, Ori, Orp};
     matches!(

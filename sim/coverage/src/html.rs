@@ -12,7 +12,7 @@ use std::fmt::{self, Write};
 /// Characters of a line.
 const WIDTH: usize = 104;
 
-/// How much of an instruction was reached, beside its colour.
+/// Style of an instruction that was reached in part, beside its colour.
 const COVERED: &str = include_str!("coverage.css");
 
 /// The page of all programs.

@@ -17,7 +17,7 @@ pub fn lcov(programs: &[Covered]) -> String {
     out
 }
 
-/// Whether a program is a file of lines.
+/// Returns true if a program is a file of lines.
 pub fn has_lines(program: &Covered) -> bool {
     program.path.is_some() && program.program.kind.is_list()
 }

@@ -1,4 +1,4 @@
-//! What the test cases of a program execute, and which changes of the program they notice.
+//! Coverage of programs by test cases, and the changes of a program that they detect.
 //!
 //! [`cover`] runs the cases of a suite on the interpreter while an observer looks on, and says of each [`Goal`] whether
 //! a case reached it; [`text`], [`lcov`] and [`html`] show that. [`mutants`] changes a program a little, again and
@@ -38,7 +38,7 @@ pub struct Covered {
     pub program: Program,
     /// The PLC.
     pub model: &'static Model,
-    /// What a case could reach, in the order of the program.
+    /// Goals in the order of the program.
     pub goals: Vec<Goal>,
     /// The cases that run it, each with what was seen of each instruction.
     cases: Vec<(Id, Vec<u8>)>,
@@ -47,7 +47,7 @@ pub struct Covered {
 }
 
 impl Covered {
-    /// How many goals were reached.
+    /// Number of goals reached.
     pub fn reached(&self) -> usize {
         self.goals
             .iter()
@@ -55,7 +55,7 @@ impl Covered {
             .count()
     }
 
-    /// Whether a goal was reached.
+    /// Returns true if a goal was reached.
     pub fn is_reached(&self, goal: &Goal) -> bool {
         goal.is_reached(&self.seen)
     }
@@ -78,7 +78,7 @@ impl Covered {
     }
 }
 
-/// What distinguishes programs: their file or list, and their PLC.
+/// Key that distinguishes programs: their file or list, and their PLC.
 type Key = (Option<PathBuf>, String, &'static str);
 
 /// Runs all cases of a suite that is compiled with marks. `progress` receives each result, and may cancel the run.
@@ -112,7 +112,7 @@ pub fn cover(
 #[derive(Default)]
 struct Programs {
     found: Vec<Covered>,
-    /// What the case that runs has seen of each.
+    /// Observations of the running case, by program.
     seen: Vec<Arc<Seen>>,
 }
 

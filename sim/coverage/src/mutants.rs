@@ -33,13 +33,13 @@ pub struct Mutant {
     changed: Vec<Instr>,
     /// The first instruction of its network.
     network: usize,
-    /// What a case must show of the instruction to notice it: any of these.
+    /// Observations of the instruction, any of which a case needs to detect it.
     needs: u8,
-    /// What was done.
+    /// Its change.
     pub change: Change,
 }
 
-/// What was done to make a mutant.
+/// Change that makes a mutant.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Change {
     /// A normally open contact became a normally closed one, or the other way round.
@@ -58,7 +58,7 @@ pub enum Change {
     Removed,
 }
 
-/// What became of a mutant.
+/// Outcome of a mutant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// A case failed.
@@ -72,7 +72,7 @@ pub enum Fate {
 }
 
 impl Mutant {
-    /// What was done, in words: `ANI X001 instead of AND X001`.
+    /// Description of the change: `ANI X001 instead of AND X001`.
     pub fn describe(&self, program: &Program) -> String {
         match self.change {
             Change::Removed => "the network was left out".to_string(),
@@ -91,14 +91,14 @@ impl Mutant {
         self.instr..self.instr + self.changed.len()
     }
 
-    /// Whether a case executes what is changed.
+    /// Returns true if a case executes the changed instruction.
     fn is_executed(&self, seen: &[u8]) -> bool {
         // A contact whose state the compiler knows is not looked at; what it belongs to is.
         let mut looked_at = self.range().chain([self.network]);
         looked_at.any(|at| seen[at] & EXECUTED != 0)
     }
 
-    /// Whether a case that executes it may notice it.
+    /// Returns true if a case that executes it may detect it.
     fn may_be_noticed(&self, seen: &[u8]) -> bool {
         let seen = seen[self.instr];
         let is_seen = seen & (ON | OFF) != 0;
@@ -132,7 +132,7 @@ pub fn mutants(covered: &Covered) -> Vec<Mutant> {
     found
 }
 
-/// Whether an instruction is contact logic, or something that it drives and that is over after the scan.
+/// Returns true if an instruction is contact logic, or driven by it and without effect beyond the scan.
 fn is_plain(resolved: &Resolved, at: usize) -> bool {
     let resolution = &resolved.instrs[at];
     let driven = resolution
@@ -279,7 +279,8 @@ fn with_constant(old: &Instr, operand: usize, f: impl FnOnce(i64) -> i64) -> Opt
     Some(new)
 }
 
-/// How many mutants of a program survived, were noticed and so on, and where those are that tell of a gap.
+/// Report on the mutants of a program: the numbers that survived, were detected and so on, and the positions of those
+/// that indicate a gap.
 pub fn text(covered: &Covered, mutants: &[Mutant], fates: &[Fate]) -> String {
     let count = |fate| fates.iter().filter(|f| **f == fate).count();
     let (noticed, survived) = (count(Fate::Noticed), count(Fate::Survived));
@@ -368,9 +369,9 @@ pub fn run(
 /// A case, and how many mutants it has noticed.
 struct Judge<'s> {
     case: &'s Case,
-    /// What was seen of each instruction.
+    /// Observations of each instruction.
     seen: &'s [u8],
-    /// Which of the ways to compile the program is that of the case.
+    /// Index of the case's way to compile the program.
     way: usize,
     /// The programs of the other PLCs.
     others: Vec<&'s Module>,
@@ -456,7 +457,8 @@ impl<'s> Court<'s> {
 }
 
 impl Judge<'_> {
-    /// Whether the case fails with the program of its PLC changed. `engine` is kept for cases that have no other PLC.
+    /// Returns true if the case fails with the program of its PLC changed. `engine` is kept for cases that have no
+    /// other PLC.
     fn is_noticed<'m>(&self, module: &'m Module, engine: &mut Option<Interpreter<'m>>) -> bool {
         if self.others.is_empty() {
             let engine = engine.get_or_insert_with(|| Interpreter::new([module]));
@@ -468,7 +470,7 @@ impl Judge<'_> {
     }
 }
 
-/// How a changed program is lowered. Its structure is that of the program, which was checked.
+/// Options for lowering a changed program. Its structure is that of the program, which was checked.
 fn way(options: CompileOptions) -> LowerOptions {
     LowerOptions {
         name: options.name,

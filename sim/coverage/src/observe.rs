@@ -25,7 +25,7 @@ pub(crate) const DECIDED_OFF: u8 = 1 << 4;
 /// Its timer expired.
 pub(crate) const EXPIRED: u8 = 1 << 5;
 
-/// What was seen of each instruction.
+/// Observations of each instruction.
 pub(crate) struct Seen(Vec<AtomicU8>);
 
 impl Seen {
@@ -39,7 +39,7 @@ impl Seen {
         }
     }
 
-    /// What was seen, which is forgotten.
+    /// Returns the observations, and clears them.
     pub(crate) fn take(&self) -> Vec<u8> {
         self.0
             .iter()
@@ -79,7 +79,7 @@ impl Watcher {
         self.marks.exprs.get(id).copied()
     }
 
-    /// What an expression of a statement says of contacts: those of its logic, or of logic that is part of a number.
+    /// Records the contacts in an expression of a statement: those of its logic, or of logic that is part of a number.
     fn expression(&mut self, machine: &Machine, root: ExprId) {
         let module = machine.module();
         if module.ty(root) == Ty::Bit {
@@ -90,7 +90,7 @@ impl Watcher {
         }
     }
 
-    /// What logic says of its contacts.
+    /// Records the contacts of logic.
     fn logic(&mut self, machine: &Machine, root: ExprId) {
         let module = machine.module();
         self.open.clear();
@@ -108,7 +108,7 @@ impl Watcher {
                     self.open.push((a, decides && !values[1]));
                     self.open.push((b, decides && !values[0]));
                 }
-                // Whether an index leads to a device is not up to a contact.
+                // A contact does not decide whether an index reaches a device.
                 Expr::Bit(_) | Expr::InRange { .. } => {}
                 _ => self.contact(machine, id, decides),
             }

@@ -3,7 +3,7 @@
 use crate::Covered;
 use std::fmt::{self, Write};
 
-/// What was reached of each program, and what was not, network by network.
+/// Report on each program, network by network: the goals reached and missed.
 pub fn text(programs: &[Covered]) -> String {
     let mut out = String::new();
     for program in programs {
@@ -13,7 +13,7 @@ pub fn text(programs: &[Covered]) -> String {
     out
 }
 
-/// How much was reached: `12 of 17 (70 %)`.
+/// Share of goals reached: `12 of 17 (70 %)`.
 pub fn share(reached: usize, all: usize) -> String {
     match all {
         0 => "nothing to reach".to_string(),

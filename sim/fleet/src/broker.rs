@@ -7,7 +7,7 @@ use rungc_rt::io::{Connection, End, Io, Row};
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-/// How many PLCs share a connection at most.
+/// Most PLCs that share a connection.
 const SHARE: usize = 100;
 
 /// Devices that a connection reads at most, if a PLC has fewer: a broker keeps a limited number of messages for each
@@ -22,7 +22,7 @@ pub struct Broker {
     io: Io,
     /// The rows of each connection, in their order: their group and the PLC's place in it.
     rows: Vec<Vec<(usize, u32)>>,
-    /// What devices that are read were set to last, by connection and place.
+    /// Values last set for devices that are read, by connection and place.
     taken: Vec<Vec<Option<i16>>>,
     every_ms: u64,
     next_ms: u64,

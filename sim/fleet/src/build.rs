@@ -10,8 +10,8 @@ use rungc_syntax::DeviceClass;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the executables are made of, packed by the build script: `children.c`, which both kinds have in common, is
-/// `main`, with the name of the program as `NAME`; `lanes.c` runs 64 at once, `singles.c` one after the other.
+/// Sources of the executables, packed by the build script: `children.c`, common to both kinds, is `main`, with the name
+/// of the program as `NAME`; `lanes.c` runs 64 at once, `singles.c` one after the other.
 static SOURCES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
 
 /// One of these.
@@ -19,7 +19,7 @@ fn source(name: &str) -> &'static str {
     SOURCES.text(name)
 }
 
-/// How many devices are read together.
+/// Number of devices that are read together.
 pub(crate) const CHUNK: u32 = 64;
 
 /// Leaves out what the program does not call of the runtime library, with what that would need in turn.
@@ -31,7 +31,7 @@ const UNUSED: &str = match cfg!(target_os = "macos") {
 /// Lines of the compiler's output that an error quotes.
 const QUOTED_LINES: usize = 20;
 
-/// How emitted C runs the PLCs of a group.
+/// Form in which emitted C runs the PLCs of a group.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Form {
     /// 64 at once: programs that [`lanes::refusal`] has nothing against.
@@ -43,7 +43,7 @@ pub enum Form {
     },
 }
 
-/// What keeps a program from running in emitted C here, as the end of "the program …"; `None` if nothing does.
+/// Reason why a program cannot run in emitted C here, as the end of "the program …"; `None` if there is none.
 pub fn refusal(module: &Module) -> Option<&'static str> {
     let reaches_out = lanes::reaches_out(module);
     reaches_out.or_else(|| {
@@ -55,7 +55,7 @@ pub fn refusal(module: &Module) -> Option<&'static str> {
     })
 }
 
-/// Whether a program calls the runtime library.
+/// Returns true if a program calls the runtime library.
 pub fn needs_runtime(module: &Module) -> bool {
     any(module, calls_runtime)
 }

@@ -13,8 +13,8 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::thread;
 
-/// How many readings are on their way at most. Their answers have to fit into a pipe, since this end writes while the
-/// child waits for it to read: 32 · 64 · 8 bytes.
+/// Most readings in flight. Their answers have to fit into a pipe, since this end writes while the child waits for it
+/// to read: 32 · 64 · 8 bytes.
 const ON_THEIR_WAY: usize = 32;
 
 /// Stands for whether a PLC is in RUN, as device 0 of a class.
@@ -23,7 +23,7 @@ const RUNNING: u8 = Class::ER as u8 + 3;
 /// Bytes of a record of what has gone wrong.
 const RECORD: usize = 24;
 
-/// What is asked, and the devices of a reading: PLC, class as in C, number of the first.
+/// A request for a reading: PLC, class as in C, number of the first device.
 type Chunk = (u32, u8, u32);
 
 /// PLCs in children.
@@ -31,13 +31,13 @@ pub struct Children<'m> {
     form: Form,
     members: Members<'m>,
     children: Vec<Running>,
-    /// How many PLCs each child has but the last, which may have fewer.
+    /// Number of PLCs in each child but the last, which may have fewer.
     each: u32,
-    /// What was read since the last scan.
+    /// Values read since the last scan.
     known: FxHashMap<Chunk, Vec<Option<i32>>>,
     /// Bytes that a PLC takes.
     size: u64,
-    /// What has gone wrong.
+    /// The last error.
     failed: Option<Trouble>,
 }
 
@@ -194,7 +194,7 @@ impl Running {
         Ok(pairs.chunks(2).map(value).collect())
     }
 
-    /// What has gone wrong in its PLCs, the first of which has this number.
+    /// Errors in its PLCs, the first of which has this number.
     fn failures(&mut self, first: u32) -> io::Result<Vec<Failed>> {
         self.ask(b'E', (0, 0, 0), 0, 0)?;
         self.child.requests.flush()?;

@@ -1,4 +1,4 @@
-//! What runs the PLCs of a group.
+//! Engines that run the PLCs of a group.
 
 use rungc_models::runs::{is_counter32, rt_class};
 use rungc_rt::Class;
@@ -70,7 +70,7 @@ impl At {
     }
 }
 
-/// Why PLCs do not run, or no longer.
+/// Reason for which PLCs do not run, or no longer.
 #[derive(Debug, thiserror::Error)]
 pub enum Trouble {
     /// A file could not be written, or a process not be started.
@@ -78,7 +78,7 @@ pub enum Trouble {
     Io {
         /// The file, or the command.
         what: String,
-        /// What the system says.
+        /// Error of the system.
         error: std::io::Error,
     },
     /// The C compiler rejected what was emitted.
@@ -94,18 +94,18 @@ pub enum Trouble {
     Ended(String, String),
 }
 
-/// What has gone wrong in a PLC at an instruction.
+/// Error of a PLC at an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Failed {
-    /// Which PLC, from 0.
+    /// Number of the PLC, from 0.
     pub plc: u32,
     /// The PLC's code: 6706, or that of the watchdog.
     pub code: u16,
     /// Step of the instruction.
     pub step: u32,
-    /// How often.
+    /// Number of occurrences.
     pub times: u64,
-    /// When it happened first, in milliseconds since power-on; `None` of what stopped the PLC.
+    /// Time of the first occurrence, in milliseconds since power-on; `None` for the error that stopped the PLC.
     pub first_ms: Option<u32>,
 }
 
@@ -121,7 +121,7 @@ pub trait Engine {
     /// What has gone wrong since the last time: the PLCs do not run any more.
     fn end_scan(&mut self) -> Result<(), Trouble>;
 
-    /// What devices are about to be read. An engine for which reading one by one is slow reads them together.
+    /// Announces devices to be read. An engine for which reading one by one is slow reads them together.
     fn fetch(&mut self, wanted: &mut dyn Iterator<Item = (u32, At)>) {
         let _ = wanted;
     }
@@ -133,10 +133,10 @@ pub trait Engine {
     /// value.
     fn write(&mut self, plc: u32, at: At, value: i32) -> Option<()>;
 
-    /// Whether a PLC is in RUN.
+    /// Returns true if a PLC is in RUN.
     fn is_running(&mut self, plc: u32) -> bool;
 
-    /// How many of `count` PLCs are in STOP.
+    /// Number of PLCs in STOP, of `count`.
     fn stopped(&mut self, count: u32) -> u32 {
         (0..count).filter(|&plc| !self.is_running(plc)).count() as u32
     }
@@ -147,7 +147,7 @@ pub trait Engine {
     /// The operation errors since power-on, and what stopped PLCs: one for each PLC, instruction and code.
     fn failures(&mut self) -> Vec<Failed>;
 
-    /// What it is, for the summary: `64 at once in 2 processes, 607 bytes a PLC`.
+    /// Description for the summary: `64 at once in 2 processes, 607 bytes a PLC`.
     fn what(&self) -> String;
 
     /// The processes that it consists of beside this one.

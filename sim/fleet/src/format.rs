@@ -47,7 +47,7 @@ type Value<'t> = Spanned<DeValue<'t>>;
 pub struct Written {
     /// The text.
     pub text: String,
-    /// Where it is.
+    /// Position in the file.
     pub span: Span,
 }
 
@@ -64,45 +64,45 @@ pub enum Choice {
     Interp,
 }
 
-/// What the topics of one PLC of a group are.
+/// Topics of one PLC of a group.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Topics {
     /// Its rows, with `{n}` for the number of the PLC.
     rows: Vec<Row>,
-    /// Where they are.
+    /// Positions of the rows.
     spans: Vec<Span>,
 }
 
 /// `[plc.NAME]`: a program and its PLCs.
 #[derive(Clone, Debug)]
 pub struct Plcs {
-    /// What the file calls them.
+    /// Name in the file.
     pub name: Written,
     /// The program, as seen from the file.
     pub program: Written,
-    /// How many there are.
+    /// Number of PLCs.
     pub count: u32,
     /// The number of the first.
     pub first: u32,
-    /// What runs them.
+    /// Choice of the engine.
     pub engine: Choice,
-    /// Where that is said.
+    /// Position of the choice.
     pub engine_span: Span,
     /// The first address of Modbus TCP.
     pub modbus_tcp: Option<SocketAddr>,
-    /// Where that is.
+    /// Position of the address.
     pub modbus_span: Span,
-    /// How many PLCs a port has.
+    /// Number of PLCs per port.
     pub units: Option<u32>,
-    /// What is set: `X000=1@200ms`.
+    /// Settings: `X000=1@200ms`.
     pub set: Vec<Written>,
-    /// How much later than a PLC the next one is set, in milliseconds.
+    /// Delay from a PLC to the next one in the settings, in milliseconds.
     pub spread_ms: u64,
     /// After how many milliseconds the settings begin again.
     pub repeat_ms: Option<u64>,
     /// Devices that are stored though the program may not name them: class, first and last number.
     pub store: Vec<(DeviceClass, u32, u32)>,
-    /// What a broker reports and is sent.
+    /// Topics of a broker, to publish and to subscribe to.
     pub topics: Topics,
 }
 
@@ -153,7 +153,7 @@ impl Fleet {
             let at = span(error.span().unwrap_or(0..0));
             reader.report(at, error.message().trim());
         }
-        // What follows a line that is not TOML may belong to another table than it seems.
+        // Text after a line that is not TOML may belong to another table than it seems.
         if !reader.found.has_errors() {
             reader.document(document.get_ref(), &mut fleet);
         }
@@ -544,12 +544,12 @@ impl Reader {
     }
 }
 
-/// Whether a key is that of a row: a range of devices begins with a capital letter.
+/// Returns true if a key is that of a row: a range of devices begins with a capital letter.
 fn is_row(key: &str) -> bool {
     key.starts_with(|c: char| c.is_ascii_uppercase())
 }
 
-/// Whether the topic of a row names the PLC.
+/// Returns true if the topic of a row includes the number of the PLC.
 fn names_plc(row: &Row) -> bool {
     matches!(&row.end, rungc_rt::io::End::Name(topic) if topic.contains(NUMBER))
 }

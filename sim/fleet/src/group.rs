@@ -9,9 +9,9 @@ use std::net::SocketAddr;
 
 /// One program and its PLCs.
 pub struct Group<'m> {
-    /// What the file calls it.
+    /// Name in the file.
     pub name: String,
-    /// How many PLCs there are.
+    /// Number of PLCs.
     pub count: u32,
     engine: Box<dyn Engine + 'm>,
     schedule: Schedule,
@@ -65,7 +65,7 @@ impl<'m> Group<'m> {
         served.map_while(Result::ok).collect()
     }
 
-    /// How many requests clients have made, and how many of them were rejected.
+    /// Numbers of requests by clients, and of those that were rejected.
     pub fn requests(&self) -> Option<[u64; 2]> {
         self.served.as_ref().map(|served| served.requests)
     }
@@ -117,7 +117,7 @@ impl<'m> Group<'m> {
         self.engine.as_mut()
     }
 
-    /// Whether the program stores a device.
+    /// Returns true if the program stores a device.
     pub fn has(&mut self, at: At) -> bool {
         self.engine.read(0, at).is_some()
     }
@@ -127,7 +127,7 @@ impl<'m> Group<'m> {
         self.engine.what()
     }
 
-    /// How many of its PLCs are in STOP.
+    /// Number of its PLCs in STOP.
     pub fn stopped(&mut self) -> u32 {
         self.engine.stopped(self.count)
     }

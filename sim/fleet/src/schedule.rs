@@ -1,22 +1,22 @@
-//! Which PLCs a setting reaches in a span of time.
+//! Selection of the PLCs that a setting reaches in a span of time.
 
 use crate::At;
 
 /// A setting of all PLCs of a group, each at its own time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Setting {
-    /// When the first PLC is set, in milliseconds since power-on.
+    /// Time at which the first PLC is set, in milliseconds since power-on.
     pub at_ms: u64,
-    /// What is set, and to what.
+    /// Devices to set, and their values.
     pub parts: Vec<(At, i32)>,
 }
 
 /// The settings of a group.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Schedule {
-    /// What is set.
+    /// The settings.
     pub settings: Vec<Setting>,
-    /// How much later than a PLC the next one is set, in milliseconds.
+    /// Delay from a PLC to the next one, in milliseconds.
     pub spread_ms: u64,
     /// After how many milliseconds all begins again.
     pub repeat_ms: Option<u64>,

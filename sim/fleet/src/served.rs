@@ -10,16 +10,16 @@ use std::io;
 use std::net::SocketAddr;
 use std::ops::Range;
 
-/// How many ports without a connection are asked for new ones before each scan. With more, they take turns.
+/// Number of ports without a connection that are polled for new ones before each scan. With more, they take turns.
 const ASKED_AT_ONCE: usize = 128;
 
 /// The servers of a group.
 pub struct Served {
     doors: Vec<Door>,
-    /// Which of them is asked next.
+    /// Index of the port to poll next.
     next: usize,
     type_code: u16,
-    /// How many requests there were, and how many of them were rejected.
+    /// Numbers of requests, and of those that were rejected.
     pub requests: [u64; 2],
 }
 
@@ -78,7 +78,7 @@ impl Served {
         })
     }
 
-    /// Where the ports are.
+    /// Addresses of the ports.
     pub fn addresses(&self) -> impl Iterator<Item = io::Result<SocketAddr>> {
         self.doors.iter().map(|door| door.server.address())
     }
@@ -117,7 +117,7 @@ impl Reached<'_> {
     }
 
     fn write(&mut self, at: At, value: i32) -> Option<()> {
-        // What the program does not store is rejected as a whole.
+        // A request for devices that the program does not store is rejected as a whole.
         self.read(at)?;
         self.engine.get_mut().write(self.plc.get(), at, value)
     }

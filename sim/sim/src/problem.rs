@@ -11,7 +11,7 @@ pub struct Problem {
     pub line: u32,
     /// Column in characters, from 1.
     pub column: u32,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
 }
 
@@ -27,7 +27,7 @@ impl Problem {
     }
 }
 
-/// Why a file could not be loaded.
+/// Reason for which a file could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// It could not be read.
@@ -35,7 +35,7 @@ pub enum LoadError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: std::io::Error,
     },
     /// Mistakes in it, one a line.
@@ -43,7 +43,7 @@ pub enum LoadError {
     Format {
         /// The file's name.
         name: String,
-        /// What is wrong in it.
+        /// Its problems.
         problems: Vec<Problem>,
     },
 }
@@ -72,7 +72,7 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
     })
 }
 
-/// What the reader of TOML says, in the words of TOML rather than of Rust.
+/// Message of the TOML reader, in the words of TOML rather than of Rust.
 fn plain(message: &str) -> String {
     let words = [
         ("expected f64", "expected a number"),

@@ -1,4 +1,4 @@
-//! What a test asks of an engine, and the text form in which it asks executables.
+//! Requests of a test to an engine, and their text form for executables.
 //!
 //! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`,
 //! `none` (no such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or
@@ -17,7 +17,7 @@ pub enum Request {
     /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with separate hardware. The
     /// first PLC is that of [`Request::Case`].
     Join(usize),
-    /// What follows is for this PLC of the case, 0 for the first.
+    /// Selects this PLC of the case, 0 for the first, for the following requests.
     Plc(usize),
     /// Sets a bit device.
     SetBit(Class, u32, bool),
@@ -58,9 +58,9 @@ pub enum Request {
     Pass {
         /// Microseconds since power-on, wrapping, that have been reached.
         from_us: u32,
-        /// Those that are to be reached.
+        /// Time to reach.
         until_us: u32,
-        /// How many pulses an output sends at most, up to `i32::MAX`.
+        /// Most pulses that an output sends, up to `i32::MAX`.
         most: u32,
     },
     /// Asks for the frequency at which an output sends pulses, in millihertz.
@@ -89,16 +89,16 @@ pub enum Request {
     SetSignal {
         /// Milliseconds since power-on.
         now_ms: u32,
-        /// Where.
+        /// The channel.
         channel: Channel,
-        /// How much, in millionths.
+        /// Value in millionths.
         millionths: i32,
     },
     /// Asks for the signal at a channel of a module, in millionths.
     Signal {
         /// Milliseconds since power-on.
         now_ms: u32,
-        /// Where.
+        /// The channel.
         channel: Channel,
     },
     /// The power supply fails from now on, or is back.
@@ -149,7 +149,7 @@ impl Answer {
 pub struct Digest(u32);
 
 impl Digest {
-    /// What stands for a value that there is not; no bit, word or terminal has it.
+    /// Mark for a missing value; no bit, word or terminal has it.
     const NONE: u32 = 0x8000_0001;
 
     /// Of nothing.

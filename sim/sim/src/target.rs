@@ -15,7 +15,7 @@ pub struct Channel {
     pub quantity: Quantity,
 }
 
-/// How names and settings call the analog board in the main unit.
+/// Name of the analog board in the main unit.
 pub const BOARD_NAME: &str = "board";
 
 /// The letters of terminals.
@@ -69,7 +69,7 @@ impl Channel {
         Some(channel().ok_or_else(wrong))
     }
 
-    /// What is wrong where the PLC has no such input.
+    /// Message for an input that the PLC does not have.
     pub fn missing(self) -> String {
         format!("the PLC has no input `{self}`: no such module is fitted")
     }
@@ -103,7 +103,7 @@ impl fmt::Display for Channel {
     }
 }
 
-/// What a name denotes.
+/// Target of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Target {
     /// A bit device; a timer's or counter's contact.
@@ -215,7 +215,7 @@ fn views(class: DeviceClass) -> &'static str {
     }
 }
 
-/// What to write instead of `D0:f`, as other tools have it.
+/// Correction of `D0:f`, the notation of other tools.
 fn view_after_colon(name: &str, device: &str, view: &str) -> String {
     let meant = match view.chars().next().map(|c| c.to_ascii_lowercase()) {
         Some('f' | 'r' | 'e') => "f32",

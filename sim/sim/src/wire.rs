@@ -1,4 +1,4 @@
-//! What comes in at input terminals during a step: pulses and encoders, as edges in virtual time.
+//! Signals at input terminals during a step: pulses and encoders, as edges in virtual time.
 
 /// A change of an input terminal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -7,7 +7,7 @@ pub struct Change {
     pub at_us: u64,
     /// Terminal X, a plain number.
     pub input: u32,
-    /// Whether it is on from now.
+    /// True if it turns on.
     pub on: bool,
 }
 
@@ -18,9 +18,9 @@ pub enum Signal {
     Pulses {
         /// Terminal.
         input: u32,
-        /// How many.
+        /// Number of devices.
         count: u32,
-        /// How many a second.
+        /// Frequency in hertz.
         hz: f64,
     },
     /// A quadrature encoder.
@@ -66,7 +66,7 @@ impl Signal {
         changes
     }
 
-    /// How long it lasts, in microseconds.
+    /// Duration in microseconds.
     pub fn duration_us(self) -> u64 {
         let (count, hz) = match self {
             Signal::Pulses { count, hz, .. } => (count, hz),

@@ -1,4 +1,4 @@
-//! What a run has shown of a program: the features by which a search knows that it has come to something new.
+//! Features of a program shown by a run, by which a search recognises new behaviour.
 
 use crate::run::Runner;
 use crate::task::Task;
@@ -39,7 +39,7 @@ fn feature(kind: Kind, index: usize, value: u32) -> Feature {
     (kind as u64) << 56 | (index as u64 & 0xff_ffff) << 32 | u64::from(value)
 }
 
-/// What is looked at after a scan.
+/// Values evaluated after a scan.
 pub struct View<'t> {
     /// Flags of branches.
     pub branches: &'t [FlagId],
@@ -47,7 +47,7 @@ pub struct View<'t> {
     pub bits: Vec<(Class, u32)>,
     /// Registers, and the values of timers and counters.
     pub words: Vec<(Class, u32)>,
-    /// Which of the bits are outputs and states.
+    /// Indices of the bits that are outputs and states.
     outputs: Vec<usize>,
     /// By word: numbers that the program compares it with.
     near: Vec<Vec<i32>>,
@@ -65,9 +65,9 @@ pub struct Last {
     pub words: Vec<i32>,
     /// All bits together.
     state: u64,
-    /// Whether a bit has changed in this scan, or there was none before.
+    /// True if a bit has changed in this scan, or there was none before.
     changed: bool,
-    /// Whether an output or a state has.
+    /// True if an output or a state has changed.
     moved: bool,
 }
 
@@ -90,26 +90,26 @@ impl Seen {
         new
     }
 
-    /// Whether it is new.
+    /// Returns true if it is new.
     pub fn lacks(&self, feature: Feature) -> bool {
         let is_state = feature >> 56 == Kind::State as u64;
         let is_full = is_state && self.states >= STATES;
         !is_full && !self.known.contains(&feature)
     }
 
-    /// How many there are.
+    /// Number of features.
     pub fn len(&self) -> usize {
         self.known.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }
 }
 
 impl<'t> View<'t> {
-    /// What is looked at in a search.
+    /// View for a search.
     pub fn new(task: &'t Task<'t>) -> Self {
         let module = task.module;
         let compared = compared(module, task);
@@ -152,7 +152,7 @@ impl<'t> View<'t> {
         }
     }
 
-    /// How many branches have been taken.
+    /// Number of branches taken.
     pub fn taken(&self, seen: &Seen) -> usize {
         let features = (0..self.branches.len()).map(|i| feature(Kind::Branch, i, 0));
         features
@@ -196,7 +196,7 @@ impl<'t> View<'t> {
         }
     }
 
-    /// What a bit is now.
+    /// Updates a bit.
     pub fn bit(&self, i: usize, on: bool, last: &mut Last, f: &mut impl FnMut(Feature)) {
         if std::mem::replace(&mut last.bits[i], on) != on {
             last.state ^= mixed(i as u64);
@@ -206,7 +206,7 @@ impl<'t> View<'t> {
         }
     }
 
-    /// What a word is now.
+    /// Updates a word.
     pub fn word(&self, i: usize, value: i32, last: &mut Last, f: &mut impl FnMut(Feature)) {
         if std::mem::replace(&mut last.words[i], value) != value {
             f(feature(Kind::Word, i, magnitude(value)));
@@ -339,7 +339,7 @@ fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i
     found
 }
 
-/// What a program's private cells are set to.
+/// Expressions assigned to a program's private cells.
 pub(crate) struct Cells(FxHashMap<CellId, Vec<ExprId>>);
 
 impl Cells {

@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// What runs them: `lanes.c`, a `main` with the name of the program as `NAME`, packed by the build script.
+/// Main program of the lanes: `lanes.c`, a `main` with the name of the program as `NAME`, packed by the build script.
 static MAIN: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/main.bin")));
 
 fn main_text() -> &'static str {
@@ -87,7 +87,7 @@ fn main_file(task: &Task) -> String {
         .replace("NAME", name)
 }
 
-/// Where an input is.
+/// Location of an input.
 fn input_line(input: &Input, name: &str, members: &Members) -> String {
     let (class, number, _) = input.target.devices(0);
     // Inputs are devices that the program stores.
@@ -198,7 +198,7 @@ fn lanes(low: u32, high: u32) -> u64 {
     u64::from(high) << 32 | u64::from(low)
 }
 
-/// What asks for a sweep, as `lanes.c` says.
+/// Request for a sweep, in the format of `lanes.c`.
 fn request(run: &[Step], strides: &[Stride], terminals: &[bool]) -> Vec<u32> {
     let mut request = vec![run.len() as u32];
     let mut on = vec![0; terminals.len()];

@@ -9,16 +9,16 @@ use rungc_ir::walk::bodies_mut;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
-/// What is noted of a coil.
+/// Flags of a coil.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Coil {
     /// On if the last scan has executed it.
     pub executed: FlagId,
-    /// What it said when it was executed last.
+    /// State of the coil at its last execution.
     pub on: FlagId,
 }
 
-/// What the copy of a program notes.
+/// Flags set by the copy of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Notes {
     /// A flag for each branch, on once it has been taken.

@@ -11,7 +11,7 @@ use rungc_syntax::DeviceClass;
 use rungc_verify::property::{Watcher, read};
 use std::collections::VecDeque;
 
-/// How many scans in a row an output changes before it counts as one that never comes to rest.
+/// Number of successive scans in which an output changes before it counts as one that never comes to rest.
 pub const RESTLESS: u32 = 20;
 
 /// In [`Step::set`] in place of an input: before all else, the power supply goes off and comes back. The value is how
@@ -33,17 +33,17 @@ pub struct Runner<'t> {
     now_ms: u64,
     /// Milliseconds of the run until then, and how often the power supply has gone off.
     before: (u64, i32),
-    /// How long the last scan took; `None` before the first.
+    /// Duration of the last scan; `None` before the first.
     last_ms: Option<u32>,
     takes_events: bool,
     uses_hal: bool,
     constant_ms: u32,
-    /// How many operation errors were there before the scan.
+    /// Number of operation errors before the scan.
     errors: usize,
     /// By output that the program stores: what it was, and in how many scans in a row it has changed while no input
     /// did.
     outputs: Vec<(u32, bool, u32)>,
-    /// What has happened in the last scan.
+    /// Events of the last scan.
     pub happened: Vec<What>,
 }
 
@@ -64,7 +64,7 @@ pub struct Moment<'t> {
     outputs: Vec<(u32, bool, u32)>,
 }
 
-/// How a scan ended.
+/// Outcome of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Scanned {
     /// The run can continue.
@@ -134,7 +134,7 @@ impl<'t> Runner<'t> {
         self.before.0 + self.now_ms
     }
 
-    /// How often the power supply has gone off.
+    /// Number of power cycles.
     pub fn power_cycles(&self) -> i32 {
         self.before.1
     }
@@ -144,12 +144,12 @@ impl<'t> Runner<'t> {
         &self.watchers
     }
 
-    /// How long the last scan took, in milliseconds; `None` before the first.
+    /// Duration of the last scan in milliseconds; `None` before the first.
     pub fn last_ms(&self) -> Option<u32> {
         self.last_ms
     }
 
-    /// What each input is now.
+    /// Present values of the inputs.
     pub fn inputs(&self) -> &[i32] {
         &self.inputs
     }
@@ -270,7 +270,7 @@ impl<'t> Runner<'t> {
             .scan(&mut *self.hal, self.now_ms as u32, scan_us);
         let mut elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
-        // What happens between two scans is seen as test files see it, which look once the time has passed.
+        // Events between two scans are evaluated as in test files, which read once the time has passed.
         if self.takes_events {
             elapsed_ms = scan_ms;
             self.pass(scan_ms);
@@ -343,7 +343,8 @@ impl<'t> Runner<'t> {
             .map(|(output, ..)| *output)
     }
 
-    /// Whether an output changes in every scan from here on, however long scans are; the run stays where it is.
+    /// Returns true if an output changes in every scan from here on, however long scans are; the state of the run is
+    /// restored.
     pub fn never_rests(&mut self, output: u32) -> bool {
         /// Times that no clock of a PLC follows both, in milliseconds.
         const SCAN_MS: [u32; 2] = [10, 7];
@@ -396,7 +397,7 @@ impl<'t> Runner<'t> {
     }
 }
 
-/// Whether the last of the coils of an output that a scan has executed is off, and one before it is on.
+/// Returns true if the last of the coils of an output that a scan has executed is off, and one before it is on.
 pub fn differ(said: impl DoubleEndedIterator<Item = bool>) -> bool {
     let mut said = said.rev();
     said.next() == Some(false) && said.any(|on| on)

@@ -16,13 +16,13 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// How many parts a round has.
+/// Number of parts of a round.
 const PARTS: usize = 8;
-/// How many scans each of them executes, about.
+/// Approximate number of scans in each part.
 const PART_SCANS: u32 = 256;
-/// How many moments are kept.
+/// Number of moments stored.
 const KEPT: usize = 400;
-/// How many moments a part of a round brings at most.
+/// Most new moments of a part of a round.
 const BROUGHT: usize = 24;
 /// As many scans does one count as that does not end: it repeats millions of steps.
 const ENDLESS: u64 = 2_000;
@@ -30,36 +30,36 @@ const ENDLESS: u64 = 2_000;
 const LONGEST: usize = 3_000;
 /// After this many scans there are sweeps, if the program permits them: what is near has been found then.
 const NEAR: u64 = 32_000;
-/// How many scans a part of a round with sweeps executes in each lane, about.
+/// Approximate number of scans in each lane for a part of a round with sweeps.
 const SWEEP_SCANS: u32 = 64;
 /// One round in this many has no sweeps.
 const TURNS: u64 = 4;
 
-/// How far a search goes.
+/// Limits of a search.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// How many scans, about: a search ends with the round in which it passes this.
+    /// Approximate number of scans: a search ends with the round in which it passes this.
     pub scans: u64,
-    /// How long.
+    /// Time limit.
     pub time: Option<Duration>,
-    /// What random numbers begin with.
+    /// Random seed.
     pub seed: u64,
     /// In how many threads, at least 1.
     pub threads: usize,
-    /// What [`crate::lanes::build`] has made of the program, to execute sweeps; `None`: the interpreter does.
+    /// Executable built by [`crate::lanes::build`] that executes sweeps; `None`: the interpreter does.
     pub lanes: Option<PathBuf>,
 }
 
-/// What a search has found.
+/// Result of a search.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Report {
     /// Everything that was found, in the order in which it was, once each.
     pub found: Vec<Found>,
-    /// How many scans were executed.
+    /// Number of scans executed.
     pub scans: u64,
-    /// How many moments that show something new were reached.
+    /// Number of moments reached that show something new.
     pub moments: usize,
-    /// How many branches of the program have been taken, and how many there are.
+    /// Numbers of branches taken, and of all branches of the program.
     pub branches: (usize, usize),
 }
 
@@ -70,7 +70,7 @@ struct Kept<'t> {
     chosen: u32,
 }
 
-/// What a part of a round brings.
+/// Result of a part of a round.
 #[derive(Default)]
 struct Brought<'t> {
     found: Vec<Found>,
@@ -78,11 +78,11 @@ struct Brought<'t> {
     scans: u64,
     /// Scans, those that do not end as many.
     spent: u64,
-    /// Why the search cannot continue.
+    /// Reason for which the search cannot continue.
     failed: Option<String>,
 }
 
-/// What executes a part of a round.
+/// Executor of a part of a round.
 struct Worker<'t> {
     runner: Runner<'t>,
     lanes: Option<Lanes>,
@@ -184,7 +184,7 @@ fn keep<'t>(kept: &mut Vec<Kept<'t>>, moment: Kept<'t>, rng: &mut Rng) {
     }
 }
 
-/// What the parts of a round share.
+/// Data shared by the parts of a round.
 struct Round<'r, 't> {
     task: &'t Task<'t>,
     view: &'r View<'t>,
@@ -257,7 +257,7 @@ impl<'t> Round<'_, 't> {
                 run: start.run.clone(),
                 last: self.view.nothing(),
             };
-            // What the moment itself shows is nothing new.
+            // The moment itself shows nothing new.
             self.view.look(runner, &mut way.last, &mut |_| {});
             let steps = 1 + rng.u32(..8) + rng.u32(..8);
             for _ in 0..steps {

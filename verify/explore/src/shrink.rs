@@ -5,12 +5,12 @@ use crate::task::{Found, Input, Step, Task, What};
 use crate::trains::{MOST_A_MS, are_possible, cost, left_off};
 use std::collections::BTreeMap;
 
-/// How many scans may be executed to shrink a run.
+/// Most scans executed to shrink a run.
 const BUDGET: u64 = 400_000;
 /// A scan time that people expect, in milliseconds.
 const USUAL_MS: u32 = 10;
 
-/// What the beginning of a run costs, in scans.
+/// Cost of the beginning of a run, in scans.
 const BEGINNING: u64 = 20;
 /// And a scan that does not end.
 const ENDLESS: u64 = 10_000;
@@ -141,7 +141,7 @@ impl Shrinking<'_> {
         }
     }
 
-    /// What changes in two steps can change in one; and later changes can come earlier.
+    /// Merges steps, and moves later changes to earlier steps.
     fn merge(&mut self) {
         let mut at = 1;
         while at < self.run().len() {
@@ -263,7 +263,7 @@ fn smallest(mut low: u32, mut high: u32, mut holds: impl FnMut(u32) -> bool) {
     }
 }
 
-/// How long a run is: scans, changes and trains of pulses, how unusual its scan times are, numbers.
+/// Complexity of a run: scans, changes and trains of pulses, deviation of its scan times from the usual one, numbers.
 fn measure(run: &[Step]) -> (u64, usize, u64, u64, usize) {
     let scans = run.iter().map(|step| u64::from(step.scans)).sum();
     let changes = run.iter().map(|step| step.set.len() + step.pulses.len());

@@ -1,4 +1,4 @@
-//! What is searched for, and in what.
+//! Task of a search: its goals, and the program.
 
 use crate::notes::Notes;
 use crate::trains::{Source, sources};
@@ -13,7 +13,7 @@ use rungc_verify::model::{Encoder, Key, World};
 use rungc_verify::property::{Condition, Property};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is searched for beside properties.
+/// Kind of finding other than violated properties.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Kind {
     /// Operation errors (M8067).
@@ -86,16 +86,16 @@ pub struct Step {
     pub set: Vec<(usize, i32)>,
     /// Pulses that come in the time of the first scan: numbers of [`Task::sources`], in order, and how many.
     pub pulses: Vec<(usize, i32)>,
-    /// How many scans, at least 1.
+    /// Number of scans, at least 1.
     pub scans: u32,
     /// Milliseconds from each of them to the next, at least 1.
     pub scan_ms: u32,
 }
 
-/// What was found, with a run that shows it.
+/// A finding, with a run that shows it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Found {
-    /// What.
+    /// The finding.
     pub what: What,
     /// The run from power-on, which ends with the scan in which it happens.
     pub run: Vec<Step>,
@@ -104,39 +104,39 @@ pub struct Found {
 /// An input that the search changes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Input {
-    /// What it is.
+    /// Target of the input.
     pub target: Target,
     /// For a word: values that the program distinguishes.
     pub values: Vec<i32>,
 }
 
 impl Input {
-    /// Whether it is on or off.
+    /// Returns true if it is on or off.
     pub fn is_bit(&self) -> bool {
         matches!(self.target, Target::Bit(..))
     }
 }
 
-/// What is to be searched.
+/// Task of a search.
 pub struct Task<'a> {
     /// The program as it was compiled, without optimisation.
     pub module: &'a Module,
     /// A copy that notes what a scan has executed.
     pub noting: Module,
-    /// What the copy notes.
+    /// Flags of the copy.
     pub notes: Notes,
-    /// What must not happen, or is searched for.
+    /// Conditions that must not occur, or are searched for.
     pub properties: &'a [Property],
-    /// What the machine sees to.
+    /// Conditions that the machine guarantees.
     pub assumed: &'a [Condition],
-    /// What else is searched for.
+    /// Other kinds of findings.
     pub kinds: BTreeSet<Kind>,
-    /// What the search changes.
+    /// Inputs that the search changes.
     pub inputs: Vec<Input>,
-    /// Where it lets pulses come in.
+    /// Sources of pulses.
     pub sources: Vec<Source>,
-    /// Whether the power supply goes off and comes back at times, so that latched devices begin with what a run has
-    /// left in them.
+    /// True if the power supply goes off and comes back at times, so that latched devices begin with the values that a
+    /// run has left in them.
     pub power_cycles: bool,
     /// The longest time from one scan to the next, in milliseconds.
     pub scan_ms: u32,
@@ -194,7 +194,7 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// Whether what the hardware does depends on more than the time.
+    /// Returns true if the effect of the hardware depends on more than the time.
     pub fn uses_hal(&self) -> bool {
         let mut calls = self.machine.is_some() || self.module.takes_events();
         for function in &self.module.functions {
@@ -203,7 +203,7 @@ impl<'a> Task<'a> {
         calls
     }
 
-    /// Whether something of this kind is searched for.
+    /// Returns true if findings of this kind are searched for.
     pub fn wants(&self, kind: Kind) -> bool {
         self.kinds.contains(&kind)
     }
@@ -225,7 +225,7 @@ fn unwritten(module: &Module, scan_ms: u32) -> Vec<(DeviceClass, u32)> {
         .collect()
 }
 
-/// What an input is set by; `None` if it cannot be.
+/// Target that sets an input; `None` if it cannot be set.
 fn target(class: DeviceClass, number: u32) -> Option<Target> {
     use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
     match class {

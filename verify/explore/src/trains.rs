@@ -23,7 +23,7 @@ const PULSES_A_SCAN: u64 = 32;
 /// Longer trains come the less often the longer they are, or a search would do little else.
 const SHORT: u32 = 2_000;
 
-/// Where pulses come in.
+/// Terminals that receive pulses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum At {
     /// At a terminal X.
@@ -32,16 +32,16 @@ pub enum At {
     Encoder(u32, u32),
 }
 
-/// What a search lets pulses come to.
+/// A source of pulses in a search.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Source {
-    /// Where.
+    /// Terminals.
     pub at: At,
     /// High-speed counters that count there.
     pub counters: Vec<u32>,
 }
 
-/// What a program compares a counter with.
+/// Value that a program compares a counter with.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Goal {
     Constant(i32),
@@ -49,7 +49,7 @@ enum Goal {
     Register(DeviceClass, u32, bool),
 }
 
-/// Which pulses come next.
+/// Selection of the next pulses.
 pub struct Trains<'t> {
     sources: &'t [Source],
     /// By counter.
@@ -71,7 +71,7 @@ impl At {
         }
     }
 
-    /// Whether pulses may come to both in one step.
+    /// Returns true if pulses may come to both in one step.
     fn comes_beside(self, other: At) -> bool {
         let both = matches!((self, other), (At::Encoder(..), At::Encoder(..)));
         let mut inputs = other.inputs();
@@ -97,8 +97,8 @@ pub fn hertz(count: i32, scan_ms: u32) -> u32 {
     usual.find(fits).unwrap_or(1_000_000)
 }
 
-/// Whether the pulses of a step fit in the time of its first scan, and a terminal has one train, a step of a test file
-/// one encoder.
+/// Returns true if the pulses of a step fit in the time of its first scan, and a terminal has one train, a step of a
+/// test file one encoder.
 pub fn are_possible(task: &Task, step: &Step) -> bool {
     let most = step.scan_ms.saturating_mul(MOST_A_MS);
     let mut trains = step.pulses.iter().enumerate();
@@ -190,7 +190,7 @@ pub fn left_off<'a>(
     })
 }
 
-/// What the pulses of a step cost, in scans.
+/// Cost of a step's pulses, in scans.
 pub fn cost(pulses: &[(usize, i32)]) -> u64 {
     let counts = pulses.iter().map(|(_, count)| count.unsigned_abs());
     counts.map(u64::from).sum::<u64>() / PULSES_A_SCAN
@@ -235,7 +235,7 @@ impl<'t> Trains<'t> {
         pulses
     }
 
-    /// How many: often as many as a counter lacks to a number that it is compared with.
+    /// Number of pulses: often the distance of a counter to a number that it is compared with.
     fn count(
         &self,
         source: &Source,
@@ -272,7 +272,7 @@ impl<'t> Trains<'t> {
         }
     }
 
-    /// How many pulses lead a counter near a number that it is compared with.
+    /// Number of pulses that bring a counter near a number that it is compared with.
     fn missing(&self, source: &Source, machine: &Machine, rng: &mut Rng) -> Option<i32> {
         let counter = *rng.choice(&source.counters)?;
         let goals = self.goals.iter().filter(|(number, _)| *number == counter);
@@ -297,7 +297,7 @@ impl<'t> Trains<'t> {
     }
 }
 
-/// What a register holds, or a pair.
+/// Value of a register, or a pair.
 fn register(machine: &Machine, (class, n): (DeviceClass, u32), wide: bool) -> Option<i32> {
     let class = rt_class(class)?;
     let low = machine.word(class, n)?;
@@ -308,7 +308,7 @@ fn register(machine: &Machine, (class, n): (DeviceClass, u32), wide: bool) -> Op
     Some(i32::from(high) << 16 | i32::from(low as u16))
 }
 
-/// What a program compares its high-speed counters with, by counter.
+/// Values that a program compares its high-speed counters with, by counter.
 fn goals(module: &Module) -> Vec<(u32, Goal)> {
     let cells = Cells::of(module);
     let mut found = BTreeSet::new();

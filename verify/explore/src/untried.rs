@@ -1,4 +1,4 @@
-//! What happens around a PLC and a search does not vary.
+//! Influences on a PLC that a search does not vary.
 
 use crate::task::Task;
 use crate::trains::MOST_A_MS;
@@ -8,7 +8,7 @@ use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
-/// What the program of a search depends on and the search does not vary, a sentence each; nothing if that is all.
+/// Influences on the program that the search does not vary, a sentence each; empty if there are none.
 pub fn untried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();
@@ -38,7 +38,7 @@ pub fn untried(task: &Task) -> Vec<String> {
     found
 }
 
-/// What a function of the runtime takes from outside the program and its devices.
+/// Influence on a function of the runtime from outside the program and its devices.
 fn source(function: RtFn) -> Option<&'static str> {
     use RtFn::{
         AnalogInputs, ClockRefresh, ClockRefreshShort, ExchangeBoard, ExchangeModule, From,

@@ -1,4 +1,4 @@
-//! How a run continues: inputs that change, and how long they stay.
+//! Continuation of a run: inputs that change, and the time for which they stay.
 
 use crate::cover::constant;
 use crate::run::{POWER, Runner};
@@ -11,7 +11,7 @@ use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc};
 use rungc_syntax::DeviceClass;
 
-/// How many scans a step waits at most.
+/// Most scans of a step.
 const LONGEST: u32 = 2_000;
 
 /// One step in this many begins with power off and on.
@@ -24,13 +24,13 @@ struct Timer {
     preset: Preset,
 }
 
-/// When a timer ends.
+/// End of a timer.
 enum Preset {
     Constant(i32),
     Register(DeviceClass, u32),
 }
 
-/// What a search does next.
+/// Choice of the next step of a search.
 pub struct Choices<'t> {
     task: &'t Task<'t>,
     timers: Vec<Timer>,
@@ -101,7 +101,7 @@ impl<'t> Choices<'t> {
         }
     }
 
-    /// How many scans a step takes, at most this many, and how long they are.
+    /// Number of scans of a step, at most this many, and their duration.
     fn time(&self, runner: &Runner, rng: &mut Rng, most_scans: u32) -> (u32, u32) {
         let (scans, scan_ms) = match rng.u32(..100) {
             0..=24 => self.to_a_timer(runner, rng),
@@ -112,7 +112,7 @@ impl<'t> Choices<'t> {
         (scans.clamp(1, most_scans.clamp(1, LONGEST)), scan_ms)
     }
 
-    /// Which inputs change.
+    /// Changes of inputs.
     fn changes(&self, now: &[i32], rng: &mut Rng) -> Vec<(usize, i32)> {
         let inputs = self.task.inputs.len();
         if inputs == 0 {
@@ -138,7 +138,7 @@ impl<'t> Choices<'t> {
         set
     }
 
-    /// What an input becomes.
+    /// New value of an input.
     fn value(&self, input: usize, before: i32, rng: &mut Rng) -> i32 {
         let input = &self.task.inputs[input];
         if input.is_bit() {
@@ -154,9 +154,9 @@ impl<'t> Choices<'t> {
         value as i16 as i32
     }
 
-    /// How long scans last.
+    /// Duration of scans.
     fn scan_ms(&self, rng: &mut Rng) -> u32 {
-        /// What is usual, in milliseconds.
+        /// Usual duration, in milliseconds.
         const USUAL_MS: u32 = 10;
         let most = self.task.scan_ms;
         match rng.u32(..10) {
@@ -201,7 +201,7 @@ impl<'t> Choices<'t> {
     }
 }
 
-/// What a timer's preset is, if it is known before it runs.
+/// Preset of a timer, if it is known before it runs.
 fn preset(task: &Task, id: ExprId) -> Option<Preset> {
     if let Some(preset) = constant(task.module, id) {
         return Some(Preset::Constant(preset));

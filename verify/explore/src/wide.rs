@@ -19,15 +19,15 @@ use rungc_verify::property::{Condition, Devices, Property, Watcher};
 use rustc_hash::FxHashMap;
 use std::array;
 
-/// How many runs a sweep has.
+/// Number of runs in a sweep.
 pub const LANES: usize = rungc_codegen_c::lanes::LANES as usize;
 
 /// Scans of a sweep between which inputs do not change.
 #[derive(Clone, Debug)]
 pub struct Stride {
-    /// What changes in each lane before the first of them: numbers of [`Task::inputs`] and their values.
+    /// Changes in each lane before the first of them: numbers of [`Task::inputs`] and their values.
     pub set: Vec<Vec<(usize, i32)>>,
-    /// How many scans, and how many milliseconds are from each to the next.
+    /// Number of scans, and the milliseconds from each to the next.
     pub time: (u32, u32),
 }
 
@@ -38,7 +38,7 @@ pub struct Change {
     pub lane: u8,
     /// A number of [`Items::bits`], or after these of [`Items::words`].
     pub item: u32,
-    /// What it is now; of a bit 0 or 1.
+    /// New value; of a bit 0 or 1.
     pub value: i32,
 }
 
@@ -47,25 +47,25 @@ pub struct Change {
 pub enum Bit {
     /// A device, or the contact of a timer or counter.
     Device(Class, u32),
-    /// What the program's copy notes.
+    /// A flag of the program's copy.
     Flag(FlagId),
 }
 
-/// What sweeps look at after a scan.
+/// Values evaluated by sweeps after a scan.
 pub struct Items {
     /// Bits: those of [`View::bits`], branches, errors, coils, and others in conditions.
     pub bits: Vec<Bit>,
     /// Words: those of [`View::words`], and others in conditions.
     pub words: Vec<(Class, u32)>,
-    /// How many bits and words a [`View`] has.
+    /// Numbers of bits and words in a [`View`].
     followed: (usize, usize),
     bit_of: FxHashMap<(Class, u32), usize>,
     word_of: FxHashMap<(Class, u32), usize>,
     model: &'static Model,
 }
 
-/// Why a search has no sweeps, as the end of "the program …"; `None` if nothing is in the way. It depends on the
-/// program and what is asked of it alone, so that a search is the same wherever it takes place.
+/// Reason for which a search has no sweeps, as the end of "the program …"; `None` if it has. It depends only on the
+/// program and the task, so that a search is the same wherever it takes place.
 pub fn refusal(task: &Task) -> Option<&'static str> {
     let of_inputs = task.inputs.iter().find_map(|input| match input.target {
         Target::Bit(class, n) | Target::Word(class, n) => {
@@ -131,7 +131,7 @@ impl Items {
         }
     }
 
-    /// What all of them are on a machine now: bits, then words.
+    /// All values on a machine now: bits, then words.
     fn read(&self, machine: &Machine) -> Vec<i32> {
         let bits = self.bits.iter().map(|&bit| match bit {
             Bit::Device(class, n) => (machine.bit(class, n) == Some(true)).into(),
@@ -144,17 +144,17 @@ impl Items {
 
 /// A sweep, and what is judged by.
 pub struct Sweep<'r, 't> {
-    /// What is searched.
+    /// The task.
     pub task: &'t Task<'t>,
-    /// What is looked at.
+    /// Values to evaluate.
     pub view: &'r View<'t>,
     /// All of it.
     pub items: &'r Items,
-    /// Where it begins.
+    /// Moment at which it begins.
     pub start: &'r Moment<'t>,
     /// The run to there, from power-on.
     pub run: &'r [Step],
-    /// What happens.
+    /// Steps of the sweep.
     pub strides: Vec<Stride>,
 }
 
@@ -167,11 +167,11 @@ pub struct Shown {
     scans: u32,
     /// The followed devices then.
     last: Last,
-    /// What it is.
+    /// The event.
     pub event: Event,
 }
 
-/// What it is.
+/// Event shown by a sweep.
 pub enum Event {
     /// Something that is searched for has happened.
     Happened(What),
@@ -185,7 +185,7 @@ struct Lane<'i, 't> {
     values: Vec<i32>,
     last: Last,
     watchers: Vec<Watcher<'t>>,
-    /// Whether the machine permits it.
+    /// True if the machine permits the changes.
     goes_on: bool,
     changes: Vec<(usize, i32)>,
     new: Vec<Feature>,
@@ -257,7 +257,7 @@ impl<'t> Sweep<'_, 't> {
         rows.iter().for_each(|changes| row(changes));
     }
 
-    /// What is made of the changes: a judge for each scan, in order.
+    /// Judge of the changes, for each scan in order.
     pub fn judge<'s>(&'s self, runner: &mut Runner<'t>) -> Judge<'s, 't> {
         runner.restore(self.start);
         let mut last = self.view.nothing();
@@ -308,21 +308,21 @@ impl<'t> Sweep<'_, 't> {
     }
 }
 
-/// What is an error of rungc.
+/// Message for an error of rungc.
 const DIFFER: &str = "lanes and interpreter disagree, which is an error of rungc: please report it; \
                       `--engine interp` searches without lanes";
 
 /// Follows the lanes of a sweep.
 pub struct Judge<'s, 't> {
     sweep: &'s Sweep<'s, 't>,
-    /// Whether a property waits for something, so that time matters.
+    /// True if a property waits for something, so that time matters.
     waits: bool,
     lanes: [Lane<'s, 't>; LANES],
     last_ms: Option<u32>,
     begun: bool,
     /// Stride, and how many of its scans are done.
     at: (usize, u32),
-    /// What was shown, in the order of scans and lanes.
+    /// Events shown, in the order of scans and lanes.
     pub shown: Vec<Shown>,
 }
 
@@ -432,7 +432,7 @@ impl Lane<'_, '_> {
         self.changes.clear();
     }
 
-    /// What else has happened in a scan.
+    /// Adds the other events of a scan.
     fn notice(&self, task: &Task, changes: &[(usize, i32)], happened: &mut Vec<What>) {
         let notes = &task.notes;
         let first = self.items.followed.0 + notes.branches.len();

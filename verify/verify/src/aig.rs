@@ -17,7 +17,7 @@ impl Lit {
         (self.0 >> 1) as usize
     }
 
-    /// Whether it is the inversion of the node.
+    /// Returns true if it is the inversion of the node.
     pub fn is_inverted(self) -> bool {
         self.0 & 1 == 1
     }
@@ -53,7 +53,7 @@ impl From<bool> for Lit {
     }
 }
 
-/// What a node is.
+/// Kind of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Node {
     /// Node 0, the constant false.
@@ -88,7 +88,7 @@ impl Aig {
         &self.nodes
     }
 
-    /// How many inputs there are.
+    /// Number of inputs.
     pub fn inputs(&self) -> u32 {
         self.inputs
     }
@@ -230,7 +230,7 @@ mod tests {
         let mut aig = Aig::default();
         let inputs: Vec<Lit> = (0..3).map(|_| aig.input()).collect();
         let mut lits = vec![Lit::FALSE, inputs[0], inputs[1], inputs[2]];
-        // What each literal is, for the eight values of the inputs.
+        // Value of each literal, for the eight values of the inputs.
         let mut tables = vec![0u8, 0b1010_1010, 0b1100_1100, 0b1111_0000];
         for i in 0..40 {
             let (a, b) = (i * 7 % lits.len(), i * 11 % lits.len());

@@ -87,28 +87,28 @@ impl Aig {
         self.sub(&zero, a)
     }
 
-    /// Whether both are equal.
+    /// Bit that is on if both are equal.
     pub fn equal(&mut self, a: &[Lit], b: &[Lit]) -> Lit {
         let same = self.zip(a, b, Aig::same);
         self.all(same)
     }
 
-    /// Whether a number is this.
+    /// Bit that is on if a number has this value.
     pub fn is(&mut self, a: &[Lit], value: i64) -> Lit {
         self.equal(a, &constant(value, a.len()))
     }
 
-    /// Whether any bit is on.
+    /// Bit that is on if any bit is on.
     pub fn nonzero(&mut self, a: &[Lit]) -> Lit {
         self.any(a.iter().copied())
     }
 
-    /// Whether `a < b`, unsigned.
+    /// Bit that is on if `a < b`, unsigned.
     pub fn below(&mut self, a: &[Lit], b: &[Lit]) -> Lit {
         !self.sum(a, &complement(b), Lit::TRUE).1
     }
 
-    /// Whether `a < b`, signed.
+    /// Bit that is on if `a < b`, signed.
     pub fn less(&mut self, a: &[Lit], b: &[Lit]) -> Lit {
         let flipped = |bits: &[Lit]| {
             let mut bits = bits.to_vec();
@@ -201,7 +201,7 @@ impl Aig {
         value
     }
 
-    /// How many bits are on, in this width.
+    /// Number of bits that are on, in this width.
     pub fn ones(&mut self, a: &[Lit], width: usize) -> Bits {
         let zero = constant(0, width);
         a.iter().fold(zero, |count, &bit| {

@@ -96,7 +96,7 @@ impl File {
                     let name = self.unique(name);
                     self.line(&format!("{kind} 1 {name}"))
                 }
-                // What nothing names may be anything.
+                // Unnamed inputs may have any value.
                 None => self.line("input 1"),
             };
             self.ids.insert(system.aig.literal(node), id);
@@ -143,7 +143,7 @@ fn of_input(input: Input) -> String {
     }
 }
 
-/// What a bit of memory is called.
+/// Name of a bit of memory.
 fn of_bit(key: Key, bit: usize) -> String {
     use rungc_syntax::DeviceClass::{C, T};
     match key {

@@ -19,15 +19,15 @@ use std::fmt::Write;
 /// Formulas in the format DIMACS with the names of their files. If none of them can be satisfied, the claim holds.
 pub type Certificate = Vec<(String, String)>;
 
-/// What others need to confirm a proof.
+/// Files by which others can confirm a proof.
 pub fn certificate(proof: &Proof) -> Certificate {
     let formulas = formulas(proof).into_iter();
     let files = formulas.map(|(name, formula)| (format!("{name}.cnf"), dimacs(&formula)));
     files.collect()
 }
 
-/// What others need to confirm that outputs of two programs are the same: one formula for all memory that both have in
-/// common, `memory.cnf`, and for each output that is not part of it a separate proof, `Y000-….cnf`.
+/// Files by which others can confirm that outputs of two programs are equal: one formula for all memory that both have
+/// in common, `memory.cnf`, and for each output that is not part of it a separate proof, `Y000-….cnf`.
 pub fn of_comparison(compared: &Compared) -> Certificate {
     let mut files = vec![("memory.cnf".to_string(), dimacs(&compared.apart))];
     for output in &compared.outputs {
@@ -77,7 +77,7 @@ pub(crate) fn formulas(proof: &Proof) -> Vec<(&'static str, Formula)> {
     formulas
 }
 
-/// What latches hold at first, where that is known.
+/// Initial values of latches, where known.
 fn first_state(system: &System) -> Vec<Lit> {
     let latches = system.latches.iter();
     let known = latches.filter_map(|latch| Some(latch.now.invert_if(!latch.init?)));

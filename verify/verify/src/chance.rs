@@ -38,9 +38,9 @@ pub(crate) struct Lanes<'s> {
     system: &'s System,
     /// The value of each node in the scan.
     values: Vec<u64>,
-    /// What each latch holds.
+    /// Value of each latch.
     latches: Vec<u64>,
-    /// What each input holds.
+    /// Value of each input.
     inputs: Vec<u64>,
     /// Runs that have kept all constraints.
     pub alive: u64,
@@ -162,7 +162,7 @@ impl<'s> Lanes<'s> {
             .collect();
     }
 
-    /// What each latch holds after the last scan, in each run.
+    /// Value of each latch after the last scan, in each run.
     pub fn latches(&self) -> &[u64] {
         &self.latches
     }
@@ -188,7 +188,7 @@ impl<'s> Lanes<'s> {
         self.moves.push((self.scans.len(), from));
     }
 
-    /// Which lane a lane was in each scan, and which it began as.
+    /// Lane that a lane was in each scan, and its initial lane.
     fn history(&self, mut lane: u32) -> (Vec<u32>, u32) {
         let mut lanes = vec![lane; self.scans.len()];
         let mut end = self.scans.len();
@@ -241,7 +241,8 @@ fn part_of(ms: u32, digit: Digit, bit: usize) -> u64 {
     u64::from(value >> bit & 1).wrapping_neg()
 }
 
-/// How often an input changes: lanes by the power of two that is the number of scans from one change to the next.
+/// Frequencies at which an input changes: lanes by the power of two that is the number of scans from one change to the
+/// next.
 struct Seldom([u64; 5]);
 
 impl Seldom {
@@ -255,7 +256,7 @@ impl Seldom {
             *part = left & (chance.bits() | chance.bits() & chance.bits());
             left &= !*part;
         }
-        // Which is the most frequent differs from input to input.
+        // The most frequent change differs from input to input.
         lanes.rotate_left(chance.below(5) as usize);
         Seldom(lanes)
     }
@@ -275,7 +276,7 @@ impl Seldom {
     }
 }
 
-/// How inputs change for some time.
+/// Behaviour of inputs for some time.
 struct Habits {
     /// Of each input.
     seldom: Vec<Seldom>,

@@ -1,4 +1,4 @@
-//! What can never happen in a program, though it is written as if it could: found without being asked.
+//! Search for events that can never happen in a program although it provides for them.
 //!
 //! Runs by chance show most of what can happen. What they have not shown is tried to be proved
 //! impossible, each by itself; only what is proved is reported. An output that changes in every scan is shown by
@@ -20,7 +20,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-/// What was found.
+/// Kind of finding.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Kind {
     /// A relay or an output is never switched on.
@@ -33,7 +33,7 @@ pub enum Kind {
     NeverActs,
     /// A comparison has the same result always.
     Constant {
-        /// What holds between the numbers.
+        /// Relation that holds between the numbers.
         op: CmpOp,
         /// The numbers.
         sides: [ExprId; 2],
@@ -46,7 +46,7 @@ pub enum Kind {
     Oscillates,
 }
 
-/// How it is known.
+/// Evidence for a finding.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Evidence {
     /// If it has not happened in this many scans in a row, it does not in the next one.
@@ -60,13 +60,13 @@ pub enum Evidence {
 /// A finding.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Finding {
-    /// What is wrong.
+    /// Kind of finding.
     pub kind: Kind,
     /// The device that it is about.
     pub device: Option<(DeviceClass, u32)>,
     /// The network, by number in the module.
     pub network: u32,
-    /// How it is known.
+    /// Evidence for it.
     pub evidence: Evidence,
 }
 
@@ -75,7 +75,7 @@ pub struct Finding {
 pub struct Report {
     /// In the order of the networks.
     pub findings: Vec<Finding>,
-    /// How many questions were not answered in time.
+    /// Number of questions not answered in time.
     pub open: usize,
 }
 
@@ -112,15 +112,15 @@ impl Candidate {
     }
 }
 
-/// How often runs by chance begin anew, and how many scans each has.
+/// Number of random runs from the beginning, and the scans of each.
 const RUNS: usize = 24;
 /// Scans with changing inputs, and then with the same.
 const PHASE: usize = 8;
-/// How long one proof may take.
+/// Time limit of one proof.
 const PROOF: Duration = Duration::from_millis(1500);
-/// How many scans induction supposes at most.
+/// Most scans that induction assumes.
 const INDUCTION: usize = 3;
-/// How many changes in a row make an output one that oscillates.
+/// Number of successive changes that make an output one that oscillates.
 const CHANGES: usize = 6;
 
 /// Looks for what can never happen, within this time.
@@ -165,7 +165,7 @@ pub fn look(module: &Module, time: Duration) -> Report {
     report
 }
 
-/// What a program says could happen.
+/// Events that a program provides for.
 fn candidates(encoder: &Encoder) -> Vec<Candidate> {
     let Some(probes) = &encoder.probes else {
         return Vec::new();

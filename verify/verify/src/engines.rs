@@ -11,7 +11,7 @@ use rungc_sim::engines::{Engine, EngineError};
 use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::DeviceClass;
 
-/// How an engine differs from the interpreter.
+/// Difference between an engine and the interpreter.
 #[derive(thiserror::Error, Debug)]
 pub enum Mismatch {
     /// A device has another value.
@@ -106,7 +106,7 @@ fn set(engine: &mut dyn Engine, key: Key, value: i64) -> Result<(), EngineError>
     request.map_or(Ok(()), |request| engine.ask(request).map(|_| ()))
 }
 
-/// How to ask for a device's value.
+/// Request for a device's value.
 fn question((class, number): (DeviceClass, u32)) -> Option<Request> {
     use DeviceClass::{C, D, ER, M, R, S, T, V, X, Y, Z};
     let of = rt_class(class)?;

@@ -17,7 +17,7 @@ use std::time::Instant;
 /// States: latches by number with their values, in order.
 pub type Cube = Vec<(usize, bool)>;
 
-/// What was found.
+/// Result of the search.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Found {
     /// No reachable state is in one of these cubes, which includes all that can violate the property.
@@ -136,7 +136,7 @@ impl<'s> Pdr<'s> {
         answer
     }
 
-    /// What is assumed of a state of a level.
+    /// Assumptions about a state of a level.
     fn at(&self, level: usize) -> Vec<SatLit> {
         self.levels[level..].to_vec()
     }
@@ -190,7 +190,7 @@ impl<'s> Pdr<'s> {
         cube
     }
 
-    /// Whether no state of a cube is one to begin with.
+    /// Returns true if no state of a cube is an initial one.
     fn excludes_start(&self, cube: &[(usize, bool)]) -> bool {
         cube.iter()
             .any(|&(latch, on)| self.system.latches[latch].init == Some(!on))
@@ -224,14 +224,14 @@ impl<'s> Pdr<'s> {
         !self.timed_out
     }
 
-    /// Whether a level already excludes a cube.
+    /// Returns true if a level already excludes a cube.
     fn is_blocked(&self, cube: &[(usize, bool)], level: usize) -> bool {
         let mut known = self.cubes[level..].iter().flatten();
         known.any(|known| known.iter().all(|lit| cube.binary_search(lit).is_ok()))
     }
 
-    /// Whether a state of the level before, outside the cube, leads into it: then (a part of) it, else the part of the
-    /// cube that nothing leads into.
+    /// Searches for a state of the level before, outside the cube, that leads into it: returns (a part of) it, else the
+    /// part of the cube that nothing leads into.
     fn step_to(&mut self, cube: &[(usize, bool)], level: usize) -> Result<Cube, Cube> {
         let act = self.solver.variable();
         let mut outside = vec![!act];
@@ -289,7 +289,7 @@ impl<'s> Pdr<'s> {
                 && let Ok(core) = self.step_to(&smaller, level)
                 && !self.timed_out
             {
-                // What was tried before and is still there is needed.
+                // Literals that were tried before and still occur are needed.
                 at = core
                     .iter()
                     .position(|lit| !cube[..at].contains(lit))
@@ -343,7 +343,7 @@ impl<'s> Pdr<'s> {
     }
 }
 
-/// Whether cubes are an invariant that excludes a violation, asked anew of another solver.
+/// Checks with a new solver that cubes are an invariant that excludes a violation.
 pub fn check(system: &System, cubes: &[Cube], deadline: Instant) -> bool {
     let mut solver = Solver::new(deadline);
     let aig = &system.aig;

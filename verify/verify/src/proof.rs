@@ -7,7 +7,7 @@ use crate::system::System;
 use std::fmt;
 use std::time::Instant;
 
-/// How a system is proved never to do what must not happen.
+/// Method by which a system is proved never to violate its property.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Method {
     /// No run of this many scans from power-on does it, and after one scan fewer without it the next one does not.
@@ -16,7 +16,7 @@ pub enum Method {
     Invariant(Vec<Cube>),
 }
 
-/// What memory always holds: a latch keeps what it begins with, or changes whenever another one does.
+/// Invariant of memory: a latch keeps its initial value, or changes whenever another one does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Fact {
     /// The latch, by its number in the system.
@@ -51,11 +51,11 @@ pub struct Formula {
 pub struct Proof {
     /// The system as the question poses it.
     pub system: System,
-    /// What its memory always holds, by an induction over all of this at once. The rest of the proof supposes it.
+    /// Invariants of its memory, by an induction over all of them at once. The rest of the proof assumes them.
     pub facts: Vec<Fact>,
     /// Of two programs: that memory which both have in common ends a scan differently.
     pub apart: Option<Formula>,
-    /// How it is proved.
+    /// Method of the proof.
     pub method: Method,
 }
 
@@ -75,7 +75,7 @@ impl fmt::Debug for Proof {
 pub struct Posed {
     /// The system, perhaps simplified.
     pub system: System,
-    /// What was simplified.
+    /// Origin of the simplification.
     from: Option<Origin>,
     /// Of two programs: what of their memory is supposed never to differ, as a formula.
     apart: Option<Formula>,

@@ -37,7 +37,7 @@ pub enum Condition {
 pub enum Number {
     /// A constant.
     Constant(i32),
-    /// What a device holds.
+    /// Value of a device.
     Of(Target),
 }
 
@@ -50,21 +50,21 @@ pub enum Property {
     Always(Condition),
     /// There is a run after which the condition holds.
     Reachable(Condition),
-    /// When the first condition begins to hold, the second holds after the same scan, or after one at most this many
-    /// milliseconds later.
+    /// A condition that must be followed by another after the same scan, or after one at most this many milliseconds
+    /// later.
     Whenever {
-        /// What begins.
+        /// Triggering condition.
         when: Condition,
-        /// What must follow.
+        /// Condition that must follow.
         then: Condition,
-        /// How soon, in milliseconds.
+        /// Time limit in milliseconds.
         within_ms: u32,
     },
     /// Once the condition holds, it holds after every later scan, until one after which the other holds.
     Stays {
-        /// What stays.
+        /// Condition that must keep holding.
         holds: Condition,
-        /// What ends it.
+        /// Condition that ends it.
         until: Condition,
     },
 }
@@ -102,7 +102,7 @@ impl Condition {
         }
     }
 
-    /// What it looks at, on a machine now: names as test files have them, first devices, values.
+    /// Values that it depends on, on a machine now: names as in test files, first devices, values.
     pub fn values(&self, machine: &Machine) -> Vec<(String, (DeviceClass, u32), i64)> {
         let mut found = Vec::new();
         self.targets(&mut |target| {
@@ -122,7 +122,7 @@ impl Condition {
         found
     }
 
-    /// What it is after the scan, as logic.
+    /// Value after the scan, as logic.
     pub fn encode(&self, encoder: &mut Encoder) -> Lit {
         match self {
             Condition::Constant(on) => (*on).into(),
@@ -146,7 +146,7 @@ impl Condition {
         }
     }
 
-    /// Whether it holds of devices now.
+    /// Returns true if it holds for the devices now.
     pub fn holds(&self, devices: &impl Devices) -> bool {
         match self {
             Condition::Constant(on) => *on,
@@ -165,7 +165,7 @@ impl Condition {
     }
 }
 
-/// How a target is read; `None` if conditions cannot ask for it.
+/// Access to a target; `None` if conditions cannot use it.
 fn access(target: Target) -> Option<(AccessKind, DeviceClass, u32)> {
     Some(match target {
         Target::Bit(class, number) => (AccessKind::Bit, class, number),
@@ -224,7 +224,7 @@ impl Devices for Machine<'_> {
     }
 }
 
-/// What devices hold; 0 of what conditions cannot ask for.
+/// Value of devices; 0 for targets that conditions cannot use.
 pub fn read(devices: &impl Devices, target: Target) -> i32 {
     let Some((kind, class, number)) = access(target) else {
         return 0;
@@ -259,12 +259,12 @@ impl Property {
         }
     }
 
-    /// Whether what is searched for is wanted: a run is then no violation but the answer.
+    /// Returns true if the event is wanted: a run is then no violation but the answer.
     pub fn is_wanted(&self) -> bool {
         matches!(self, Property::Reachable(_))
     }
 
-    /// What must not happen, or what is searched for, as logic.
+    /// Event that must not happen, or is searched for, as logic.
     pub fn encode(&self, encoder: &mut Encoder) -> Lit {
         let bad = match self {
             Property::Never(condition) | Property::Reachable(condition) => {
@@ -292,7 +292,7 @@ impl Property {
     }
 }
 
-/// Whether what must follow is late: more milliseconds have passed since it was asked for.
+/// Bit that is on if the required condition is late: more milliseconds have passed since the trigger.
 fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
     if within_ms == 0 {
         return encoder.aig.and(when, !then);
@@ -343,8 +343,8 @@ impl<'p> Watcher<'p> {
         }
     }
 
-    /// Whether what is searched for has happened in the scan that has just ended, which began `elapsed_ms` after the
-    /// one before.
+    /// Returns true if the event has happened in the scan that has just ended, which began `elapsed_ms` after the one
+    /// before.
     pub fn happened(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
         match self.property {
             Property::Never(condition) | Property::Reachable(condition) => condition.holds(devices),

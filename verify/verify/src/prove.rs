@@ -13,18 +13,18 @@ use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-/// How to decide.
+/// Options of a decision.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What is supposed of the world around the program.
+    /// Assumptions about the environment of the program.
     pub world: World,
-    /// What holds after every scan.
+    /// Conditions that hold after every scan.
     pub assumed: Vec<Condition>,
-    /// How long to try, for each property.
+    /// Time limit for each property.
     pub time: Duration,
 }
 
-/// What was found of a property.
+/// Verdict on a property.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
     /// No run of the model does what must not happen.
@@ -35,27 +35,27 @@ pub enum Verdict {
     Undecided(Why),
 }
 
-/// Why a property is not decided.
+/// Reason for which a property is not decided.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Why {
     /// The time was up after this many scans without what is searched for.
     Time {
-        /// How many.
+        /// Number of scans.
         scans: usize,
     },
     /// The model allows a run of this many scans, but the program does otherwise: something in it is not modelled.
     Spurious {
-        /// How many.
+        /// Number of scans.
         scans: usize,
     },
     /// No run of this many scans keeps the assumptions.
     Contradiction {
-        /// How many.
+        /// Number of scans.
         scans: usize,
     },
     /// A run happens on the interpreter, but not on another engine.
     Engines {
-        /// Which engine, and how it differs.
+        /// The engine, and the difference.
         difference: String,
     },
 }
@@ -63,7 +63,7 @@ pub enum Why {
 /// A verdict, and how it is known.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// What was found.
+    /// The verdict.
     pub verdict: Verdict,
     /// The proof, of what is proved.
     pub proof: Option<Proof>,
@@ -90,24 +90,24 @@ impl From<Proof> for Answer {
 /// A verdict, and what it is about.
 #[derive(Clone, Debug)]
 pub struct Decision {
-    /// What was found.
+    /// The verdict.
     pub verdict: Verdict,
     /// The proof, of what is proved.
     pub proof: Option<Proof>,
-    /// What the model leaves open, of what the property depends on.
+    /// Parts that the property depends on and the model leaves open.
     pub gaps: Vec<Gap>,
     /// Devices that the property depends on, that the program reads and never writes: they count as inputs.
     pub unwritten: Vec<Key>,
     /// Devices of [`World::free`] that the property depends on.
     pub free: Vec<Key>,
-    /// How many bits of memory the property depends on.
+    /// Number of bits of memory that the property depends on.
     pub latches: usize,
 }
 
-/// How many scans induction supposes at most.
+/// Most scans that induction assumes.
 pub(crate) const INDUCTION: usize = 12;
 
-/// What a property asks, as a system of what it depends on, and the program's logic that it was cut out of.
+/// System of the parts that a property depends on, and the program's logic that it was cut out of.
 pub fn system<'m>(
     module: &'m Module,
     property: &Property,
@@ -136,13 +136,13 @@ pub trait Question {
     /// Runs a trace on the interpreter; after how many of its scans what is searched for has happened.
     fn happens(&self, trace: &Trace) -> Option<usize>;
 
-    /// Whether the answer may abstract from when timers expire.
+    /// Returns true if the answer may abstract from the time at which timers expire.
     fn abstracts_timers(&self) -> bool {
         true
     }
 }
 
-/// Whether a program has a property.
+/// Question whether a program has a property.
 struct OfProperty<'a> {
     module: &'a Module,
     property: &'a Property,
@@ -200,7 +200,7 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 /// A time, in milliseconds, in which every timer expires.
 pub(crate) const FOREVER_MS: u32 = 4_000_000;
 
-/// How long each way is tried at first, and how many times longer in the next round.
+/// Initial time for each way, and its factor in the next round.
 const ROUND: (Duration, u32) = (Duration::from_millis(500), 4);
 
 /// Bounded search and induction side by side; then, in rounds that give each of them more time, the ways of [`Ways`];
@@ -242,7 +242,7 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, deadline: I
     hunt.undecided().into()
 }
 
-/// When this part of the time that is left will be over: 4 is a quarter.
+/// End of this part of the remaining time: 4 is a quarter.
 fn share(deadline: Instant, parts: u32) -> Instant {
     let now = Instant::now();
     now + deadline.saturating_duration_since(now) / parts
@@ -251,7 +251,7 @@ fn share(deadline: Instant, parts: u32) -> Instant {
 /// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
 struct Attempt<'a> {
     posed: LazyCell<Posed, Box<dyn FnOnce() -> Posed + 'a>>,
-    /// Whether an invariant may exist.
+    /// True if an invariant may exist.
     may_hold: bool,
 }
 
@@ -287,7 +287,7 @@ impl<'a> Attempt<'a> {
     }
 }
 
-/// What may answer a question that needs many scans.
+/// Ways to answer a question that needs many scans.
 struct Ways<'a> {
     question: &'a dyn Question,
     world: &'a World,
@@ -338,7 +338,7 @@ impl<'a> Ways<'a> {
         }
     }
 
-    /// Whether no proof can be found any more, nor a run that the interpreter confirms.
+    /// Returns true if no proof can be found any more, nor a run that the interpreter confirms.
     fn are_exhausted(&self, hunt: &Hunt) -> bool {
         let mut attempts = [&self.free_scan_times, &self.as_it_is]
             .into_iter()
@@ -402,7 +402,7 @@ struct Hunt<'a> {
     /// The most milliseconds from one scan of the program to the next.
     scan_ms: u32,
     bounded: Bounded<'a>,
-    /// How long the first run was that the interpreter did not confirm.
+    /// Length of the first run that the interpreter did not confirm.
     spurious: Option<usize>,
 }
 
@@ -502,7 +502,7 @@ mod tests {
             .map(|attempt| attempt.invariant(options.time, deadline))
             .into();
         assert!(proofs.iter().all(Option::is_some));
-        // What bits always hold is part of the proof.
+        // Invariants of bits are part of the proof.
         assert!(
             proofs[2]
                 .as_ref()
@@ -542,7 +542,7 @@ mod tests {
         let module = module(list);
         let options = Options {
             world: World::default(),
-            // What breaks an assumption does not end a run.
+            // A violated assumption does not end a run.
             assumed: vec![parse("!(X001 & X002)", &|_| Vec::new()).unwrap()],
             time: Duration::from_secs(120),
         };

@@ -1,4 +1,4 @@
-//! What memory always holds: bits that never change, and bits that are always equal or always opposite.
+//! Invariants of memory: bits that never change, and bits that are always equal or always opposite.
 //!
 //! Runs by chance sort bits into classes; one induction over all classes at once proves them, or a scan that breaks
 //! one divides it (C. A. J. van Eijk, "Sequential equivalence checking based on structural similarities", 2000). A
@@ -21,21 +21,21 @@ const SCANS: u32 = 60;
 pub struct Reduced {
     /// The system.
     pub system: System,
-    /// What was proved of the system before.
+    /// Proved facts about the original system.
     pub facts: Vec<Fact>,
     /// The numbers of its latches in the system before.
     kept: Vec<usize>,
-    /// What each node of the system before is in it.
+    /// Counterparts of the original system's nodes.
     nodes: Vec<Lit>,
 }
 
 impl Reduced {
-    /// What a literal of the system before is.
+    /// Counterpart of a literal of the original system.
     pub fn lit(&self, lit: Lit) -> Lit {
         self.nodes[lit.node()].invert_if(lit.is_inverted())
     }
 
-    /// What the question depends on alone, and the numbers of its latches in the system before.
+    /// The part that the question depends on, and the numbers of its latches in the original system.
     pub fn sliced(&self) -> (System, Vec<usize>) {
         let wanted = self.system.cone(self.system.bad);
         let latches = self.system.latches.iter().zip(&self.kept);
@@ -162,7 +162,7 @@ fn substituted(system: &System, classes: &Classes) -> Reduced {
     }
 }
 
-/// What classes mean.
+/// Facts expressed by classes.
 fn facts(classes: &Classes) -> Vec<Fact> {
     let mut first: FxHashMap<usize, usize> = FxHashMap::default();
     let members = classes.iter().enumerate();
@@ -183,7 +183,7 @@ fn facts(classes: &Classes) -> Vec<Fact> {
         .collect()
 }
 
-/// Whether classes that hold before a scan hold after it; if not, they are divided. `None`: the time is up.
+/// Checks that classes that hold before a scan hold after it; if not, they are divided. `None`: the time is up.
 fn holds(
     system: &System,
     reduced: &Reduced,
@@ -229,7 +229,7 @@ fn holds(
     Some(all_hold)
 }
 
-/// What each latch holds after the scan that a solver has found.
+/// Value of each latch after the scan that a solver has found.
 fn after(system: &System, reduced: &Reduced, solver: &Solver) -> Vec<u64> {
     let nodes = reduced.system.aig.nodes();
     let mut values = vec![false; nodes.len()];

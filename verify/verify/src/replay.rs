@@ -220,19 +220,19 @@ pub type Setting = (String, (DeviceClass, u32), i64);
 /// Equal scans of a run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Change {
-    /// What is set before the first scan of the run.
+    /// Settings before the first scan of the run.
     pub start: Vec<Setting>,
     /// The first of the scans, from 0.
     pub first: usize,
-    /// How many.
+    /// Number of scans.
     pub scans: usize,
-    /// When the first begins, in milliseconds since power-on.
+    /// Start of the first, in milliseconds since power-on.
     pub at_ms: u64,
     /// Milliseconds from each of them to the next scan.
     pub scan_ms: u32,
-    /// What changes before the first of them.
+    /// Settings before the first of them.
     pub set: Vec<Setting>,
-    /// What changes in the buffer memory of special modules: module, address, value.
+    /// Changes in the buffer memory of special modules: module, address, value.
     pub buffers: Vec<(u8, u32, i64)>,
     /// At the end of the run: what the property looks at.
     pub after: Vec<Setting>,
@@ -299,7 +299,7 @@ fn in_buffer((key, &value): (&Key, &i64)) -> Option<(u8, u32, i64)> {
     }
 }
 
-/// What test files call a piece of memory, if they can set it.
+/// Name of a piece of memory in test files, if they can set it.
 fn name(key: Key) -> Option<String> {
     let (class, number) = device_of(key)?;
     let device = class.number(number);

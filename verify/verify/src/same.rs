@@ -1,4 +1,4 @@
-//! Whether two programs do the same: their outputs, in every run with the same inputs.
+//! Equivalence of two programs: of their outputs, in every run with the same inputs.
 //!
 //! Both become one system ([`product`]). What is equal in it by construction, or by an induction over all memory that
 //! both have, needs no further proof; of each other output it is asked whether it can differ, and a run in which it
@@ -20,32 +20,32 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-/// What was found of an output of two programs.
+/// Result for an output of two programs.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// Its number, Y.
     pub number: u32,
-    /// Whether it can differ: [`Verdict::Proved`] if it cannot.
+    /// Verdict: [`Verdict::Proved`] if it cannot differ.
     pub verdict: Verdict,
     /// The proof that it is the same, if it is not part of what both programs have in common.
     pub proof: Option<Proof>,
-    /// What the answer depends on and is not modelled.
+    /// Operations that the answer depends on and that are not modelled.
     pub gaps: Vec<Gap>,
-    /// How long it took.
+    /// Duration.
     pub time: Duration,
 }
 
-/// What was found of two programs.
+/// Result for two programs.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// All outputs that one of them has.
     pub outputs: Vec<Output>,
-    /// Whether modules, serial ports and pulse outputs are proved to be used in the same way.
+    /// True if modules, serial ports and pulse outputs are proved to be used in the same way.
     pub same_outside: bool,
-    /// What is not modelled in either, taken to be the same function in both.
+    /// Operations not modelled in either, assumed to be the same function in both.
     pub functions: Vec<Gap>,
-    /// What is never the case: that a scan which begins with the same in all memory that both have in common ends with
-    /// a difference in it.
+    /// Formula that is never satisfied: a scan begins with equal values in all memory that both have in common, and
+    /// ends with a difference in it.
     pub apart: Formula,
 }
 
@@ -120,7 +120,7 @@ impl Output {
     }
 }
 
-/// Whether an output of two programs can differ.
+/// Question whether an output of two programs can differ.
 struct Differs<'a> {
     modules: [&'a Module; 2],
     number: u32,
@@ -162,7 +162,7 @@ impl Question for Differs<'_> {
         None
     }
 
-    /// When a timer expires must be the same in both.
+    /// Returns false: timers must expire at the same time in both.
     fn abstracts_timers(&self) -> bool {
         false
     }

@@ -37,15 +37,15 @@ impl Not for SatLit {
     }
 }
 
-/// What decides clauses.
+/// Engine that decides clauses.
 trait Engine: Sized {
-    /// One that gives up at this time.
+    /// An engine that gives up at this time.
     fn new(deadline: Instant) -> Self;
 
     /// Adds a clause.
     fn clause(&mut self, lits: &[SatLit]);
 
-    /// Whether all clauses can hold together with these.
+    /// Decides whether all clauses can hold together with these.
     fn solve(&mut self, assumed: &[SatLit]) -> Answer;
 
     /// After [`Answer::Sat`], before another clause: whether a variable is on; what does not matter is off.
@@ -127,7 +127,7 @@ impl Solver {
         })
     }
 
-    /// Whether all that was added can hold together with these.
+    /// Decides whether all that was added can hold together with these.
     pub fn solve(&mut self, assumed: &[SatLit]) -> Answer {
         self.engine.solve(assumed)
     }

@@ -11,18 +11,18 @@ use std::time::Instant;
 /// A run that the model allows: what it begins with, and the inputs of each scan.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Trace {
-    /// What latched memory holds at first.
+    /// Initial values of latched memory.
     pub start: BTreeMap<Key, i64>,
-    /// What happens before each scan.
+    /// Events before each scan.
     pub scans: Vec<Scan>,
 }
 
-/// What happens before a scan.
+/// Events before a scan.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Scan {
     /// Milliseconds since the scan before.
     pub ms: u32,
-    /// How long the scan before took, in units of 0.1 ms.
+    /// Duration of the scan before, in units of 0.1 ms.
     pub scan_time: u32,
     /// Devices that something other than the program sets.
     pub set: BTreeMap<Key, i64>,
@@ -48,7 +48,7 @@ impl<'s> Bounded<'s> {
         }
     }
 
-    /// How many scans were searched.
+    /// Number of scans searched.
     pub fn scans(&self) -> usize {
         self.unroller.len()
     }
@@ -124,7 +124,7 @@ pub(crate) fn with_sign((key, value): (&Key, &mut i64)) {
     };
 }
 
-/// What one more scan has shown.
+/// Result of one more scan.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Step {
     /// It cannot violate the property.

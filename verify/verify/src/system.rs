@@ -11,11 +11,11 @@ pub struct Latch {
     pub now: Lit,
     /// The bit after it.
     pub next: Lit,
-    /// What it is at first; `None`: anything.
+    /// Initial value; `None`: any value.
     pub init: Option<bool>,
     /// The bit of the memory that it is.
     pub key: Key,
-    /// Which bit of that.
+    /// Number of the bit.
     pub bit: usize,
 }
 
@@ -28,19 +28,19 @@ pub struct System {
     pub latches: Vec<Latch>,
     /// The inputs of each scan, with what they are.
     pub inputs: Vec<(Lit, Input)>,
-    /// What holds in every scan.
+    /// Conditions that hold in every scan.
     pub constraints: Vec<Lit>,
-    /// What a search for a counterexample may suppose in addition, so that it can be replayed.
+    /// Additional assumptions for a counterexample, so that it can be replayed.
     pub wishes: Vec<Lit>,
     /// The same, of the first scan.
     pub first_wishes: Vec<Lit>,
-    /// What must not happen.
+    /// Event that must not happen.
     pub bad: Lit,
 }
 
 impl System {
-    /// What the answer depends on, alone: the cone of influence of `bad`. A constraint or a wish stays if it meets the
-    /// cone, and what it depends on belongs to the cone then.
+    /// The part that the answer depends on: the cone of influence of `bad`. A constraint or a wish stays if it meets
+    /// the cone, and what it depends on belongs to the cone then.
     pub fn sliced(&self) -> System {
         self.about(self.bad)
     }
@@ -50,7 +50,7 @@ impl System {
         self.keep(&self.cone(bad), bad)
     }
 
-    /// What the answer to a question depends on, by node.
+    /// Nodes that the answer to a question depends on.
     pub(crate) fn cone(&self, bad: Lit) -> Vec<bool> {
         let number_of = self.latch_numbers();
         let mut wanted = vec![false; self.aig.nodes().len()];

@@ -9,7 +9,7 @@ pub struct Unroller<'s> {
     system: &'s System,
     /// The graph of all scans so far.
     pub aig: Aig,
-    /// What each node of the system is, scan by scan.
+    /// Literal of each node of the system, scan by scan.
     scans: Vec<Vec<Lit>>,
     from_start: bool,
 }
@@ -25,17 +25,17 @@ impl<'s> Unroller<'s> {
         }
     }
 
-    /// How many scans there are.
+    /// Number of scans.
     pub fn len(&self) -> usize {
         self.scans.len()
     }
 
-    /// Whether there is none yet.
+    /// Returns true if there is none yet.
     pub fn is_empty(&self) -> bool {
         self.scans.is_empty()
     }
 
-    /// What a literal of the system is in a scan.
+    /// Literal of the system in a scan.
     pub fn at(&self, scan: usize, lit: Lit) -> Lit {
         self.scans[scan][lit.node()].invert_if(lit.is_inverted())
     }
@@ -77,7 +77,7 @@ impl<'s> Unroller<'s> {
             scan.push(match (*node, value) {
                 (Node::False, _) => Lit::FALSE,
                 (Node::Input(_), Some(value)) => value,
-                // What nothing names may be anything.
+                // Unnamed inputs may have any value.
                 (Node::Input(_), None) => self.aig.input(),
                 (Node::And(a, b), _) => {
                     let (a, b) = (of(a, &scan), of(b, &scan));

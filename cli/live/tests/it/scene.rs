@@ -1,4 +1,4 @@
-//! Where power flows in the ladder of a program that runs.
+//! Flow of power in the ladder of a running program.
 
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Machine;
@@ -25,7 +25,7 @@ fn compiled(list: &str) -> (Program, Module) {
     (program, module)
 }
 
-/// What `look` sees after each of `count` scans; `set` gives devices their values before.
+/// Results of `look` after each of `count` scans; `set` gives devices their values before.
 fn scans<T>(
     list: &str,
     count: u32,

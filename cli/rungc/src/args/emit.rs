@@ -1,4 +1,4 @@
-//! What `build` emits.
+//! Outputs of `build`.
 
 use clap::ValueEnum;
 use rungc_firmware::package::Kind;
@@ -51,7 +51,7 @@ impl Emit {
         }
     }
 
-    /// Where an output is written by default.
+    /// Default output path.
     pub fn default_output(self, name: &str) -> String {
         match self {
             Emit::C => format!("{name}-c"),
@@ -67,12 +67,12 @@ impl Emit {
         }
     }
 
-    /// Whether it is an image for a board.
+    /// Returns true for an image for a board.
     pub fn is_image(self) -> bool {
         matches!(self, Emit::Elf | Emit::Uf2)
     }
 
-    /// Whether C headers are emitted, with what is added to them on request.
+    /// Returns true if C headers are emitted, with optional parts on request.
     pub fn has_headers(self) -> bool {
         matches!(self, Emit::C | Emit::Lib) || self.package().is_some()
     }

@@ -112,7 +112,7 @@ impl From<PlcopenBody> for rungc_export::Body {
 }
 
 impl ConvertTo {
-    /// Whether it is a text that a terminal can show.
+    /// Returns true for a text that a terminal can show.
     pub const fn is_text(self) -> bool {
         match self {
             ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Plcopen | ConvertTo::Autoshop => true,
@@ -120,7 +120,7 @@ impl ConvertTo {
         }
     }
 
-    /// How the name of such a file ends.
+    /// File name extension.
     pub const fn ending(self) -> &'static str {
         match self {
             ConvertTo::Il => "il",
@@ -131,7 +131,7 @@ impl ConvertTo {
         }
     }
 
-    /// What this form is called, if it cannot store comments on devices.
+    /// Name of this form, if it cannot store comments on devices.
     pub const fn without_comments(self) -> Option<&'static str> {
         match self {
             ConvertTo::Il

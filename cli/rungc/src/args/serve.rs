@@ -70,7 +70,7 @@ pub struct PageArgs {
 }
 
 impl ServeArgs {
-    /// Whether there is a server, a connection or a page.
+    /// Returns true if there is a server, a connection or a page.
     pub fn any(&self) -> bool {
         !(self.modbus_tcp.is_empty()
             && self.mc.is_empty()

@@ -85,7 +85,7 @@ fn build(
     }
     let shares = reporter.many() && plan.shares();
     let name = match shares {
-        // What a Makefile takes as it is.
+        // A Makefile needs a plain name.
         true => module.name.clone(),
         false => file_name(&name, &module.name),
     };
@@ -133,7 +133,8 @@ fn build(
 }
 
 impl Plan {
-    /// Whether several programs come into one folder, where they share headers, the runtime's sources and a Makefile.
+    /// Returns true if several programs are written to one folder, where they share headers, the runtime's sources and
+    /// a Makefile.
     fn shares(&self) -> bool {
         self.emit == Some(Emit::C) && self.output.is_some() && self.board.is_none()
     }
@@ -162,7 +163,7 @@ impl Plan {
     }
 }
 
-/// What an image needs in addition to its program.
+/// Inputs of an image in addition to its program.
 struct ForImage {
     board: Board,
     script: Script,
@@ -227,7 +228,7 @@ impl ForImage {
         always.map(|serial| serial.port)
     }
 
-    /// Whether a serial port answers QLink.
+    /// Returns true if a serial port answers QLink.
     fn answers_qlink(&self) -> bool {
         self.board.serial.iter().any(|serial| serial.qlink)
     }
@@ -276,7 +277,7 @@ impl ForImage {
     }
 }
 
-/// How often flash can be erased, as most parts state it.
+/// Erasures that flash endures, as most parts state it.
 const ERASURES: u64 = 10_000;
 
 /// In days.
@@ -318,7 +319,7 @@ fn because(error: impl std::fmt::Display) -> Failure {
 
 /// A program to be emitted.
 struct Job<'a> {
-    /// What files are called after.
+    /// Base name of files.
     name: &'a str,
     cx: Context,
     plan: &'a Plan,
@@ -337,7 +338,7 @@ impl Job<'_> {
         self.image.map_or(self.target, |image| image.board.target)
     }
 
-    /// What to emit in C.
+    /// Options for C.
     fn options(&self, main: bool) -> sources::Options {
         sources::Options {
             main,
@@ -352,7 +353,7 @@ impl Job<'_> {
         }
     }
 
-    /// What to emit in Rust.
+    /// Options for Rust.
     fn rust_options(&self, runtime: Runtime) -> sources::RustOptions {
         sources::RustOptions {
             main: self.plan.main,
@@ -364,7 +365,7 @@ impl Job<'_> {
         }
     }
 
-    /// Where an emitted crate finds the runtime.
+    /// Location of the runtime for an emitted crate.
     fn runtime(&self) -> Built<Runtime> {
         match &self.plan.runtime {
             Some(folder) => runtime::shared(folder, &self.output(Emit::Rust), self.plan.force),
@@ -377,7 +378,7 @@ impl Job<'_> {
         announced(tools, self.cx)
     }
 
-    /// Where to write.
+    /// Output path.
     fn output(&self, emit: Emit) -> PathBuf {
         let given = self.plan.output.clone();
         given.unwrap_or_else(|| emit.default_output(self.name).into())
@@ -530,7 +531,7 @@ impl Job<'_> {
         payload.map(|payload| uf2::write(&payload)).map_err(because)
     }
 
-    /// What the program takes. An image that was written is measured as it is.
+    /// Resources of the program. An image that was written is measured as it is.
     fn measure(&self, written: Option<&Path>) -> Built<Report> {
         let (module, target) = (self.module, self.target());
         if let Some(image) = self.image {

@@ -60,7 +60,7 @@ fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Conte
     })
 }
 
-/// What the parameters of a project set, as lines.
+/// PLC parameters of a project, as lines.
 fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
     let mut lines = Vec::new();
     if let (Some(capacity), Some(steps)) = (parameters.capacity, parameters.program_steps()) {
@@ -91,7 +91,7 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
     lines.join("\n")
 }
 
-/// How many devices the program names; pointers and nesting levels are none.
+/// Number of devices that the program names, without pointers and nesting levels.
 fn devices(program: &Program) -> usize {
     let operands = program.instrs.iter().flat_map(|instr| &instr.operands);
     let named = operands.filter_map(|operand| match operand.kind {

@@ -108,7 +108,7 @@ pub fn written(
         ConvertTo::Plcopen if program.is_complete() => {
             to_plcopen(program, model(program, options), body.into(), diagnostics).into_bytes()
         }
-        // What could not be read has been reported.
+        // Unreadable parts have been reported.
         ConvertTo::Image | ConvertTo::Plcopen | ConvertTo::Autoshop => Vec::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! What rungc.toml gives where the command line leaves something open.
+//! Defaults from rungc.toml for the command line.
 
 use super::Failure;
 use super::subject::Subject;
@@ -45,7 +45,7 @@ fn emit(project: &Project) -> Result<Option<Emit>, Error> {
     choice(project, project.build.emit.as_ref(), "form to emit")
 }
 
-/// What test files run on.
+/// Engine for test files.
 pub fn engine(project: &Project) -> Result<Option<EngineChoice>, Error> {
     choice(project, project.test.engine.as_ref(), "engine")
 }

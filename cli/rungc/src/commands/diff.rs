@@ -44,7 +44,7 @@ pub fn run(args: &DiffArgs, cx: Context) -> Result {
 
 /// One of two programs.
 struct Side {
-    /// What it is called.
+    /// Name of the program.
     name: String,
     subject: Option<Subject>,
     read: Read,
@@ -107,7 +107,7 @@ struct Compared<'a> {
     old: Drawn<'a>,
     new: Drawn<'a>,
     comparison: Comparison,
-    /// What they do, if that was asked.
+    /// Difference in behaviour, if requested.
     behaviour: Option<Behaviour>,
     /// Outputs that are proved the same.
     proved: Vec<u32>,
@@ -172,7 +172,7 @@ fn compared<'a>(
     }
 }
 
-/// What both programs do, compared.
+/// Comparison of the behaviour of both programs.
 fn of_both(old: &Side, new: &Side) -> Behaviour {
     let modules = [old, new].map(|side| {
         let module = compile(&side.read.program, &side.options()).module;
@@ -197,7 +197,7 @@ fn list(runs: &[&DeviceRun]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// How many instructions are named that keep a comparison from saying more.
+/// Most instructions named as limiting the comparison.
 const MOST_NAMED: usize = 12;
 
 impl Compared<'_> {
@@ -222,7 +222,7 @@ impl Compared<'_> {
         named.collect()
     }
 
-    /// What a comparison of behaviour says, in sentences.
+    /// Result of comparing the behaviour, in sentences.
     fn in_words(&self) -> Vec<String> {
         let mut words = match &self.behaviour {
             Some(behaviour) => in_words(behaviour, &self.proved),
@@ -249,7 +249,7 @@ impl Compared<'_> {
     }
 }
 
-/// What a comparison of behaviour says, in sentences.
+/// Result of comparing the behaviour, in sentences.
 fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
     match behaviour {
         Behaviour::Same => vec![

@@ -86,7 +86,7 @@ fn plc_error_page(number: u16) -> Option<String> {
     Some(page)
 }
 
-/// What a variant or base unit does not have.
+/// Features missing from a variant or base unit.
 fn variant_page(variant: &Variant) -> String {
     let family = Model::get(variant.model);
     let mut page = format!(
@@ -123,7 +123,7 @@ fn variant_page(variant: &Variant) -> String {
     page
 }
 
-/// What a special device means on one model.
+/// Meaning of a special device on one model.
 fn special_page(topic: &str, model: ModelId) -> Option<String> {
     let (class, digits) = match topic.split_at_checked(1)? {
         ("M", digits) => (DeviceClass::M, digits),

@@ -172,7 +172,7 @@ impl Searched<'_> {
         Ok(())
     }
 
-    /// Whether this is a fault of the program: all but what `--reachable` asks for.
+    /// Returns true if this is a fault of the program: all but the goals of `--reachable`.
     fn is_fault(&self, found: &Found) -> bool {
         match found.what {
             What::Property(number) => !self.asked[number].property.is_wanted(),

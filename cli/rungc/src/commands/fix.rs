@@ -91,7 +91,7 @@ impl Fixed {
     }
 }
 
-/// What is reported about a program.
+/// Diagnostics of a program.
 fn found(subject: &Subject, read: &Read) -> Vec<Diagnostic> {
     let checked = compile::check(&read.program, &subject.options());
     findings(subject, read, &checked).diagnostics

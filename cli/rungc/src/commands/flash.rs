@@ -77,7 +77,7 @@ fn failed(code: &Code, why: &str) -> Outcome {
     }
 }
 
-/// Why nothing more is done.
+/// Reason to stop.
 enum Stop {
     Because(Failure),
     /// The board does not allow it.
@@ -92,12 +92,12 @@ impl From<Failure> for Stop {
 
 type Done<T> = std::result::Result<T, Stop>;
 
-/// What goes wrong before anything is erased.
+/// Error before anything is erased.
 fn early(error: LoaderError) -> Stop {
     Stop::Failed(&codes::BOOT_LOADER_SILENT, error.to_string())
 }
 
-/// What goes wrong while the image is written.
+/// Error while the image is written.
 fn late(error: FlashError) -> Stop {
     let why = match &error {
         FlashError::Loader(LoaderError::Rejected(_)) => {
@@ -232,7 +232,7 @@ impl Board {
         Ok(())
     }
 
-    /// What is lost for ever.
+    /// Warning about the data that are lost for ever.
     fn loss(&self, plan: &Plan, args: &FlashArgs) -> String {
         if !self.is_readable {
             return "All of flash is erased: the firmware and the PLC program in it are lost for ever. The part is read protected: they cannot \

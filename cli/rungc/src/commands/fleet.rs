@@ -145,7 +145,7 @@ fn compile(
     }
 }
 
-/// What the file sets, and the devices of that.
+/// Settings of the file, and their devices.
 type Settings = (Vec<Setting>, Vec<(DeviceClass, u32)>);
 
 fn settings(plcs: &Plcs) -> std::result::Result<Settings, Box<Diagnostic>> {
@@ -166,7 +166,7 @@ fn settings(plcs: &Plcs) -> std::result::Result<Settings, Box<Diagnostic>> {
     Ok((settings, devices))
 }
 
-/// Whether the program has all devices that are set.
+/// Checks that the program has all devices that are set.
 fn check_settings(
     group: &mut Group<'_>,
     plcs: &Plcs,

@@ -7,13 +7,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What UTF-8 may begin with.
+/// Byte-order mark of UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// An instruction list as a file that can be replaced.
 pub struct InPlace {
     file: PathBuf,
-    /// Whether it begins with a byte-order mark.
+    /// True if it begins with a byte-order mark.
     marked: bool,
 }
 

@@ -9,7 +9,7 @@ use std::time::Duration;
 /// Exit code of a command that was interrupted, as shells have it: 128 and the number of the signal.
 pub const EXIT_CODE: u8 = 130;
 
-/// How long a command may take to notice.
+/// Time allowed for a command to react.
 const GRACE: Duration = Duration::from_secs(2);
 
 static ASKED: AtomicBool = AtomicBool::new(false);
@@ -26,7 +26,7 @@ pub fn note_for_a_while() {
 }
 
 fn install(grace: Option<Duration>) {
-    // Where the system takes no handler, it ends the process as if there were none.
+    // If the system accepts no handler, it ends the process as if there were none.
     let _ = ctrlc::set_handler(move || {
         if ASKED.swap(true, Ordering::Relaxed) {
             process::exit(EXIT_CODE.into());
@@ -40,7 +40,7 @@ fn install(grace: Option<Duration>) {
     });
 }
 
-/// Whether the command has been interrupted.
+/// Returns true if the command has been interrupted.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }

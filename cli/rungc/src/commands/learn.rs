@@ -83,7 +83,7 @@ fn plain(text: &str) -> String {
     text::one_line(text).into_owned()
 }
 
-/// Whether two mnemonics are spellings of one instruction, such as `ECMP` and `DECMP`.
+/// Returns true if two mnemonics are spellings of one instruction, such as `ECMP` and `DECMP`.
 fn same(a: &str, b: &str) -> bool {
     a == b
         || match (rungc_catalogue::find(a), rungc_catalogue::find(b)) {
@@ -182,7 +182,7 @@ fn with_tokens(text: &str, lessons: &[Lesson]) -> std::result::Result<String, St
     })
 }
 
-/// What others need to know to learn the same.
+/// Report by which others can learn the same codes.
 fn letter(lessons: &[Lesson], project: &Read) -> String {
     let editor = project.program.kind.title();
     let cpu = project.program.cpu.as_deref().unwrap_or("not named");

@@ -43,7 +43,7 @@ use std::path::{Path, PathBuf};
 use subject::Subject;
 use tempfile::NamedTempFile;
 
-/// How a command ended, the worst last.
+/// Outcome of a command, the worst last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Outcome {
     /// Exit code 0.
@@ -68,10 +68,10 @@ impl Outcome {
     }
 }
 
-/// Why a command could not do its work.
+/// Reason for which a command could not do its work.
 #[derive(Debug)]
 pub enum Failure {
-    /// Why a command cannot run: exit code 2.
+    /// Reason for which a command cannot run: exit code 2.
     Because(String),
     /// The same, where the report already says it.
     Reported,
@@ -104,21 +104,21 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// What a command returns.
+/// Result of a command.
 pub type Result = std::result::Result<Outcome, Failure>;
 
-/// What every command knows.
+/// Context of every command.
 #[derive(Clone, Copy, Debug)]
 pub struct Context {
-    /// Whether to colour what goes to standard error.
+    /// True if standard error is coloured.
     pub color: bool,
-    /// Whether standard output carries what the command makes, so that a report for tools goes to standard error.
+    /// True if standard output carries the command's result, so that a report for tools goes to standard error.
     pub stdout_in_use: bool,
-    /// How much to say about what is done.
+    /// Verbosity of messages.
     pub verbosity: Verbosity,
 }
 
-/// How much to say about what is done.
+/// Verbosity of messages.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Verbosity {
     /// Nothing: diagnostics and results alone.
@@ -223,7 +223,7 @@ pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 
-/// What reading a program found.
+/// Findings of reading a program.
 pub fn found_reading<'a>(subject: &'a Subject, read: &'a Read) -> Findings<'a> {
     let diagnostics = read.diagnostics.clone();
     Findings::new(
@@ -234,7 +234,7 @@ pub fn found_reading<'a>(subject: &'a Subject, read: &'a Read) -> Findings<'a> {
     )
 }
 
-/// What reading and compiling a program found.
+/// Findings of reading and compiling a program.
 pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
     diagnostics.refine(&compiled.diagnostics);
@@ -361,13 +361,13 @@ impl AtomicFile {
         })
     }
 
-    /// What is written to goes into the file.
+    /// Writer to the file.
     pub fn writer(&self) -> std::result::Result<BufWriter<File>, Failure> {
         let file = self.file.reopen().map_err(|error| self.failed(error))?;
         Ok(BufWriter::new(file))
     }
 
-    /// What went wrong, with the file's name.
+    /// Error with the file's name.
     pub fn failed(&self, error: io::Error) -> Failure {
         Failure::Because(format!("{}: {error}", self.path.display()))
     }
@@ -380,7 +380,7 @@ impl AtomicFile {
     }
 }
 
-/// What the system says, without the path that a library may have added to it.
+/// Error of the system, without the path that a library may have added to it.
 pub fn plain(error: io::Error) -> io::Error {
     match (error.raw_os_error(), error.get_ref()) {
         (None, Some(_)) => error.kind().into(),
@@ -395,8 +395,8 @@ pub fn parent_dir(path: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-/// What files made of a program are called: its name in any script, without what no file system takes. A name in ASCII
-/// is that of the module.
+/// Base name of files made from a program: its name in any script, without characters that no file system accepts. A
+/// name in ASCII is that of the module.
 pub fn file_name(stem: &str, module: &str) -> String {
     if stem.is_ascii() {
         return module.to_string();

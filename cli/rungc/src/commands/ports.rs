@@ -1,17 +1,17 @@
-//! What is said of a program's serial ports.
+//! Lines about a program's serial ports.
 
 use super::subject::Subject;
 use crate::args::{Emit, Plan};
 use rungc_analysis::check::ports::Setup;
 use rungc_project::Range;
 
-/// What a program makes of a serial port, as a line.
+/// Line about a serial port's set-up.
 pub fn line(port: &Setup) -> String {
     format!("        Port {port}")
 }
 
-/// What the ports of an emitted program serve, as a line; `None` if none of them serves devices, or if the form of
-/// output has no ports.
+/// Line about the devices served by an emitted program's ports; `None` if none of them serves devices, or if the form
+/// of output has no ports.
 pub fn served(ports: &[Setup], plan: &Plan, subject: &Subject) -> Option<String> {
     // With servers, everything is stored.
     let emits = plan.emit.is_some_and(|emit| emit != Emit::Ir) && !plan.servers;

@@ -1,4 +1,5 @@
-//! What the command line and the settings of a project ask of a program: for all commands that look for runs.
+//! Properties of a program from the command line and the settings of its project: for all commands that search for
+//! runs.
 
 use super::subject::{self, Subject};
 use super::{Context, Failure, findings};
@@ -22,24 +23,24 @@ type Result<T> = std::result::Result<T, Failure>;
 /// The longest time from one scan to the next, in milliseconds: after that, the watchdog stops most models.
 const SCAN_MS: u64 = 200;
 
-/// What something other than the program may write, beside terminals.
+/// Devices that may be written from outside the program, beside terminals.
 #[derive(Default)]
 pub struct Outside {
     /// Devices, with what says so: an option or a table of the settings.
     pub devices: BTreeMap<(DeviceClass, u32), &'static str>,
-    /// Whether the settings name servers, whose clients could write other devices, too.
+    /// True if the settings name servers, whose clients could write other devices, too.
     pub has_clients: bool,
 }
 
 impl Outside {
-    /// What names the devices, each once.
+    /// Sources that name the devices, each once.
     pub fn sources(&self) -> Vec<&'static str> {
         BTreeSet::from_iter(self.devices.values().copied())
             .into_iter()
             .collect()
     }
 
-    /// What says that a device is written, by its usual name.
+    /// Source for the write of a device, by its usual name.
     pub fn source(&self, model: &Model, device: (DeviceClass, u32)) -> Option<&'static str> {
         let mut devices = self.devices.iter();
         let found = devices.find(|&(&(class, number), _)| model.canonical(class, number) == device);
@@ -51,7 +52,7 @@ impl Outside {
 pub struct Asked {
     /// As it is written: `never Y000 & Y001`.
     pub text: String,
-    /// What it means.
+    /// Meaning.
     pub property: Property,
 }
 
@@ -108,7 +109,7 @@ impl Reader<'_> {
             })
     }
 
-    /// What something other than the program may write, by the command line and the settings.
+    /// Devices that may be written from outside the program, by the command line and the settings.
     pub fn outside(&self) -> Outside {
         let mut outside = Outside::default();
         let devices = &mut outside.devices;

@@ -19,7 +19,7 @@ use std::time::Instant;
 const CHUNK: usize = 0x40;
 /// Bytes that a word has.
 const WORD: usize = 2;
-/// Where the PLC shows its type and version.
+/// Request for the PLC's type and version.
 const TYPE: &[u8] = b"00E0202";
 /// M8000, by a command that only FX3 knows.
 const FX3_ONLY: &[u8] = b"F50100060";
@@ -90,7 +90,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
 /// A PLC that has answered.
 struct Plc {
     client: Client,
-    /// What D8001 shows.
+    /// Content of D8001.
     type_code: u16,
     cpu: Option<&'static str>,
 }
@@ -117,7 +117,7 @@ impl Plc {
         })
     }
 
-    /// What people call it.
+    /// Name for users.
     fn title(&self) -> String {
         match self.cpu {
             Some(cpu) => format!("{cpu} (D8001 = {})", self.type_code),
@@ -162,7 +162,7 @@ impl Plc {
             .failure("the program memory holds no program that ends with END"))
     }
 
-    /// How long the memory is up to `END`, where the PLC finds it.
+    /// Length of the memory up to `END`, where the PLC finds it.
     fn end(&mut self) -> std::result::Result<Option<usize>, Failure> {
         let reply = self.client.ask(b"E41805C0F00")?;
         let address = match &reply {

@@ -44,16 +44,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 pub use watch::STANDARD_ERROR;
 
-/// How many devices are shown when none are asked for.
+/// Number of devices shown by default.
 const DEFAULT_COLUMNS: usize = 12;
 
 /// Special relays and registers have numbers from here on; they are shown only when asked for.
 const SPECIAL_FIRST: u32 = 8000;
 
-/// Which devices a run shows when none are asked for.
+/// Devices shown in a run by default.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Table {
-    /// What the program writes.
+    /// Devices that the program writes.
     Usual,
     /// None.
     Asked,
@@ -160,7 +160,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     run.simulate(plant, live, recorder)
 }
 
-/// Whether a test can repeat the run: nothing but its settings and its machine acts on it.
+/// Checks that a test can repeat the run: nothing but its settings and its machine acts on it.
 fn repeatable(
     args: &RunArgs,
     subject: &Subject,
@@ -176,7 +176,7 @@ fn repeatable(
     Err(Failure::Because(message))
 }
 
-/// What is set, in the order of the times.
+/// Settings in the order of their times.
 fn settings(args: &RunArgs) -> std::result::Result<Vec<Setting>, Failure> {
     let settings = args.set.iter().map(|text| setting(text));
     let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
@@ -233,7 +233,7 @@ fn machine(
     Ok(described)
 }
 
-/// Where a run keeps latched devices: in the file of the command line, or in that of the project.
+/// File for the latched devices of a run: that of the command line, or that of the project.
 fn retained(args: &RunArgs, subject: &Subject) -> Option<Kept> {
     let project = subject.project.as_ref();
     let usual = || {
@@ -258,7 +258,7 @@ fn report_still_axes(plant: Option<&Plant>, module: &Module) {
     }
 }
 
-/// What a watched device is called: T0 rather than T0.value, since it is seen at once that it is a number.
+/// Name of a watched device: T0 rather than T0.value, since the display shows that it is a number.
 fn name(target: Target) -> String {
     match target {
         Target::Current(class, n) => class.number(n).to_string(),
@@ -272,18 +272,18 @@ fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
     (first..first.saturating_add(count)).map(move |n| (class, n))
 }
 
-/// Why the description of a machine cannot be used.
+/// Failure to use the description of a machine.
 pub(super) fn because(error: LoadError) -> Failure {
     Failure::Because(error.to_string())
 }
 
-/// Whether an axis follows an output at which the program never sends pulses.
+/// Returns true if an axis follows an output at which the program never sends pulses.
 fn stands_still(axis: &Axis, module: &Module) -> bool {
     let output = axis.pulse_output();
     output.is_some_and(|output| !module.pulse_outputs.contains(&output))
 }
 
-/// What the machine drives is not set by hand.
+/// Checks that inputs driven by the machine are not set by hand.
 fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Result<(), Failure> {
     let driven = settings.iter().find_map(|setting| {
         let mut devices = observed(setting.target);
@@ -299,7 +299,7 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
     }
 }
 
-/// What a run writes replaces what is there, but not what the run reads, nor what else it writes.
+/// Checks that the run's outputs replace existing files, but neither those that the run reads nor each other.
 fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Failure> {
     let mut used = vec![(real_path(&subject.file), "is the program")];
     if let Some(machine) = &args.machine {
@@ -343,8 +343,8 @@ fn real_path(path: &Path) -> PathBuf {
     })
 }
 
-/// What changes in a run, as far as a line holds it: the outputs that the program drives, the inputs that are set or
-/// that the machine drives, then the states, timers, counters, registers and relays that the program writes. Special
+/// Devices that change in a run, as many as fit in a line: the outputs that the program drives, the inputs that are set
+/// or that the machine drives, then the states, timers, counters, registers and relays that the program writes. Special
 /// devices are shown only when asked for.
 fn default_watch(
     program: &Program,
@@ -390,7 +390,7 @@ fn default_watch(
         .collect()
 }
 
-/// Whether the module stores all that a target covers.
+/// Returns true if the module stores all devices of a target.
 fn exists(target: Target, module: &Module) -> bool {
     let areas = &module.layout.areas;
     observed(target).all(|(class, n)| {

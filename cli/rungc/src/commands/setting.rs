@@ -7,9 +7,9 @@ use rungc_syntax::DeviceClass;
 /// `X000=1@200ms`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// When, in milliseconds.
+    /// Time in milliseconds.
     pub at_ms: u64,
-    /// Which.
+    /// Target to set.
     pub target: Target,
     /// To what.
     pub value: f64,
@@ -67,7 +67,7 @@ pub fn parse(text: &str) -> std::result::Result<Setting, String> {
     })
 }
 
-/// Whether a device can be set to a value; the error says why not.
+/// Checks that a device can be set to a value; the error states the reason if not.
 pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
     let fits = match target {
         Target::Bit(..) => value == 0.0 || value == 1.0,

@@ -16,13 +16,13 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Output {
     programs: Vec<Stats>,
 }
 
-/// What is counted of a program.
+/// Statistics of a program.
 #[derive(Serialize)]
 struct Stats {
     file: String,
@@ -33,17 +33,17 @@ struct Stats {
     networks: usize,
     instructions: Vec<Count>,
     devices: Vec<Count>,
-    /// How many devices have a comment.
+    /// Number of devices with a comment.
     comments: usize,
     /// The longest way through a scan, where the program can be compiled.
     #[serde(skip_serializing_if = "Option::is_none")]
     longest_scan: Option<Longest>,
-    /// How long all instructions take on the real PLC, once each.
+    /// Execution time of all instructions on the real PLC, once each.
     #[serde(skip_serializing_if = "Option::is_none")]
     scan_time: Option<ScanTime>,
 }
 
-/// How often something occurs.
+/// Number of occurrences.
 #[derive(Serialize)]
 struct Count {
     of: &'static str,
@@ -54,7 +54,7 @@ struct Count {
 struct Longest {
     /// Steps of the program that it passes.
     steps: u64,
-    /// What compiled code does on it: statements, operators, reads of devices.
+    /// Operations of the compiled code: statements, operators, reads of devices.
     operations: u64,
 }
 
@@ -126,7 +126,7 @@ fn stats(
     Ok((stats, outcome))
 }
 
-/// How many instructions of each family there are.
+/// Numbers of instructions of each family.
 fn instructions(resolved: &Resolved) -> Vec<Count> {
     let mut of_row: BTreeMap<&str, usize> = BTreeMap::new();
     for inst in resolved.instrs.iter().filter_map(|instr| instr.inst) {
@@ -143,7 +143,7 @@ fn instructions(resolved: &Resolved) -> Vec<Count> {
     counts.filter(|count| count.count > 0).collect()
 }
 
-/// How many devices of each class instructions name.
+/// Numbers of devices of each class that instructions name.
 fn devices(resolved: &Resolved) -> Vec<Count> {
     let xref = CrossReference::new(resolved);
     let counts = DeviceClass::ALL.into_iter().map(|class| {
@@ -264,7 +264,7 @@ impl fmt::Display for ScanTime {
     }
 }
 
-/// How a table of times names an instruction: an OUT by the class of its device.
+/// Name of an instruction in a table of times: an OUT by the class of its device.
 fn named(inst: &Inst, operand: Option<&OperandKind>) -> String {
     match operand {
         Some(OperandKind::Device(device, _)) if inst.name == "OUT" => {

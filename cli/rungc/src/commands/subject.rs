@@ -14,7 +14,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// How standard input is named.
+/// Name of standard input.
 const STDIN: &str = "-";
 
 /// One program, with what the command line and its project's settings say about it.
@@ -28,19 +28,19 @@ pub struct Subject {
     pub model: Option<ModelId>,
     /// The PLC of its family that the program is held to.
     pub variant: Option<&'static Variant>,
-    /// How to report diagnostics.
+    /// Options for reporting diagnostics.
     pub reporting: Reporting,
-    /// How to read it.
+    /// Options for reading.
     pub options: ReadOptions,
 }
 
 impl Subject {
-    /// Whether it is read from standard input.
+    /// Returns true if it is read from standard input.
     pub fn is_stdin(&self) -> bool {
         self.file == Path::new(STDIN)
     }
 
-    /// How to compile it, as far as its settings say.
+    /// Options for compiling, by its settings.
     pub fn options(&self) -> CompileOptions {
         let Reporting { warn, rules, .. } = &self.reporting;
         let served = self.project.as_ref().map(|project| &project.serve);
@@ -326,7 +326,7 @@ pub fn source(
     rungc_frontend::read_with(&subject.file, &subject.options)
 }
 
-/// Which path each program of a command is written to, with the file that it was read from.
+/// Output paths of a command's programs, with the file that each was read from.
 #[derive(Default)]
 pub struct OutputPaths(BTreeMap<PathBuf, PathBuf>);
 
@@ -348,8 +348,8 @@ impl OutputPaths {
         }
     }
 
-    /// Where the output of one of `many` programs goes: a file called `name` in the folder `output`; of a program
-    /// alone, the file `output`, or `None` for standard output.
+    /// Output path of one of `many` programs: a file called `name` in the folder `output`; of a program alone, the file
+    /// `output`, or `None` for standard output.
     pub fn place(
         &mut self,
         output: Option<&Path>,

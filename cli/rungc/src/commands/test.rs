@@ -38,7 +38,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     run_files(args, &chosen, files, cx)
 }
 
-/// What the command line and the settings ask for.
+/// Choices of the command line and the settings.
 struct Chosen {
     project: Option<Project>,
     paths: Vec<PathBuf>,
@@ -171,8 +171,8 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     )
 }
 
-/// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a
-/// cache a temporary one.
+/// Folder in which engines are built: one of the cache, where the runtime is compiled already the next time, or without
+/// a cache a temporary one.
 pub(super) enum BuildFolder {
     Kept(Slot),
     Temporary(tempfile::TempDir),

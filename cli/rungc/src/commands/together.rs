@@ -1,4 +1,4 @@
-//! What the programs of one `rungc build` share, where they are written into one folder.
+//! Parts shared by the programs of one `rungc build` that are written into one folder.
 
 use super::build::vacant;
 use super::{Context, Failure, counted, write_file};
@@ -7,14 +7,14 @@ use rungc_firmware::target::Target;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Where a program is written.
+/// Location and target of a program's output.
 #[derive(Clone, Debug)]
 pub struct Place {
     /// The folder of the programs' folders.
     pub folder: PathBuf,
-    /// What it is built for.
+    /// Target.
     pub target: &'static Target,
-    /// Whether files there are replaced.
+    /// True if existing files are replaced.
     pub force: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What is said about codes of instructions that nothing proves: the instructions that would fit.
+//! Messages about codes of instructions that nothing proves: the instructions that would fit.
 
 use rungc_analysis::fitting::fitting;
 use rungc_frontend::{Read, Unproven, has_code};

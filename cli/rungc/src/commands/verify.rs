@@ -21,7 +21,7 @@ use rungc_verify::property::Condition;
 use rungc_verify::prove::{Decision, Options, Verdict, decide};
 use std::time::{Duration, Instant};
 
-/// How long a property is tried, in milliseconds.
+/// Time limit of a property, in milliseconds.
 const TIMEOUT_MS: u64 = 60_000;
 
 /// Decides properties of a program.
@@ -116,7 +116,7 @@ fn shown<'a>(asked: &'a [Asked], decided: &'a [(Decision, Duration)]) -> Vec<eng
     found.collect()
 }
 
-/// What is supposed of the world around the program, and how long to try.
+/// Assumptions about the environment of the program, and the time limit.
 fn options(
     args: &VerifyArgs,
     reader: &Reader,
@@ -174,7 +174,7 @@ fn publish(
     Ok(reporter.add_verdicts(&findings, cases.collect())?)
 }
 
-/// What a report holds without verdicts.
+/// Text of a report without verdicts.
 const UNUSABLE: &str = "why the program cannot be used";
 
 /// Reports that a program cannot be read, to tools too.

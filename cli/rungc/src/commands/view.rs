@@ -129,7 +129,7 @@ fn chart(
     })
 }
 
-/// What goes into a file.
+/// Contents of a file.
 struct Sheet<'a> {
     title: String,
     resolved: &'a Resolved<'a>,
@@ -141,7 +141,8 @@ struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// What a path asks for by its ending: a page or document of all networks, or a picture of those that are chosen.
+    /// Contents of a file by its extension: a page or document of all networks, or a picture of those that are
+    /// selected.
     fn file(&self, path: &Path) -> std::result::Result<Vec<u8>, Failure> {
         let ending = path.extension().and_then(|ending| ending.to_str());
         let text = match (ending, self.chart) {
@@ -161,7 +162,7 @@ impl Sheet<'_> {
     }
 }
 
-/// What a page is headed: the project's title, or the name of its file.
+/// Heading of a page: the project's title, or the name of its file.
 pub(super) fn title(subject: &Subject, read: &Read) -> String {
     let title = read
         .program
@@ -193,7 +194,7 @@ fn reported(args: &ViewArgs, subject: &Subject, read: &Read) -> Vec<Span> {
         .collect()
 }
 
-/// Whether a network holds one of these places.
+/// Returns true if a network contains one of these places.
 fn holds(resolved: &Resolved, network: &Network, places: &[Span]) -> bool {
     let instrs = &resolved.program.instrs[network.instrs.clone()];
     let (Some(first), Some(last)) = (instrs.first(), instrs.last()) else {
@@ -203,7 +204,7 @@ fn holds(resolved: &Resolved, network: &Network, places: &[Span]) -> bool {
     places.iter().any(|place| extent.contains(&place.start))
 }
 
-/// Whether an operand of a network names one of these devices.
+/// Returns true if an operand of a network names one of these devices.
 fn names(resolved: &Resolved, network: &Network, devices: &[Device]) -> bool {
     let instrs = &resolved.program.instrs[network.instrs.clone()];
     let mut operands = instrs.iter().flat_map(|instr| &instr.operands);

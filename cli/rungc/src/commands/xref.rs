@@ -29,7 +29,7 @@ fn xref(
     reporter: &mut Reporter,
     outputs: &mut OutputPaths,
 ) -> Result {
-    // What its author wrote: without what the settings add.
+    // The program as written, without the additions of the settings.
     let read = read_as_written(subject, reporter)?;
     let program = &read.program;
     let findings = found_reading(subject, &read);

@@ -15,10 +15,10 @@ use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// How many places are drawn in addition to the main one.
+/// Most places that are drawn in addition to the main one.
 const MAX_PLACES: usize = 6;
 
-/// What is between the marked lines in the source that is drawn: an empty line, which the library draws as a gap.
+/// Text between the marked lines in the drawn source: an empty line, which the library draws as a gap.
 const GAP: &str = "\n\n";
 
 /// The line and column that the library adds to the head of a drawing.
@@ -50,7 +50,7 @@ pub fn print(
     Ok(())
 }
 
-/// What is said of a place.
+/// Message about a place.
 struct Mark<'a> {
     span: Span,
     text: &'a str,

@@ -38,7 +38,7 @@ pub struct File {
     report: Option<Takes>,
 }
 
-/// What is not constant is left out.
+/// Port of a report; values that are not constant are left out.
 #[derive(Serialize)]
 struct Port {
     port: String,
@@ -113,7 +113,7 @@ struct Related {
 #[derive(Serialize)]
 struct Proposal {
     title: Cow<'static, str>,
-    /// Whether `check --fix` applies it.
+    /// True if `check --fix` applies it.
     certain: bool,
     edits: Vec<Replacement>,
 }
@@ -139,7 +139,7 @@ fn proposal(findings: &Findings, d: &Diagnostic) -> Option<Proposal> {
     })
 }
 
-/// What was found about one file.
+/// Findings in one file.
 pub fn file(findings: &Findings) -> File {
     File {
         file: findings.path.display().to_string(),

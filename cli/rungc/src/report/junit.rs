@@ -20,17 +20,17 @@ pub struct Suite {
 /// One case.
 pub struct Case {
     pub name: String,
-    /// What it belongs to, beside the file: servers group cases by it.
+    /// Group of the case, beside the file: servers group cases by it.
     pub class: String,
-    /// How long it took.
+    /// Duration.
     pub time: Duration,
-    /// Why it did not pass.
+    /// Reason for which it did not pass.
     pub problem: Option<Problem>,
 }
 
-/// Why a case did not pass.
+/// Reason for which a case did not pass.
 pub struct Problem {
-    /// Whether there is no verdict, as opposed to a bad one.
+    /// True if there is no verdict, as opposed to a bad one.
     pub is_error: bool,
     /// The kind of problem, in a word.
     pub kind: &'static str,
@@ -94,7 +94,7 @@ pub fn render_timed(name: &str, suites: &[Suite], elapsed: Duration) -> io::Resu
     String::from_utf8(xml.into_inner()).map_err(io::Error::other)
 }
 
-/// How many cases there are and what became of them, as attributes.
+/// Numbers of cases by result, as attributes.
 struct Counts {
     tests: String,
     failures: String,

@@ -5,7 +5,7 @@ use rungc_syntax::{Program, Span};
 use serde::Serialize;
 use std::path::Path;
 
-/// Where a finding is.
+/// Location of a finding.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Location {
     /// First line, 1-based, where the source is a text: an instruction list, or a list export.
@@ -35,7 +35,7 @@ pub struct Location {
 }
 
 impl Location {
-    /// Where a span of a program is; `None` if nothing could be read.
+    /// Location of a span in a program; `None` if nothing could be read.
     pub fn of(findings: &Findings, span: Span) -> Option<Location> {
         let program = findings.program?;
         let at = instr_at(program, span.start);
@@ -105,7 +105,7 @@ pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
     (offset <= end || source.line(offset) == source.line(end)).then_some(at)
 }
 
-/// What the editor calls the program of a project or an export.
+/// Name of the program in the editor of a project or an export.
 fn name_within(program: &Program) -> String {
     let file = || Path::new(&program.source.name).file_stem();
     let export = || {

@@ -20,13 +20,13 @@ use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, codes
 use std::io::{self, Write};
 use std::path::Path;
 
-/// What was found about one file.
+/// Findings in one file.
 pub struct Findings<'a> {
     /// The file as named on the command line.
     pub path: &'a Path,
     /// The program, for its source text and steps; `None` if nothing could be read.
     pub program: Option<&'a Program>,
-    /// What was compiled or checked, if it came to that.
+    /// Size of the compiled or checked program, if there is one.
     pub size: Option<Size>,
     /// The findings that count, ordered by location.
     pub diagnostics: Vec<Diagnostic>,
@@ -34,13 +34,13 @@ pub struct Findings<'a> {
     pub step_numbers: Vec<u32>,
     /// The serial ports that the program uses or sets up.
     pub ports: Vec<Setup>,
-    /// What it takes on a machine, if that was asked for.
+    /// Resources on a machine, if requested.
     pub takes: Option<Takes>,
     /// The network that each diagnostic is about, drawn, if that was asked for; empty if it is about none.
     pub drawn: Vec<String>,
 }
 
-/// What a program is for, and how long it is.
+/// Model and length of a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Size {
     /// Name of the model.
@@ -111,7 +111,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// What people call the program: the name of its source, or among `many` its path.
+    /// Name of the program for users: the name of its source, or among `many` its path.
     pub fn name(&self, many: bool) -> String {
         match self.program {
             Some(program) if !many || self.path == Path::new("-") => program.source.name.clone(),
@@ -125,7 +125,7 @@ impl<'a> Findings<'a> {
         diagnostic.fix.as_ref().filter(|_| list)
     }
 
-    /// How many have this severity.
+    /// Number of findings with this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.diagnostics
             .iter()
@@ -133,7 +133,7 @@ impl<'a> Findings<'a> {
             .count()
     }
 
-    /// How many there are of each severity.
+    /// Number of findings by severity.
     pub fn totals(&self) -> Totals {
         Totals {
             errors: self.program.map_or(0, |_| self.count(Severity::Error)),
@@ -142,7 +142,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Whether the program cannot be compiled.
+    /// Returns true if the program cannot be compiled.
     pub fn failed(&self) -> bool {
         self.count(Severity::Error) > 0
     }
@@ -176,8 +176,8 @@ fn joined_labels(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// How severe a finding is under the options of the command line, which win, and the rules of the project; `None`
-/// leaves it out. Errors and notes stay what they are, but for notes that are left out.
+/// Severity of a finding under the options of the command line, which take precedence, and the rules of the project;
+/// `None` leaves it out. Errors and notes stay what they are, but for notes that are left out.
 fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
     let (options, rules) = (reporting, &reporting.rules);
     match d.severity {
@@ -193,12 +193,12 @@ fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
     }
 }
 
-/// What is reported about the programs of a command: to people program by program, to tools as one document at the end.
+/// Reports on the programs of a command: to people program by program, to tools as one document at the end.
 pub struct Reporter<'a> {
     reporting: &'a Reporting,
     color: bool,
     stdout_in_use: bool,
-    /// Whether the command line can mean several programs, so that the document has room for them.
+    /// True if the command line may name several programs, so that the document is a list.
     many: bool,
     totals: Totals,
     json: Vec<json::File>,
@@ -207,7 +207,7 @@ pub struct Reporter<'a> {
     github: String,
 }
 
-/// How much was found about programs.
+/// Totals of the findings about programs.
 #[derive(Clone, Default, Debug)]
 pub struct Totals {
     /// Errors, but for that a program could not be read.
@@ -235,7 +235,7 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// Whether the command line can mean several programs.
+    /// Returns true if the command line may name several programs.
     pub fn many(&self) -> bool {
         self.many
     }
@@ -245,17 +245,17 @@ impl<'a> Reporter<'a> {
         self.stdout_in_use = true;
     }
 
-    /// Whether the report is human-readable.
+    /// Returns true if the report is human-readable.
     pub fn is_for_people(&self) -> bool {
         self.reporting.format == Format::Human
     }
 
-    /// Whether what people read follows the report in the same place.
+    /// Returns true if human-readable text follows the report in the same place.
     pub fn has_text(&self) -> bool {
         matches!(self.reporting.format, Format::Human | Format::Github)
     }
 
-    /// How much was found so far.
+    /// Totals so far.
     pub fn totals(&self) -> Totals {
         self.totals.clone()
     }

@@ -15,7 +15,7 @@ pub struct Log {
     used: BTreeSet<&'static str>,
     results: Vec<Value>,
     artifacts: Vec<Value>,
-    /// Whether anything was added.
+    /// True if anything was added.
     begun: bool,
 }
 
@@ -33,7 +33,7 @@ impl Log {
         }
     }
 
-    /// Whether nothing was added.
+    /// Returns true if nothing was added.
     pub fn is_empty(&self) -> bool {
         !self.begun
     }
@@ -73,7 +73,7 @@ pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io:
     Ok(serde_json::to_string_pretty(&log)?)
 }
 
-/// What a code means, for those who see only the log.
+/// Meaning of a code, for readers of the log alone.
 fn rule(code: &Code) -> Value {
     let mut help = code.text.to_string();
     for (title, list) in [("Wrong", code.wrong), ("Right", code.right)] {

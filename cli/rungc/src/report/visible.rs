@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// Whether a terminal would act on a character instead of showing it: control characters of both sets, those that
-/// change the direction of the text, and those that break lines where no line feed is.
+/// Returns true if a terminal would act on a character instead of showing it: control characters of both sets, those
+/// that change the direction of the text, and those that break lines where no line feed is.
 fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c,

@@ -4,9 +4,9 @@ use super::visible::visible_line;
 use rungc_syntax::Span;
 use std::borrow::Cow;
 
-/// How many characters of a line are drawn.
+/// Number of characters of a line that are drawn.
 const WIDTH: usize = 120;
-/// How many of them before what is marked, if the line begins further to the left.
+/// Number of them before the mark, if the line begins further to the left.
 const BEFORE: usize = 40;
 
 /// Longer instructions, in bytes, are not drawn whole.
@@ -15,11 +15,11 @@ const MAX_ROWS: usize = 2 * WIDTH;
 /// A part of a line, or an instruction that spans several rows of a table.
 pub struct Window<'t> {
     text: &'t str,
-    /// Where it begins in the source.
+    /// Start in the source.
     start: usize,
-    /// Whether the line begins further to the left.
+    /// True if the line begins further to the left.
     cut_before: bool,
-    /// Whether the line continues.
+    /// True if the line continues.
     cut_behind: bool,
 }
 
@@ -73,7 +73,7 @@ impl<'t> Window<'t> {
         })
     }
 
-    /// Whether a byte of the source lies in it, or at its end.
+    /// Returns true if a byte of the source lies in it, or at its end.
     pub fn holds(&self, at: usize) -> bool {
         (self.start..=self.start + self.text.len()).contains(&at)
     }
@@ -86,7 +86,7 @@ impl<'t> Window<'t> {
         usize::from(self.cut_before) + one_line(before).chars().count()
     }
 
-    /// What is drawn.
+    /// Text to draw.
     pub fn shown(&self) -> String {
         let sign = |cut| if cut { "…" } else { "" };
         let text = one_line(self.text);
@@ -118,7 +118,7 @@ fn floor(text: &str, at: usize) -> usize {
         .unwrap_or(0)
 }
 
-/// How far the number of the step goes at the beginning of a line of a listing.
+/// Length of the step's number at the beginning of a line of a listing.
 fn listed(line: &str) -> usize {
     let rest = match line.strip_prefix("step ") {
         Some(rest) => rest.trim_start_matches(|c: char| !c.is_whitespace()),

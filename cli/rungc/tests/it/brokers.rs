@@ -22,7 +22,7 @@ MOV D10 D20
 END
 ";
 
-/// What the program is connected to: PORT is that of the broker. Files show what happens while it is away.
+/// Connections of the program: PORT is that of the broker. Files show what happens while it is away.
 const SETTINGS: &str = "\
 [project]
 program = 'p.il'
@@ -68,7 +68,7 @@ fn shows(port: u16, name: &str, payload: &str) {
     });
 }
 
-/// What a row of files has written.
+/// Contents written by a row of files.
 fn file(folder: &Path, name: &str) -> String {
     let text = fs::read_to_string(folder.join(name)).unwrap_or_default();
     text.trim().to_string()
@@ -97,7 +97,7 @@ fn works(folder: &Path, port: u16, recipe: i16) {
         &format!("{{\"D20\":{recipe},\"D21\":0}}"),
     );
     shows(port, "plant/lamp/Y001", "0");
-    // What is not a value changes nothing.
+    // Invalid values change nothing.
     for wrong in ["", "2", "[", "{\"X000\": 0}", "999999999999999999999"] {
         publish(port, "plant/start", wrong);
     }
@@ -399,7 +399,7 @@ Y000 = 'write plant/motor'
             .stdout
     }
 
-    /// What the run says of connections, with names for the folder and for ports.
+    /// Reports of the run on connections, with names for the folder and for ports.
     fn said_of(said: &str, folder: &Path, ports: &[(&'static str, u16)]) -> String {
         let mut lines: Vec<_> = said
             .lines()
@@ -478,7 +478,7 @@ Y000 = 'write plant/motor'
         drop(first);
         soon("the broker is lost", || file(folder, "lost") == "1");
         scans(folder);
-        // What is put right on the disk is taken the next time.
+        // A corrected file takes effect at the next attempt.
         fs::copy(folder.join("ca.pem"), folder.join("foreign.pem")).unwrap();
         let _broker = broker(folder, port);
         works();

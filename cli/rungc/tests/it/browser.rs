@@ -38,7 +38,7 @@ MOV K5 D0
 END
 ";
 
-/// What a script reports of a page that rungc makes of files; nothing without a browser.
+/// Report of a script about a page that rungc makes from files; `None` without a browser.
 fn report(files: &[(&str, &[u8])], args: &[&str], page: &str, script: &str) -> Option<Value> {
     let folder = folder(files);
     let out = rungc(folder.path(), args);

@@ -92,7 +92,7 @@ fn limits_can_be_warnings() {
     assert_eq!(check(&[]).status.code(), Some(0));
 }
 
-/// What a command makes and what it reports do not mix on standard output.
+/// Results of a command and its reports do not mix on standard output.
 #[test]
 fn reports_for_tools_leave_standard_output_clean() {
     let folder = folder(&[("double.il", DOUBLE.as_bytes())]);
@@ -372,7 +372,7 @@ fn build_writes_and_does_not_overwrite() {
     );
 }
 
-/// What is emitted can be read by whom the user's mask lets read, as what an editor writes.
+/// Emitted files have the permissions of the user's mask, like those of an editor.
 #[cfg(unix)]
 #[test]
 fn files_have_the_permissions_of_new_files() {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 const LIST: &str = ";! X000 = start\nLD X000\nOR M0\nANI X001\nOUT M0\nLD M0\nOUT T0 K30\nLD T0\nMOV K5 D0\nOUT Y000\nEND\n";
-/// What is read, and what its file is called.
+/// Inputs, and their file names.
 const INPUTS: [(&str, &str); 7] = [
     ("instruction list", "list.il"),
     ("drawn ladder", "ladder.txt"),
@@ -15,7 +15,7 @@ const INPUTS: [(&str, &str); 7] = [
     ("PLCopen XML", "plcopen.xml"),
     ("program memory", "memory.bin"),
 ];
-/// What is written, and how the name of such a file ends.
+/// Outputs, and their file name extensions.
 const OUTPUTS: [(&str, &str); 7] = [
     ("il", "il"),
     ("ladder", "txt"),

@@ -1,4 +1,4 @@
-//! What test cases execute of a program, and the changes of it that they do not notice.
+//! Coverage of a program by test cases, and its changes that they do not detect.
 
 use crate::common::{MOTOR, folder, rungc, shown, text};
 use std::ffi::OsString;
@@ -385,13 +385,13 @@ fn results_are_read_by_others() {
     assert!(checked.contains("'fatal' is not one of"), "{checked}");
 }
 
-/// Where the validator of SARIF's makers is, with the schema, if it is here.
+/// Path of the SARIF validator by its makers, with the schema, if it is installed.
 fn multitool() -> Option<PathBuf> {
     let modules = std::env::var_os("RUNGC_SARIF")?;
     Some(Path::new(&modules).join("@microsoft/sarif-multitool-linux"))
 }
 
-/// What the validator says of logs.
+/// Output of the validator about logs.
 fn validated(folder: &Path, logs: &[&str]) -> Option<String> {
     let output = Command::new(multitool()?.join("Sarif.Multitool"))
         .arg("validate")
@@ -407,7 +407,7 @@ fn validated(folder: &Path, logs: &[&str]) -> Option<String> {
     Some(said)
 }
 
-/// What check-jsonschema says of logs by that schema.
+/// Output of check-jsonschema about logs by that schema.
 fn schema(folder: &Path, logs: &[&str]) -> Option<String> {
     let schema = multitool()?.join("sarif-2.1.0.json");
     let output = Command::new(python())

@@ -100,7 +100,7 @@ fn networks_that_move_do_the_same_unless_their_order_matters() {
             "{order:?}"
         );
     }
-    // What is read in another order can differ, and nothing else.
+    // Only values read in another order can differ.
     let old = "LD X0\nOUT M0\nLD M0\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
     let new = "LD X1\nOUT Y1\nLD M0\nOUT Y0\nLD X0\nOUT M0\nEND\n";
     let (words, _) = behaviour(old, new);
@@ -137,7 +137,7 @@ fn a_changed_calculation_decides_about_what_reads_its_result() {
     assert!(words.contains("D0 to D1"), "{words}");
 }
 
-/// What no run makes differ is listed apart.
+/// Outputs that no run makes differ are listed separately.
 #[test]
 fn outputs_that_are_proved_the_same_do_not_differ() {
     let old = "LD X0\nAND X1\nOUT Y3\nLD X2\nOUT Y4\nEND\n";
@@ -178,7 +178,7 @@ fn jumps_decide_about_what_they_skip_alone() {
         words.starts_with("Outputs that can differ: Y000"),
         "{words}"
     );
-    // What follows crossed jumps is apart from them.
+    // Networks after crossed jumps are separate from them.
     let (words, _) = behaviour(crossed, &crossed.replace("LD X4", "LDI X4"));
     assert!(!words.contains("Y005"), "{words}");
 }
@@ -220,7 +220,7 @@ fn what_programs_do_is_compared() {
     let old = "LD X0\nCJ P1\nLD X1\nOUT Y0\nP1\nLD X2\nOUT Y1\nEND\n";
     let (words, _) = behaviour(old, &old.replace("LD X0", "LD X5"));
     assert!(words.contains("Y000"), "{words}");
-    // What does not compile is not compared.
+    // Programs that do not compile are not compared.
     let (words, code) = behaviour(old, "LD X0\nOUT Y7777\nEND\n");
     assert!(words.starts_with("Behaviour not decided: "), "{words}");
     assert_eq!(code, Some(1));

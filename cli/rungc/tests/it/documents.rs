@@ -1,4 +1,4 @@
-//! What the documentation shows is what the command line does.
+//! Agreement of the documentation with the command line.
 //!
 //! A fence with a file name (` ```toml lamp.plctest.toml
 //! `) is a file of the page's example. In a fence marked `console`, each line that begins with `$ rungc` is run in a
@@ -23,7 +23,7 @@ fn root() -> PathBuf {
 
 /// A fenced block of a page.
 struct Block {
-    /// What follows the fence: a language, and the name of a file.
+    /// Text after the fence: a language, and the name of a file.
     info: String,
     /// The comment in the line before it.
     comment: String,
@@ -53,7 +53,7 @@ fn blocks(page: &str) -> Vec<Block> {
     found
 }
 
-/// What a line says that is a comment of HTML.
+/// Contents of a line that is a comment of HTML.
 fn comment(line: &str) -> &str {
     let inner = line.strip_prefix("<!-- ");
     inner
@@ -83,7 +83,7 @@ fn lines(text: &str) -> Vec<String> {
     filled.map(timeless).collect()
 }
 
-/// Whether lines are as expected; `...` stands for any of them.
+/// Returns true if lines are as expected; `...` matches any of them.
 fn fits(printed: &[String], expected: &[String]) -> bool {
     match expected.split_first() {
         None => printed.is_empty(),
@@ -94,7 +94,7 @@ fn fits(printed: &[String], expected: &[String]) -> bool {
     }
 }
 
-/// What rungc prints in a folder, as a terminal would show it, and whether it succeeds.
+/// Output of rungc in a folder, as a terminal would show it, and whether it succeeds.
 fn rungc(folder: &Path, args: &[&str]) -> (String, bool) {
     let (mut printed, terminal) = std::io::pipe().unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
@@ -146,7 +146,7 @@ fn desk(page: &str) -> tempfile::TempDir {
 const EXAMPLES: &str = "examples/programs";
 const FLEET: &str = "examples/fleet";
 
-/// What commands of the pages name.
+/// Files named by the commands of the pages.
 const DESK: [&str; 9] = [
     EXAMPLES,
     FLEET,

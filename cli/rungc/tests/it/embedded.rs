@@ -26,7 +26,7 @@ fn make(target: &str, build: &Path) -> Command {
     make
 }
 
-/// What the lamps do. QEMU prints some kinds of semihosting to standard output, others to standard error.
+/// States of the lamps. QEMU prints some kinds of semihosting to standard output, others to standard error.
 fn lamps(output: &Output) -> String {
     let printed = [&*output.stdout, &*output.stderr].concat();
     let printed = String::from_utf8_lossy(&printed);
@@ -45,8 +45,8 @@ fn traffic_light_in_c() {
     insta::assert_snapshot!("traffic_light", lamps(&output));
 }
 
-/// How often a pin of port D turns on, by what QEMU saw of writes to the register that sets (low half) and resets (high
-/// half) pins.
+/// Number of rising edges of a pin of port D, by QEMU's log of writes to the register that sets (low half) and resets
+/// (high half) pins.
 fn pulses(log: &str, pin: u32) -> usize {
     let writes = log.lines().filter_map(|line| {
         let value =

@@ -47,7 +47,7 @@ impl Drop for Running {
     }
 }
 
-/// Whether programs are there that the test needs.
+/// Returns true if the programs that the test needs are installed.
 fn has(programs: &[&str]) -> bool {
     let missing = |program: &&&str| Command::new(program).arg("-V").output().is_err();
     match programs.iter().find(missing) {
@@ -160,7 +160,7 @@ fn an_executable_in_rust_answers_on_a_terminal() {
     assert!(text(&output.stderr).contains("the program has no port COM7"));
 }
 
-/// How long a program may take to do what it should, on a loaded machine.
+/// Time-out of a program on a loaded machine.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A program whose messages are read, and which takes commands.
@@ -186,7 +186,7 @@ impl Host {
         Host { child, lines }
     }
 
-    /// What a message says after these words, once it comes.
+    /// Rest of a message after these words, once it comes.
     fn says(&self, words: &str) -> String {
         let end = Instant::now() + PATIENCE;
         loop {
@@ -297,7 +297,7 @@ fn reconnects(program: &Path, folder: &Path) {
     answers(&theirs.display().to_string());
 }
 
-/// What `--help` prints; it ends.
+/// Output of `--help`, after which the program ends.
 fn help(program: &Path) -> String {
     let output = Command::new(program).arg("--help").output().unwrap();
     assert_eq!(output.status.code(), Some(0));
@@ -416,7 +416,7 @@ fn shows(folder: &Path, name: &str, value: &str) {
     }
 }
 
-/// What a program says of wrong descriptions.
+/// Messages of a program about invalid descriptions.
 fn refusals(folder: &Path, program: &Path) -> String {
     let mut said = String::new();
     for wrong in WRONG {

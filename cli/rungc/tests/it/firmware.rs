@@ -25,7 +25,7 @@ fn board(file: &str) -> String {
         .to_string()
 }
 
-/// What an image prints on a machine of QEMU's. It prints some kinds of semihosting to standard output, others to
+/// Output of an image on a machine of QEMU's. It prints some kinds of semihosting to standard output, others to
 /// standard error.
 fn simulated(machine: &str, image: &Path) -> String {
     let output = Command::new("qemu-system-arm")

@@ -52,7 +52,7 @@ impl Rig {
         rungc(self.folder.path(), &args)
     }
 
-    /// What is said, without the path of the line.
+    /// Messages, without the path of the line.
     fn says(&self, output: &Output) -> String {
         text(&output.stderr).replace(&self.bench.port, "PORT")
     }
@@ -299,7 +299,7 @@ fn stm32flash_finds_the_same() {
         fs::write(rig.folder.path().join("other.bin"), &other).unwrap();
         call(&rig, &["-w", "other.bin", "-v"]);
         rig.holds(&other);
-        // What it has written, rungc finds to be there.
+        // rungc finds the image that it has written.
         fs::write(rig.folder.path().join("image.bin"), &other).unwrap();
         let output = rig.flash(&[]);
         assert!(rig.says(&output).contains("already holds the image"));

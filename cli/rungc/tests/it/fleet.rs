@@ -36,7 +36,7 @@ fn interrupt(fleet: &mut Ends) -> String {
     summary
 }
 
-/// What `rungc fleet` says of a file.
+/// Messages of `rungc fleet` about a file.
 fn said(fleet: &str) -> String {
     let folder = folder(&[
         ("p.il", ADDS.as_bytes()),
@@ -127,7 +127,7 @@ END
 /// Jumps back for as long as an input is on, which is until the watchdog stops it.
 const LOOPS: &str = "P0\nLD X001\nCJ P0\nLD X000\nOUT Y000\nEND\n";
 
-/// What the summary says of a fleet of 100 PLCs on an engine, with what it says of the engine cut.
+/// Summary of a fleet of 100 PLCs on an engine, with the line about the engine cut.
 fn summary(program: &str, engine: &str) -> String {
     let fleet = format!(
         "[plc.a]\nprogram = 'p.il'\ncount = 100\nfirst = 5\nset = ['X000=1@20ms', 'X001=1@150ms']\nspread = '10ms'\nengine = '{engine}'\n"
@@ -253,7 +253,7 @@ mod brokers {
 
     const PRESS: &str = include_str!(concat!(env!("RUNGC_ROOT"), "/examples/fleet/press.il"));
 
-    /// How many of the presses show a value of a topic.
+    /// Number of presses that show a value of a topic.
     fn count(port: u16, topic: &str, payload: &str) -> usize {
         let topic = format!("hall/press/+/{topic}");
         let shown = mosquitto::subscribe(port, None, &["-W", "1", "-t", &topic]);

@@ -142,7 +142,7 @@ fn derived_codes_can_turn_out_to_be_others() {
     assert!(said.contains("61 01 00 was read as WDT before."), "{said}");
 }
 
-/// What is said about a list that teaches nothing; nothing is written.
+/// Message about a list that teaches nothing; nothing is written.
 fn refused(list: &str) -> String {
     let folder = project(list);
     let output = rungc(folder.path(), &LEARN);

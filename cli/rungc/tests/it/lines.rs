@@ -231,9 +231,9 @@ fn a_client_on_a_pseudo_terminal_is_a_can_bus() {
     let run = Run::new(folder.path(), "h2u", &[], &["CAN"]);
     let mut port = SerialPort::open(run.line("CAN"), 9600).unwrap();
     port.set_read_timeout(Duration::from_secs(4)).unwrap();
-    // What the PLC sent before it received waits in the terminal.
+    // Output of the PLC before it received waits in the terminal.
     for _ in 0..1000 {
-        // What a client asks of an adapter is not a frame.
+        // A command of a client to an adapter is not a frame.
         port.write_all(b"S6\rO\rt20021234\r").unwrap();
         let mut frame = [0; 10];
         port.read_exact(&mut frame).unwrap();

@@ -100,7 +100,7 @@ fn lists_are_laid_out_in_place_or_checked() {
     assert_eq!(code(path, &["fmt", ".", "--check"]), 0);
 }
 
-/// What cannot be read is left as it is.
+/// Unreadable files are left unchanged.
 #[test]
 fn a_broken_list_is_not_laid_out() {
     let folder = folder(&[

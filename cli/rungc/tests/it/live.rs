@@ -92,10 +92,10 @@ impl Page {
         stream
     }
 
-    /// What is answered to these bytes: the status, and the rest.
+    /// Answer to these bytes: the status, and the rest.
     fn ask(&self, request: &[u8]) -> (u16, String) {
         let mut stream = self.connect();
-        // What rejects a request may close the connection before all of it is sent.
+        // A server that rejects a request may close the connection before all of it is sent.
         let _ = stream.write_all(request);
         let mut answer = Vec::new();
         let _ = stream.read_to_end(&mut answer);
@@ -127,7 +127,7 @@ impl Page {
         assert_eq!(self.command(body, JSON), 200, "{body}");
     }
 
-    /// What a page that is opened now shows.
+    /// Contents of a page that is opened now.
     fn look(&self) -> Value {
         let (host, path) = self.parts();
         let mut stream = self.connect();
@@ -138,7 +138,7 @@ impl Page {
         serde_json::from_str(&data.expect("an event comes")).unwrap()
     }
 
-    /// What it shows when time stands still after scan `scan`.
+    /// Contents of a page while the run is paused after scan `scan`.
     fn look_at(&self, scan: u64) -> Value {
         for _ in 0..200 {
             let seen = self.look();
@@ -243,7 +243,7 @@ fn the_axes_of_a_machine_move_on_a_page() {
     insta::assert_snapshot!(serde_json::to_string_pretty(&report).unwrap());
 }
 
-/// What a page shows in a browser that a variable names, if it does: the same as in any other.
+/// Checks that a page shows the same in a browser named by a variable, if any, as in any other.
 fn shows_in(browser: &str, variable: &str) {
     if std::env::var_os(variable).is_none() {
         eprintln!("skipped: {variable} names no browser (see .ci/run)");
@@ -517,7 +517,7 @@ fn slow_clients_hold_up_neither_the_run_nor_others() {
     let begin = Instant::now();
     while begin.elapsed() < Duration::from_secs(12) {
         for stream in &mut slow {
-            // Those that have had their time are closed.
+            // Idle connections are closed after the time-out.
             let _ = stream.write_all(b"a");
         }
         assert_eq!(page.get("", &page.host()), 200);

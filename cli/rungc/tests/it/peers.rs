@@ -30,7 +30,7 @@ OUT Y000
 END
 ";
 
-/// What `clients/fx_port.py` says of it.
+/// Program for `clients/fx_port.py`.
 const PROGRAMMING_PORT: &str = "\
 LD M8000
 ADD D0 D1 D2
@@ -72,7 +72,7 @@ fn client(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// Whether the peer is there. If it is not, but `variable` says that it has to be, the test fails.
+/// Returns true if the peer is installed. If it is not, but `variable` says that it has to be, the test fails.
 fn there(peer: &str, variable: &str, mut look: Command) -> bool {
     let look = look.stdout(Stdio::null()).stderr(Stdio::null());
     if look.status().is_ok_and(|status| status.success()) {
@@ -147,7 +147,7 @@ fn pymodbus_reads_and_writes_over_tcp() {
     );
 }
 
-/// What runs while a station is killed.
+/// Program that runs while a station is killed.
 const REMOTE: &str = "\
 LD X000
 OUT Y000

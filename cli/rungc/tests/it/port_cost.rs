@@ -1,5 +1,5 @@
-//! How many instructions of a Cortex-M4 the longest call takes that brings a program's serial ports up to date, as the
-//! book's page on boards states it. Without the tools the test says what is missing and that it did not run; with
+//! Instructions of a Cortex-M4 in the longest call that brings a program's serial ports up to date, as stated on the
+//! book's page on boards. Without the tools the test says what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 use crate::common::{folder, text};

@@ -176,7 +176,7 @@ fn what_build_makes() {
     assert!(path.join("here/mine.c").is_file());
 }
 
-/// What is made and what is reported do not mix, also where the settings say what is made.
+/// Results and reports do not mix, also where the settings choose the output.
 #[test]
 fn what_build_prints() {
     let settings = "[project]\nprogram = 'motor.il'\n[build]\nemit = 'ir'\n";

@@ -85,7 +85,7 @@ fn framed(text: &str) -> Vec<u8> {
 const NAK: &[u8] = b"\x15";
 
 impl Fake {
-    /// What an FX2N answers to a text.
+    /// Answer of an FX2N to a text.
     fn answer(&self, request: &str) -> Vec<u8> {
         let number = |digits: &str| usize::from_str_radix(digits, 16).unwrap();
         match request {
@@ -133,7 +133,7 @@ impl Fake {
         }
     }
 
-    /// What `rungc read` says of this PLC, whether it succeeds, and what it has written.
+    /// Messages of `rungc read` about this PLC, its success, and the file that it has written.
     fn read(self, folder: &Path, more: &[&str]) -> (String, bool, Option<String>) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let port = listener.local_addr().unwrap().to_string();
@@ -168,7 +168,7 @@ fn image(list: &str) -> Vec<u8> {
     fs::read(folder.path().join("a.bin")).unwrap()
 }
 
-/// What `rungc read` says of a PLC that answers some requests otherwise; it has written nothing.
+/// Messages of `rungc read` about a PLC that answers some requests differently; it has written nothing.
 fn rejected(memory: Vec<u8>, more: &[&str], instead: fn(usize, &str) -> Option<Vec<u8>>) -> String {
     let folder = folder(&[]);
     let (said, success, written) = Fake { memory, instead }.read(folder.path(), more);

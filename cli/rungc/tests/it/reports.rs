@@ -1,4 +1,4 @@
-//! How findings are shown: places as their reader knows them, bounded drawings, and nothing that a terminal would act
+//! Presentation of findings: places as their reader knows them, bounded drawings, and nothing that a terminal would act
 //! on.
 
 use crate::common::{code, folder, rungc, shown, text};

@@ -379,7 +379,7 @@ fn traces_are_reviewed() {
     insta::assert_snapshot!("results_review", story.join("\n\n"));
 }
 
-/// What a review prints that is given these answers.
+/// Output of a review with these answers.
 fn answered(folder: &Path, answers: &str) -> String {
     use std::io::Write;
     use std::process::{Command, Stdio};

@@ -141,7 +141,7 @@ END
 /// Bytes of the RAM in the file, the second of QEMU's machine.
 const RAM: usize = 16 << 20;
 
-/// What an image prints on a Cortex-M3 whose RAM is in a file.
+/// Output of an image on a Cortex-M3 whose RAM is in a file.
 fn simulated(folder: &Path, image: &str) -> String {
     let output = Command::new("qemu-system-arm")
         .current_dir(folder)
@@ -211,7 +211,7 @@ fn image(
     name
 }
 
-/// Whether the pin says that the supply fails, when the image begins.
+/// Sets the pin by which the supply reports a failure, for the start of the image.
 fn set_supply(folder: &Path, fails: bool) {
     let mut ram = fs::read(folder.join("ram")).unwrap();
     ram[0x1000] = u8::from(fails) << 2;
@@ -254,7 +254,7 @@ fn latched_devices_of_images_survive() {
     fs::write(at.join("ram"), vec![0; RAM]).unwrap();
     let supply = |fails: bool| set_supply(at, fails);
     assert_eq!(simulated(at, &often), "      0.000 s  Y000 on");
-    // What is loaded is saved only when the supply fails.
+    // Loaded devices are saved only when the supply fails.
     for fails in [false, true] {
         supply(fails);
         assert_eq!(simulated(at, &in_rust), "      0.000 s  Y001 on");
@@ -459,7 +459,7 @@ fn a_disk_that_takes_nothing_does_not_stop_scans() {
         assert_ne!(fs::read(&latched).unwrap(), whole, "{host:?}");
         fs::rename(folder.join("disk"), folder.join("away")).unwrap();
         let (code, said) = running.end();
-        // What was not saved at the end is a failure.
+        // A failed save at the end is a failure.
         assert_eq!(code, Some(1), "{host:?}: {said}");
         let count = |what: &str| said.matches(what).count();
         assert!(
@@ -474,7 +474,7 @@ fn a_disk_that_takes_nothing_does_not_stop_scans() {
     });
 }
 
-/// What is killed while it saves leaves the old file or the new one.
+/// A host killed while it saves leaves the old file or the new one.
 #[test]
 fn killing_it_while_it_saves_tears_no_file() {
     each(|host, folder| {

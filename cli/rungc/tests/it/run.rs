@@ -102,7 +102,7 @@ fn run_records_a_value_change_dump() {
         zero.contains("#0\n$dumpvars\n") && !zero.contains("#1"),
         "{zero}"
     );
-    // What there is of a run that the watchdog ends is kept.
+    // A run stopped by the watchdog keeps its recording.
     assert_eq!(run(&["endless.il", "--vcd", "endless.vcd"]), 1);
     assert!(recording("endless.vcd").contains("Y000"));
     for (name, args) in [

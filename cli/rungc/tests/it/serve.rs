@@ -31,7 +31,7 @@ fx = '127.0.0.1:0'
 serial = { COM1 = 'tcp-listen:0' }
 ";
 
-/// What is served, with the ports of this machine in the order in which they are reported.
+/// A running `rungc serve`, with the ports of this machine in the order in which they are reported.
 struct Serving {
     child: Child,
     errors: BufReader<ChildStderr>,
@@ -230,7 +230,7 @@ fn the_latest_client_is_the_other_end_of_a_line() {
     drop(silent);
 }
 
-/// What the command line says of a protocol takes precedence, and so does what it says of a port.
+/// The command line takes precedence about a protocol, and about a port.
 #[test]
 fn options_override_settings() {
     let settings = SETTINGS.replace("modbus-tcp = 0", "modbus-tcp = '203.0.113.1:502'");
@@ -264,7 +264,7 @@ fn nothing_to_serve() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// What a program makes of its ports: in reports, as data, and what an emitted program serves.
+/// Set-up of a program's ports: in reports, as data, and the devices that an emitted program serves.
 #[test]
 fn ports_in_reports() {
     let settings = b"[serve]\nD = 'D0-D511'\n";

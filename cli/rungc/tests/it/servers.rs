@@ -8,7 +8,7 @@ use std::time::Duration;
 
 const PROGRAM: &str = "LD M8000\nADD D0 D1 D2\nLD M0\nOUT Y000\nEND\n";
 
-/// What a server at this port answers.
+/// Answer of a server at this port.
 fn ask(port: u16, request: &[u8], length: usize) -> Vec<u8> {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
     stream

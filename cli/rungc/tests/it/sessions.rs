@@ -27,7 +27,7 @@ fn answer(port: &mut TcpStream) -> Vec<u8> {
     answer
 }
 
-/// Whether an answer is STX, this many digits, ETX and the right sum.
+/// Returns true if an answer is STX, this many digits, ETX and the right sum.
 fn is_data(answer: &[u8], length: usize) -> bool {
     let [0x02, digits @ .., 0x03, high, low] = answer else {
         return false;
@@ -38,7 +38,7 @@ fn is_data(answer: &[u8], length: usize) -> bool {
         && format!("{sum:02X}").as_bytes() == [*high, *low]
 }
 
-/// How many characters answer a request to read: it ends with the number of bytes, before ETX and the sum.
+/// Number of characters in the answer to a request to read: it ends with the number of bytes, before ETX and the sum.
 fn length(request: &[u8]) -> usize {
     let [.., high, low, 0x03, _, _] = request else {
         panic!("{request:02x?}");

@@ -213,7 +213,7 @@ fn an_endless_source_is_refused() {
     assert_eq!(child.wait().unwrap().code(), Some(2));
 }
 
-/// What stands in the way has the name that the user gave.
+/// The message about an obstacle names it as the user did.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_cannot_be_written_is_named() {

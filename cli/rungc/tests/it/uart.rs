@@ -233,7 +233,7 @@ fn poll(args: &[&str], wanted: &str) -> String {
     panic!("{wanted}: {printed}");
 }
 
-/// Whether the tools are there that build an image and ask it.
+/// Returns true if the tools that build an image and poll it are installed.
 fn can_poll() -> bool {
     let there = tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]);
     if there && Command::new("mbpoll").arg("-V").output().is_err() {
@@ -244,7 +244,7 @@ fn can_poll() -> bool {
 }
 
 impl Running {
-    /// Where the line is that QEMU has made.
+    /// Path of the line that QEMU has made.
     fn line(&self) -> String {
         let path = self.after("redirected to ");
         path.split(' ').next().unwrap_or_default().to_string()

@@ -90,7 +90,7 @@ fn verdicts_are_for_tools_too() {
     let output = rungc(folder.path(), &[&same[..], &["junit"]].concat());
     assert_eq!(output.status.code(), Some(0));
     insta::assert_snapshot!("same_junit", untimed(&text(&output.stdout)));
-    // What keeps a program from being verified is in the report, too.
+    // Reasons that prevent a verification are in the report, too.
     for (file, format, code) in [
         ("broken.il", "junit", "E0033"),
         ("broken.il", "github", "title=E0033"),
@@ -376,7 +376,7 @@ fn no_verdict_rests_on_engines_that_disagree() {
             .args(["verify", "bad.il", "--replay", "c"])
             .args(asked)
             .current_dir(folder.path())
-            // What is built wrong must not be used again.
+            // A wrong build must not be reused.
             .env("RUNGC_CACHE_DIR", folder.path().join("cache"))
             .env("CC", &path)
             .output()

@@ -128,7 +128,7 @@ fn read_by(folder: &Path, tool: &str, args: &[&str]) -> Option<Vec<u8>> {
     Some(out.stdout)
 }
 
-/// How many dots of each picture in a PGM stream are not white.
+/// Number of dots in each picture of a PGM stream that are not white.
 fn dark_dots(mut pictures: &[u8]) -> Vec<usize> {
     let mut dark = Vec::new();
     while pictures.starts_with(b"P5") {

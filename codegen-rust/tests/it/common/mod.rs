@@ -14,7 +14,7 @@ use std::process::Command;
 
 /// A module in the making.
 pub struct Build {
-    /// What is made.
+    /// The compiled module.
     pub module: Module,
 }
 
@@ -198,7 +198,7 @@ pub fn compiled(name: &str, text: &str) -> Module {
         .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
 }
 
-/// Where the runtime and what is compiled of it are kept, for the tests of all crates.
+/// Cache of the runtime and of its compiled parts, for the tests of all crates.
 fn kept() -> PathBuf {
     cache::inside(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")).unwrap()
 }

@@ -5,7 +5,7 @@ use super::switch;
 use crate::template;
 use std::fmt::Write;
 
-/// What follows the switch, and shows RUN and errors.
+/// Functions that follow the switch, and show RUN and errors.
 pub(super) fn functions(image: &Image) -> String {
     let control = &image.board.control;
     let mut text = String::new();
@@ -42,7 +42,7 @@ pub(super) fn functions(image: &Image) -> String {
     text
 }
 
-/// What `main` does before the first scan.
+/// Code in `main` before the first scan.
 pub(super) fn begin(image: &Image) -> &'static str {
     match image.board.control.switch {
         Some(_) => {
@@ -52,7 +52,7 @@ pub(super) fn begin(image: &Image) -> &'static str {
     }
 }
 
-/// What it does after each scan.
+/// Code in `main` after each scan.
 pub(super) fn after_scan(image: &Image) -> String {
     let control = &image.board.control;
     let mut text = String::new();

@@ -8,18 +8,18 @@ use std::fmt::Write;
 /// Fields of `rungc_hal` that the modules are.
 pub(super) const FIELDS: [&str; 2] = ["read_bfm", "write_bfm"];
 
-/// Whether the board's own functions leave the buffer memory to the image.
+/// Returns true if the board's own functions leave the buffer memory to the image.
 fn are_own(image: &Image) -> bool {
     let own = |field: &&str| image.board.functions.contains_key(*field);
     !FIELDS.iter().any(own)
 }
 
-/// Whether the image has modules.
+/// Returns true if the image has modules.
 pub(super) fn are_there(image: &Image) -> bool {
     are_own(image) && !image.modules().is_empty()
 }
 
-/// Whether a field of the hardware is filled here.
+/// Returns true if a field of the hardware is filled here.
 pub(super) fn fills(image: &Image, field: &str) -> bool {
     let puts_out = || are_own(image) && !image.own_outputs().is_empty();
     FIELDS.contains(&field) && are_there(image) || field == "write_bfm" && puts_out()
@@ -71,7 +71,7 @@ fn measured(pin: &AnalogPin) -> String {
     }
 }
 
-/// What gives values to the board's own outputs.
+/// Function that sets the board's own outputs.
 fn put_out(outputs: &[(u8, AnalogPin)]) -> String {
     let mut cases = String::new();
     for (channel, pin) in outputs {
@@ -120,8 +120,8 @@ fn modules(image: &Image, outputs: &[(u8, AnalogPin)]) -> String {
         .replace("/* GIVE */\n", &give)
 }
 
-/// What reads a converter.
-const COUNT: &str = "/* What a converter holds. */
+/// Function that reads a converter.
+const COUNT: &str = "/* Result of a conversion. */
 static uint32_t count(uint32_t address, uint32_t full)
 {
     uint32_t value = REGISTER(address) & 0xFFFFu;
@@ -130,7 +130,7 @@ static uint32_t count(uint32_t address, uint32_t full)
 
 ";
 
-/// What starts a converter, and reads it.
+/// Function that starts a converter, and reads it.
 const CONVERTED: &str = "/* Starts a converter, waits and reads it. */
 static uint32_t converted(uint32_t start, uint32_t word, uint32_t ready, uint32_t address, uint32_t full)
 {

@@ -9,8 +9,8 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What begins a line, sends and receives, by registers: there is room while the bits of `ROOM` are `SPACE`, and a
-/// character while those of `COME` are `THERE`.
+/// Functions that set up a line, send and receive, by registers: there is room while the bits of `ROOM` are `SPACE`,
+/// and a character while those of `COME` are `THERE`.
 const UART: &str = "static void begin(void)
 {
 /* BEGIN */}
@@ -22,7 +22,7 @@ static void put(uint8_t byte)
     REGISTER(/* OUT */u) = byte;
 }
 
-/* What has come, or -1. */
+/* Received character, or -1. */
 static int get(void)
 {
     if ((REGISTER(/* STATE */u) & /* COME */u) != /* THERE */u) {
@@ -33,9 +33,9 @@ static int get(void)
 
 ";
 
-/// How a kind of UART works, polled: offsets of registers, and bits of its state.
+/// Registers of a kind of UART, polled: their offsets, and bits of its state.
 struct Polled {
-    /// What is written to begin; `RATE` is its clock divided by the bit rate.
+    /// Register writes for the setup; `RATE` is its clock divided by the bit rate.
     begin: &'static [(u32, &'static str)],
     state: u32,
     room: (u32, u32),
@@ -86,7 +86,7 @@ fn polled(uart: Uart) -> Polled {
     }
 }
 
-/// Why a board has no such image.
+/// Reason for which a board has no such image.
 #[derive(Debug, thiserror::Error)]
 pub enum NoPins {
     /// It has no serial port.
@@ -231,7 +231,7 @@ fn input(name: &str, pin: &InputPin) -> String {
     )
 }
 
-/// What reports analog inputs, and what calls it.
+/// Function that reports analog inputs, and its call.
 fn analog(board: &Board) -> (String, &'static str) {
     if board.analog.inputs.is_empty() {
         return (String::new(), "");

@@ -6,7 +6,7 @@ use crate::template;
 use rungc_rt::retain::f4_sectors;
 use std::fmt::Write;
 
-/// How the drivers reach memory.
+/// Access of the drivers to memory.
 const REACH: &str = "\
 #define READ(address) REGISTER(address)
 #define WRITE(address, value) (REGISTER(address) = (value))
@@ -14,7 +14,7 @@ const REACH: &str = "\
 
 ";
 
-/// What the image has of it, in front of `main`.
+/// Functions for latched devices, before `main`.
 pub(super) fn drivers(image: &Image) -> String {
     let watch = image.supply().map(|pin| power_fails(image, pin));
     let watch = watch.unwrap_or_default();
@@ -33,7 +33,7 @@ pub(super) fn drivers(image: &Image) -> String {
     text + &watch
 }
 
-/// What drives the memory: `kept_slots`, and functions that read, erase and write.
+/// Driver of the memory: `kept_slots`, and functions that read, erase and write.
 pub(super) fn driver(retain: &Retain) -> String {
     let [a, b] = retain.slots;
     let mut text = format!(
@@ -88,7 +88,7 @@ fn stm32(part: &str, [base, busy, errors, lock]: [&str; 4], erase: &str, program
         .replace("/* PROGRAM */", program)
 }
 
-/// What looks at the supply's pin.
+/// Function that reads the supply's pin.
 fn power_fails(image: &Image, pin: &InputPin) -> String {
     let compare = if pin.inverted { "==" } else { "!=" };
     let save = match image.retain() {
@@ -98,7 +98,7 @@ fn power_fails(image: &Image, pin: &InputPin) -> String {
         None => "",
     };
     format!(
-        "/* Whether the supply says that power is about to fail. */\nstatic bool power_fails(void *context)\n{{\n    \
+        "/* Returns true if the supply reports an imminent power failure. */\nstatic bool power_fails(void *context)\n{{\n    \
          (void)context;\n    return (REGISTER(0x{:08X}u) & 0x{:X}u) {compare} 0u;\n}}\n\n\
          /* Saves latched devices once when power fails, and begins anew when it is back after the program has stopped. */\n\
          static void watch_supply(void)\n{{\n    static bool failed;\n    const bool fails = power_fails(NULL);\n\n{save}    \
@@ -108,7 +108,7 @@ fn power_fails(image: &Image, pin: &InputPin) -> String {
     )
 }
 
-/// What `main` does after the program's devices have their initial values.
+/// Code in `main` after the program's devices have their initial values.
 pub(super) fn load(image: &Image) -> &'static str {
     match image.retain() {
         Some(_) => "    (void)PROGRAM_load_latched(&plc, &slots);\n",
@@ -116,7 +116,7 @@ pub(super) fn load(image: &Image) -> &'static str {
     }
 }
 
-/// What `main` does after each scan.
+/// Code in `main` after each scan.
 pub(super) fn save(image: &Image) -> String {
     let mut text = String::new();
     if image.supply().is_some() {

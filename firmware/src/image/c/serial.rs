@@ -11,7 +11,7 @@ const STM32_REGISTERS: &str = "STATE = 0x00, IN = 0x04, OUT = 0x04, RATE = 0x08,
 /// The same of a newer one.
 const STM32F7_REGISTERS: &str = "CONTROL_1 = 0x00, CONTROL_2 = 0x04, RATE = 0x0C, STATE = 0x1C, CLEAR = 0x20, IN = 0x24, OUT = 0x28, ENABLE = 0";
 
-/// How faults are cleared where reading the data does not do that.
+/// Code that clears faults where reading the data does not.
 const CLEAR: &str = "    REGISTER(u->at + CLEAR) = 0xFu; /* PE, FE, NF, ORE */\n";
 
 /// The memory of both directions is one, and what has come is to be noted again.
@@ -20,7 +20,7 @@ const LISTEN: &str = "        q->received.first = 0;
         q->received.lost = false;
 ";
 
-/// What the tick does where no interrupt says that the last bit is out.
+/// Code in the tick where no interrupt signals that the last bit is out.
 const TICKS: &str = "\
 static void tick_lines(void)
 {
@@ -33,7 +33,7 @@ static void tick_lines(void)
 
 ";
 
-/// Whether the tick has to look whether the last bit is out.
+/// Returns true if the tick has to check whether the last bit is out.
 fn waits_in_tick(image: &Image) -> bool {
     let mut ports = image.serial().into_iter();
     ports.any(|serial| serial.uart == Uart::Pl011)
@@ -75,7 +75,7 @@ pub(super) fn sizes(image: &Image) -> String {
     }
 }
 
-/// What drives the UARTs; nothing if the program has no port that the board has.
+/// Drivers of the UARTs; empty if the program has no port that the board has.
 pub(super) fn drivers(image: &Image) -> String {
     let ports = image.serial();
     let Some(first) = ports.first() else {
@@ -120,7 +120,7 @@ pub(super) fn drivers(image: &Image) -> String {
     };
     let ticks = if waits_in_tick(image) { TICKS } else { "" };
     format!(
-        "/* How many characters wait to be sent, plus one. */\n#define SEND {}u\n\n{text}{ticks}",
+        "/* Capacity of the send queue, plus one. */\n#define SEND {}u\n\n{text}{ticks}",
         room.unwrap_or(first.send)
     )
 }
@@ -160,7 +160,7 @@ fn table(ports: &[&Serial]) -> String {
     )
 }
 
-/// What lets the interrupts of the UARTs come.
+/// Code that enables the interrupts of the UARTs.
 pub(super) fn enable(image: &Image) -> String {
     let mut text = String::new();
     for (number, handler) in handlers(image) {

@@ -4,8 +4,8 @@ use super::super::Image;
 use super::switch;
 use std::fmt::Write;
 
-/// What follows the switch when it has been in its new position for 20 ms; what HMIs and special relays do in between
-/// stays.
+/// Code that follows the switch when it has been in its new position for 20 ms; changes by HMIs and special relays in
+/// between remain in effect.
 const FOLLOW: &str = "        let now = MICROSECONDS.load(Ordering::Relaxed);
         if (READ) == switch_is_run {
             switched = now;
@@ -23,7 +23,7 @@ fn reads_run(image: &Image) -> Option<String> {
     Some(format!("read(0x{at:08X}) & 0x{bit:X} {compare} 0"))
 }
 
-/// What `main` does before the first scan.
+/// Code in `main` before the first scan.
 pub(super) fn before(image: &Image) -> String {
     let begin = |read: String| {
         format!(
@@ -34,7 +34,7 @@ pub(super) fn before(image: &Image) -> String {
     reads_run(image).map_or(String::new(), begin)
 }
 
-/// What it does after each scan.
+/// Code in `main` after each scan.
 pub(super) fn after_scan(image: &Image) -> String {
     let control = &image.board.control;
     let mut text = reads_run(image).map_or(String::new(), |read| FOLLOW.replace("READ", &read));

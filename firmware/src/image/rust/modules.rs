@@ -6,15 +6,15 @@ use crate::template;
 use rungc_rt::modules::Quantity;
 use std::fmt::Write;
 
-/// What reads a converter.
-const COUNT: &str = "/// What a converter holds.
+/// Function that reads a converter.
+const COUNT: &str = "/// Result of a conversion.
 fn count(address: usize, full: u32) -> u32 {
     (read(address) & 0xFFFF).min(full)
 }
 
 ";
 
-/// What starts a converter, and reads it.
+/// Function that starts a converter, and reads it.
 const CONVERTED: &str = "/// Starts a converter, waits and reads it.
 fn converted(start: usize, word: u32, ready: u32, address: usize, full: u32) -> u32 {
     write(start, word);
@@ -24,7 +24,7 @@ fn converted(start: usize, word: u32, ready: u32, address: usize, full: u32) -> 
 
 ";
 
-/// Whether a converter has to be started.
+/// Returns true if the converter needs a start command.
 fn starts(image: &Image) -> bool {
     let analog = &image.board.analog;
     let modules = image.modules();
@@ -35,7 +35,7 @@ fn starts(image: &Image) -> bool {
     pins.any(|pin| pin.start.is_some())
 }
 
-/// Whether converters are read.
+/// Returns true if converters are read.
 fn counts(image: &Image) -> bool {
     let modules = image.modules();
     let inputs = modules.iter().any(|module| !module.inputs.is_empty());
@@ -100,7 +100,7 @@ fn counted(pin: &AnalogPin) -> String {
     }
 }
 
-/// What gives values to the board's own outputs, by their counts.
+/// Function that sets the board's own outputs, by their counts.
 fn own_outputs(image: &Image) -> String {
     let outputs = image.own_outputs();
     let mut text = String::new();
@@ -120,7 +120,7 @@ fn own_outputs(image: &Image) -> String {
     }
 }
 
-/// How buffer memory is written where there are no modules but the board.
+/// Method that writes buffer memory if there are no modules but the board.
 const WRITE: &str =
     "    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
 /* BOARD */        None
@@ -137,7 +137,7 @@ fn put_out(n: usize, channel: u8, pin: &AnalogPin) -> String {
     )
 }
 
-/// What the hardware does for FROM and TO and for built-in analog inputs.
+/// Methods of the hardware for FROM and TO and for built-in analog inputs.
 pub(super) fn hal(image: &Image) -> String {
     let mut text = String::new();
     let outputs = own_outputs(image);
@@ -187,7 +187,7 @@ pub(super) fn fields(image: &Image) -> Option<(String, String)> {
     ))
 }
 
-/// What an image takes from the runtime for its modules.
+/// Imports from the runtime for the modules.
 pub(super) fn uses(image: &Image) -> &'static str {
     let modules = image.modules();
     let inputs = modules.iter().any(|module| !module.inputs.is_empty());

@@ -5,7 +5,7 @@ use crate::board::{InputPin, Retain, RetainMemory};
 use crate::template;
 use std::fmt::Write;
 
-/// How the drivers of the runtime reach memory.
+/// Access of the runtime's drivers to memory.
 const BUS: &str = "/// Memory that holds latched devices, and its controller.
 struct Bus;
 
@@ -36,7 +36,7 @@ fn name(memory: RetainMemory) -> &'static str {
     }
 }
 
-/// What the image uses for it.
+/// Imports for latched devices.
 pub(super) fn uses(image: &Image) -> String {
     match image.retain().map(|retain| retain.memory) {
         None => String::new(),
@@ -51,7 +51,7 @@ pub(super) fn uses(image: &Image) -> String {
     }
 }
 
-/// What the image has of it, in front of `main`.
+/// Functions for latched devices, before `main`.
 pub(super) fn drivers(image: &Image) -> String {
     let supply = image.supply().map(power_fails).unwrap_or_default();
     let Some(retain) = image.retain() else {
@@ -78,7 +78,7 @@ pub(super) fn drivers(image: &Image) -> String {
     )
 }
 
-/// What `main` does before the first scan.
+/// Code in `main` before the first scan.
 pub(super) fn load(image: &Image) -> String {
     let mut text = String::new();
     if image.retain().is_some() {
@@ -93,7 +93,7 @@ pub(super) fn load(image: &Image) -> String {
     text
 }
 
-/// What it does after each scan: it saves latched devices once when power fails, and begins anew when power is back
+/// Code in `main` after each scan: it saves latched devices once when power fails, and restarts when power is back
 /// after the program has stopped.
 pub(super) fn save(image: &Image) -> String {
     let mut text = String::new();
@@ -121,11 +121,11 @@ pub(super) fn save(image: &Image) -> String {
     text
 }
 
-/// What says whether power is about to fail.
+/// Function that returns true if power is about to fail.
 fn power_fails(pin: &InputPin) -> String {
     let compare = if pin.inverted { "==" } else { "!=" };
     format!(
-        "/// Whether the supply says that power is about to fail.\nfn power_fails() -> bool {{\n    \
+        "/// Returns true if the supply reports an imminent power failure.\nfn power_fails() -> bool {{\n    \
          read(0x{:08X}) & 0x{:X} {compare} 0\n}}\n\n",
         pin.at,
         1u32 << pin.bit

@@ -29,7 +29,7 @@ const OUT: usize = 0x28;
 const ENABLE: u32 = 0;
 ";
 
-/// How faults are cleared where reading the data does not do that.
+/// Code that clears faults where reading the data does not.
 const CLEAR: &str = "        write(self.at + CLEAR, 0xF); // PE, FE, NF, ORE\n";
 
 /// The type of what waits in both directions: one memory where the ports take turns.
@@ -40,7 +40,7 @@ fn queue(image: &Image) -> &'static str {
     }
 }
 
-/// What the main file uses in addition.
+/// Additional imports of the main file.
 pub(super) fn uses(image: &Image) -> String {
     format!(
         "use core::sync::atomic::AtomicU8;
@@ -52,7 +52,7 @@ use rungc_rt::comm::{{CharFault, LineFormat, Received}};
     )
 }
 
-/// How instructions and partners reach the ports.
+/// Method by which instructions and partners access the ports.
 pub(super) const SERIAL_PORT: &str = "
     fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
         self.line = UARTS.iter().find(|uart| uart.port == number);
@@ -87,7 +87,7 @@ pub(super) fn vectors(image: &Image) -> String {
     text
 }
 
-/// What drives the UARTs; nothing if the program has no port that the board has.
+/// Drivers of the UARTs; empty if the program has no port that the board has.
 pub(super) fn drivers(image: &Image) -> String {
     let ports = image.serial();
     let Some(first) = ports.first() else {
@@ -158,7 +158,7 @@ fn table(ports: &[&Serial]) -> String {
     )
 }
 
-/// What the tick does where no interrupt says that the last bit is out.
+/// Code in the tick where no interrupt signals that the last bit is out.
 pub(super) fn in_tick(image: &Image) -> &'static str {
     let mut ports = image.serial().into_iter();
     match ports.any(|serial| serial.uart == Uart::Pl011) {
@@ -167,7 +167,7 @@ pub(super) fn in_tick(image: &Image) -> &'static str {
     }
 }
 
-/// What lets the interrupts of the UARTs come.
+/// Code that enables the interrupts of the UARTs.
 pub(super) fn enable(image: &Image) -> String {
     let mut text = String::new();
     for serial in image.serial() {

@@ -7,7 +7,7 @@ use rungc_syntax::Device;
 
 /// Length of one comment in `COMMENT.wcd`.
 const SLOT: usize = 40;
-/// Where the table begins in `COMMENT.qcd`: after a version, 18 bytes, the time of its last change and its length.
+/// Offset of the table in `COMMENT.qcd`: after a version, 18 bytes, the time of its last change and its length.
 const WORKS2_TABLE: usize = 0x32;
 
 /// The mark of the table in `COMMENT.wcd`.
@@ -51,7 +51,7 @@ fn devices(
     Ok((devices, start + fields.at()))
 }
 
-/// What a file of comments holds.
+/// Contents of a file of comments.
 pub(super) struct Comments<T> {
     /// Each comment with its device, as far as they can be read.
     pub read: Vec<(Device, T)>,
@@ -75,7 +75,7 @@ impl<T: Copy> Comments<T> {
     }
 }
 
-/// Whether this is a `COMMENT.wcd`.
+/// Returns true for a `COMMENT.wcd`.
 pub(super) fn is_developer(bytes: &[u8]) -> bool {
     head(bytes, HEADER, DEVELOPER).is_some()
 }

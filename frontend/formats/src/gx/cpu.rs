@@ -89,12 +89,13 @@ pub(super) fn name(code: u16) -> String {
     )
 }
 
-/// Whether this names a CPU type of the FX family, as [`name`], `*.prj` of GX Works2 and list exports write it.
+/// Returns true for the name of a CPU type of the FX family, as [`name`], `*.prj` of GX Works2 and list exports write
+/// it.
 fn is_fx(cpu: &str) -> bool {
     cpu.trim().to_ascii_uppercase().starts_with("FX")
 }
 
-/// What is read of a project for a CPU of another family: nothing but an error that names the CPU.
+/// Result of reading a project for a CPU of another family: only an error that names the CPU.
 pub(super) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
     (!is_fx(cpu)).then(|| other_family(file, kind, cpu))
 }

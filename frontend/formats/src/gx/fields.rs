@@ -13,7 +13,7 @@ impl<'b> Fields<'b> {
         Fields { bytes, at: 0 }
     }
 
-    /// Where the next field begins.
+    /// Offset of the next field.
     pub fn at(&self) -> usize {
         self.at
     }

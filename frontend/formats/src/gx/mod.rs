@@ -24,23 +24,23 @@ use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 
 /// Length of the header that all files of a project begin with.
 const HEADER: usize = 0x40;
-/// How those files begin.
+/// Signature of those files.
 const MAGIC: [u8; 4] = [0x40, 0x00, 0x22, 0x01];
-/// Where the program begins in `MAIN.wpg`.
+/// Offset of the program in `MAIN.wpg`.
 const START: usize = 0x44;
-/// How many bytes are searched for a program; none is larger.
+/// Number of bytes searched for a program; none is larger.
 const MAX_DATA: usize = 32 << 20;
-/// Where the header names the CPU: `04 02`, then its code.
+/// Offset of the CPU in the header: `04 02`, then its code.
 const CPU: usize = 0x24;
-/// How an OLE compound file begins.
+/// Signature of an OLE compound file.
 const OLE: [u8; 8] = [0xD0, 0xCF, 0x11, 0xE0, 0xA1, 0xB1, 0x1A, 0xE1];
 
-/// Whether this is a GX Works2 project, or another OLE file.
+/// Returns true for a GX Works2 project, or another OLE file.
 pub(crate) fn is_ole(bytes: &[u8]) -> bool {
     bytes.starts_with(&OLE)
 }
 
-/// Whether this is a file of a GX Developer project.
+/// Returns true for a file of a GX Developer project.
 pub(crate) fn is_wpg(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC)
         || (bytes.get(CPU..CPU + 2) == Some(&[4, 2]) && bytes.get(CPU + 3) == Some(&2))

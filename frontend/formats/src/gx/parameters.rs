@@ -19,7 +19,7 @@ const FILE_REGISTERS: u16 = 0xFFE2;
 /// The keyword of the PLC, 8 characters; blank if there is none.
 const KEYWORD: u16 = 0xFFE4;
 
-/// What a file of parameters sets; an offset where it cannot be read on.
+/// Settings in a file of parameters; an offset if it is unreadable from there on.
 pub(super) fn read(bytes: &[u8]) -> (Parameters, Option<usize>) {
     let mut parameters = Parameters::default();
     let mut fields = Fields::new(bytes.get(HEADER..).unwrap_or_default());

@@ -14,7 +14,7 @@ use rungc_syntax::{
 use smol_str::{SmolStr, ToSmolStr};
 use std::fmt::Write as _;
 
-/// How many bytes of an unknown or damaged place a message shows.
+/// Number of bytes of an unknown or damaged place in a message.
 const SHOWN: usize = 16;
 
 /// The body of the token at `at`, if there is one.
@@ -30,14 +30,14 @@ pub(super) fn body(bytes: &[u8], at: usize) -> Option<&[u8]> {
 /// The tokens that follow each other from one offset on.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct Chain {
-    /// Whether it ends in `END`.
+    /// True if it ends in `END`.
     pub complete: bool,
-    /// How many of its tokens are known, without NOP.
+    /// Number of its known tokens, without NOP.
     pub known: u32,
 }
 
 impl Chain {
-    /// Whether it is part of a program for sure: no other data has three known tokens in a row.
+    /// Returns true if it is certain to be part of a program: no other data has three known tokens in a row.
     pub fn is_program(self) -> bool {
         self.complete || self.known >= 3
     }
@@ -77,7 +77,7 @@ enum Piece<'b> {
     Damage(&'b [u8], Damage),
 }
 
-/// What damage is.
+/// Kind of damage.
 enum Damage {
     /// Tokens continue after it.
     Hole,
@@ -91,7 +91,7 @@ enum Damage {
 struct Pieces<'b> {
     bytes: &'b [u8],
     chains: &'b [Chain],
-    /// Where the next piece begins; nothing after the last.
+    /// Offset of the next piece; `None` after the last.
     at: Option<usize>,
 }
 
@@ -197,7 +197,7 @@ impl<'b> Code<'b> {
     }
 }
 
-/// What an operand or a note belongs to.
+/// Owner of an operand or a note.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Current {
     /// Nothing yet.
@@ -563,7 +563,7 @@ impl<'l> Reader<'l> {
 
 /// One error for all labels that operands name.
 fn labels_error((span, names): (Span, Vec<String>)) -> Diagnostic {
-    /// How many of them a message names.
+    /// Most labels that a message names.
     const NAMED: usize = 8;
     let mut list: Vec<_> = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect();
     if names.len() > NAMED {

@@ -1,4 +1,4 @@
-//! What the codes of instructions mean: `tokens.tsv`, a row for each code with the evidence for it.
+//! Codes of instructions: `tokens.tsv`, a row for each code with the evidence for it.
 //!
 //! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02
 //! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
@@ -12,7 +12,7 @@ fn rows() -> impl Iterator<Item = &'static str> {
     TABLES.text("tokens.tsv").lines().skip(1)
 }
 
-/// How sure it is what a code means.
+/// Evidence for the meaning of a code.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Evidence {
     /// Real projects hold it, and their lists, sources or comments say what it is.
@@ -32,9 +32,9 @@ pub(super) struct Code {
     pub body: Vec<u8>,
     /// The instruction, as the list export spells it; `P` for a label.
     pub mnemonic: &'static str,
-    /// Whether its second byte grows with a text among its operands.
+    /// True if its second byte grows with a text among its operands.
     pub grows: bool,
-    /// How sure it is.
+    /// Evidence for its meaning.
     pub evidence: Evidence,
 }
 
@@ -60,13 +60,13 @@ pub(super) fn find(body: &[u8]) -> Option<&'static Code> {
     })
 }
 
-/// What a code is for sure: not derived, not guessed.
+/// Certain meaning of a code: not derived, not guessed.
 pub(crate) fn proven(body: &[u8]) -> Option<&'static str> {
     let proven = |code: &&Code| matches!(code.evidence, Evidence::Seen | Evidence::Published);
     find(body).filter(proven).map(|code| code.mnemonic)
 }
 
-/// Whether a code is known, not only guessed, for this instruction.
+/// Returns true if a code for this instruction is known, not only guessed.
 pub fn has_code(mnemonic: &str) -> bool {
     let known = |code: &Code| code.mnemonic == mnemonic && code.evidence != Evidence::Guess;
     TABLE.iter().any(known)

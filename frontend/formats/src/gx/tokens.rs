@@ -43,7 +43,7 @@ fn class(code: u8) -> Option<DeviceClass> {
     DEVICES.iter().find(|row| row.0 == code).map(|row| row.1)
 }
 
-/// What a token is.
+/// Decoded token.
 #[derive(Debug)]
 pub(super) enum Token<'b> {
     /// An instruction.
@@ -78,7 +78,7 @@ pub(super) enum Bare<'b> {
 pub(super) enum Prefix {
     /// The module that the address is in.
     Module(u32),
-    /// How many groups of four bits.
+    /// Number of groups of four bits.
     Digits(u8),
     /// An index register.
     Index(Index),
@@ -86,7 +86,7 @@ pub(super) enum Prefix {
     Bit(u8),
 }
 
-/// What the body of a token means; nothing if it is unknown.
+/// Decodes the body of a token; `None` if it is unknown.
 pub(super) fn token(body: &[u8]) -> Option<Token<'_>> {
     let index = |class, number: u8| {
         Token::Prefix(Prefix::Index(Index {
@@ -111,12 +111,12 @@ pub(super) fn token(body: &[u8]) -> Option<Token<'_>> {
     }
 }
 
-/// Whether the token is an instruction's or a label's, known or not.
+/// Returns true if the token is an instruction's or a label's, known or not.
 pub(super) fn is_instruction(body: &[u8]) -> bool {
     body.first().is_none_or(|&first| first < 0x80)
 }
 
-/// How many steps the instruction with this token takes: its second byte, one if there is none.
+/// Number of steps of the instruction with this token: its second byte, one if there is none.
 pub(crate) fn steps(body: &[u8]) -> u32 {
     body.get(1).map_or(1, |&steps| steps.into())
 }
@@ -158,7 +158,7 @@ pub(super) struct Prefixes {
     digits: Option<u8>,
     index: Option<Index>,
     bit: Option<u8>,
-    /// Whether there are two of one kind, which do not go together with any operand.
+    /// True if there are two of one kind, which are invalid together with any operand.
     twice: bool,
 }
 
@@ -173,7 +173,7 @@ impl Prefixes {
         };
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         matches!(
             self,

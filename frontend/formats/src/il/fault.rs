@@ -1,4 +1,4 @@
-//! What can be wrong with a line, and how it is said.
+//! Errors in a line, and their messages.
 
 use chumsky::input::{Checkpoint, Cursor, Input};
 use chumsky::inspector::Inspector;
@@ -9,13 +9,13 @@ use rungc_syntax::{DeviceClass, Diagnostic, Fix, Span, codes};
 /// A finding of the grammar, at a range of the folded line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault {
-    /// Where.
+    /// Position.
     pub span: SimpleSpan,
-    /// What.
+    /// Kind of error.
     pub kind: Kind,
 }
 
-/// What is wrong.
+/// Kind of error in a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     /// The text does not start an instruction, or continues in a way no instruction does.
@@ -50,7 +50,7 @@ pub(super) enum Kind {
     SpacedLabel,
     /// A device or constant with a space before its number.
     SpacedNumber,
-    /// What begins a comment in other languages.
+    /// The beginning of a comment in other languages.
     CommentSign,
 }
 
@@ -60,7 +60,7 @@ impl Fault {
         Fault { span, kind }
     }
 
-    /// What to say about it. `folded` is the text that was read, `place` leads from it to the source.
+    /// Diagnostic for the error. `folded` is the text that was read, `place` leads from it to the source.
     pub fn diagnostic(self, folded: &str, place: impl Fn(Span) -> Span) -> Diagnostic {
         let range = self.span.start..self.span.end;
         let span = place(Span::new(range.start as u32, range.end as u32));
@@ -68,7 +68,7 @@ impl Fault {
     }
 }
 
-/// What the grammar has found wrong so far. What an alternative finds that does not lead on is forgotten.
+/// Errors that the grammar has found so far. Those of an alternative that fails are discarded.
 #[derive(Default)]
 pub(super) struct Faults(Vec<Fault>);
 
@@ -84,12 +84,12 @@ impl Faults {
         self.0.iter()
     }
 
-    /// Whether all of them are of this kind.
+    /// Returns true if all of them are of this kind.
     pub fn are_all(&self, kind: Kind) -> bool {
         self.0.iter().all(|fault| fault.kind == kind)
     }
 
-    /// Whether there is none.
+    /// Returns true if there is none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -313,7 +313,7 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     }
 }
 
-/// What is written otherwise in other languages: what it is there, and how it is written here.
+/// Counterpart of another language's notation: its meaning there, and the spelling here.
 fn other_notation(upper: &str) -> Option<(&'static str, String)> {
     let hexadecimal = |digits: &str| {
         let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
@@ -343,7 +343,7 @@ fn other_notation(upper: &str) -> Option<(&'static str, String)> {
     group.then(|| ("a group of bits starts with K", format!("K{upper}")))
 }
 
-/// Whether a word can only be a name that somebody has given: `bSpeed`, `motor_on`.
+/// Returns true if a word can only be a name given by a user: `bSpeed`, `motor_on`.
 fn is_name(text: &str) -> bool {
     /// No mistyped device or constant has this many letters in a row.
     const LETTERS: usize = 3;
@@ -355,7 +355,7 @@ fn is_name(text: &str) -> bool {
     word && letters > LETTERS
 }
 
-/// What was meant by `XO01` or `Dl0`, where letters that look like digits follow a device letter.
+/// Correction of `XO01` or `Dl0`, where letters that look like digits follow a device letter.
 pub(super) fn mistyped_digit(upper: &str) -> Option<String> {
     let (head, tail) = upper.split_at_checked(1)?;
     let digits = tail.replace('O', "0").replace(['I', 'L'], "1");

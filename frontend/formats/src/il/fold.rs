@@ -97,7 +97,7 @@ impl Folded {
     }
 }
 
-/// How far a line goes before its first text or comment.
+/// Length of a line before its first text or comment.
 fn code_length(line: &str) -> usize {
     let signs = [line.find('"'), line.find(';'), line.find("//")];
     signs.into_iter().flatten().min().unwrap_or(line.len())

@@ -27,7 +27,7 @@ use tokens::{blanks, comment_start, digits, foreign_comment_start, letter, separ
 /// No line fails, so expected continuations are never needed: the error type is empty, which makes alternatives cheap.
 type Extra = extra::Full<EmptyErr, Faults, ()>;
 
-/// What a rule has read, to those that make something of it.
+/// Input that a rule has matched, for its mapping.
 type Matched<'s, 'p> = MapExtra<'s, 'p, &'s str, Extra>;
 
 /// A rule of the grammar that gives a `T`.
@@ -44,7 +44,7 @@ pub(super) struct Line<'s> {
     pub label: Option<(Device, Span)>,
     /// The instruction.
     pub instr: Option<Body<'s>>,
-    /// Where the comment's text starts, after `;` or `//`.
+    /// Start of the comment's text, after `;` or `//`.
     pub comment: Option<u32>,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Line<'s> {
 pub(super) struct Body<'s> {
     /// In upper case, operator joined.
     pub mnemonic: Cow<'s, str>,
-    /// Where it is.
+    /// Position of the mnemonic.
     pub mnemonic_span: Span,
     /// The operands.
     pub operands: Operands,

@@ -29,7 +29,7 @@ pub(super) fn fold(line: &str) -> Option<Folded> {
     }
 }
 
-/// Whether a word is a label that can be a pointer: P63 is the end of the program.
+/// Returns true if a word is a label that can be a pointer: P63 is the end of the program.
 fn label(word: &str) -> bool {
     let digits = word.strip_prefix(['L', 'l']).unwrap_or_default();
     digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse::<u32>().is_ok_and(|n| n != 63)

@@ -75,7 +75,7 @@ pub(crate) struct Reader {
     pub(crate) program: Program,
     pub(crate) diagnostics: Diagnostics,
     folded: Folded,
-    /// What is wrong with the line at hand.
+    /// Errors in the current line.
     faults: Faults,
     /// Comment lines that wait for the instruction below them.
     pub(crate) statement: Option<SmolStr>,
@@ -211,7 +211,7 @@ pub(crate) fn device(text: &str) -> Option<Device> {
     )
 }
 
-/// Whether a mnemonic is a label: a pointer P or I.
+/// Returns true if a mnemonic is a label: a pointer P or I.
 pub(crate) fn is_label(mnemonic: &str) -> bool {
     let digits = mnemonic.strip_prefix(['P', 'I']).unwrap_or("");
     !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())

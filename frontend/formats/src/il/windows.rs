@@ -16,7 +16,7 @@ use smol_str::ToSmolStr;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// What a window holds.
+/// Kind of a window.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Routine {
     Main,
@@ -39,13 +39,13 @@ impl Routine {
 #[derive(Debug)]
 struct Heading {
     routine: Routine,
-    /// What the window is called.
+    /// Name of the window.
     name: Option<String>,
     /// The pointer that the heading states, or that it was given.
     pointer: Option<Device>,
-    /// Where it is in its line.
+    /// Position in its line.
     place: Range<usize>,
-    /// What is wrong with it.
+    /// Error in the heading.
     fault: Option<&'static str>,
 }
 
@@ -106,7 +106,7 @@ impl Windows {
         windows
     }
 
-    /// Whether the text has any.
+    /// Returns true if the text has any.
     pub fn any(&self) -> bool {
         !self.headings.is_empty()
     }
@@ -135,7 +135,7 @@ fn pointers(line: &str) -> impl Iterator<Item = u32> {
     })
 }
 
-/// Whether a line begins a window.
+/// Returns true if a line begins a window.
 pub(crate) fn is_heading(line: &str) -> bool {
     heading(line).is_some()
 }
@@ -202,19 +202,19 @@ fn heading(line: &str) -> Option<Heading> {
     })
 }
 
-/// Whether a comment can be the name of a window.
+/// Returns true if a comment can be the name of a window.
 pub(crate) fn is_window_name(comment: &str) -> bool {
     is_name(comment) && Folded::of(comment).text == comment
 }
 
-/// Whether a word can be a name and is nothing else.
+/// Returns true if a word can only be a name.
 fn is_name(word: &str) -> bool {
     let mut faults = Faults::default();
     grammar::parse(&grammar::operand_field(), word, &mut faults);
     !faults.is_empty() && word.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
-/// What a line calls: where the word after `CALL` is, if the line ends with it.
+/// Position of the word after `CALL`, if the line ends with it.
 fn called(line: &str) -> Option<Range<usize>> {
     let mut places = words(instruction(line)).peekable();
     places.next_if(|place| line[place.clone()].bytes().all(|b| b.is_ascii_digit()));
@@ -224,7 +224,7 @@ fn called(line: &str) -> Option<Range<usize>> {
     places.next().is_none().then_some(to)
 }
 
-/// Whether a line may call something; most lines do not.
+/// Returns true if a line may contain a call; most lines do not.
 fn may_call(line: &str) -> bool {
     let letter = |c: char| matches!(c, 'C' | 'c' | 'Ｃ' | 'ｃ');
     let code = line.trim_start_matches(|c: char| c.is_ascii_digit() || c.is_whitespace());

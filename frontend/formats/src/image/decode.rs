@@ -20,7 +20,7 @@ const ERASED: u16 = 0xFFFF;
 struct Decoded {
     mnemonic: SmolStr,
     operands: Vec<OperandKind>,
-    /// Whether only a rule says what its word means.
+    /// True if its word follows only from a rule.
     derived: bool,
 }
 
@@ -191,7 +191,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a word belongs to the operands of what precedes it: no instruction has such a word.
+/// Returns true if a word belongs to the operands of the preceding instruction: no instruction has such a word.
 fn is_operand(word: u16) -> bool {
     (0x8000..0xB000).contains(&word)
 }

@@ -11,7 +11,7 @@ struct Run {
     class: DeviceClass,
     /// First device number.
     first: u32,
-    /// How many devices.
+    /// Number of devices.
     count: u32,
     /// Code of the first one.
     code: u16,
@@ -188,7 +188,7 @@ impl Pair {
     }
 }
 
-/// What an operand's words mean: two, in a 32-bit instruction four.
+/// Operand of these words: two, in a 32-bit instruction four.
 pub(super) fn operand(words: &[u16]) -> Option<OperandKind> {
     let (low, high) = match *words {
         [a, b] => (Pair::of([a, b])?, None),

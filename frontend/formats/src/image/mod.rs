@@ -29,18 +29,18 @@ pub const END: [u8; 2] = encode::END_BYTES;
 
 /// Length of the header of a `.PMW` file.
 const PMW_HEADER: usize = 0x100;
-/// Where the title stands, and how long it is.
+/// Position and length of the title.
 const TITLE: std::ops::Range<usize> = 0x08..0x28;
-/// Where the keyword stands that all models of the family have: eight hexadecimal digits, or spaces if there is none.
+/// Position of the keyword that all models of the family have: eight hexadecimal digits, or spaces if there is none.
 const KEYWORD: std::ops::Range<usize> = 0x08..0x10;
-/// Where later models have more of the keyword; zeros if there is none.
+/// Position of the rest of the keyword on later models; zeros if there is none.
 const LONG_KEYWORD: std::ops::Range<usize> = 0x44..0x50;
 /// Blocks of comments, then of file registers, 500 steps each. Their places follow from the order of the editors'
 /// parameters.
 const BLOCKS: usize = 0x04;
 /// Bytes of such a block.
 const BLOCK: usize = 1000;
-/// Where the latched ranges stand.
+/// Offset of the latched ranges.
 const LATCHED: usize = 0x30;
 /// The largest memory in units of 1000 steps.
 const MOST_CAPACITY: u16 = 64;
@@ -54,7 +54,7 @@ const RANGES: [(DeviceClass, u32, u16, u16, u16); 5] = [
     (DeviceClass::C, 200, 0xEC8, 56, 1),
     (DeviceClass::D, 0, 0x000, 512, 2),
 ];
-/// What these ranges are unless a project chooses others: M500–M1023, S500–S999, C100–C199, C220–C255, D200–D511.
+/// Default of these ranges: M500–M1023, S500–S999, C100–C199, C220–C255, D200–D511.
 const DEFAULT_RANGES: [(u32, u32); 5] =
     [(500, 1023), (500, 999), (100, 199), (220, 255), (200, 511)];
 
@@ -80,7 +80,7 @@ fn range(bytes: &[u8], nth: usize) -> Option<DeviceRun> {
     })
 }
 
-/// What the parameters say; nothing if they are not parameters.
+/// Decodes parameters; `None` if the bytes are not parameters.
 fn parameters(bytes: &[u8]) -> Option<Parameters> {
     let bytes = bytes.get(..PARAMETERS)?;
     let capacity = word(bytes, 0).filter(|k| (1..=MOST_CAPACITY).contains(k))?;
@@ -99,19 +99,19 @@ fn parameters(bytes: &[u8]) -> Option<Parameters> {
     })
 }
 
-/// Where the program begins in an image with these parameters.
+/// Offset of the program in an image with these parameters.
 pub fn program_start(parameters: &[u8]) -> usize {
     let blocks = |at| usize::from(word(parameters, at).unwrap_or(0));
     PARAMETERS + BLOCK * (blocks(BLOCKS) + blocks(BLOCKS + 2))
 }
 
-/// How many steps the memory with these parameters has; the most of any if they do not say it.
+/// Capacity of the memory with these parameters in steps; the largest if they do not state it.
 pub fn capacity(parameters: &[u8]) -> usize {
     let stated = word(parameters, 0).filter(|k| (1..=MOST_CAPACITY).contains(k));
     1000 * usize::from(stated.unwrap_or(MOST_CAPACITY))
 }
 
-/// Whether parameters of a PLC hold a keyword.
+/// Returns true if parameters of a PLC hold a keyword.
 pub fn is_protected(parameters: &[u8]) -> bool {
     let keyword = parameters.get(KEYWORD).unwrap_or_default();
     let long = parameters.get(LONG_KEYWORD).unwrap_or_default();
@@ -126,7 +126,7 @@ fn image(bytes: &[u8]) -> Option<&[u8]> {
     [Some(bytes), pmw].into_iter().flatten().find(is_image)
 }
 
-/// Whether a file is an image, or holds one.
+/// Returns true if a file is an image, or holds one.
 pub(crate) fn is_image(bytes: &[u8]) -> bool {
     image(bytes).is_some()
 }

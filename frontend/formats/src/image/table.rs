@@ -1,4 +1,4 @@
-//! Which instructions have which words.
+//! Words of instructions.
 
 use crate::TABLES;
 use std::sync::LazyLock;
@@ -35,7 +35,7 @@ pub(super) const BARE: [(u16, &str); 9] = [
 
 /// The word of FNC 0; each further number adds two, 32 bits add one.
 const FIRST: u16 = 0x0010;
-/// What the pulse form adds.
+/// Bit added by the pulse form.
 const PULSE: u16 = 0x1000;
 
 /// An applied instruction in one of its forms.
@@ -45,13 +45,13 @@ pub(super) struct Applied {
     pub word: u16,
     /// Its mnemonic, without the `P` of the pulse form.
     pub mnemonic: &'static str,
-    /// Whether it is the pulse form.
+    /// True for the pulse form.
     pub pulse: bool,
-    /// Whether it is 32 bits wide.
+    /// True for 32 bits.
     pub wide: bool,
-    /// How many operands it has.
+    /// Number of operands.
     pub operands: usize,
-    /// Whether a published image shows the number.
+    /// True if a published image shows the number.
     pub seen: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What wires connect, as a list: contacts in series and parallel, and what they feed.
+//! Conversion of wires to a list: contacts in series and parallel, and the outputs that they feed.
 
 use super::grid::{Drawn, Kind, Symbol};
 use rungc_syntax::Span;
@@ -17,10 +17,10 @@ pub(super) enum Step {
     Label(usize),
 }
 
-/// What is wrong: the place, the code, the message.
+/// An error: the place, the code, the message.
 pub(super) type Fault = (Span, &'static Code, &'static str);
 
-/// How deep branches may be nested.
+/// Most levels of nested branches.
 const DEEPEST: usize = 100;
 
 /// The list of a drawing. A network with a mistake is left out.
@@ -109,7 +109,7 @@ struct Circuit<'a> {
     outputs: BTreeMap<usize, Vec<usize>>,
 }
 
-/// What a wire feeds.
+/// Destination of a wire.
 enum Child {
     Output(usize),
     Branch(usize),
@@ -293,7 +293,7 @@ impl<'a> Circuit<'a> {
         self.edges = starts;
     }
 
-    /// What a wire feeds, from top to bottom.
+    /// Destinations of a wire, from top to bottom.
     fn children(&self, wire: usize) -> Vec<Child> {
         let outputs = self
             .outputs

@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 use std::collections::HashMap;
 use unicode_width::UnicodeWidthChar;
 
-/// What a symbol is.
+/// Kind of a symbol.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     Open,
@@ -30,7 +30,7 @@ pub(super) struct Symbol {
     pub kind: Kind,
     /// Its place in the source.
     pub span: Span,
-    /// What is written in or above it, each with its place in the source; nothing if that was reported.
+    /// Words written in or above it, each with its place in the source; empty if an error in them was reported.
     pub words: Vec<(String, u32)>,
     pub row: usize,
     pub column: usize,
@@ -41,7 +41,7 @@ pub(super) struct Symbol {
     pub note: Option<SmolStr>,
 }
 
-/// What a block of lines shows.
+/// Contents of a block of lines.
 #[derive(Debug, Default)]
 pub(super) struct Drawn {
     /// By row and column.
@@ -62,7 +62,8 @@ pub(super) struct Drawn {
 const RAILS: &str = "|│┃║├┣+";
 const LINES: &str = "-─━═";
 
-/// Whether a line is drawn: a rail comes first, or a wire that leads to a symbol, after a number and a label perhaps.
+/// Returns true if a line is drawn: it begins with a rail, or with a wire that leads to a symbol, after a number and a
+/// label perhaps.
 pub(super) fn is_drawn(line: &str) -> bool {
     let after = line.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c.is_whitespace());
     let margin = &line[..line.len() - after.len()];
@@ -82,8 +83,8 @@ pub(super) fn is_drawn(line: &str) -> bool {
     }
 }
 
-/// Whether a line that begins with a wire is drawn without a rail: the wire leads to a contact in brackets or bars, or
-/// to an output, and a wire or an output comes after it.
+/// Returns true if a line that begins with a wire is drawn without a rail: the wire leads to a contact in brackets or
+/// bars, or to an output, and a wire or an output comes after it.
 fn is_open(line: &str) -> bool {
     let symbols = line.trim_start_matches(|c| LINES.contains(c));
     // One dash and a space begin an item of a list.
@@ -106,13 +107,13 @@ fn is_open(line: &str) -> bool {
     opens && symbols.char_indices().skip(1).any(ends)
 }
 
-/// Whether a line without a rail names the contacts of the drawn line below it: it consists of devices alone.
+/// Returns true if a line without a rail names the contacts of the drawn line below it: it consists of devices alone.
 pub(super) fn is_names(line: &str) -> bool {
     let mut words = line.split_whitespace().peekable();
     words.peek().is_some() && words.all(is_device)
 }
 
-/// Where the first rail of a row is, or the first wire of one without rails, after a number and a label perhaps.
+/// Column of the first rail of a row, or of the first wire of one without rails, after a number and a label perhaps.
 fn rail_of(row: &[(char, u32)]) -> Option<usize> {
     let at = row
         .iter()
@@ -125,7 +126,7 @@ fn rail_of(row: &[(char, u32)]) -> Option<usize> {
     is_rail.then_some(at)
 }
 
-/// Which neighbours a character of a wire reaches: left, right, up, down.
+/// Neighbours that a character of a wire reaches: left, right, up, down.
 fn arms(c: char) -> Option<[bool; 4]> {
     let arms = match c {
         c if LINES.contains(c) => [true, true, false, false],
@@ -239,7 +240,7 @@ struct Scan<'a> {
     spans: Vec<(usize, usize)>,
     /// The symbols by the cells that they take.
     symbol_at: HashMap<(usize, usize), usize>,
-    /// Where rows continue: number, whether it leaves, row, first column and one past the last.
+    /// Continuations of rows: number, whether it leaves, row, first column and one past the last.
     folds: Vec<(u32, bool, usize, usize, usize)>,
 }
 
@@ -279,7 +280,7 @@ impl Scan<'_> {
         LINES.contains(c) || "+┬┴┼├┤".contains(c)
     }
 
-    /// Whether a wire or another symbol is to the left of a bracket; other brackets are parts of comments.
+    /// Returns true if a wire or another symbol is to the left of a bracket; other brackets are parts of comments.
     fn is_led_to(&self, row: usize, at: usize) -> bool {
         let mut before = (0..at).rev();
         let before = before.find(|column| self.block.at(row, *column) != ' ');
@@ -369,7 +370,7 @@ impl Scan<'_> {
         Some(end + 1)
     }
 
-    /// What brackets enclose; brackets in texts do not count.
+    /// Finds the end of a bracket; brackets in texts do not count.
     fn enclosed(&mut self, row: usize, at: usize, close: char) -> Option<usize> {
         let mut quoted = false;
         let mut end = at + 1;
@@ -483,7 +484,7 @@ impl Scan<'_> {
         });
     }
 
-    /// Which neighbours each cell reaches that is a wire.
+    /// Neighbours that each cell with a wire reaches.
     fn wires(&self, rails: &[usize]) -> Vec<Vec<Option<[bool; 4]>>> {
         let rows = self.block.rows.iter().enumerate();
         let mut wires: Vec<Vec<_>> = rows
@@ -572,7 +573,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Whether a symbol or fold comes after at most two spaces.
+    /// Returns true if a symbol or fold comes after at most two spaces.
     fn leads_on(&self, row: usize, column: usize) -> bool {
         let mut at = column;
         while at < column + 3 && self.block.at(row, at) == ' ' {
@@ -640,7 +641,7 @@ impl Scan<'_> {
     }
 }
 
-/// What a sign in a contact means.
+/// Kind of a contact by its sign.
 fn kind(sign: char) -> Option<Kind> {
     Some(match sign {
         ' ' => Kind::Open,
@@ -657,7 +658,7 @@ fn kind_of(word: &str) -> Option<Kind> {
     kind(sign).filter(|_| signs.next().is_none())
 }
 
-/// Whether a word looks like a device that has a contact or a coil; what it is in truth is for the grammar of operands.
+/// Returns true if a word looks like a device that has a contact or a coil; the grammar of operands decides.
 pub(super) fn is_device(word: &str) -> bool {
     let letters = word.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
     let digits = word.trim_start_matches(|c: char| c.is_ascii_alphabetic());

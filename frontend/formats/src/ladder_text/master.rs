@@ -6,7 +6,7 @@ use super::grid::is_device;
 pub(super) struct Master {
     pub nesting: String,
     pub device: String,
-    /// Where it begins and ends in its line.
+    /// Start and end in its line.
     pub at: usize,
     pub end: usize,
 }

@@ -1,4 +1,4 @@
-//! Which cells of a drawing hang together.
+//! Connected cells of a drawing.
 
 use std::collections::HashMap;
 

@@ -9,7 +9,7 @@ use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::BTreeMap;
 
-/// What the types of blocks begin with that are instructions: `FX_ZRST`. Their operands are called `p1`, `p2`, ….
+/// Prefix of block types that are instructions: `FX_ZRST`. Their operands are named `p1`, `p2`, ….
 pub(super) const INSTRUCTION: &str = "FX_";
 
 /// The inputs and outputs of a block.
@@ -42,7 +42,7 @@ impl<'a, 'i> Pins<'a, 'i> {
         children(found.1, "connectionPointIn").next()
     }
 
-    /// What leads to an input, if anything does.
+    /// Value at an input, if it is connected.
     pub fn value(
         &self,
         drawing: &mut Drawing<'a, 'i, '_>,
@@ -320,7 +320,8 @@ pub fn iec_timer_unit(number: u32) -> Option<u64> {
     }
 }
 
-/// Whether a counter of the PLC counts as the block does: up to a constant, and nothing reads the count.
+/// Returns true if a counter of the PLC behaves like the block: it counts up to a constant, and nothing reads the
+/// count.
 fn counts_alone(drawing: &Drawing, pins: &Pins) -> bool {
     let preset = pins.input("PV").and_then(|point| drawing.written(point));
     let preset = preset.and_then(|written| constant(&written));

@@ -17,7 +17,7 @@ const DEEPEST: usize = 50;
 /// A chart while it is read.
 struct Chart<'a, 'i> {
     by_id: HashMap<&'a str, Node<'a, 'i>>,
-    /// What an element's outputs lead to.
+    /// Destinations of an element's outputs.
     uses: HashMap<&'a str, Vec<&'a str>>,
     /// By name in upper case.
     steps: HashMap<String, Device>,
@@ -343,7 +343,7 @@ impl<'a, 'i> Chart<'a, 'i> {
     }
 }
 
-/// What an action does to a variable.
+/// Effect of an action on a variable.
 struct Use {
     /// OUT, SET or RST.
     mnemonic: &'static str,
@@ -481,7 +481,7 @@ fn drive(reader: &mut Reader, body: Node, device: Device, uses: &[Use]) -> Resul
     Ok(())
 }
 
-/// When a transition fires, once the steps before it are active.
+/// Condition of a transition, once the steps before it are active.
 fn condition(reader: &mut Reader, pou: Node, body: Node, transition: Node) -> Result<Logic, Fault> {
     let Some(condition) = children(transition, "condition").next() else {
         return Err(Fault::at(

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// The most elements on one way.
 const DEEPEST: usize = 200;
 
-/// What a wire carries.
+/// Value on a wire.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     /// Power: whether something is on.
@@ -33,9 +33,9 @@ impl Value {
 /// A number: a constant or a register.
 #[derive(Clone, Debug)]
 pub(super) struct Word {
-    /// How a list writes it.
+    /// Spelling in a list.
     pub operand: SmolStr,
-    /// What it is; `None`: a constant, which fits all.
+    /// Type; `None`: a constant, which fits all.
     pub kind: Option<Kind>,
 }
 
@@ -45,9 +45,9 @@ pub(super) struct Drawing<'a, 'i, 'r> {
     by_id: HashMap<&'a str, Node<'a, 'i>>,
     /// By name.
     connectors: HashMap<&'a str, Node<'a, 'i>>,
-    /// Where an element's outputs lead: the output as the connection names it, and the element there.
+    /// Destinations of an element's outputs: the output as the connection names it, and the element there.
     uses: HashMap<&'a str, Vec<(&'a str, Node<'a, 'i>)>>,
-    /// What leads out of an element's output.
+    /// Known logic of an element's outputs.
     known: HashMap<(&'a str, &'a str), Logic>,
     /// Outputs of the blocks that have been read.
     done: HashMap<&'a str, BTreeMap<SmolStr, Value>>,
@@ -90,7 +90,7 @@ fn place(node: &Node) -> (f64, f64) {
     (number("y").unwrap_or(0.0), number("x").unwrap_or(0.0))
 }
 
-/// Whether an element does something, and is not only on the way to another.
+/// Returns true if an element has an effect, and is not only a part of the way to another.
 fn ends_a_way(node: Node) -> bool {
     node.is_element()
         && !matches!(
@@ -104,7 +104,7 @@ fn ends_a_way(node: Node) -> bool {
         )
 }
 
-/// Why a way cannot be followed; `None` if that has been reported.
+/// Reason for which a way cannot be followed; `None` if it has been reported.
 pub(super) type Failure = Option<Fault>;
 
 impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
@@ -238,7 +238,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         Fault::at(node, what, "connect it to the left power rail")
     }
 
-    /// Where the connections of a point come from: element and output.
+    /// Sources of a point's connections: element and output.
     fn sources(point: Node<'a, 'i>) -> Vec<(&'a str, &'a str)> {
         let connections = children(point, "connection");
         let source = |c: Node<'a, 'i>| {
@@ -252,7 +252,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         Self::sources(point).first().copied()
     }
 
-    /// What leads to an element of a ladder.
+    /// Logic at the input of an element of a ladder.
     pub fn flow_into(&mut self, node: Node<'a, 'i>) -> Result<Logic, Failure> {
         let points = children(node, "connectionPointIn");
         let from: Vec<_> = points.flat_map(Self::sources).collect();
@@ -274,7 +274,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         Ok(joined)
     }
 
-    /// What leads to a point of an element.
+    /// Value at a point of an element.
     pub fn value_into(
         &mut self,
         point: Node<'a, 'i>,
@@ -302,7 +302,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         }
     }
 
-    /// What leads out of an output of an element, on the way to another.
+    /// Value of an element's output, on the way to another.
     fn value_of(
         &mut self,
         id: &'a str,
@@ -498,7 +498,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         self.register(block, output, like, 1)
     }
 
-    /// Where an output of a block leads.
+    /// Elements that an output of a block leads to.
     pub fn uses_of(&self, block: Node<'a, 'i>, output: &str) -> Vec<Node<'a, 'i>> {
         let id = block.attribute("localId").unwrap_or_default();
         let uses = self.uses.get(id).into_iter().flatten();

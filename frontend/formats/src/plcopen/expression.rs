@@ -7,7 +7,7 @@ use super::{Fault, Reader, functions};
 use roxmltree::Node;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-/// How deep parentheses may be nested.
+/// Most levels of nested parentheses.
 const DEEPEST: usize = 50;
 
 /// Reads a condition.
@@ -117,7 +117,7 @@ struct Parser<'a, 'i, 'r> {
     words: Vec<SmolStr>,
     at: usize,
     depth: usize,
-    /// How many contacts there are so far: each is a separate element.
+    /// Number of contacts so far: each is a separate element.
     contacts: u32,
 }
 

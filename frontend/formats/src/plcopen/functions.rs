@@ -33,7 +33,7 @@ pub(super) fn read<'a, 'i>(
     })
 }
 
-/// Whether an instruction takes 32 bits for these numbers.
+/// Returns true if an instruction takes 32 bits for these numbers.
 pub(super) fn wide(node: Node, words: &[&Word]) -> Result<bool, Fault> {
     let kinds: Vec<_> = words.iter().filter_map(|word| word.kind.as_ref()).collect();
     let wide = kinds.iter().any(|kind| kind.is_wide());
@@ -61,7 +61,7 @@ struct Function<'d, 'a, 'i, 'r> {
     drawing: &'d mut Drawing<'a, 'i, 'r>,
     node: Node<'a, 'i>,
     name: &'d str,
-    /// What enables it.
+    /// Logic that enables it.
     enable: Logic,
     inputs: Vec<Value>,
 }
@@ -275,7 +275,7 @@ impl<'d, 'a, 'i, 'r> Function<'d, 'a, 'i, 'r> {
         Ok(outputs)
     }
 
-    /// What the function gives: its result, and ENO, as long as the result does not change what enables it.
+    /// Outputs of the function: its result, and ENO, as long as the result does not change the enabling logic.
     fn outputs(&self, to: &Word) -> Outputs {
         let mut outputs = Outputs::from([("OUT".into(), Value::Word(to.clone()))]);
         if !self.enable.names(&to.operand) {
@@ -386,7 +386,7 @@ impl<'d, 'a, 'i, 'r> Function<'d, 'a, 'i, 'r> {
     }
 }
 
-/// Whether two registers, or pairs of them, have one in common.
+/// Returns true if two registers, or pairs of them, overlap.
 fn overlap(a: &Word, b: &Word) -> bool {
     let span = |word: &Word| {
         let device = super::variables::device(&word.operand)?;

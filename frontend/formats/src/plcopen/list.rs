@@ -13,12 +13,12 @@ use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use source::Line;
 use std::collections::BTreeMap;
 
-/// How deep parentheses may be nested.
+/// Most levels of nested parentheses.
 const DEEPEST: usize = 50;
 
-/// What the name of a variable begins with that keeps a result for branches of the same network.
+/// Prefix of a variable that stores a result for branches of the same network.
 const KEPT: &str = "MPS_";
-/// What a label begins with that follows a skipped function.
+/// Prefix of a label that follows a skipped function.
 const SKIP: &str = "SKIP_";
 
 /// Finds the timers that a list calls, so that their outputs can be read before them.
@@ -69,7 +69,7 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
     }
 }
 
-/// What the list has computed so far.
+/// Current result of the list.
 #[derive(Clone, Debug)]
 enum Held {
     Nothing,
@@ -84,7 +84,7 @@ struct List<'a, 'i, 'r> {
     reader: &'r mut Reader,
     body: Node<'a, 'i>,
     result: Held,
-    /// What parentheses hold back: the operator, whether it negates, and the result before it.
+    /// State pushed by parentheses: the operator, whether it negates, and the result before it.
     held: Vec<(SmolStr, bool, Held)>,
     /// Each instruction is a separate element.
     instructions: u32,
@@ -92,7 +92,7 @@ struct List<'a, 'i, 'r> {
     remarks: Vec<String>,
     /// Results that branches continue, by the names of their variables.
     kept: BTreeMap<String, Kept>,
-    /// What leads to the inputs of timers, by their instances.
+    /// Logic of the timers' inputs, by their instances.
     inputs: BTreeMap<String, Logic>,
     /// The label that skips what is read, and the condition that does not.
     skipped: Option<(String, Logic)>,
@@ -101,7 +101,7 @@ struct List<'a, 'i, 'r> {
 /// A result that branches continue.
 struct Kept {
     logic: Logic,
-    /// How many parts the program had when it was kept.
+    /// Number of parts of the program at that time.
     parts: usize,
 }
 
@@ -262,7 +262,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         Ok(())
     }
 
-    /// What follows a parenthesis: the operand that it begins with, and perhaps its end.
+    /// Parses the text after a parenthesis: the operand that it begins with, and perhaps its end.
     fn parenthesis(&mut self, rest: &str) -> Result<(), Fault> {
         let (operand, end) = match rest.split_once(')') {
             Some((operand, after)) => (operand.trim(), Some(format!("){after}"))),

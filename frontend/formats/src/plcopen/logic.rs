@@ -1,13 +1,13 @@
-//! What leads to an output, as an expression of contacts, and outputs as instructions.
+//! Logic of an output, as an expression of contacts, and outputs as instructions.
 
 use smol_str::SmolStr;
 
-/// How contacts stand to each other between the left power rail and an output.
+/// Arrangement of contacts between the left power rail and an output.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Logic {
     /// A contact or a comparison.
     Contact(Contact),
-    /// What changes the result of all that precedes it in its series: INV, MEP, MEF.
+    /// A change of the result of all that precedes it in its series: INV, MEP, MEF.
     Result(SmolStr),
     /// One after the other; none is a wire.
     Series(Vec<Logic>),
@@ -20,13 +20,13 @@ pub(super) enum Logic {
 pub(super) struct Contact {
     /// The element that it is: two contacts of one device are different.
     pub element: u32,
-    /// When it is closed.
+    /// Condition under which it is closed.
     pub sense: Sense,
     /// Its device, or what it compares.
     pub operands: SmolStr,
 }
 
-/// When a contact is closed.
+/// Condition under which a contact is closed.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Sense {
     /// While its device is on.
@@ -41,7 +41,7 @@ pub(super) enum Sense {
     Compare(SmolStr),
 }
 
-/// How a contact joins what precedes it.
+/// Operation by which a contact joins the preceding logic.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Entry {
     Start,
@@ -78,7 +78,7 @@ impl Logic {
         })
     }
 
-    /// Whether it is nothing but a wire.
+    /// Returns true if it is nothing but a wire.
     pub fn is_wire(&self) -> bool {
         matches!(self.only(), Logic::Series(items) if items.is_empty())
     }
@@ -96,7 +96,7 @@ impl Logic {
         Logic::Series(items)
     }
 
-    /// Whether the result of all of it is changed by INV, MEP or MEF.
+    /// Returns true if the result of all of it is changed by INV, MEP or MEF.
     pub fn is_changed(&self) -> bool {
         match self {
             Logic::Series(items) => items.iter().any(|item| matches!(item, Logic::Result(_))),
@@ -124,7 +124,7 @@ impl Logic {
         Logic::Series(items)
     }
 
-    /// What it begins with, unless it is a wire.
+    /// First element, unless it is a wire.
     pub fn first(&self) -> Option<&Logic> {
         match self {
             Logic::Series(items) => items.first(),
@@ -132,7 +132,7 @@ impl Logic {
         }
     }
 
-    /// What is one after the other in it.
+    /// Elements in series.
     fn items(self) -> Vec<Logic> {
         match self {
             Logic::Series(items) => items,
@@ -165,7 +165,7 @@ impl Logic {
         Logic::Series(before)
     }
 
-    /// How many contacts it has.
+    /// Number of contacts.
     pub fn size(&self) -> usize {
         match self {
             Logic::Contact(_) | Logic::Result(_) => 1,
@@ -173,7 +173,7 @@ impl Logic {
         }
     }
 
-    /// Whether a contact or a comparison in it names the device.
+    /// Returns true if a contact or a comparison in it names the device.
     pub fn names(&self, device: &str) -> bool {
         match self {
             Logic::Contact(contact) => contact.operands.split(' ').any(|word| word == device),
@@ -217,7 +217,7 @@ impl Logic {
         }
     }
 
-    /// What stands alone in it.
+    /// The only element, if there is one.
     fn only(&self) -> &Logic {
         match self {
             Logic::Series(items) => match items.as_slice() {
@@ -267,16 +267,16 @@ fn series(items: &[Logic], mut entry: Entry, out: &mut Vec<SmolStr>) {
     }
 }
 
-/// What contacts drive.
+/// Output driven by contacts.
 #[derive(Clone, Debug)]
 pub(super) struct Output {
-    /// What leads to it.
+    /// Logic of the output.
     pub logic: Logic,
     /// Its instructions.
     pub lines: Vec<SmolStr>,
-    /// Whether its instructions begin separate networks, which nothing can follow.
+    /// True if its instructions begin separate networks, which nothing can follow.
     pub alone: bool,
-    /// Whether it is connected to the rail without a contact, as RET is.
+    /// True if it is connected to the rail without a contact, as RET is.
     pub bare: bool,
 }
 

@@ -28,13 +28,13 @@ use variables::{Found, Kind, Missing, Variables};
 pub use blocks::iec_timer_unit;
 pub use variables::Names;
 
-/// What the description of a project begins with (`contentDescription` of its header), before the CPU type of its PLC:
-/// TC6 2.01 has no element for it.
+/// Prefix of a project's description (`contentDescription` of its header), before the CPU type of its PLC: TC6 2.01 has
+/// no element for it.
 pub const PLCOPEN_CPU: &str = "CPU type ";
 
-/// What the namespace of a project begins with.
+/// Prefix of a project's namespace.
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
-/// How far into a text its namespace is, at most.
+/// Largest distance of the namespace from the start of a text.
 const HEAD: usize = 4096;
 /// The most contacts that lead to an output: drawings that share ways grow when they become a list.
 const MOST_CONTACTS: usize = 2000;
@@ -47,7 +47,7 @@ const MOST_NODES: u32 = 8_000_000;
 /// The most mistakes that are reported: a project of another world has one in each element.
 const MOST_FAULTS: usize = 200;
 
-/// Whether a text is a project of this form.
+/// Returns true if a text is a project of this form.
 pub(crate) fn is_project(text: &str) -> bool {
     let head = text.trim_start_matches('\u{FEFF}').trim_start();
     let mut end = head.len().min(HEAD);
@@ -150,12 +150,12 @@ struct Reader {
     instances: BTreeMap<String, blocks::Instance>,
     /// The relays of steps, by name in upper case.
     steps: HashMap<String, Device>,
-    /// Whether what follows is driven by STL.
+    /// True if the following code is driven by STL.
     in_state: bool,
     /// Contacts on all ways so far.
     contacts: usize,
     faults: Vec<Fault>,
-    /// Whether something was left unread after many mistakes.
+    /// True if reading stopped after many mistakes.
     cut_short: bool,
 }
 
@@ -180,7 +180,7 @@ fn text(node: Node) -> String {
         .collect()
 }
 
-/// Whether an attribute says so.
+/// Value of a boolean attribute.
 fn flag(node: Node, name: &str) -> bool {
     matches!(node.attribute(name), Some("true" | "1"))
 }
@@ -246,7 +246,7 @@ impl Reader {
         }
     }
 
-    /// Whether there are enough mistakes that more would not help; what is left is not read then.
+    /// Returns true if more mistakes would not help; the rest is then left unread.
     fn gives_up(&mut self) -> bool {
         self.cut_short |= self.faults.len() >= MOST_FAULTS;
         self.cut_short
@@ -385,12 +385,12 @@ impl Reader {
     }
 }
 
-/// How devices become free for what has none.
+/// Advice for freeing devices.
 const FREE: &str = "list free devices in `[plcopen.free]` of rungc.toml, or in a row such as `*,D100-D199` of the table for `--names`";
 
-/// What the end of a program is called, where a return goes.
+/// Name of the end of the program, the target of returns.
 const RETURN: &str = "";
 
-/// Which addresses and names mean devices.
+/// Advice on addresses and names of devices.
 const ADDRESSES: &str = "name its device in `[plcopen.names]` of rungc.toml or in a table for `--names`, or give it an address: \
                          `%IX0.0` is X000, `%QX0.0` Y000, `%MX0.0` M0, `%MW0` D0";

@@ -48,7 +48,7 @@ impl Names {
     }
 }
 
-/// What a variable holds.
+/// Type of a variable.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     /// A bit.
@@ -85,7 +85,7 @@ impl Kind {
         })
     }
 
-    /// Whether it takes two registers.
+    /// Returns true if it occupies two registers.
     pub fn is_wide(&self) -> bool {
         matches!(self, Kind::Dint | Kind::Dword)
     }
@@ -119,11 +119,11 @@ pub(super) struct Variables {
     given: HashMap<String, Device>,
     /// Devices of variables that have been used.
     used: BTreeSet<Device>,
-    /// How many pointers labels have taken.
+    /// Number of pointers used by labels.
     pointers: u32,
-    /// What the devices that were used are called.
+    /// Names of the devices in use.
     pub comments: BTreeMap<Device, String>,
-    /// What the first scan sets.
+    /// Instructions of the first scan.
     pub first_scan: Vec<SmolStr>,
 }
 
@@ -134,7 +134,7 @@ pub(super) struct Found {
     pub kind: Kind,
 }
 
-/// Why a variable has no device.
+/// Reason for which a variable has no device.
 #[derive(Debug)]
 pub(super) enum Missing {
     /// No device is named, and none is free.
@@ -241,7 +241,7 @@ impl Variables {
         Some(&self.declared(&name.trim().to_uppercase())?.kind)
     }
 
-    /// Whether a name means a number.
+    /// Returns true if a name means a number.
     pub fn is_number(&self, name: &str) -> bool {
         let name = name.trim().to_uppercase();
         match self.declared(&name) {
@@ -257,7 +257,7 @@ impl Variables {
         }
     }
 
-    /// What a variable begins with, as written in upper case.
+    /// Initial value of a variable, as written in upper case.
     pub fn initial(&self, name: &str) -> Option<&str> {
         let variable = self.declared(&name.trim().to_uppercase())?;
         variable.initial.as_deref()
@@ -324,7 +324,7 @@ impl Variables {
         self.first_scan.extend(value);
     }
 
-    /// Whether the table names the device of a block's instance or of a part of it.
+    /// Returns true if the table names the device of a block's instance or of a part of it.
     pub fn is_named(&self, name: &str) -> bool {
         let name = name.trim().to_uppercase();
         let full = format!("{}.{name}", self.program);

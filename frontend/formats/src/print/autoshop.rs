@@ -38,7 +38,7 @@ struct Window<'p> {
     /// Its label as written, with remarks.
     head: Option<&'p Instr>,
     instrs: &'p [Instr],
-    /// What ends it, which the text leaves out.
+    /// The instruction that ends it, which the text leaves out.
     end: Option<&'p Instr>,
 }
 
@@ -108,7 +108,7 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
     Ok(windows)
 }
 
-/// What the routines are called: by the comments of their pointers, where those can be names.
+/// Names of the routines: the comments of their pointers, where those can be names.
 fn names(program: &Program, labels: &[Device]) -> BTreeMap<Device, String> {
     let mut used = BTreeSet::new();
     let mut names = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What the readers say about sources that are wrong: one snapshot a family, as `code line:col message / label / help`.
+//! Diagnostics of the readers for erroneous sources: one snapshot a family, as `code line:col message / label / help`.
 
 use crate::fixture::{Stream, gxw, wcd, wpg};
 use rungc_frontend::{Read, ReadOptions, read_bytes, read_bytes_with, read_text};

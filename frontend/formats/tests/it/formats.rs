@@ -475,7 +475,7 @@ fn windows_of_autoshop_are_written() {
     );
 }
 
-/// What names cannot express is rejected, where it is.
+/// Programs that names cannot express are rejected, at their position.
 #[test]
 fn programs_that_windows_cannot_hold() {
     let why = |list: &str| {

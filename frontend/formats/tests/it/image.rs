@@ -5,7 +5,7 @@ use rungc_frontend::{Read, ReadOptions, image, read_bytes, read_bytes_with, read
 use rungc_syntax::{DeviceClass, Program, SourceKind};
 use std::path::{Path, PathBuf};
 
-/// What a list says, as an image.
+/// Image of a list.
 fn written(list: &str) -> Vec<u8> {
     let read = read_text("a.il", list);
     assert!(read.diagnostics.is_empty(), "{:?}", read.diagnostics);
@@ -40,7 +40,7 @@ fn findings(read: &Read) -> String {
     )
 }
 
-/// What each kind of instruction of the published images and quotations is, with its words.
+/// Instructions of each kind in the published images and quotations, with their words.
 const SHOWN: [(&str, &[u16]); 24] = [
     ("LD X000", &[0x2400]),
     ("OUT Y000", &[0xC500]),

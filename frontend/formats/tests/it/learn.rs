@@ -136,7 +136,7 @@ proptest! {
                 tokens
             })
             .collect();
-        // What is hidden may be anything of its length and operands; all else must be as it is.
+        // Hidden operands may be anything of their length; all else must be unchanged.
         match lessons(&project(&strange), &wrong) {
             Err(_) => {}
             Ok(learned) => {

@@ -257,7 +257,7 @@ fn with_free(text: &str) -> Read {
     read_bytes_with("plc.xml", text.as_bytes(), &options).unwrap()
 }
 
-/// What is wrong with a project, and the list of what can be read.
+/// Errors in a project, and the list of its readable part.
 fn shown(read: &Read) -> String {
     findings(read) + &rungc_frontend::print::to_il(&read.program)
 }

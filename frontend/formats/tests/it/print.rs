@@ -1,4 +1,4 @@
-//! What the writers write reads back to the same program.
+//! Written programs read back unchanged.
 
 use proptest::collection::{btree_map, vec};
 use proptest::option;

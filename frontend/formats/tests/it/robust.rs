@@ -56,7 +56,8 @@ fn survive(bytes: &[u8]) -> Option<Read> {
     Some(read)
 }
 
-/// What reads without an error prints and reads back, but for texts with line breaks, which a list cannot hold.
+/// Prints a program that was read without an error and reads it back, except for texts with line breaks, which a list
+/// cannot hold.
 fn print_and_read(read: &Read) {
     if print::broken_text(&read.program).is_some() {
         return;

@@ -41,7 +41,7 @@ fn codes(read: &Read) -> Vec<&'static str> {
     read.diagnostics.iter().map(|found| found.code).collect()
 }
 
-/// What is said, with what is read.
+/// Diagnostics, and the program that was read.
 fn reported(parts: &[Part], options: &ReadOptions) -> String {
     let read = read_bytes_with("press.gxw", &project(parts), options).unwrap();
     let line = |found: &rungc_syntax::Diagnostic| {

@@ -1,4 +1,4 @@
-//! What a search of runs finds: `rungc explore`.
+//! Findings of a search of runs: `rungc explore`.
 
 super::codes! {
     REACHES_ERROR = "E0830" "reaches-operation-error" Error None,

@@ -1,4 +1,4 @@
-//! What the projects of vendors' editors contain in addition to a program, and which part was read.
+//! Additional contents of the projects of vendors' editors, and the part that was read.
 
 super::codes! {
     NOT_COMPILED = "E0021" "not-compiled" Error None,

@@ -1,5 +1,5 @@
-//! What rungs of `control` drive: PID loops and what surrounds them, all of it instructions that emitted C calls the
-//! runtime for. They are driven in each scan, so a scan has a known number of calls.
+//! Instructions driven by rungs of `control`: PID loops and their surroundings, all of them instructions for which
+//! emitted C calls the runtime. They are driven in each scan, so a scan has a known number of calls.
 //!
 //! Targets and measured values are limited to a range, and so is the output of each loop: no value in a loop ever
 //! leaves the range that the PLC would report.
@@ -13,7 +13,7 @@ use std::fmt::Write;
 const WORDS: u32 = 200;
 /// Targets and measured values.
 const LIMITED: u32 = 200;
-/// How many of them there are.
+/// Number of these values.
 const LIMITED_COUNT: u32 = 40;
 /// Outputs of loops.
 const OUTPUTS: u32 = 300;
@@ -30,14 +30,14 @@ pub const AREA: u32 = 25;
 const ALWAYS: u32 = 8000;
 const FIRST_SCAN: u32 = 8002;
 
-/// What a rung of `control` drives. Numbers are those of devices D.
+/// Instruction driven by a rung of `control`. Numbers are those of devices D.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Control {
     /// Settings of a loop, in the first scan.
     Settings(u32),
     /// PID.
     Pid {
-        /// Which loop.
+        /// Number of the loop.
         number: u32,
         /// Target.
         target: u32,
@@ -82,7 +82,7 @@ impl Called {
     }
 }
 
-/// How many settings a loop has.
+/// Number of settings of a loop.
 const SETTINGS: usize = 9;
 
 /// The settings of a loop: words of its area, and what they are.
@@ -149,7 +149,7 @@ impl Control {
         }
     }
 
-    /// Whether it sets a loop up.
+    /// Returns true if it sets a loop up.
     pub fn is_settings(self) -> bool {
         matches!(self, Settings(_))
     }
@@ -275,12 +275,12 @@ fn changed(number: u32) -> Rung {
     }
 }
 
-/// Whether a device is one that the hand-written C has no use for.
+/// Returns true if a device has no counterpart in the hand-written C.
 pub fn is_special((class, number): Device) -> bool {
     class == M && number >= ALWAYS
 }
 
-/// Where the hand-written C has a register: in a loop's area, or among the others.
+/// Location of a register in the hand-written C: in a loop's area, or among the others.
 pub fn place(number: u32) -> String {
     match number.checked_sub(AREAS) {
         Some(word) => format!("loop[{}].word[{}]", word / AREA, word % AREA),

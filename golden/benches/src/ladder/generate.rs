@@ -160,7 +160,7 @@ impl Generator {
         rungs
     }
 
-    /// What `control` has in addition; a loop with its settings.
+    /// Adds an instruction of `control`; a loop with its settings.
     fn control(&mut self) -> Control {
         let before = self.loops;
         let (steps, control) = Control::random(&mut self.random, &mut self.loops);
@@ -209,7 +209,7 @@ impl Generator {
         }
     }
 
-    /// What a rung of `mixed` drives.
+    /// Instruction driven by a rung of `mixed`.
     fn action(&mut self, what: f64) -> Action {
         if what < 0.08 {
             self.timer()

@@ -14,13 +14,13 @@ const PART: usize = 200;
 /// Timers, counters and registers of `mixed`; a long at the last register needs one more.
 const MIXED_DEVICES: &str = "struct timer T[200]; struct counter C[100]; int16_t D[201];";
 
-/// What `mixed` uses.
+/// Header of `mixed`.
 const MIXED: &str = include_str!("../../templates/hand_mixed.h");
 
-/// What `process` uses.
+/// Header of `process`.
 const PROCESS: &str = include_str!("../../templates/hand_process.h");
 
-/// What `control` uses.
+/// Header of `control`.
 const CONTROL: &str = include_str!("../../templates/hand_control.h");
 
 /// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` and
@@ -86,7 +86,7 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
     out
 }
 
-/// Whether a scan takes the time: there are timers.
+/// Returns true if a scan takes the time: there are timers.
 pub fn takes_time(ladder: &Ladder) -> bool {
     matches!(ladder.kind, Kind::Mixed | Kind::Control)
 }
@@ -99,7 +99,7 @@ fn time(ladder: &Ladder) -> (&'static str, &'static str) {
     }
 }
 
-/// Where the struct has a device.
+/// Location of a device in the struct.
 pub fn place((class, number): Device) -> String {
     match class {
         DeviceClass::D => control::place(number),

@@ -32,7 +32,7 @@ pub const RELAYS: u32 = 7680;
 /// Relays that no rung drives in `contacts`: the modes of a machine.
 pub const FLAGS: u32 = 16;
 
-/// What a program is like.
+/// Kind of a program.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, clap::ValueEnum)]
 pub enum Kind {
     /// Contacts and coils.
@@ -68,7 +68,7 @@ impl Kind {
         }
     }
 
-    /// Whether emitted C calls the runtime.
+    /// Returns true if emitted C calls the runtime.
     pub fn calls(self) -> bool {
         match self {
             Kind::Contacts | Kind::Stations | Kind::Mixed | Kind::Process => false,
@@ -104,7 +104,7 @@ impl Chain {
     }
 }
 
-/// What a rung's contacts drive. Numbers are those of devices: T, C, D, M.
+/// Instruction driven by a rung's contacts. Numbers are those of devices: T, C, D, M.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Action {
     /// OUT Y or M.
@@ -127,13 +127,13 @@ pub enum Action {
     Set(u32),
     /// RST M.
     Reset(u32),
-    /// What `process` has in addition.
+    /// Additional instructions of `process`.
     Process(Process),
-    /// What `control` has in addition.
+    /// Additional instructions of `control`.
     Control(Control),
 }
 
-/// What [`Action::Arithmetic`] does.
+/// Operation of [`Action::Arithmetic`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Operation {
     /// 16-bit sum.
@@ -153,14 +153,14 @@ pub struct Rung {
     pub chain: Chain,
     /// A second block of contacts, and whether it is in parallel with the first.
     pub block: Option<(Chain, bool)>,
-    /// What they drive.
+    /// Driven instruction.
     pub action: Action,
 }
 
 /// A program.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Ladder {
-    /// What it is like.
+    /// Kind of program.
     pub kind: Kind,
     /// Its rungs.
     pub rungs: Vec<Rung>,
@@ -184,7 +184,7 @@ impl Ladder {
         list::list(self)
     }
 
-    /// How many instructions of a scan emitted C calls the runtime for.
+    /// Number of instructions in a scan for which emitted C calls the runtime.
     pub fn calls(&self) -> usize {
         let calls = |rung: &&Rung| matches!(rung.action, Action::Control(c) if !c.is_settings());
         self.rungs.iter().filter(calls).count()

@@ -1,5 +1,5 @@
-//! What rungs of `process` drive: moves of blocks, shifts, queues, conversions and floats, as the control of a process
-//! has them.
+//! Instructions driven by rungs of `process`: moves of blocks, shifts, queues, conversions and floats, as in process
+//! control.
 //!
 //! Floats come from words, are added and multiplied once, and become words again, so that none ever leaves the range of
 //! a float.
@@ -14,20 +14,20 @@ const WORDS: u32 = 200;
 /// Floats that words become, and those that these become.
 const SOURCES: u32 = 200;
 const RESULTS: u32 = 240;
-/// How many of each there are.
+/// Numbers of registers of each use: floats.
 const FLOATS: u32 = 20;
 /// Words that are moved in blocks.
 const BLOCKS: u32 = 300;
 /// Queues.
 const QUEUES: u32 = 560;
-/// How many words each has, with that which counts its entries.
+/// Words of each, with the one that counts its entries.
 const QUEUE: u32 = 16;
 /// Words altogether.
 pub const REGISTERS: u32 = 600;
 /// Relays that are shifted.
 const SHIFTED: u32 = 7000;
 
-/// What a rung of `process` drives. Numbers are those of devices D, or M where bits are shifted.
+/// Instruction driven by a rung of `process`. Numbers are those of devices D, or M where bits are shifted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Process {
     /// BMOV.
@@ -36,7 +36,7 @@ pub enum Process {
         from: u32,
         /// First target.
         to: u32,
-        /// How many.
+        /// Number of devices.
         count: u32,
     },
     /// FMOV.
@@ -45,16 +45,16 @@ pub enum Process {
         from: u32,
         /// First target.
         to: u32,
-        /// How many.
+        /// Number of devices.
         count: u32,
     },
     /// SFTL of relays by one.
     Shift {
-        /// What enters.
+        /// Bit that is shifted in.
         from: u32,
         /// First of them.
         to: u32,
-        /// How many.
+        /// Number of devices.
         count: u32,
     },
     /// SFWR: a register's word to a queue.

@@ -9,7 +9,7 @@ use rungc_benches::problem::{Problem, Result};
 use std::fmt::Write;
 use std::path::Path;
 
-/// How much worse than recorded a figure may be.
+/// Tolerance of a figure, relative to the recorded one.
 const TOLERANCE: f64 = 1.02;
 
 /// RAM that a program may need in addition to its devices (those of Cortex-M4 have 32 bits).
@@ -21,14 +21,14 @@ const BLINK_FLASH: u64 = 4096;
 /// Names of the figures of a [`Record`].
 const NAMES: [&str; 3] = ["bytes of flash", "bytes of RAM", "instructions"];
 
-/// How to record new figures.
+/// Command that records new figures.
 const RECORD: &str = "`cargo xtask generate figures`";
 
 fn values(record: &Record) -> [u64; 3] {
     [record.flash, record.ram, record.instructions]
 }
 
-/// What can be measured here; nothing, and a message, where tools are missing and may be.
+/// Result of a measurement; `None`, and a message, where tools are missing and may be.
 fn unless_missing<T>(result: Result<T>) -> Option<T> {
     match result {
         Ok(value) => Some(value),

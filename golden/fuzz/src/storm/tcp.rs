@@ -98,7 +98,7 @@ pub const SERVERS: [Server; 4] = [
     },
 ];
 
-/// What is not a request: cut, of another length, noise, or for a device that is not there.
+/// Invalid request: cut, of another length, noise, or for a device that does not exist.
 fn bad(server: &Server, random: &mut Random) -> Bytes {
     let number = if random.below(4) == 0 { 0x7000 } else { 100 };
     let mut frame = (server.good)(number, random.word(), true).0;
@@ -128,7 +128,7 @@ pub fn run(server: &Server, frames: usize, seed: u64) -> Outcome {
     let mut wanted = [0; COUNT];
     let service = Service::new(server.speaks, Ports::Inovance, 24_120);
     let mut good = Dialogue::new(service);
-    // Those that stopped in the middle of a frame, and stay.
+    // Connections that stopped in the middle of a frame, and stay open.
     let mut idle = Vec::new();
     let mut outcome = Outcome {
         frames,

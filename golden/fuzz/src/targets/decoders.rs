@@ -76,7 +76,7 @@ fn modbus_master(variant: u8, bytes: &[u8], map: &mut dyn Map, _: &mut Frame) {
     }
 }
 
-/// What a server over TCP answers to a request, whose function and count come first: as it is, and as the answer to it.
+/// Answer of a server over TCP to a request, whose function and count come first: as it is, and as the answer to it.
 fn modbus_client(_: u8, bytes: &[u8], map: &mut dyn Map, request: &mut Frame) {
     let [function, count, rest @ ..] = bytes else {
         return;

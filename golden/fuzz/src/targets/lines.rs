@@ -14,7 +14,7 @@ const PAUSES_US: [u64; 4] = [0, 2500, 8000, 60_000];
 /// Silence after which a port has given up whatever was begun, in microseconds.
 const GIVEN_UP_US: u64 = 1_200_000;
 
-/// How long a PLC may take to answer or to ask, in microseconds.
+/// Time-out for a PLC's answer or request, in microseconds.
 const PATIENCE_US: u64 = 2_000_000;
 
 /// Takes what a piece is off the input.

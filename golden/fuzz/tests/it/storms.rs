@@ -4,7 +4,7 @@
 use rungc_fuzz::storm::tcp::{self, SERVERS};
 use rungc_fuzz::{partner, storm};
 
-/// How many frames a storm has that is usually this long.
+/// Number of frames of a storm that usually has this many.
 fn frames(usual: usize) -> usize {
     let wanted = std::env::var("RUNGC_STORM_FRAMES").ok();
     wanted.map_or(usual, |text| {

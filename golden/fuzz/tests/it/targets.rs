@@ -86,7 +86,7 @@ fn every_corpus_belongs_to_a_target() {
 /// to it.
 const OUTSIDE: [&str; 4] = ["cli/rungc", "examples", "golden", "target"];
 
-/// How the names of functions begin that read what others have written.
+/// Prefixes of the names of functions that read foreign data.
 const VERBS: [&str; 8] = [
     "accept", "answer", "decode", "open", "parse", "read", "receive", "take",
 ];

@@ -4,7 +4,7 @@ use rungc_rt::Class;
 use rungc_rt::comm::modbus::{Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits, Profile};
 use std::fmt::Write;
 
-/// Which models serve which table.
+/// Models and the tables that they serve.
 const PROFILES: [(&str, &Profile); 5] = [
     ("H2U", &H2U),
     ("H1U", &H1U),

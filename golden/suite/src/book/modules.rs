@@ -64,7 +64,7 @@ fn ranges(
         page,
         "\n\n{channels} are {what}:\n\n| digit | 0 stands for | gain | held in |\n|--:|--:|--:|--:|\n"
     );
-    // Where each channel has a word of its own, its types need not follow each other.
+    // If each channel has its own word, its types need not follow each other.
     let sparse = ranges.len() > 8 || ranges.iter().take(5).all(Option::is_none);
     let shown = ranges.iter().enumerate();
     let shown = shown.filter(|(_, range)| range.is_some() || !sparse);

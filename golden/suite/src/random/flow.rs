@@ -1,4 +1,4 @@
-//! What leads a random program's scan elsewhere: jumps, loops, zones, subroutines, interrupt routines, step ladders.
+//! Control flow of random programs: jumps, loops, zones, subroutines, interrupt routines, step ladders.
 
 use super::Writer;
 use crate::operands::each;
@@ -15,7 +15,7 @@ const PASSES: &str = "D120";
 /// A subroutine that is called and still to be written.
 pub(super) struct Subroutine {
     label: u32,
-    /// How many calls lead to it: 1 from the main program.
+    /// Number of nested calls that lead to it: 1 from the main program.
     depth: u32,
 }
 
@@ -86,8 +86,8 @@ impl Writer<'_> {
         all.into_iter().map(|(pointer, ..)| pointer).collect()
     }
 
-    /// What leads to an interrupt, where that is more than an input or time: a count, a row of a table of counts, the
-    /// end of pulses.
+    /// Instructions that cause an interrupt, where this is more than an input or time: a count, a row of a table of
+    /// counts, the end of pulses.
     fn request(&mut self, source: Source) {
         let model = Model::get(self.model);
         // Its input interrupts nothing.
@@ -176,7 +176,8 @@ impl Writer<'_> {
         }
     }
 
-    /// What follows the main program: interrupt routines, and the subroutines that are called, by these routines too.
+    /// Writes the routines after the main program: interrupt routines, and the subroutines that are called, by these
+    /// routines too.
     pub(super) fn routines(&mut self, interrupts: Option<Vec<u32>>) {
         let advanced = match interrupts {
             Some(_) => advanced(Model::get(self.model)),
@@ -221,7 +222,7 @@ impl Writer<'_> {
         self.next_label - 1
     }
 
-    /// Whether there are pointers left for this many labels.
+    /// Returns true if there are pointers left for this many labels.
     fn has_labels(&self, count: u32) -> bool {
         self.next_label + count <= LABELS
     }
@@ -298,7 +299,7 @@ impl Writer<'_> {
         self.repeat_by(class.unwrap_or(Classes::K));
     }
 
-    /// What a count of FOR may be on the model.
+    /// Classes of a count of FOR on the model.
     fn counts(&self) -> Vec<Classes> {
         let model = Model::get(self.model);
         let count = rungc_catalogue::find("FOR").map(|found| found.inst.params_of(&[], model));
@@ -309,7 +310,7 @@ impl Writer<'_> {
     /// A loop whose count is of this class.
     fn repeat_by(&mut self, class: Classes) {
         let passes = self.rng.below(4);
-        // What other instructions leave there would be many passes.
+        // Values that other instructions leave there would mean many passes.
         let set = match class {
             Classes::T => Some("T5"),
             Classes::C => Some("C5"),

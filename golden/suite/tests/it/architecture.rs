@@ -49,7 +49,7 @@ impl Package {
         )
     }
 
-    /// What its own code depends on, not that of its tests.
+    /// Dependencies of its code, not of its tests.
     fn uses(&self) -> BTreeSet<String> {
         let normal = self.dependencies.iter().filter(|d| d.kind.is_none());
         normal

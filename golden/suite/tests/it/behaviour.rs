@@ -1,5 +1,4 @@
-//! What a comparison of two programs calls the same is the same: random programs, each with a random change, run side
-//! by side.
+//! Soundness of a comparison of two programs: random programs, each with a random change, run side by side.
 
 use rungc_golden::operands::candidates;
 use rungc_golden::random::program;
@@ -29,7 +28,7 @@ fn module(text: &str, model: ModelId) -> Option<Module> {
     Some(module)
 }
 
-/// Where networks begin, and END: at an LD after an output.
+/// Positions at which networks begin, and END: at an LD after an output.
 fn networks(lines: &[String]) -> Vec<usize> {
     let logic = ["LD", "AN", "OR", "INV", "ME", "MPS", "MRD", "MPP"];
     let is_logic = |line: &str| {
@@ -115,7 +114,7 @@ fn stored(module: &Module) -> BTreeSet<(DeviceClass, u32)> {
         .collect()
 }
 
-/// What a host and the machine do before a scan, of devices that both programs store.
+/// Inputs from a host and the machine before a scan, to devices that both programs store.
 fn events(rng: &mut Rng, shared: &BTreeSet<(DeviceClass, u32)>) -> Vec<Request> {
     let mut events = Vec::new();
     for &(class, number) in shared {

@@ -176,7 +176,7 @@ fn shell(line: &str, path: &Path) -> String {
 
 const CFLAGS: &str = "-std=c99 -O1 -Wall -Wextra -Wconversion -pedantic -Werror";
 
-/// What a run has to look like, whoever runs it.
+/// Checks a run, whoever runs it.
 fn check(run: &rig::Run) {
     let rises = |pin: &str| run.trace.lines().filter(|l| l.ends_with(pin)).count();
     assert_eq!(rises(" Y0 1"), 2000);
@@ -250,7 +250,7 @@ rungc-rt = { path = \"plc/rungc-rt\" }
 fn emitted_rust_runs_on_the_same_board() {
     let module = module();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("board");
-    // What has not changed is not built again.
+    // Unchanged files are not built again.
     let put = |path: &str, text: &str| {
         let path = folder.join(path);
         if std::fs::read_to_string(&path).is_ok_and(|old| old == text) {

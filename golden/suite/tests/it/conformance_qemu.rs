@@ -19,7 +19,7 @@ struct Held<'m> {
     modules: &'m [Module],
     /// The program that runs.
     running: &'m str,
-    /// Where the engine answers something else.
+    /// Answers in which the engine differs.
     different: Vec<String>,
 }
 

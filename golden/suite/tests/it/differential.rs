@@ -54,7 +54,7 @@ struct Sample {
     plain: Module,
 }
 
-/// What indexed operands can reach in some of the programs.
+/// Ranges of indexed operands in some of the programs.
 fn bounds(seed: u64) -> Vec<Bound> {
     let registers = if seed.is_multiple_of(5) { 0..60 } else { 0..0 };
     let bound = |number: u32| Bound {
@@ -129,7 +129,7 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
     samples
 }
 
-/// How many rungs stand in a program that shows rows of the catalogue.
+/// Number of rungs in a program that shows rows of the catalogue.
 const RUNGS: usize = 24;
 
 /// Adds programs of these rungs; those that cannot stand in one program stand in several.
@@ -146,7 +146,7 @@ fn assemble(rungs: &[String], seed: u64, model: ModelId, samples: &mut Vec<Sampl
     }
 }
 
-/// What became of hostile operands.
+/// Results for hostile operands.
 #[derive(Default)]
 struct Hostile {
     rejected: u32,
@@ -231,7 +231,7 @@ fn digests(module: &Module, most: u32) -> Vec<Request> {
     devices.chain(others(module)).collect()
 }
 
-/// What is compared that is not a device.
+/// Other compared values than devices.
 fn others(module: &Module) -> impl Iterator<Item = Request> + '_ {
     let outputs = module.pulse_outputs.iter();
     let pulses = outputs.flat_map(|&n| [Request::Pulses(n), Request::Frequency(n)]);
@@ -245,7 +245,7 @@ fn buffer_words(module: &Module) -> std::ops::Range<u16> {
     0..if has { BUFFER_WORDS as u16 + 4 } else { 0 }
 }
 
-/// What happens to a program before a scan.
+/// Inputs to a program before a scan.
 fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
     let mut events = Vec::new();
     if first {
@@ -278,7 +278,7 @@ fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
     events
 }
 
-/// How long programs run.
+/// Length of programs' runs.
 #[derive(Clone, Copy)]
 struct Length {
     /// Scans after each of which all is compared.
@@ -300,7 +300,7 @@ impl Length {
         scan < self.scans || scan.is_multiple_of(COMPARED) || scan + 1 == self.total()
     }
 
-    /// How many devices of an area are compared after a scan.
+    /// Number of devices in an area that are compared after a scan.
     fn most(self, scan: u64) -> u32 {
         match scan + 1 == self.total() {
             true => u32::MAX,
@@ -318,7 +318,7 @@ struct Case<'s> {
 }
 
 impl Case<'_> {
-    /// What is asked of an engine for a scan, with what happens before and after it.
+    /// Requests to an engine for a scan, with the events before and after it.
     fn scan(self, rng: &mut Rng, scan: u64, now_ms: &mut u32) -> Vec<Request> {
         let module = &self.sample.optimised;
         let is_looked_at = scan < self.length.scans;
@@ -395,7 +395,7 @@ impl Case<'_> {
         engine.ask_all(&stored(&self.sample.optimised, self.length.most(scan)))
     }
 
-    /// Where runs of the reference and an engine differ first: the scan and the devices.
+    /// First difference between the runs of the reference and an engine: the scan and the devices.
     fn difference(
         self,
         (reference, expected): (&mut Interpreter, &Result<Trace, EngineError>),
@@ -438,7 +438,7 @@ impl Case<'_> {
 /// Counts the instructions that the interpreter executes: those of each network that a scan or an interrupt comes to,
 /// whether they are driven or not.
 struct Meter {
-    /// How many instructions each network has.
+    /// Number of instructions in each network.
     lengths: Vec<u64>,
     executed: Arc<AtomicU64>,
 }
@@ -549,7 +549,7 @@ fn programs() -> Vec<Sample> {
     samples
 }
 
-/// What the tests of a run are to have compared, unless the environment asks for something else.
+/// Checks the extent of a run's comparisons, unless the environment asks for something else.
 fn check_extent(samples: &[Sample], extent: &Extent) {
     let (mut occurring, mut shapes) = (Occurring::default(), Shapes::default());
     for sample in samples {
@@ -566,7 +566,7 @@ fn check_extent(samples: &[Sample], extent: &Extent) {
     let mut missing = Vec::new();
     for model in ModelId::ALL {
         for (spelling, lower) in occurring.missing(model) {
-            // What the compiler rejects cannot be compared.
+            // Rejected programs cannot be compared.
             if !matches!(lower, Lower::Todo(_)) {
                 missing.push(format!("{model:?} {spelling}"));
             }
@@ -614,7 +614,7 @@ fn digests_show_every_device() {
     }
 }
 
-/// What was compared.
+/// Extent of comparisons.
 #[derive(Default)]
 struct Extent {
     programs: usize,

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// What `cargo metadata` prints.
+/// Output of `cargo metadata`.
 #[derive(Deserialize)]
 struct Metadata {
     packages: Vec<Package>,
@@ -93,7 +93,7 @@ fn metadata() -> Metadata {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-/// Whether one choice that a licence expression offers consists of allowed licences only.
+/// Returns true if one choice of a licence expression consists of allowed licences only.
 fn is_allowed(licence: &str, allowed: &[&String]) -> bool {
     let expression = Expression::parse_mode(licence, ParseMode::LAX);
     expression.is_ok_and(|expression| {

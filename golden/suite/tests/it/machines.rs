@@ -80,7 +80,7 @@ const SEARCHES: [(&str, &str, &str); 4] = [
     ),
 ];
 
-/// Where each of them comes to rest.
+/// Position at which each of them comes to rest.
 const RESTS: [f64; 4] = [-1.0, -91.0, -4000.0, -91.0];
 
 /// Each with scans of several lengths: it comes to rest at the same place, though a scan may be longer than its switch

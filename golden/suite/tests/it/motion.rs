@@ -34,7 +34,7 @@ impl Trapezoid {
         self.speed.min(half.sqrt())
     }
 
-    /// How long its ramp up takes, what follows at the peak, and the whole.
+    /// Duration of its ramp up, of the time at the peak, and of the whole.
     fn times(&self) -> [f64; 3] {
         let peak = self.peak();
         let ramp = (peak - self.first) / self.acceleration;
@@ -42,7 +42,7 @@ impl Trapezoid {
         [ramp, level, 2.0 * ramp + level]
     }
 
-    /// Where it is at a time.
+    /// Position at a time.
     fn position(&self, at: f64) -> f64 {
         let [ramp, level, whole] = self.times();
         let peak = self.peak();
@@ -177,11 +177,11 @@ const MOVES: &[Move] = &[
     },
 ];
 
-/// What a move differs by, and what it took.
+/// Deviation of a move, and its duration.
 struct Measured {
     /// The greatest difference of positions at one time.
     pulses: f64,
-    /// When it ended, in milliseconds, and when it should have.
+    /// End in milliseconds, and the expected one.
     end_ms: [f64; 2],
 }
 

@@ -25,10 +25,10 @@ use std::time::Duration;
 /// Scans that each module runs.
 const SCANS: u32 = 20;
 
-/// How often faulty lines are taken out of a program.
+/// Number of times that faulty lines are removed from a program.
 const REPAIRS: u32 = 6;
 
-/// How long one program may take: far longer than any does.
+/// Time limit for one program: far longer than any needs.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn setting(name: &str, default: u64) -> u64 {
@@ -252,7 +252,7 @@ fn compiled(text: &str, model: ModelId, optimise: bool) -> (Compiled, Vec<u32>) 
             faulty.push(read.program.source.line_col(finding.span.start).0);
         }
     }
-    // What could not be read, its reader has reported.
+    // Unreadable parts have been reported by the reader.
     let refused = compiled.diagnostics.has_errors() || !read.program.is_complete();
     assert_eq!(refused, compiled.module.is_none());
     if read.diagnostics.has_errors() {

@@ -27,7 +27,7 @@ impl Diagram {
         self.ids
     }
 
-    /// What gives a variable or constant.
+    /// Adds the source of a variable or constant.
     fn source(&mut self, expression: &str) -> u32 {
         let id = self.id();
         self.elements += &format!(

@@ -9,7 +9,7 @@ const CASES: &str = include_str!(concat!(
     "/golden/conformance/h1u-h2u/own-port-errors.plctest.toml"
 ));
 
-/// What is written instead of a digit in codes of four ports, and the digits of the ports.
+/// Placeholder for a digit in the codes of four ports, and the digits of the ports.
 const ANY_PORT: &str = "63x";
 const PORTS: [&str; 4] = ["633", "634", "635", "636"];
 

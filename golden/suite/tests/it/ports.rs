@@ -27,7 +27,7 @@ fn module() -> Module {
     compiled.module.expect("the program compiles")
 }
 
-/// What the PLC answers, from this millisecond on.
+/// Answer of the PLC, from this millisecond on.
 fn answer(engine: &mut dyn Engine, from_ms: u32, request: &[u8]) -> Vec<u8> {
     let mut at_us = from_ms * 1000;
     for &byte in request {

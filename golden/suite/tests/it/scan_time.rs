@@ -29,7 +29,7 @@ IRET
 END
 ";
 
-/// How long a poll takes, and how long it is until the next one, in microseconds.
+/// Duration of a poll, and the time until the next one, in microseconds.
 const POLL_US: u32 = 50;
 /// The board's own period.
 const PERIOD_US: u32 = 10_000;
@@ -37,7 +37,7 @@ const PERIOD_US: u32 = 10_000;
 const SLOW_US: (u32, u32) = (200_000, 250_000);
 /// From when on the program asks for nothing.
 const FREE_US: u32 = 500_000;
-/// When it ends.
+/// End of the run.
 const END_US: u32 = 600_000;
 
 fn module() -> Module {
@@ -80,7 +80,7 @@ impl EdgeInterrupt for Bench {}
 impl CounterInput for Bench {}
 impl PulseOutput for Bench {}
 
-/// When each scan was seen to have run, and what D8010 showed in it.
+/// Times at which each scan was seen to have run, and its D8010.
 fn interpreted(module: &Module) -> String {
     let setup = Setup {
         inputs: 9,

@@ -109,7 +109,7 @@ fn functions(source: &str) -> Vec<(&str, usize)> {
     found
 }
 
-/// What is too long in a source.
+/// Parts of a source that are too long.
 fn too_long(name: &str, source: &str) -> Vec<String> {
     let mut found = Vec::new();
     let code = without_texts(source);

@@ -1,4 +1,4 @@
-//! What the examples become: IR, C and Rust.
+//! Output for the examples: IR, C and Rust.
 
 use rungc_ir::{Module, dump};
 use rungc_lower::compile::{CompileOptions, compile};

@@ -1,5 +1,5 @@
-//! What `rungc verify` reasons about must allow whatever the interpreter does: random programs run scan by scan, and
-//! each transition is looked for in the logic that the proofs are about. And it decides what people ask of programs.
+//! Soundness of `rungc verify`: its model must allow whatever the interpreter does. Random programs run scan by scan,
+//! and each transition is looked for in the logic that the proofs are about. Examples of decided properties follow.
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
 //! another one.
@@ -43,7 +43,7 @@ fn compiled(text: &str, model: ModelId, optimise: bool) -> Option<Module> {
     Some(module)
 }
 
-/// What a piece of memory holds in the interpreter, if that can be asked.
+/// Value of a piece of memory in the interpreter, if it can be read.
 fn seen(machine: &Machine, key: Key) -> Option<i64> {
     let class = |class: DeviceClass| rt_class(class);
     match key {
@@ -82,7 +82,7 @@ fn disturb(machine: &mut Machine, module: &Module, rng: &mut Rng, first: bool) {
     }
 }
 
-/// How exactly a run was followed: how many bits of memory were computed, and how many were free.
+/// Exactness with which a run was followed: the numbers of bits of memory that were computed, and that were free.
 #[derive(Default)]
 struct Exactness {
     computed: u64,

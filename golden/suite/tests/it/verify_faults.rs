@@ -28,7 +28,7 @@ fn unconfirmed(proof: &Proof, folder: &Path) -> Vec<String> {
     wrong.collect()
 }
 
-/// Whether the solver is there; where `.ci/run` has installed it, it must be.
+/// Returns true if the solver is installed; where `.ci/run` has installed it, it must be.
 fn has_solver() -> bool {
     let found = Command::new("cadical").arg("--version").output().is_ok();
     let required = std::env::var_os("RUNGC_REQUIRE_PEERS").is_some();

@@ -10,11 +10,11 @@ use std::path::Path;
 /// Several engines, each of which runs one PLC of a case.
 struct Mixed<'m> {
     engines: Vec<Box<dyn Engine + 'm>>,
-    /// Which engine runs the first PLC, and the others.
+    /// Index of the engine for the first PLC, and for the others.
     order: [usize; 3],
-    /// How many PLCs the case has so far.
+    /// Number of PLCs in the case so far.
     joined: usize,
-    /// Which of them is asked.
+    /// Index of the selected one.
     current: usize,
 }
 

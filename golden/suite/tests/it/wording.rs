@@ -45,7 +45,7 @@ const PHRASES: &[(&str, &str)] = &[
     ("was no", "was not a"),
 ];
 
-/// Where a phrase is meant: the line contains this.
+/// Contexts in which a phrase is allowed: the line contains one of these.
 const MEANT: &[&str] = &[
     // "There is no …", "no longer".
     "there is no",
@@ -54,9 +54,27 @@ const MEANT: &[&str] = &[
     "is no longer",
     "are no longer",
     "is no more",
-    // What a system says.
+    // Messages of systems.
     "connection refused",
 ];
+
+/// Words that begin a relative clause: a doc comment begins with a noun phrase, or with a verb in the third person.
+const RELATIVE: &[&str] = &[
+    "How",
+    "One that",
+    "That which",
+    "What",
+    "When",
+    "Where",
+    "Whether",
+    "Which",
+    "Who",
+    "Whose",
+    "Why",
+];
+
+/// Share of doc comments that may begin so, in percent.
+const RELATIVE_SHARE: usize = 4;
 
 /// Folders and files without prose of ours.
 const LEFT_OUT: &[&str] = &[
@@ -84,14 +102,14 @@ fn prose(line: &str, markdown: bool) -> String {
     if is_comment {
         return line.to_lowercase();
     }
-    // What is in quotes and has several words, and a comment beside code.
+    // Quoted texts of several words, and a comment beside code.
     let (code, comment) = line.split_once(" // ").unwrap_or((line, ""));
     let texts = code.split('"').skip(1).step_by(2);
     let texts: Vec<_> = texts.filter(|text| text.contains(' ')).collect();
     format!("{} {comment}", texts.join(" ")).to_lowercase()
 }
 
-/// Whether a text contains the words of a phrase, one after the other.
+/// Returns true if a text contains the words of a phrase, one after the other.
 fn has(text: &str, phrase: &str) -> bool {
     text.match_indices(phrase).any(|(at, _)| {
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '`';
@@ -101,23 +119,86 @@ fn has(text: &str, phrase: &str) -> bool {
     })
 }
 
-#[test]
-fn prose_is_plain() {
+/// The files of ours with one of these extensions, and their extensions.
+fn sources(extensions: &[&'static str]) -> impl Iterator<Item = (PathBuf, &'static str)> {
     let is_ours = |entry: &walkdir::DirEntry| {
         let name = entry.file_name().to_string_lossy();
         let hidden = name.starts_with('.') && entry.depth() > 0 && name != "..";
         !hidden && !LEFT_OUT.contains(&name.as_ref())
     };
+    let entries = WalkDir::new(root()).into_iter().filter_entry(is_ours);
+    entries.filter_map(move |entry| {
+        let path = entry.unwrap().into_path();
+        let found = path.extension().and_then(|found| found.to_str())?;
+        let mut extensions = extensions.iter();
+        let extension = extensions.find(|extension| **extension == found)?;
+        Some((path, *extension))
+    })
+}
+
+/// First lines of a source's doc comments, with their line numbers.
+fn doc_comments(source: &str) -> Vec<(usize, &str)> {
+    let mut found = Vec::new();
+    let mut before = "";
+    for (line, number) in source.lines().zip(1..) {
+        let line = line.trim_start();
+        let mark = match line.get(..3) {
+            Some(mark @ ("///" | "//!")) if !line.starts_with("////") => mark,
+            _ => "",
+        };
+        if !mark.is_empty() && mark != before {
+            found.push((number, line[mark.len()..].trim_start()));
+        }
+        before = mark;
+    }
+    found
+}
+
+/// Returns true if a doc comment begins with a relative clause.
+fn is_relative(comment: &str) -> bool {
+    let is_end = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let mut words = RELATIVE.iter();
+    words.any(|word| comment.strip_prefix(word).is_some_and(is_end))
+}
+
+#[test]
+fn doc_comments_name_what_they_document() {
+    let (mut all, mut relative) = (0, Vec::new());
+    for (path, _) in sources(&["rs"]) {
+        let text = fs::read_to_string(&path).unwrap();
+        for (line, comment) in doc_comments(&text) {
+            all += 1;
+            if is_relative(comment) {
+                relative.push(format!("{}:{line}: {comment}", path.display()));
+            }
+        }
+    }
+    assert!(all > 10_000, "only {all} doc comments were read");
+    assert!(
+        100 * relative.len() <= RELATIVE_SHARE * all,
+        "{} of {all} doc comments begin with a relative clause:\n{}",
+        relative.len(),
+        relative.join("\n")
+    );
+}
+
+#[test]
+fn relative_clauses_are_found() {
+    let source = "//! What it is.\n\n/// How long.\n/// What follows.\nfn a() {} // Where\n/// Whatever it is.\nfn b() {}";
+    let comments = doc_comments(source);
+    assert_eq!(
+        comments,
+        [(1, "What it is."), (3, "How long."), (6, "Whatever it is.")]
+    );
+    let relative = comments.iter().filter(|(_, comment)| is_relative(comment));
+    assert_eq!(relative.count(), 2);
+}
+
+#[test]
+fn prose_is_plain() {
     let mut odd = Vec::new();
     let mut lines = 0;
-    for entry in WalkDir::new(root()).into_iter().filter_entry(is_ours) {
-        let path = entry.unwrap().into_path();
-        let Some(extension) = path.extension().and_then(|found| found.to_str()) else {
-            continue;
-        };
-        if !["rs", "md", "toml", "h", "c", "il"].contains(&extension) {
-            continue;
-        }
+    for (path, extension) in sources(&["rs", "md", "toml", "h", "c", "il"]) {
         let text = fs::read_to_string(&path).unwrap();
         for (number, line) in text.lines().enumerate() {
             lines += 1;

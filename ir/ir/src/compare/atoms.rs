@@ -25,7 +25,7 @@ const SPECIAL: [Run; 3] = [
     (DeviceClass::D, 8000, LAST_SPECIAL),
 ];
 
-/// What an operation error writes. The first one of a scan is kept, so an error also depends on them.
+/// Devices that an operation error writes. The first one of a scan is kept, so an error also depends on them.
 pub(super) const ERRORS: [Run; 4] = [
     (DeviceClass::M, 8004, 8004),
     (DeviceClass::M, 8067, 8069),
@@ -43,13 +43,13 @@ impl Names {
         *self.0.entry(text).or_insert(next)
     }
 
-    /// What instructions share that use modules, pulse outputs and serial ports.
+    /// Name shared by the instructions that use modules, pulse outputs and serial ports.
     pub(super) fn hardware(&mut self) -> u32 {
         self.of("hardware".to_string())
     }
 }
 
-/// What an atom reads or writes.
+/// Devices and names that an atom reads or writes.
 #[derive(Clone, Default)]
 pub(super) struct Uses {
     pub runs: Vec<Run>,
@@ -69,14 +69,14 @@ pub(super) struct Atom {
     pub calls: Option<usize>,
     /// Its step, if it is taken to use all special devices.
     pub vague: Option<u32>,
-    /// Whether it decides what is executed next to it, or uses anything at all, so that nothing moves across it.
+    /// True if it controls what is executed next to it, or uses anything at all, so that nothing moves across it.
     pub fixed: bool,
 }
 
 /// The atoms of a module.
 pub(super) struct Sequence {
     pub atoms: Vec<Atom>,
-    /// Which of them are those of each function.
+    /// Range of each function's atoms.
     pub functions: Vec<(FunctionKind, Range<usize>)>,
 }
 
@@ -107,7 +107,7 @@ struct Reader<'a> {
     names: &'a mut Names,
     steps: bool,
     atoms: Vec<Atom>,
-    /// How often each text was given as a name, so that no name is given twice.
+    /// Number of times each text was given as a name, so that no name is given twice.
     seen: FxHashMap<u32, u32>,
     temps: FxHashMap<TempId, u32>,
     edges: FxHashMap<EdgeId, u32>,
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What the networks of a body are, with those inside its statements.
+    /// Collects the networks of a body, with those inside its statements.
     fn networks(&mut self, body: &Body, found: &mut FxHashSet<u32>) {
         for (at, stmt) in body.iter().enumerate() {
             if let Stmt::Network(_) = stmt {
@@ -380,7 +380,7 @@ impl<'a> Reader<'a> {
     /// The name of the temporary or private memory that an expression itself reads.
     fn private(&mut self, expr: &Expr) -> Option<u32> {
         if let Expr::Temp(temp) = expr {
-            // One that is assigned nowhere does not occur.
+            // A temporary without an assignment does not occur.
             Some(self.temps.get(temp).copied().unwrap_or_default())
         } else if let Expr::Flag(flag) = expr {
             Some(self.flag(*flag))
@@ -414,7 +414,7 @@ impl<'a> Reader<'a> {
             .of(format!("table {} {}", table.name, table.length))
     }
 
-    /// What an expression reads, with its operands.
+    /// Collects the reads of an expression, with its operands.
     fn read_expr(&mut self, id: ExprId, reads: &mut Uses) {
         let mut open = vec![id];
         let mut seen = FxHashSet::default();
@@ -575,8 +575,8 @@ impl<'a> Reader<'a> {
         memory
     }
 
-    /// What calls of the runtime may read and write in addition to their operands, unless the runtime says what they
-    /// do.
+    /// Adds the devices that calls of the runtime may read and write in addition to their operands, unless the runtime
+    /// specifies them.
     fn runtime(&mut self, step: u32, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
         self.vague = Some(step);
         reads.runs.extend(SPECIAL);

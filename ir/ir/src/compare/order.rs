@@ -1,4 +1,4 @@
-//! Which atoms correspond to each other, and whose order matters.
+//! Correspondence of atoms, and the atoms whose order matters.
 
 use super::atoms::{Atom, Run, Sequence, Uses};
 use rungc_syntax::{DeviceClass, align};
@@ -10,7 +10,7 @@ use std::ops::Range;
 pub(super) struct Pair {
     /// Its places in the old and in the new sequence.
     pub at: [usize; 2],
-    /// Whether it moved among the others.
+    /// True if it moved among the others.
     moved: bool,
 }
 
@@ -65,7 +65,7 @@ fn of_function(sequences: &[Sequence; 2], ranges: [&Range<usize>; 2], pairs: &mu
     }
 }
 
-/// Whether nothing moves across an atom: it, or a function that it calls, reaches everything.
+/// Returns true if nothing moves across an atom: it, or a function that it calls, reaches everything.
 fn is_fixed(sequence: &Sequence, at: usize) -> bool {
     let atom = &sequence.atoms[at];
     let reaches = |atom: &Atom| atom.reads.all || atom.writes.all;
@@ -91,7 +91,7 @@ fn called<'a>(sequence: &'a Sequence, atom: &Atom) -> impl Iterator<Item = Range
     ranges.map(|function| sequence.functions[function].1.clone())
 }
 
-/// What atoms that moved read or write in another order than before.
+/// Devices and names that moved atoms read or write in another order than before.
 ///
 /// For each such thing, the atoms that write it must come in the same order, and each that reads it after the same one:
 /// then it has the same value wherever it is read.
@@ -154,13 +154,13 @@ fn in_disorder(users: &mut [User]) -> bool {
     !sorted || readers.any(|user| before(0, user) != before(1, user))
 }
 
-/// What a function uses, by places.
+/// Uses of a function, by places.
 struct Accesses {
     reads: BTreeSet<usize>,
     writes: BTreeSet<usize>,
 }
 
-/// What atoms that moved use: names, and runs of devices that no atom uses in part.
+/// Places that moved atoms use: names, and runs of devices that no atom uses in part.
 struct Places {
     names: FxHashMap<u32, usize>,
     runs: FxHashMap<DeviceClass, Vec<(u32, u32, usize)>>,

@@ -13,7 +13,7 @@ pub struct Place {
     pub class: DeviceClass,
     /// Number without the index.
     pub number: u32,
-    /// What to add. A place with an index may only be accessed where [`Expr::InRange`](super::Expr::InRange) of it is
+    /// Index to add. A place with an index may only be accessed where [`Expr::InRange`](super::Expr::InRange) of it is
     /// known to hold; that of an [`Expr::Stride`](super::Expr::Stride) does. Which devices it may lead to says
     /// [`crate::reach`]; all of them are stored. An indexed access of a word of C200 and up reads the low word, and
     /// writes the sign-extended word.
@@ -30,8 +30,8 @@ impl Place {
         }
     }
 
-    /// Where the high word of the pair at this place is: in V for Z on models where `z_pairs_with_v`, else in the next
-    /// device. A 32-bit counter has none.
+    /// Location of the high word of the pair at this place: in V for Z on models where `z_pairs_with_v`, else in the
+    /// next device. A 32-bit counter has none.
     #[must_use]
     pub fn high_word(self, model: &Model) -> Self {
         if self.class == DeviceClass::Z && model.z_pairs_with_v {
@@ -56,17 +56,17 @@ impl From<Register> for Place {
     }
 }
 
-/// What [`Expr::Read`](super::Expr::Read) reads and [`Stmt::Write`](super::Stmt::Write) writes: a value of one type, in
-/// a device or in several.
+/// Source of [`Expr::Read`](super::Expr::Read) and target of [`Stmt::Write`](super::Stmt::Write): a value of one type,
+/// in a device or in several.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Access {
     /// The device, or the first of them.
     pub place: Place,
-    /// What of it.
+    /// Part that is accessed.
     pub kind: AccessKind,
 }
 
-/// What of a device, or of those from it on, is read or written.
+/// Part of a device, or of several from it on, that is read or written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum AccessKind {
     /// `Bit`: state of a bit device. Of T and C it is the contact, which is only read; X is written by force and at its
@@ -137,7 +137,7 @@ impl Access {
         index.is_none().then_some((class, number))
     }
 
-    /// How many devices from the place on it covers at most. The high word of a pair may be elsewhere
+    /// Largest number of devices that it covers from the place on. The high word of a pair may be elsewhere
     /// ([`Place::high_word`]), or, of a 32-bit counter, nowhere.
     pub fn extent(&self) -> u32 {
         match self.kind {
@@ -147,7 +147,7 @@ impl Access {
         }
     }
 
-    /// Whether the kind is used as its bounds allow.
+    /// Returns true if the kind is used within its bounds.
     pub(crate) fn is_well_formed(&self) -> bool {
         match self.kind {
             AccessKind::WordBit(bit) => bit < 16,

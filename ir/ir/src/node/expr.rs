@@ -19,7 +19,7 @@ pub enum Ty {
     F32,
 }
 
-/// What the scan driver knows.
+/// Values provided by the scan driver.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum SysValue {
     /// `Bit`: in RUN (M8000).
@@ -47,7 +47,7 @@ pub enum Expr {
     F32(f32),
     /// A temporary's value.
     Temp(TempId),
-    /// What a device holds, or several of them, as a value of the access's type.
+    /// Value of a device, or of several, of the access's type.
     Read(Access),
     /// A value of the scan driver.
     Sys(SysValue),
@@ -101,7 +101,7 @@ pub enum Expr {
     InRange {
         /// First device.
         place: Place,
-        /// How many.
+        /// Number of devices.
         count: u32,
     },
 }

@@ -18,7 +18,7 @@ use typed_index_collections::TiVec;
 pub struct Flag {
     /// An identifier in lower case, unique in the module: `x000_rose`.
     pub name: String,
-    /// What it means, for a comment.
+    /// Meaning, for a comment.
     pub meaning: &'static str,
     /// Set each time that this many milliseconds of RUN have passed since the last time, or since RUN began
     /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
@@ -33,7 +33,7 @@ pub struct Flag {
 pub struct Cell {
     /// An identifier in lower case, unique in the module: `c235_preset`.
     pub name: String,
-    /// What it means, for a comment.
+    /// Meaning, for a comment.
     pub meaning: &'static str,
     /// Set to the time, as for [`SysValue::NowMs`](super::SysValue::NowMs), each time that a host reports it
     /// ([`rungc_rt::Program::tick`]).
@@ -45,13 +45,13 @@ pub struct Cell {
 pub struct Table {
     /// An identifier in lower case, unique in the module: `table1`.
     pub name: String,
-    /// What it means, for a comment.
+    /// Meaning, for a comment.
     pub meaning: &'static str,
-    /// How many, at least 1.
+    /// Number of entries, at least 1.
     pub length: u32,
 }
 
-/// How many steps a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC
+/// Number of steps that a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC
 /// executes.
 pub const STEPS_PER_MS: u32 = 10_000;
 
@@ -82,7 +82,7 @@ pub struct Origin {
     pub indexed: Vec<(Device, Index)>,
 }
 
-/// What a function is called by.
+/// Trigger of a function.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum FunctionKind {
     /// The main program.
@@ -105,7 +105,7 @@ pub enum FunctionKind {
     InputEdge {
         /// Terminal X, a plain number.
         input: u32,
-        /// Which change.
+        /// Kind of edge.
         kind: EdgeKind,
     },
     /// Calls the instructions that send pulses and look at inputs ([`rungc_rt::Needs::signals`]) once more, with the
@@ -117,9 +117,9 @@ pub enum FunctionKind {
 /// A function: no parameters, no result, no recursion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Function {
-    /// What it is.
+    /// Trigger of the function.
     pub kind: FunctionKind,
-    /// What it does.
+    /// Statements of the function.
     pub body: Body,
 }
 
@@ -141,9 +141,9 @@ pub struct Module {
     pub exprs: TiVec<ExprId, Expr>,
     /// Types of the temporaries.
     pub temps: TiVec<TempId, Ty>,
-    /// How many edge memories there are.
+    /// Number of edge memories.
     pub edges: u32,
-    /// How many private memories there are; slots 1..=states are used.
+    /// Number of private memories; slots 1..=states are used.
     pub states: u16,
     /// Slots 1..=run_states are those of the program's instructions, which RUN begins anew; the others last until
     /// power-off.
@@ -168,9 +168,9 @@ pub struct Module {
     /// brought up to date ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time
     /// that a host reports the time.
     pub ports: Vec<u8>,
-    /// What each of these ports may speak, as far as its set-up is known.
+    /// Protocols that each of these ports may speak, as far as its set-up is known.
     pub port_protocols: Vec<Protocols>,
-    /// What hosts with servers ask of other servers over TCP, between two scans.
+    /// Requests that hosts with servers send to other servers over TCP, between two scans.
     pub requests: Vec<NetworkRequest>,
     /// The number of its only port, if that is nothing but a slave by Modbus RTU, set up by registers, which no
     /// instruction uses: [`rungc_rt::advance_slave`] brings it up to date.
@@ -228,8 +228,8 @@ impl Module {
         }
     }
 
-    /// Whether a device keeps its value over power-off. A special device that does begins with its default only when
-    /// the PLC is switched on for the first time.
+    /// Returns true if a device retains its value over power-off. A special device that does begins with its default
+    /// only when the PLC is switched on for the first time.
     pub fn is_latched(&self, class: DeviceClass, number: u32) -> bool {
         let mut ranges = self.ranges_of(class);
         ranges.any(|r| r.latched && (r.first..=r.last).contains(&number))
@@ -245,7 +245,7 @@ impl Module {
         &self.exprs[id]
     }
 
-    /// Whether a host has to report input edges and time.
+    /// Returns true if a host has to report input edges and time.
     pub fn takes_events(&self) -> bool {
         let by_host = |f: &Function| {
             matches!(
@@ -262,7 +262,7 @@ impl Module {
         found.ok().map(|i| &self.origins[i])
     }
 
-    /// Whether it has pulse outputs.
+    /// Returns true if it has pulse outputs.
     pub fn sends_pulses(&self) -> bool {
         !self.pulse_outputs.is_empty()
     }
@@ -273,7 +273,7 @@ impl Module {
         self.ports.iter().copied().zip(protocols)
     }
 
-    /// What its serial ports do: the codecs of all protocols that they may speak.
+    /// Codecs of all protocols that its serial ports may speak.
     pub fn codecs(&self) -> impl Iterator<Item = &'static Codec> {
         let all = self.port_protocols.iter().copied();
         let all = all.fold(Protocols::NONE, Protocols::or);
@@ -281,14 +281,14 @@ impl Module {
         codecs.filter(move |codec| codec.protocols().meets(all))
     }
 
-    /// What it serves by Modbus, if a port may speak that.
+    /// Devices served by Modbus, if a port may speak that.
     pub fn modbus(&self) -> Option<&'static Profile> {
         let mut all = self.port_protocols.iter();
         let speaks = all.any(|protocols| protocols.meets(Protocols::MODBUS));
         speaks.then(|| self.model.ports.modbus(self.model.type_code()))
     }
 
-    /// Whether it has serial ports.
+    /// Returns true if it has serial ports.
     pub fn has_ports(&self) -> bool {
         !self.ports.is_empty()
     }
@@ -299,7 +299,7 @@ impl Module {
         flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
     }
 
-    /// Whether a host has to report the time between scans.
+    /// Returns true if a host has to report the time between scans.
     pub fn takes_time(&self) -> bool {
         let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
         self.sends_pulses()
@@ -322,13 +322,13 @@ impl Module {
         }
     }
 
-    /// Whether the watchdog may cut a scan short.
+    /// Returns true if the watchdog may cut a scan short.
     pub fn has_watchdog(&self) -> bool {
         self.any_statement(|stmt| matches!(stmt, Stmt::Watch { .. }))
     }
 
-    /// Whether an instruction may fault, or something in the program stops the PLC: then a host can ask what it was
-    /// ([`rungc_rt::LastError`]).
+    /// Returns true if an instruction may fault, or something in the program stops the PLC: then a host can query the
+    /// error ([`rungc_rt::LastError`]).
     pub fn may_fail(&self) -> bool {
         self.any_statement(|stmt| {
             calls_runtime(stmt)

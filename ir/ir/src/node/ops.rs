@@ -76,7 +76,7 @@ impl BinOp {
 pub enum UnOp {
     /// The two bytes of each 16 bits of an integer exchanged.
     SwapBytes,
-    /// How many bits of an integer are on, in its type.
+    /// Number of bits of an integer that are on, in its type.
     CountOnes,
     /// The decimal digits of an integer, four bits each; it must be known to be from 0 to 9999 (`I16`) or 99 999 999
     /// (`I32`).
@@ -126,7 +126,7 @@ impl UnOp {
         }
     }
 
-    /// Whether it takes a value of type `ty`.
+    /// Returns true if it accepts a value of type `ty`.
     pub const fn takes(self, ty: Ty) -> bool {
         match self {
             UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd | UnOp::IsBcd => {

@@ -10,7 +10,7 @@ pub enum Arg {
     Const {
         /// The constant.
         value: i32,
-        /// What to add.
+        /// Index to add.
         index: Option<ExprId>,
         /// Wraps at 32 bits.
         wide: bool,
@@ -22,7 +22,7 @@ pub enum Arg {
     Device {
         /// Device.
         place: Place,
-        /// How many (in devices of its class).
+        /// Number of devices of its class.
         extent: Option<u32>,
     },
     /// Group of bits.
@@ -31,7 +31,7 @@ pub enum Arg {
         place: Place,
         /// Digits.
         digits: u8,
-        /// How many bits may be accessed.
+        /// Number of bits that may be accessed.
         extent: Option<u32>,
     },
     /// Bit of a word.
@@ -40,7 +40,7 @@ pub enum Arg {
         place: Place,
         /// Bit 0 to 15.
         bit: u8,
-        /// How many bits may be accessed; they continue in the next words.
+        /// Number of bits that may be accessed; they continue in the next words.
         extent: Option<u32>,
     },
     /// Text number in [`Module::texts`](super::Module::texts).
@@ -51,7 +51,7 @@ pub enum Arg {
         module: u8,
         /// Address.
         address: u32,
-        /// What to add to the address (`I32`).
+        /// Index to add to the address (`I32`).
         index: Option<ExprId>,
     },
 }
@@ -85,9 +85,9 @@ pub struct Edge {
     /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a
     /// [`Stmt::Repeat`].
     pub index: Option<ExprId>,
-    /// Which change.
+    /// Kind of edge.
     pub kind: EdgeKind,
-    /// What is watched.
+    /// Watched bit.
     pub input: ExprId,
     /// Receives the result.
     pub out: TempId,
@@ -158,11 +158,11 @@ pub struct Count {
 /// body has neither loops nor jumps.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Repeat {
-    /// How often, at least 2.
+    /// Number of iterations, at least 2.
     pub count: u32,
     /// Number of the iteration.
     pub iteration: TempId,
-    /// What.
+    /// Repeated statements.
     pub body: Body,
     /// Steps of the first and the last of its networks in the program, for a comment.
     pub steps: (u32, u32),
@@ -171,7 +171,7 @@ pub struct Repeat {
 /// A read of buffer memory.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Fetch {
-    /// What is read.
+    /// Operand to read.
     pub from: Arg,
     /// 32 bits of it.
     pub wide: bool,
@@ -186,7 +186,7 @@ pub struct Fetch {
 /// A write of buffer memory.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Send {
-    /// What is written.
+    /// Operand to write.
     pub to: Arg,
     /// 32 bits of it.
     pub wide: bool,
@@ -206,14 +206,14 @@ pub enum Block {
         from: Place,
         /// First of those that are written.
         to: Place,
-        /// How many, at least 1.
+        /// Number of devices, at least 1.
         count: u32,
     },
     /// Writes one value to all.
     Fill {
         /// First of them.
         to: Place,
-        /// How many, at least 1.
+        /// Number of devices, at least 1.
         count: u32,
         /// `Bit` or `I16`.
         value: ExprId,
@@ -241,16 +241,16 @@ impl Block {
 pub struct SetEntry {
     /// Table.
     pub table: TableId,
-    /// Which entry (`I32`, as for [`Expr::Entry`](super::Expr::Entry)).
+    /// Index of the entry (`I32`, as for [`Expr::Entry`](super::Expr::Entry)).
     pub index: ExprId,
-    /// What it becomes (`I32`).
+    /// New value (`I32`).
     pub value: ExprId,
 }
 
 /// Two bodies, one of which is executed.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Branch {
-    /// Which one (`Bit`).
+    /// Condition (`Bit`).
     pub cond: ExprId,
     /// If on.
     pub then: Body,
@@ -304,9 +304,9 @@ pub enum Stmt {
     If(Branch),
     /// Executes the body `count` times (`I16`; at most 0 means once), the count being evaluated once.
     For {
-        /// How often.
+        /// Number of iterations.
         count: ExprId,
-        /// What.
+        /// Repeated statements.
         body: Body,
     },
     /// Executes a body for each of several equal sets of devices.
@@ -340,7 +340,7 @@ pub enum Stmt {
     /// ([`Module::scan_steps`](super::Module::scan_steps)). If fewer are left, the PLC stops as by its watchdog
     /// ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
     Watch {
-        /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the
+        /// Number of PLC steps that follow: an iteration of a loop, or the code that a jump back repeats, with the
         /// subroutines that are called and the short loops in it.
         steps: u32,
         /// Step of the loop or the jump.
@@ -352,7 +352,7 @@ pub enum Stmt {
     /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices:
     /// M8031, M8032.
     Clear {
-        /// Which.
+        /// True for the latched devices, false for the others.
         latched: bool,
     },
 }
@@ -364,7 +364,7 @@ pub struct Part {
     pub label: Option<LabelId>,
     /// The PLC's label, for a comment: `P12`.
     pub name: Option<String>,
-    /// What it does.
+    /// Statements of the part.
     pub body: Body,
 }
 

@@ -1,4 +1,4 @@
-//! What expressions read and statements write, and whether a read may be moved after a write.
+//! Reads of expressions and writes of statements, and whether a read may be moved after a write.
 
 use super::fold::Arena;
 use crate::node::{
@@ -9,7 +9,7 @@ use rungc_models::Model;
 use rungc_syntax::DeviceClass;
 use typed_index_collections::TiSlice;
 
-/// What an expression reads.
+/// Reads of an expression.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reads {
     /// Runs of devices: (class, first, last).
@@ -20,7 +20,7 @@ pub(super) struct Reads {
     private: bool,
 }
 
-/// What a statement writes.
+/// Writes of a statement.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Writes {
     /// No device.
@@ -34,7 +34,7 @@ pub(super) enum Writes {
 }
 
 impl Reads {
-    /// What an expression reads.
+    /// Reads of an expression.
     pub(super) fn of(arena: &Arena, id: ExprId) -> Self {
         let mut reads = Reads::default();
         reads.collect(arena, id);
@@ -55,7 +55,7 @@ impl Reads {
         self.private |= matches!(expr, Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..));
     }
 
-    /// Whether the value may differ after the write.
+    /// Returns true if the value may differ after the write.
     pub(super) fn disturbed_by(&self, writes: Writes) -> bool {
         let private = self.private && writes == Writes::All;
         let index = self.index && matches!(writes, Writes::Index | Writes::All);
@@ -91,7 +91,7 @@ fn run(exprs: &TiSlice<ExprId, Expr>, place: Place, count: u32) -> (u32, u32) {
     )
 }
 
-/// What a statement with these expressions writes, when it is executed.
+/// Writes of a statement with these expressions, when it is executed.
 pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) -> Writes {
     let place = |place: Place, count| {
         if is_index(place.class) {

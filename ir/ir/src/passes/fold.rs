@@ -9,13 +9,13 @@ use typed_index_collections::{TiSlice, TiVec};
 /// An arena of expressions that are simplified as they are added.
 pub(super) struct Arena<'m> {
     pub(super) exprs: TiVec<ExprId, Expr>,
-    /// How deep each tree is.
+    /// Depth of each tree.
     depths: TiVec<ExprId, u8>,
     temps: &'m TiSlice<TempId, Ty>,
     pub(super) model: &'static Model,
 }
 
-/// How far [`Arena::same`] looks into two expressions.
+/// Depth to which [`Arena::same`] compares two expressions.
 const SAME_DEPTH: u8 = 3;
 
 impl<'m> Arena<'m> {
@@ -114,7 +114,7 @@ impl<'m> Arena<'m> {
         }
     }
 
-    /// What an `I32` becomes, if it is a constant; else the expression of it.
+    /// Folds an `I32`, if it is a constant; else adds the expression of it.
     fn of_long(&mut self, a: ExprId, expr: Expr, folded: impl Fn(i32) -> Expr) -> ExprId {
         if let Expr::I32(value) = self.get(a) {
             self.push(folded(value))
@@ -240,7 +240,7 @@ impl<'m> Arena<'m> {
         crate::node::type_of(&self.exprs, self.temps, id)
     }
 
-    /// Whether two expressions, evaluated at the same moment, surely have one value.
+    /// Returns true if two expressions, evaluated at the same moment, are certain to have the same value.
     pub(super) fn same(&self, a: ExprId, b: ExprId, depth: u8) -> bool {
         if a == b {
             return true;
@@ -263,7 +263,7 @@ impl<'m> Arena<'m> {
     }
 }
 
-/// What every value compares to a constant at the end of its type's range, if that is always the same.
+/// Result of comparing any value to a constant at the end of its type's range, if it is always the same.
 fn at_border(op: CmpOp, constant: Expr) -> Option<bool> {
     let (lowest, highest) = if let Expr::I16(v) = constant {
         (v == i16::MIN, v == i16::MAX)

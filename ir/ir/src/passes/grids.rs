@@ -27,7 +27,7 @@ impl Arrays {
         Arrays(arrays.copied().collect())
     }
 
-    /// Whether one of them holds one of the devices from `first` to `last`.
+    /// Returns true if one of them holds one of the devices from `first` to `last`.
     pub(super) fn meet(&self, class: DeviceClass, first: u32, last: u32) -> bool {
         let ends_before = |area: &Area| (area.class, area.first + area.count) <= (class, first);
         let next = self.0.get(self.0.partition_point(ends_before));
@@ -35,7 +35,7 @@ impl Arrays {
     }
 }
 
-/// Whether a grid with another number of columns touches the devices from `first` to `last`.
+/// Returns true if a grid with another number of columns touches the devices from `first` to `last`.
 pub(super) fn meets_other_grid(
     layout: &Layout,
     (class, first, last): (DeviceClass, u32, u32),

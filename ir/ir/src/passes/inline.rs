@@ -9,12 +9,12 @@ use typed_index_collections::TiVec;
 
 /// Expressions deeper than this are not put into others.
 const MAX_DEPTH: u8 = 24;
-/// How many assignments are put off at a time.
+/// Most assignments that are deferred at a time.
 const MAX_PENDING: usize = 16;
-/// How many values are remembered at a time.
+/// Most values that are remembered at a time.
 const MAX_AVAILABLE: usize = 8;
 
-/// How often temporaries are used and assigned, counted over the module; more than one is many.
+/// Numbers of uses and assignments of temporaries, counted over the module; more than one is many.
 pub(super) struct Counts {
     pub(super) uses: TiVec<TempId, u32>,
     pub(super) assignments: TiVec<TempId, u32>,
@@ -58,12 +58,12 @@ impl Temps {
         }
     }
 
-    /// Whether a temporary is assigned in one place only.
+    /// Returns true if a temporary is assigned in one place only.
     pub(super) fn is_fixed(&self, temp: TempId) -> bool {
         self.counts.assignments[temp] == 1
     }
 
-    /// What stands for a temporary at its use.
+    /// Replacement of a temporary at its use.
     pub(super) fn value(&mut self, temp: TempId) -> Option<ExprId> {
         if let Some(known) = self.known[temp] {
             return Some(known);
@@ -149,7 +149,7 @@ impl Temps {
         self.available = available;
     }
 
-    /// Whether every temporary in an expression has one value only.
+    /// Returns true if every temporary in an expression has one value only.
     fn uses_only_fixed(&self, arena: &Arena, value: ExprId) -> bool {
         if let Expr::Temp(temp) = arena.get(value) {
             return self.is_fixed(temp);
@@ -157,19 +157,19 @@ impl Temps {
         operands(&arena.get(value)).all(|operand| self.uses_only_fixed(arena, operand))
     }
 
-    /// What has to be assigned in front of a write.
+    /// Assignments required before a write.
     pub(super) fn before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
         self.available
             .retain(|available| !available.reads.disturbed_by(writes));
         self.take(|pending| pending.reads.disturbed_by(writes))
     }
 
-    /// What has to be assigned before a write because it is used after it, and perhaps in it.
+    /// Assignments required before a write because their temporaries are used after it, and perhaps in it.
     pub(super) fn shared_before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
         self.take(|pending| pending.left > 1 && pending.reads.disturbed_by(writes))
     }
 
-    /// What has to be assigned before a condition: what is also used elsewhere.
+    /// Assignments required before a condition: of temporaries also used elsewhere.
     pub(super) fn before_condition(&mut self) -> Vec<(TempId, ExprId)> {
         self.take(|pending| pending.left > 1)
     }
@@ -190,7 +190,8 @@ impl Temps {
     }
 }
 
-/// Whether an expression costs no more than a temporary: a bit or word that is named directly, perhaps inverted.
+/// Returns true if an expression costs no more than a temporary: a bit or word that is named directly, perhaps
+/// inverted.
 fn is_leaf(arena: &Arena, value: ExprId) -> bool {
     let expr = arena.get(value);
     if let Expr::Not(inner) = expr {

@@ -32,8 +32,8 @@ pub(super) fn run(module: &mut Module, room: TiVec<ExprId, Expr>) -> TiVec<ExprI
     std::mem::replace(&mut module.exprs, exprs)
 }
 
-/// Whether another pass may find something: a temporary that has fewer uses now, or a label that nothing jumps to any
-/// more.
+/// Returns true if another pass may find something: a temporary that has fewer uses now, or a label that nothing jumps
+/// to any more.
 pub(super) fn may_gain(module: &Module) -> bool {
     if !module.temps.is_empty() {
         return true;
@@ -307,7 +307,7 @@ fn assign(assignments: Vec<(TempId, ExprId)>, out: &mut Body) {
     out.extend(assignments.into_iter().map(|(t, e)| Stmt::Let(t, e)));
 }
 
-/// Whether nothing after these statements is executed.
+/// Returns true if nothing after these statements is executed.
 fn ends(body: &Body) -> bool {
     match body.last() {
         Some(Stmt::Return | Stmt::Goto(_)) => true,

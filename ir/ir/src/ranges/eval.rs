@@ -1,4 +1,4 @@
-//! What expressions can be, and what a condition implies for the words in it.
+//! Values that expressions can have, and the implications of a condition for the words in it.
 
 use super::interval::Interval;
 use super::state::{Known, Mask, State, Words, join, temp_bit};
@@ -13,7 +13,7 @@ pub(super) struct Eval<'m> {
 }
 
 impl Eval<'_> {
-    /// Where the value of an integer lies.
+    /// Bounds of an integer's value.
     pub(super) fn value(&self, state: &State, id: ExprId) -> Interval {
         let expr = *self.module.expr(id);
         let all = || Interval::of_type(self.module.ty(id));

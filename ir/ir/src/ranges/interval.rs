@@ -56,7 +56,7 @@ impl Interval {
         }
     }
 
-    /// What both hold, if anything.
+    /// Intersection, if it is not empty.
     pub(crate) fn meet(self, other: Self) -> Option<Self> {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         (low <= high).then_some(Interval { low, high })
@@ -76,7 +76,7 @@ impl Interval {
         }
     }
 
-    /// What the operator makes of two of a type.
+    /// Bounds of the operator's result for operands of a type.
     pub(crate) fn bin(op: BinOp, a: Self, b: Self, ty: Ty) -> Self {
         let all = Interval::of_type(ty);
         let (a0, a1, b0, b1) = (

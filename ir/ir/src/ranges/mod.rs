@@ -26,8 +26,8 @@ use state::Words;
 use std::collections::BTreeSet;
 use walk::Walk;
 
-/// What an operand with an index register can reach, where its user says so: an access beyond is the PLC's error 6706,
-/// as one beyond the model's devices is.
+/// Range of an operand with an index register, as its user states it: an access beyond is the PLC's error 6706, like
+/// one beyond the model's devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bound {
     /// The operand as the program writes it, without its index.
@@ -46,7 +46,7 @@ pub struct Bound {
 pub struct Reached {
     /// The devices.
     pub special: BTreeSet<(DeviceClass, u32)>,
-    /// Whether the program may write M8000–M8003 so.
+    /// True if the program may write M8000–M8003 this way.
     pub writes_run_flags: bool,
 }
 
@@ -95,7 +95,7 @@ pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
                 high: *high,
             };
             let known = found.get(&ExprId(id)).and_then(|found| found.meet(bound));
-            // What nothing evaluates leads nowhere.
+            // An index that is never evaluated reaches nothing.
             let known = known.unwrap_or(Interval::of(bound.low.max(0).min(bound.high)));
             (*low, *high) = (known.low, known.high);
         }
@@ -138,7 +138,7 @@ fn name_known(module: &mut Module) {
         }
     };
     for expr in &mut module.exprs {
-        // Whether counters are 32-bit ones is known when the place is made.
+        // The width of counters is known when the place is made.
         if let Expr::Read(Access { place, .. }) = expr
             && place.class != C
         {

@@ -1,4 +1,4 @@
-//! What is known of index registers, and of the words they are made from, at a point of the program.
+//! Known values of index registers, and of the words they are made from, at a point of the program.
 
 use super::interval::Interval;
 use crate::node::{AccessKind, Expr, ExprId, Module, Place, Stmt, TempId};
@@ -11,18 +11,18 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// A set of tracked words.
 pub(super) type Mask = u128;
 
-/// How many words are tracked at most.
+/// Most words that are tracked.
 const MOST_WORDS: usize = Mask::BITS as usize;
-/// How many temporaries are remembered at a time.
+/// Most temporaries that are remembered at a time.
 const MOST_TEMPS: usize = 32;
-/// How often words are sought from which those found are made.
+/// Most rounds that look for the words from which those found are made.
 const MOST_ROUNDS: usize = 6;
 
 /// The words that are tracked: index registers that no host writes, and the registers that they get their values from.
 pub(super) struct Words {
     model: &'static Model,
     slots: FxHashMap<(DeviceClass, u32), usize>,
-    /// Those that a host may write between two scans.
+    /// Words that a host may write between two scans.
     pub(super) shared: Mask,
 }
 
@@ -100,12 +100,12 @@ impl Words {
         }
     }
 
-    /// How many there are.
+    /// Number of words.
     pub(super) fn len(&self) -> usize {
         self.slots.len()
     }
 
-    /// Which of the tracked words a place names, if it is one.
+    /// Index of the tracked word that a place names, if it names one.
     pub(super) fn slot(&self, place: Place) -> Option<usize> {
         match place.index {
             None => self.slot_of(place.class, place.number),
@@ -113,7 +113,7 @@ impl Words {
         }
     }
 
-    /// Which of the tracked words a device is.
+    /// Index of the tracked word that a device is.
     pub(super) fn slot_of(&self, class: DeviceClass, number: u32) -> Option<usize> {
         let may = matches!(class, DeviceClass::D | DeviceClass::R) || is_index(class);
         if !may {
@@ -146,16 +146,16 @@ impl Words {
     }
 }
 
-/// What is known of a temporary.
+/// Knowledge of a temporary.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Known {
-    /// Where its value lies.
+    /// Bounds of its value.
     Value(Interval),
-    /// Whether this condition still holds; the tracked words and (some bits for) the temporaries that this depends on.
+    /// Condition that it holds, and the tracked words and (some bits for) the temporaries that this depends on.
     Condition(ExprId, Mask, u64),
 }
 
-/// What is known at a point.
+/// Knowledge at a point.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct State {
     pub(super) words: Vec<Interval>,
@@ -245,7 +245,7 @@ impl State {
         self.forget(mask);
     }
 
-    /// What is known if either state may be.
+    /// Merges the knowledge of either state.
     pub(super) fn join(&mut self, other: &State) {
         for (word, others) in self.words.iter_mut().zip(&other.words) {
             *word = word.join(*others);
@@ -283,7 +283,7 @@ impl State {
     }
 }
 
-/// What may be, together with what may be otherwise.
+/// Merges two possible states.
 pub(super) fn join(one: Option<State>, other: Option<State>) -> Option<State> {
     match (one, other) {
         (Some(mut one), Some(other)) => {

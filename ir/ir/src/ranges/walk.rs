@@ -16,12 +16,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// From which sweep or iteration on states that grow are widened, and from which on to the ends of all words.
 const WIDENED: usize = 6;
 const WIDENED_WHOLLY: usize = 16;
-/// How many sweeps narrow what was found.
+/// Number of sweeps that narrow the results.
 const NARROWED: usize = 4;
-/// How many statements the iterations of a loop may be, all together, to be executed one by one.
+/// Most statements, over all iterations of a loop, for which they are executed one by one.
 const UNROLLED: usize = 20_000;
 
-/// What is known where functions begin and end, and between scans.
+/// Knowledge at the beginning and end of functions, and between scans.
 #[derive(Clone, PartialEq)]
 struct Facts {
     entries: Vec<Option<State>>,
@@ -33,7 +33,7 @@ struct Facts {
 pub(super) struct Walk<'m> {
     eval: Eval<'m>,
     thresholds: Vec<i32>,
-    /// Which tracked words each function may write, those it calls included.
+    /// Tracked words that each function may write, including those of its callees.
     writes: Vec<Mask>,
     /// Temporaries of which something is known at times.
     told: FxHashSet<TempId>,
@@ -41,20 +41,20 @@ pub(super) struct Walk<'m> {
     matters: FxHashSet<*const Stmt>,
     /// Statements that have a [`Expr::Within`], by address.
     indexes: FxHashSet<*const Stmt>,
-    /// What the last sweep found, and what this one does.
+    /// Results of the last sweep, and of this one.
     known: Facts,
     next: Facts,
-    /// What is known where the function at hand is left early, and where jumps lead.
+    /// Knowledge where the current function is left early, and where jumps lead.
     returns: Option<State>,
     labels: Vec<(LabelId, Option<State>)>,
-    /// How many statements the iterations of the next loop may be.
+    /// Number of statements that the iterations of the next loop may have.
     unrolled: usize,
-    /// Where each [`Expr::Within`] lies where it is evaluated, once this is asked.
+    /// Bounds of each [`Expr::Within`] where it is evaluated, collected in the last sweep.
     found: Option<FxHashMap<ExprId, Interval>>,
 }
 
 impl<'m> Walk<'m> {
-    /// Where each [`Expr::Within`] of the module lies; those without an interval are never evaluated.
+    /// Bounds of each [`Expr::Within`] of the module; those without an interval are never evaluated.
     pub(super) fn run(eval: Eval<'m>) -> FxHashMap<ExprId, Interval> {
         let functions = eval.module.functions.len();
         let facts = Facts {
@@ -119,7 +119,7 @@ impl<'m> Walk<'m> {
         }
     }
 
-    /// Which tracked words functions may write.
+    /// Tracked words that functions may write.
     fn written(&self) -> Vec<Mask> {
         let functions = &self.eval.module.functions;
         let mut writes: Vec<Mask> = vec![0; functions.len()];
@@ -140,7 +140,7 @@ impl<'m> Walk<'m> {
         }
     }
 
-    /// Which temporaries are given integers, or conditions over tracked words or over each other.
+    /// Temporaries that are assigned integers, or conditions over tracked words or over each other.
     fn telling(&self) -> FxHashSet<TempId> {
         let mut told = FxHashSet::default();
         for function in &self.eval.module.functions {
@@ -178,7 +178,7 @@ impl<'m> Walk<'m> {
         any
     }
 
-    /// Whether a statement itself changes what is known.
+    /// Returns true if a statement itself changes the knowledge.
     fn matters(&self, stmt: &Stmt) -> bool {
         let leaves = matches!(stmt, Stmt::CallSub(_) | Stmt::Return | Stmt::Goto(_));
         let told = assigned(stmt).is_some_and(|temp| self.told.contains(&temp));
@@ -190,7 +190,7 @@ impl<'m> Walk<'m> {
         matches!(expr, Expr::Within { .. }) || operands(expr).any(|id| self.has_within(id))
     }
 
-    /// Which tracked words a statement itself may write: here, or anywhere.
+    /// Tracked words that a statement itself may write, here or anywhere.
     fn writes_of(&self, stmt: &Stmt, state: Option<&State>) -> Mask {
         let all = (1 as Mask)
             .checked_shl(self.eval.words.len() as u32)
@@ -302,14 +302,14 @@ impl<'m> Walk<'m> {
         state
     }
 
-    /// Whether something is to be done about a statement in this sweep.
+    /// Returns true if a statement has to be processed in this sweep.
     fn is_due(&self, stmt: &Stmt) -> bool {
         let stmt: *const Stmt = stmt;
         let asked = self.found.is_some() && self.indexes.contains(&stmt);
         asked || self.matters.contains(&stmt)
     }
 
-    /// How many of these statements, the first of which has a condition, may be executed as if they stood in one
+    /// Number of these statements, the first of which has a condition, that may be executed as if they shared one
     /// condition.
     fn with_one_condition(&self, cond: ExprId, body: &[Stmt]) -> usize {
         let Expr::Temp(temp) = *self.eval.module.expr(cond) else {
@@ -418,7 +418,7 @@ impl<'m> Walk<'m> {
         Some(state)
     }
 
-    /// What is known of a temporary that is given a value.
+    /// Knowledge of a temporary that is assigned a value.
     fn known(&self, state: &State, temp: TempId, value: ExprId) -> Option<Known> {
         match self.eval.module.ty(value) {
             Ty::Bit => {

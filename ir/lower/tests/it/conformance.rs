@@ -111,7 +111,7 @@ fn errors_on(model: &'static Model, case: &Case) -> Vec<(u32, Diagnostic)> {
         .collect()
 }
 
-/// What is wrong with the verdict on a case, if anything.
+/// Error in the verdict on a case, if any.
 fn misjudged(case: &Case) -> Option<String> {
     let errors = errors(case);
     let listed: Vec<_> = errors

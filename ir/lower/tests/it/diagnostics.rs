@@ -1,4 +1,4 @@
-//! What diagnostics look like: a snapshot of each code's wrong example, and of programs that show details. The right
+//! Presentation of diagnostics: a snapshot of each code's wrong example, and of programs that show details. The right
 //! example of a code has no error and not that code.
 
 use crate::rendered::{findings, render, shown};
@@ -145,7 +145,7 @@ END
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
 }
 
-/// What is certain about a branch or a label is a fix, and the program is right after it.
+/// Certain findings about a branch or a label have a fix, and the program is right after it.
 #[test]
 fn certain_fixes_make_branches_and_labels_right() {
     let mut pages = String::new();
@@ -363,7 +363,7 @@ END
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
 }
 
-/// What is said of the CPU type that a source names.
+/// Diagnostics about the CPU type that a source names.
 fn about_cpu(cpu: &str) -> String {
     let text = format!(";! cpu = {cpu}\nLD X0\nOUT Y0\nEND\n");
     let read = read_text("program", &text);

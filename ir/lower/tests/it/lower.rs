@@ -214,7 +214,7 @@ fn conversions_and_floats_are_inline() {
     ));
 }
 
-/// Whether a module calls the runtime.
+/// Returns true if a module calls the runtime.
 fn has_call(module: &Module) -> bool {
     let mut found = false;
     for function in &module.functions {
@@ -225,7 +225,7 @@ fn has_call(module: &Module) -> bool {
     found
 }
 
-/// What sets flags that something looks at, or has operands that inline code does not know, calls the runtime.
+/// Instructions that set flags in use, or have operands that inline code does not support, call the runtime.
 #[test]
 fn flags_and_operands_call_the_runtime() {
     let calls = |text: &str| has_call(&module(&on(ModelId::Fx3u), text));

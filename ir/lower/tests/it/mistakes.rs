@@ -7,7 +7,7 @@ use rungc_models::ModelId;
 use rungc_syntax::{Program, Severity, SourceKind};
 use std::fmt::Write;
 
-/// What is said about each program, after its text.
+/// Diagnostics of each program, after its text.
 fn pages(model: ModelId, programs: &[&str]) -> String {
     let mut pages = String::new();
     for program in programs {

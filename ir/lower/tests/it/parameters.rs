@@ -1,4 +1,4 @@
-//! What a project's PLC parameters change: which devices are latched, and how long a program may be.
+//! Effects of a project's PLC parameters: the latched devices, and the maximum length of a program.
 
 use rungc_frontend::read_text;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
@@ -34,7 +34,7 @@ fn latched(runs: &[(DeviceClass, u32, u32)]) -> Parameters {
     }
 }
 
-/// Which of the stored devices of a class are latched.
+/// Stored devices of a class that are latched.
 fn kept(compiled: &Compiled, class: DeviceClass) -> Vec<(u32, u32)> {
     let areas = &compiled.module.as_ref().unwrap().layout.areas;
     let kept = areas

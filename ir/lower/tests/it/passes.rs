@@ -1,4 +1,4 @@
-//! What the passes do to lowered programs, and what the validator rejects.
+//! Effects of the passes on lowered programs, and the rejections of the validator.
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;

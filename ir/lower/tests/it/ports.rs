@@ -1,4 +1,4 @@
-//! What is known of a program's serial ports before it runs.
+//! Knowledge of a program's serial ports before it runs.
 
 use rungc_frontend::read_text;
 use rungc_lower::compile::{CompileOptions, check, compile};
@@ -18,7 +18,7 @@ fn ports(model: ModelId, text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What warnings of this code say.
+/// Messages of the warnings with this code.
 fn messages(model: ModelId, text: &str, code: &str) -> String {
     let program = read_text("program", text).program;
     let options = CompileOptions {
@@ -102,8 +102,8 @@ fn constants_say_what_a_port_will_be() {
     );
 }
 
-/// What the check says of a port agrees with what is compiled for it: a protocol that the check names is there, and
-/// where it says that the protocol is chosen at run time, all that may be chosen are.
+/// Agreement of the check with the compiled program about a port: a protocol that the check names is there, and where
+/// it says that the protocol is chosen at run time, all that may be chosen are.
 #[test]
 fn a_compiled_program_has_the_protocols_that_the_check_names() {
     use ModelId::{H2u, Hm};

@@ -1,4 +1,4 @@
-//! How far indexes lead: what compiled programs store for them.
+//! Ranges of indexes: the devices that compiled programs store for them.
 
 use rungc_ir::validate::validate;
 use rungc_lower::compile::{Bound, CompileOptions, Compiled, compile};

@@ -1,11 +1,11 @@
-//! Which programs each warning is about, and which that look alike it leaves alone.
+//! Programs that each warning is about, and similar ones without it.
 
 use rungc_frontend::read_text;
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::ModelId;
 use rungc_syntax::codes;
 
-/// How often a program for a model gets a warning, given by its name; it must have no error.
+/// Number of warnings of a kind, given by its name, for a program, which must have no error.
 fn count(model: ModelId, warning: &str, lines: &str) -> usize {
     let code = codes::find(warning).expect("a warning").id;
     let text = format!("{}\nEND\n", lines.replace(" / ", "\n"));
@@ -157,7 +157,7 @@ fn changes_in_every_scan() {
             "LD X0 / AND< D0 K10 / INC D0",
             "LD X0 / MEP / INC D0",
             "LD M8013 / ANDP X0 / INC D0",
-            // What is written anew before each change is a computation.
+            // A value that is written anew before each change is a computation.
             "LD X0 / MOV D5 D0 / NEG D0",
             "LD X0 / WXOR D1 D2 D3 / CML D3 D3",
             // Loops, routines, states and jumps run their instructions as often as is meant.

@@ -1,4 +1,4 @@
-//! How much a scan does at most.
+//! Upper bound of a scan.
 
 use rungc_ir::worst::{Event, Worst, worst};
 use rungc_lower::compile::{CompileOptions, compile};
@@ -52,7 +52,7 @@ fn calls_count_what_is_called() {
 
 #[test]
 fn of_two_ways_the_longer_one_counts() {
-    // What is jumped over is the longer way.
+    // The path that a jump skips is the longer one.
     let plain = of("LD X001\nMOV D0 D1\nLD X002\nOUT Y000\nEND\n").scan;
     let jump = of("LD X000\nCJ P0\nLD X001\nMOV D0 D1\nP0\nLD X002\nOUT Y000\nEND\n").scan;
     assert!(jump.steps >= plain.steps);

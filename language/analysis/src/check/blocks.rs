@@ -8,16 +8,16 @@ use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Diagnostic, Diagnostics, Fix, codes};
 
-/// How many blocks may wait to be joined.
+/// Most blocks that may wait to be joined.
 const MAX_BLOCKS: usize = 8;
-/// How many results MPS can store.
+/// Most results that MPS can store.
 const MAX_BRANCHES: usize = 11;
 
 /// A block of contacts.
 struct Block {
     /// Its first instruction.
     start: usize,
-    /// Whether its result has driven something.
+    /// True if its result has driven something.
     spent: bool,
 }
 
@@ -25,7 +25,7 @@ struct Block {
 struct Branch {
     /// The MPS.
     at: usize,
-    /// How many blocks there were, the stored one included.
+    /// Number of blocks, the stored one included.
     blocks: usize,
     /// The last MRD that returned to it.
     read: Option<usize>,
@@ -39,13 +39,13 @@ struct Rungs<'a, 'p> {
     branches: Vec<Branch>,
     /// The MPP that closed the last open branch of the rung.
     closed: Option<usize>,
-    /// Whether coils may be directly on the bus, because it is the sub-bus of a state.
+    /// True if coils may be directly on the bus, because it is the sub-bus of a state.
     in_state: bool,
     /// After an instruction that could not be resolved, nothing is certain until a new rung starts.
     unsure: Option<Unsure>,
 }
 
-/// What is known about the rung after an instruction that could not be resolved.
+/// Uncertainty about the rung after an instruction that could not be resolved.
 enum Unsure {
     /// It continues.
     Rung,

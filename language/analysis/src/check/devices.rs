@@ -1,4 +1,4 @@
-//! Which devices a program works with, for whoever shows them.
+//! Devices that a program uses, for displays.
 
 use super::Code;
 use crate::accesses;
@@ -8,7 +8,7 @@ use rungc_models::Model;
 use rungc_syntax::{Device, DeviceClass, Program};
 use std::collections::BTreeMap;
 
-/// What a device holds, as the instructions that name it take it.
+/// Type of a device's value, as the instructions that name it use it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Holds {
     /// A bit, or a 16-bit value.
@@ -19,14 +19,14 @@ pub enum Holds {
     Float,
 }
 
-/// How a program works with a device.
+/// Use of a device by a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Use {
-    /// Whether an instruction reads it.
+    /// True if an instruction reads it.
     pub read: bool,
-    /// Whether an instruction writes it.
+    /// True if an instruction writes it.
     pub written: bool,
-    /// What it holds.
+    /// Type of its value.
     pub holds: Holds,
 }
 

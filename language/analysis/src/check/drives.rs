@@ -1,5 +1,4 @@
-//! What drives each instruction: the contacts before it, as far as that can be said without knowing their devices'
-//! values.
+//! Drives of instructions: the contacts before each, as far as they are known independently of their devices' values.
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;
@@ -12,11 +11,11 @@ use std::hash::{Hash, Hasher};
 pub(super) struct Drive {
     /// Equal for equal contacts, joined in the same way.
     pub(super) signature: u64,
-    /// How long it stays on.
+    /// Duration of its result.
     pub(super) lasts: Lasts,
 }
 
-/// How long a result stays on once it is.
+/// Duration of a result once it is on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Lasts {
     /// As long as the program runs.
@@ -34,7 +33,7 @@ pub(super) struct Drives {
     branches: Vec<Drive>,
 }
 
-/// What the left bus bar gives.
+/// The left bus bar.
 const BUS: Drive = Drive {
     signature: 0,
     lasts: Lasts::Always,
@@ -149,7 +148,7 @@ fn contact(code: &Code, i: usize) -> Drive {
     Drive { signature, lasts }
 }
 
-/// What an instruction looks at, whichever way it joins the logic.
+/// Signature of an instruction's devices, whichever way it joins the logic.
 fn signature(code: &Code, i: usize) -> u64 {
     if let (Some(basic), Some(device)) = (code.basic(i), code.device(i, 0)) {
         return match basic {

@@ -25,7 +25,7 @@ pub(super) struct EveryScan {
 /// An instruction that changes its own operand.
 struct Change {
     at: usize,
-    /// How many devices it changes.
+    /// Number of devices that it changes.
     count: u32,
     drive: Drive,
 }
@@ -41,7 +41,7 @@ impl EveryScan {
         skips: &Skips,
     ) {
         let enclosing = nesting.of(i);
-        // What a loop, a routine, a state or a jump runs now and then may well be meant.
+        // Code that a loop, a routine, a state or a jump runs occasionally may be intended.
         let each_scan = enclosing.routine == Routine::Main
             && (enclosing.inner_loop, enclosing.state) == (NONE, NONE)
             && skips.mark(i) == 0;
@@ -72,7 +72,8 @@ impl EveryScan {
         }
     }
 
-    /// What another instruction writes anew whenever it is changed is the result of both.
+    /// Removes the devices that another instruction writes anew whenever they are changed: their value is the result of
+    /// both.
     fn leave_out_computed(&mut self, code: &Code) {
         let counts = self.found.values().flatten().map(|change| change.count);
         let Some(longest) = counts.max() else {

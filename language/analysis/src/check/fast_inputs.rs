@@ -28,14 +28,14 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
 struct Interrupt {
     /// Its pointer's number.
     number: u32,
-    /// Where it begins.
+    /// Position of its label.
     label: usize,
     /// The input that requests it.
     input: Option<u32>,
 }
 
 impl Interrupt {
-    /// What it must not share with another: an input, or one of the timers I6, I7, I8.
+    /// Resource that it must not share with another: an input, or one of the timers I6, I7, I8.
     fn source(&self) -> Option<(bool, u32)> {
         let timer = (601..=899).contains(&self.number);
         let timer = timer.then_some((true, self.number / 100));
@@ -95,7 +95,7 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
 pub(super) struct Counter {
     number: u32,
     pub(super) kind: Kind,
-    /// What it counts, resets and starts by.
+    /// Inputs by which it counts, resets and starts.
     inputs: Vec<u32>,
     /// Its first coil.
     pub(super) coil: usize,
@@ -153,7 +153,7 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
     }
 }
 
-/// What else looks at the edges of an input.
+/// Another user of an input's edges.
 pub(super) struct Other {
     input: u32,
     /// `an interrupt`.

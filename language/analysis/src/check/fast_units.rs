@@ -1,4 +1,4 @@
-//! How much of the hardware for fast inputs and outputs a program asks for.
+//! Use of the hardware for fast inputs and outputs.
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};

@@ -14,22 +14,22 @@ use std::collections::BTreeMap;
 const MAX_RUN: u32 = 32;
 /// More devices than this that are inert for one reason share a diagnostic.
 const MAX_SINGLE: usize = 3;
-/// How many devices a message names.
+/// Most devices that a message names.
 const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.
 pub(super) struct Inert {
     used: BTreeMap<Device, Used>,
-    /// Where the PLC has special modules.
+    /// Locations of the PLC's special modules.
     places: Vec<Place>,
 }
 
-/// What a program does with an inert device.
+/// Use of an inert device by a program.
 struct Used {
     row: &'static Special,
     reason: Reason,
     places: Vec<(Span, bool)>,
-    /// Whether something changes it; RST and its value at power-on leave it as it is.
+    /// True if something changes it; RST and its value at power-on do not.
     changed: bool,
 }
 
@@ -95,8 +95,8 @@ impl Inert {
 }
 
 impl Used {
-    /// Whether the program misses what the device does. One below the special devices (HM's axes and modules) that the
-    /// program writes is an ordinary register.
+    /// Returns true if the program depends on the device's function. One below the special devices (HM's axes and
+    /// modules) that the program writes is an ordinary register.
     fn is_missed(&self, device: Device) -> bool {
         let is_written = self.places.iter().any(|(_, written)| *written);
         let is_read = self.places.iter().any(|(_, written)| !written);
@@ -111,7 +111,7 @@ impl Used {
     }
 }
 
-/// Whether an instruction that writes a special device leaves it as it is at power-on.
+/// Returns true if an instruction that writes a special device writes its value at power-on.
 fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
     let Some(inst) = code.inst(i) else {
         return false;

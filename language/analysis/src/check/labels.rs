@@ -23,7 +23,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, nesting: &Nesting, out: &m
         used_one_way(code, device, pointer, out);
         match pointer.labels.first() {
             None => missing(code, device, pointer, out),
-            // Where such a label leads is judged once it is clear which of the two it is.
+            // The target of such a label is checked once it is clear which of the two it is.
             Some(_) if pointer.is_ambiguous() => {}
             Some(&label) => {
                 for &jump in &pointer.jumps {
@@ -135,7 +135,7 @@ fn no_routine(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnost
     }
 }
 
-/// Where an instruction names a pointer.
+/// Position at which an instruction names a pointer.
 fn named_at(code: &Code, i: usize, device: Device) -> Span {
     let names = |operand: &&Operand| matches!(operand.kind, OperandKind::Device(named, _) if named == device);
     let operand = code.instr(i).operands.iter().find(names);
@@ -155,7 +155,7 @@ fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mu
     }
 }
 
-/// Whether a jump stays in its routine and does not enter a loop.
+/// Checks that a jump stays in its routine and does not enter a loop.
 fn destination(code: &Code, nesting: &Nesting, jump: usize, label: usize, out: &mut Diagnostics) {
     let (from, to) = (nesting.of(jump), nesting.of(label));
     if from.routine != to.routine {
@@ -193,7 +193,7 @@ fn destination(code: &Code, nesting: &Nesting, jump: usize, label: usize, out: &
     }
 }
 
-/// Which routine calls which.
+/// Calls between routines.
 struct Calls {
     /// By routine: the call and the routine called.
     calls: FxHashMap<Routine, Vec<(usize, Routine)>>,
@@ -311,7 +311,7 @@ impl Calls {
     }
 }
 
-/// Whether each run of its routine makes a call: M8000 alone drives it, and nothing jumps.
+/// Returns true if each run of its routine makes a call: M8000 alone drives it, and nothing jumps.
 fn is_always_made(code: &Code, call: usize) -> bool {
     let jumps = (0..code.len).any(|i| code.basic(i) == Some(Basic::Cj));
     let drive = call.checked_sub(1).filter(|&i| {

@@ -66,7 +66,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     numbered(out, resolved.model)
 }
 
-/// What is found in instructions together with what drives them.
+/// Checks of instructions together with their drives.
 fn driven(
     code: &Code,
     pointers: &pointers::Pointers,
@@ -89,7 +89,7 @@ fn driven(
     outputs.report(code, out);
 }
 
-/// What is found in the devices and the buffer memory that instructions read and write.
+/// Checks of the devices and the buffer memory that instructions read and write.
 fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
@@ -120,7 +120,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
 /// The part of a program that is run: up to and with its first END.
 struct Code<'a> {
     resolved: &'a Resolved<'a>,
-    /// How many instructions that is.
+    /// Number of these instructions.
     len: usize,
 }
 
@@ -164,7 +164,7 @@ impl<'a> Code<'a> {
         self.resolved.instrs[i].basic()
     }
 
-    /// What implements it on the model.
+    /// Implementation on the model.
     fn lower(&self, i: usize) -> Option<Lower> {
         self.resolved.instrs[i].lower
     }
@@ -182,17 +182,17 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// What the operands of an instruction are.
+    /// Parameters of an instruction.
     fn params(&self, i: usize) -> &'static [Param] {
         self.resolved.instrs[i].params
     }
 
-    /// Whether what an instruction is was only guessed, for the structure of the program.
+    /// Returns true if the identity of an instruction was only guessed, for the structure of the program.
     fn is_meant(&self, i: usize) -> bool {
         self.resolved.instrs[i].meant
     }
 
-    /// Whether every instruction could be read and is known.
+    /// Returns true if every instruction could be read and is known.
     fn is_understood(&self) -> bool {
         let known = |i: usize| self.inst(i).is_some() && !self.is_meant(i);
         self.resolved.program.is_complete() && (0..self.len).all(known)
@@ -210,16 +210,16 @@ impl<'a> Code<'a> {
         })
     }
 
-    /// Whether what begins or ends a part of the program may be among what could not be read: in a project an unknown
-    /// code may be any instruction, while a line of a list without a mnemonic is none.
+    /// Returns true if the beginning or end of a part of the program may be among the unread code: in a project an
+    /// unknown code may be any instruction, while a line of a list without a mnemonic is none.
     fn may_lack_structure(&self) -> bool {
         let program = self.resolved.program;
         !program.kind.is_list() && !program.unread.is_empty()
     }
 
-    /// Whether an operand that could not be read may be any device.
+    /// Returns true if an operand that could not be read may be any device.
     fn lacks_a_device(&self, i: usize) -> bool {
-        /// What names no device.
+        /// Classes that name no device.
         const CONSTANTS: Classes = Classes::K.or(Classes::H).or(Classes::E).or(Classes::TEXT);
         let operands = self.instr(i).operands.iter().zip(self.params(i));
         operands.clone().any(|(operand, param)| {
@@ -228,7 +228,7 @@ impl<'a> Code<'a> {
         })
     }
 
-    /// How an instruction takes part in the contact logic.
+    /// Part of an instruction in the contact logic.
     fn part(&self, i: usize) -> Part {
         let Some(inst) = self.inst(i).filter(|_| !self.is_meant(i)) else {
             return Part::Unknown;
@@ -252,12 +252,12 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// Whether there is an END, and something after it.
+    /// Checks that there is an END, and nothing after it.
     fn end(&self, out: &mut Diagnostics) {
         let instrs = &self.resolved.program.instrs;
         let unread = self.resolved.program.unread.last();
         if unread.is_some_and(|&before| before as usize >= instrs.len()) {
-            // What could not be read may have been END.
+            // The unreadable part may have been END.
             return;
         }
         let Some(last) = self.len.checked_sub(1) else {
@@ -303,7 +303,7 @@ impl Code<'_> {
     }
 }
 
-/// How an instruction takes part in the contact logic.
+/// Part of an instruction in the contact logic.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Part {
     /// NOP.

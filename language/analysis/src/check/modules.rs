@@ -13,7 +13,7 @@ pub(super) struct Modules(Vec<(u16, &'static Kind)>);
 /// Words of buffer memory that an instruction names.
 struct Words {
     unit: i64,
-    /// Where the number of the module is.
+    /// Position of the module's number.
     unit_span: Span,
     /// Their numbers and where these are; `None` if they are known at run time only.
     run: Option<(Range<i64>, Span)>,
@@ -32,7 +32,7 @@ impl Modules {
         )
     }
 
-    /// Where they are.
+    /// Locations of the modules.
     pub(super) fn places(&self) -> impl Iterator<Item = Place> {
         self.0.iter().map(|(_, kind)| kind.place)
     }
@@ -123,7 +123,7 @@ impl Modules {
     }
 }
 
-/// What FROM, TO and similar instructions transfer, if the module's number is constant.
+/// Words that FROM, TO and similar instructions transfer, if the module's number is constant.
 fn transferred(code: &Code, i: usize) -> Option<Words> {
     let Some(Lower::Call(function)) = code.lower(i) else {
         return None;

@@ -14,7 +14,7 @@ struct Limit {
     which: Which,
 }
 
-/// Which operands count.
+/// Selection of the operands that count.
 enum Which {
     /// This device.
     Exactly(Device),

@@ -7,7 +7,7 @@ use super::structure::{Nesting, Routine};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
-/// What decides whether an instruction runs: its routine, its state and the jumps over it.
+/// Conditions under which an instruction runs: its routine, its state and the jumps over it.
 type Conditions = (Routine, u32, u64);
 
 /// The instructions that send pulses through one output.

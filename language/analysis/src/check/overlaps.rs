@@ -13,9 +13,9 @@ use rustc_hash::FxHashMap;
 struct Result {
     at: usize,
     span: Span,
-    /// How many words it has.
+    /// Number of words.
     words: u32,
-    /// How many words one value of it has.
+    /// Number of words in one value.
     each: u32,
 }
 
@@ -87,7 +87,7 @@ impl Overlaps {
                     .is_some_and(|other| other.at == at && other.each == 2);
                 (!(pairs && result.words == 2 && result.each == 2)).then_some((device, at, span))
             });
-            // Who writes the low word by itself as well puts the value together from its words.
+            // A program that also writes the low word by itself composes the value from its words.
             let composed = self
                 .parts
                 .get(&first)
@@ -122,7 +122,7 @@ impl Overlaps {
     }
 }
 
-/// Whether the result of an instruction has twice as many words as its operands.
+/// Returns true if the result of an instruction has twice as many words as its operands.
 fn divides_or_multiplies(code: &Code, i: usize) -> bool {
     let op = match code.lower(i) {
         Some(Lower::Arith(op) | Lower::ArithSaturating(op)) => op,
@@ -131,7 +131,7 @@ fn divides_or_multiplies(code: &Code, i: usize) -> bool {
     matches!(op, ArithOp::Mul | ArithOp::Div)
 }
 
-/// Whether an instruction sets what it writes to 0, as is done before a value is put together.
+/// Returns true if an instruction sets its target to 0, as is done before a value is put together.
 fn clears(code: &Code, i: usize) -> bool {
     let Some(inst) = code.inst(i) else {
         return false;

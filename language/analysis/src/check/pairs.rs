@@ -10,9 +10,9 @@ use rustc_hash::FxHashMap;
 pub(super) struct Pairs(FxHashMap<Device, Pair>);
 
 struct Pair {
-    /// Where it is first used.
+    /// Position of its first use.
     span: Span,
-    /// Whether anything writes it.
+    /// True if anything writes it.
     written: bool,
 }
 

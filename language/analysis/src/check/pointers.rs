@@ -1,11 +1,11 @@
-//! Where pointers are defined, and what names them.
+//! Definitions of pointers, and the instructions that name them.
 
 use super::Code;
 use rungc_catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use rustc_hash::FxHashMap;
 
-/// What is known of one pointer.
+/// Uses of one pointer.
 #[derive(Default)]
 pub(super) struct Pointer {
     /// The labels that define it; more than one is an error.
@@ -19,12 +19,12 @@ pub(super) struct Pointer {
 }
 
 impl Pointer {
-    /// Whether it is both jumped to and called.
+    /// Returns true if it is both jumped to and called.
     pub(super) fn is_ambiguous(&self) -> bool {
         !self.jumps.is_empty() && !self.calls.is_empty()
     }
 
-    /// Whether any instruction names it.
+    /// Returns true if any instruction names it.
     pub(super) fn is_named(&self) -> bool {
         let uses = [&self.jumps, &self.calls, &self.others];
         uses.iter().any(|uses| !uses.is_empty())
@@ -36,9 +36,9 @@ pub(super) struct Pointers {
     map: FxHashMap<Device, Pointer>,
     /// In the order they first appear.
     order: Vec<Device>,
-    /// Whether a jump or call names its label with an index register, so that any label may be meant.
+    /// True if a jump or call names its label with an index register, so that any label may be meant.
     indexed: bool,
-    /// Whether a call does.
+    /// True if a call does so.
     indexed_call: bool,
 }
 
@@ -97,7 +97,7 @@ impl Pointers {
         })
     }
 
-    /// What is known of a pointer that the program defines or names.
+    /// Uses of a pointer that the program defines or names.
     pub(super) fn get(&self, device: Device) -> Option<&Pointer> {
         self.map.get(&device)
     }
@@ -109,24 +109,24 @@ impl Pointers {
             .filter_map(|&device| Some((device, self.map.get(&device)?)))
     }
 
-    /// Whether something calls this label.
+    /// Returns true if there is a call to this label.
     pub(super) fn is_called(&self, label: Device) -> bool {
         self.get(label)
             .is_some_and(|pointer| !pointer.calls.is_empty())
     }
 
-    /// Whether a call with an index register may mean this label, if it follows FEND: any that no jump names.
+    /// Returns true if a call with an index register may mean this label, if it follows FEND: any that no jump names.
     pub(super) fn may_be_called(&self, label: Device) -> bool {
         self.indexed_call && !self.is_jumped_to(label)
     }
 
-    /// Whether something jumps to this label.
+    /// Returns true if there is a jump to this label.
     pub(super) fn is_jumped_to(&self, label: Device) -> bool {
         self.get(label)
             .is_some_and(|pointer| !pointer.jumps.is_empty())
     }
 
-    /// Whether a label that nothing names may still be meant by a jump or call with an index register.
+    /// Returns true if a label that nothing names may still be meant by a jump or call with an index register.
     pub(super) fn any_may_be_meant(&self) -> bool {
         self.indexed
     }

@@ -18,12 +18,12 @@ use rungc_syntax::Device;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// What a program makes of a serial port.
+/// Set-up of a serial port by a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Setup {
     /// The port's number in the model's manual.
     pub port: u8,
-    /// What it speaks; `None` if that is chosen at run time.
+    /// Protocol; `None` if it is chosen at run time.
     pub protocol: Option<Protocol>,
     /// Its own station, if the protocol has stations and the number is constant.
     pub station: Option<u16>,
@@ -55,7 +55,7 @@ impl fmt::Display for Setup {
 }
 
 impl Setup {
-    /// Whether partners read and write devices by it.
+    /// Returns true if partners read and write devices by it.
     pub fn serves(&self) -> bool {
         use Protocol::{ComputerLink, ModbusAscii, ModbusRtu, ProgrammingPort};
         let slave = matches!(
@@ -77,7 +77,7 @@ pub fn setups(resolved: &Resolved) -> Vec<Setup> {
     wirings.map(|wiring| setup(&facts, wiring)).collect()
 }
 
-/// What the facts make of a port.
+/// Set-up of a port according to the facts.
 fn setup(facts: &facts::Facts, wiring: &'static PortWiring) -> Setup {
     let protocol = facts.protocol(wiring);
     let station = match protocol {
@@ -96,7 +96,7 @@ fn setup(facts: &facts::Facts, wiring: &'static PortWiring) -> Setup {
     }
 }
 
-/// Whether the port's register holds a station under a protocol.
+/// Returns true if the port's register holds a station under a protocol.
 fn has_station(protocol: Protocol) -> bool {
     matches!(
         protocol,
@@ -104,7 +104,7 @@ fn has_station(protocol: Protocol) -> bool {
     )
 }
 
-/// What an instruction does with a port.
+/// Use of a port by an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Use {
     /// Sends and receives characters of the program's own.
@@ -115,7 +115,7 @@ enum Use {
     SetUp,
 }
 
-/// What an instruction does with a port, if it does anything.
+/// Use of a port by an instruction, if any.
 fn use_of(code: &Code, i: usize) -> Option<(RtFn, Use)> {
     let Some(Lower::Call(function)) = code.lower(i).filter(|_| !code.is_meant(i)) else {
         return None;

@@ -15,14 +15,14 @@ const FIRST_BOTH_WAYS: u32 = 200;
 /// No model has more counters or outputs.
 const MAX_DEVICES: u32 = 512;
 
-/// What is known of a counter or an output.
+/// Uses of a counter or an output.
 #[derive(Default)]
 struct Known {
-    /// Where it is switched on or counts first.
+    /// Position at which it is first switched on or counts.
     driven: Option<Span>,
-    /// Whether its contact is looked at.
+    /// True if its contact is used.
     looked_at: bool,
-    /// Whether something else writes it.
+    /// True if something else writes it.
     cleared: bool,
 }
 

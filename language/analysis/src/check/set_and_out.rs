@@ -7,7 +7,7 @@ use rungc_catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
-/// Where a coil is written and its contact read.
+/// Positions at which a coil is written and its contact read.
 #[derive(Default)]
 struct Uses {
     out: Vec<usize>,
@@ -16,7 +16,7 @@ struct Uses {
     contacts: Vec<usize>,
 }
 
-/// What decides whether an instruction runs: its routine, its state and the jumps that skip it.
+/// Condition under which an instruction runs: its routine, its state and the jumps that skip it.
 type Condition = (Routine, Option<Device>, u64);
 
 /// Warns of coils that SET or RST write in vain, since an OUT writes them in every scan.

@@ -3,7 +3,7 @@
 use super::Code;
 use super::pointers::Pointers;
 
-/// Which forward jumps skip each instruction.
+/// Forward jumps that skip each instruction.
 pub(super) struct Skips(Option<Vec<u64>>);
 
 impl Skips {

@@ -44,7 +44,7 @@ fn stands_twice(code: &Code, out: &mut Diagnostics) {
     }
 }
 
-/// Whether the section that begins with the STL at `stl` drives more than transitions.
+/// Returns true if the section that begins with the STL at `stl` drives more than transitions.
 fn acts(code: &Code, stl: usize) -> bool {
     let ends = |i: &usize| {
         matches!(
@@ -105,7 +105,7 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     }
 }
 
-/// How many circuits branch off in the flow of an initial state, and the last transition to one.
+/// Number of circuits that branch off in the flow of an initial state, and the last transition to one.
 fn flow_branches(
     leads: &BTreeMap<Device, BTreeMap<Device, usize>>,
     initial: Device,

@@ -1,4 +1,4 @@
-//! What begins must end, and what may hold what: master control, loops, step ladders, subroutines and interrupt
+//! Beginnings and ends of structures, and their nesting: master control, loops, step ladders, subroutines and interrupt
 //! routines.
 
 mod table;
@@ -12,10 +12,10 @@ use table::{Kind, Verdict, crossing, inside};
 /// No instruction.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What encloses an instruction. Structures are named by the instruction that begins them, [`NONE`] for none.
+/// Structures that enclose an instruction. Structures are named by the instruction that begins them, [`NONE`] for none.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Enclosing {
-    /// What runs it.
+    /// Routine that runs it.
     pub(super) routine: Routine,
     /// The innermost loop around it.
     pub(super) inner_loop: u32,
@@ -23,7 +23,7 @@ pub(super) struct Enclosing {
     pub(super) state: u32,
 }
 
-/// What runs an instruction.
+/// Routine of an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub(super) enum Routine {
     /// The main program.
@@ -36,7 +36,7 @@ pub(super) enum Routine {
     Nothing,
 }
 
-/// What encloses each instruction.
+/// Structures that enclose each instruction.
 pub(super) struct Nesting {
     enclosing: Vec<Enclosing>,
     /// For each FOR the loop around it.
@@ -44,7 +44,7 @@ pub(super) struct Nesting {
 }
 
 impl Nesting {
-    /// What encloses an instruction.
+    /// Structures that enclose an instruction.
     pub(super) fn of(&self, i: usize) -> Enclosing {
         self.enclosing[i]
     }
@@ -63,12 +63,12 @@ struct Open {
     at: usize,
     /// Level of a master control zone, if it could be read.
     level: Option<u32>,
-    /// Whether something is known to be wrong with it, so that nothing more is said.
+    /// True if an error in it is known, so that no other is reported.
     reported: bool,
 }
 
 impl Open {
-    /// Whether an MCR of this level ends it, as far as both levels could be read.
+    /// Returns true if an MCR of this level ends it, as far as both levels could be read.
     fn may_end_with(&self, level: Option<u32>) -> bool {
         self.level.is_none() || level.is_none() || self.level == level
     }
@@ -82,7 +82,7 @@ struct Walk<'a, 'p> {
     at: usize,
     open: Vec<Open>,
     routine: Routine,
-    /// Whether the main program has ended.
+    /// True if the main program has ended.
     after_fend: bool,
     /// A label after FEND that nothing names, since the last end of a routine.
     unused_label: bool,
@@ -94,7 +94,7 @@ struct Walk<'a, 'p> {
     /// Open loops, innermost last.
     loops: Vec<u32>,
     outer: Vec<(u32, u32)>,
-    /// Where the instructions before this one are.
+    /// Structures that enclose the instructions before this one.
     enclosing: Vec<Enclosing>,
 }
 
@@ -146,7 +146,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// What instruction `i` begins.
+    /// Opens the structure that instruction `i` begins.
     fn begin(&mut self, i: usize) {
         self.at = i;
         let basic = self.code.basic(i);
@@ -162,7 +162,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// What instruction `i` ends.
+    /// Closes the structure that instruction `i` ends.
     fn end(&mut self, i: usize) {
         match self.code.basic(i) {
             Some(Basic::Mcr) => self.end_mc(i),
@@ -495,7 +495,7 @@ impl Walk<'_, '_> {
         self.state = NONE;
     }
 
-    /// Whether the next end of a routine after instruction `i`, before any other begins, is one of this kind.
+    /// Returns true if the next end of a routine after instruction `i`, before any other begins, is one of this kind.
     fn returns_next(&self, i: usize, kind: Kind) -> bool {
         let ends = |at: usize| match self.code.basic(at) {
             Some(Basic::Sret) => Some(kind == Kind::Sub),
@@ -506,7 +506,7 @@ impl Walk<'_, '_> {
         (i + 1..self.code.len).find_map(ends).unwrap_or(false)
     }
 
-    /// Whether a routine that begins at `i`, in the main program, has FEND between it and its end.
+    /// Returns true if a routine that begins at `i`, in the main program, has FEND between it and its end.
     fn ends_behind_fend(&self, i: usize, kind: Kind) -> bool {
         let fend = (i + 1..self.code.len).find_map(|at| match self.code.basic(at) {
             Some(Basic::Fend) => Some(Some(at)),

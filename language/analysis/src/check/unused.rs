@@ -13,18 +13,18 @@ const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::
 const COIL: usize = 0;
 const CONTACT: usize = 1;
 
-/// What is known of the devices of one class.
+/// Accesses to the devices of one class.
 #[derive(Default)]
 struct Class {
     /// Differences of how many accesses read each device: the sum up to a device is its count.
     reads: Vec<i32>,
     /// The same for writes.
     writes: Vec<i32>,
-    /// Which of them have been met as coils, and as contacts.
+    /// Devices met so far as coils, and as contacts.
     met: [Vec<bool>; 2],
-    /// Whether an access may read any of them.
+    /// True if an access may read any of them.
     any_read: bool,
-    /// Whether an access may write any of them.
+    /// True if an access may write any of them.
     any_written: bool,
 }
 
@@ -48,7 +48,7 @@ impl<'a, 'p> Unused<'a, 'p> {
             known.writes = vec![0; len];
             known.met = [vec![false; len], vec![false; len]];
         }
-        // What a line means that cannot be read at all is not known.
+        // The meaning of an unreadable line is unknown.
         let unread = !code.resolved.program.unread.is_empty();
         for known in &mut classes {
             (known.any_read, known.any_written) = (unread, unread);
@@ -98,7 +98,7 @@ impl<'a, 'p> Unused<'a, 'p> {
             return;
         }
         let (list, what) = match basic {
-            // Which device an index leads to is not known.
+            // The target of an index is unknown.
             Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
                 (&mut self.coils, COIL)
             }
@@ -175,7 +175,7 @@ impl<'a, 'p> Unused<'a, 'p> {
 }
 
 impl Class {
-    /// Whether an access names a device that the model has for the first time as a coil, or as a contact.
+    /// Returns true if an access names a device that the model has for the first time as a coil, or as a contact.
     fn meets(&mut self, access: &Access, what: usize) -> bool {
         match self.met[what].get_mut(access.first.number as usize) {
             Some(met) => !std::mem::replace(met, true),

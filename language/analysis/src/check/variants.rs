@@ -1,4 +1,4 @@
-//! What a variant or base unit of a PLC does not have.
+//! Features missing from a variant or base unit of a PLC.
 
 use super::Code;
 use crate::resolve::Resolved;
@@ -27,7 +27,7 @@ pub fn check(resolved: &Resolved, variant: &Variant) -> Diagnostics {
     out
 }
 
-/// What the user can do about it.
+/// Help for the user.
 fn help(variant: &Variant) -> String {
     let family = Model::get(variant.model).name;
     format!("`{family}` stands for all PLCs of the family")

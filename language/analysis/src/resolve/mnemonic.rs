@@ -6,10 +6,11 @@ use rungc_catalogue::{Basic, Drive, Forms, Found, Inst};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes};
 
-/// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
+/// Most unknown mnemonics that get a suggestion; searching one costs as much as resolving hundreds of good
+/// instructions.
 const MAX_SUGGESTIONS: u32 = 200;
 
-/// How an instruction's row was found.
+/// Quality of the match between an instruction and its row.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fit {
     Good,
@@ -20,7 +21,7 @@ pub(super) enum Fit {
     Meant,
 }
 
-/// What was found of an instruction.
+/// Match of an instruction.
 #[derive(Clone, Copy)]
 pub(super) struct Match {
     pub(super) found: Found,
@@ -194,7 +195,7 @@ fn without_affixes(mnemonic: &str) -> Option<Found> {
     })
 }
 
-/// Whether an instruction begins, ends or names a part of the program, so that others are judged by it.
+/// Returns true if an instruction begins, ends or names a part of the program, so that others are judged by it.
 fn is_structural(inst: &Inst) -> bool {
     let named = matches!(inst.basic(), Some(Basic::Mc | Basic::Cj | Basic::Call));
     inst.drive == Drive::Alone || named

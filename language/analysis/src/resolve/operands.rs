@@ -15,7 +15,7 @@ pub(super) struct Checker {
     model: &'static Model,
     /// The model's devices by class, ranges that an access may span joined.
     runs: Vec<Vec<(u32, u32)>>,
-    /// What no operand can be on the model.
+    /// Classes that no operand can have on the model.
     missing: Classes,
 }
 
@@ -114,7 +114,7 @@ impl Checker {
         }
     }
 
-    /// What is wrong with one operand, if anything.
+    /// Error in one operand, if any.
     fn operand(&self, matched: &Matched, at: usize, param: &Param) -> Option<Diagnostic> {
         let operand = &matched.instr.operands[at];
         let span = operand.span;
@@ -172,7 +172,7 @@ impl Checker {
         }
     }
 
-    /// What is wrong with an index register, if anything.
+    /// Error in an index register, if any.
     fn index(
         &self,
         matched: &Matched,
@@ -411,7 +411,7 @@ pub(super) fn is_unreadable(operand: &Operand) -> bool {
     matches!(operand.kind, OperandKind::Unreadable(_))
 }
 
-/// Whether the row takes these operands, as far as their number and their classes go.
+/// Returns true if the row accepts these operands, as far as their number and their classes go.
 pub(super) fn takes(found: Found, operands: &[Operand], model: &Model) -> bool {
     let (params, _) = found.inst.params_and_steps(found.form, operands, model);
     let needed = params.iter().filter(|param| !param.optional).count();
@@ -455,7 +455,7 @@ pub(super) fn device_of(kind: &OperandKind) -> Option<Device> {
     }
 }
 
-/// How many words one value of an operand takes.
+/// Number of words in one value of an operand.
 fn words(found: Found, param: &Param) -> u32 {
     match param.shape {
         Shape::Value if found.form.wide => 2,
@@ -464,7 +464,7 @@ fn words(found: Found, param: &Param) -> u32 {
     }
 }
 
-/// How many values an operand takes; what is not known counts as one.
+/// Number of values of an operand; an unknown number counts as one.
 fn extent(operands: &[Operand], param: &Param) -> u32 {
     match param.extent {
         Extent::One | Extent::Through(_) => 1,
@@ -497,7 +497,7 @@ fn numbers(span: Span, device: Device, param: &Param, model: &Model) -> Option<D
     (!fits).then(|| not_this_number(span, device, &allowed, param, model))
 }
 
-/// How many bits a value of an operand has.
+/// Number of bits in a value of an operand.
 fn bits(found: Found, param: &Param) -> u32 {
     16 * words(found, param)
 }
@@ -533,7 +533,7 @@ fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<D
     Some(diagnostic)
 }
 
-/// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.
+/// Checks that a group has a digit count allowed for the operand; a result of two words may go to eight digits.
 fn digits_fit(matched: &Matched, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
     let values = match param.extent {
         Extent::Count(count) => count,

@@ -4,7 +4,7 @@ use rungc_catalogue::{Limits, Param, Rule};
 use rungc_models::runs::{FIRST_COUNTER32, is_special};
 use rungc_syntax::{Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
 
-/// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
+/// Error in operand `at` of an instruction by the rules of its parameter, if any.
 pub(super) fn broken(
     operands: &[Operand],
     at: usize,

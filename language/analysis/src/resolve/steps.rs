@@ -8,13 +8,13 @@ use rungc_syntax::{Diagnostics, Instr, Parameters, Program, Span, codes};
 pub(super) struct Counter {
     /// Steps so far.
     counted: u32,
-    /// How far the source's numbers run ahead of the count.
+    /// Difference by which the source's numbers run ahead of the count.
     ahead: i64,
-    /// Whether the last instruction's length is not known, so that the next number is taken as it is.
+    /// True if the last instruction's length is unknown, so that the next number is accepted.
     lost: bool,
     /// The first place where the source's numbers leave the count: span, number stated, number counted.
     first: Option<(Span, u32, u32)>,
-    /// How many such mismatches there are.
+    /// Number of such mismatches.
     mismatches: u32,
 }
 

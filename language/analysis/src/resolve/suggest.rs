@@ -1,4 +1,4 @@
-//! What was probably meant by a mnemonic that no model has.
+//! Suggestions for a mnemonic that no model has.
 //!
 //! The nearest spelling alone misleads: what the operands fit and what the program waits for at this place count as
 //! much. A suggestion never turns a contact into its opposite.
@@ -9,7 +9,7 @@ use rungc_models::{Model, ModelSet};
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
 use std::sync::OnceLock;
 
-/// What was probably meant.
+/// Suggestion for an unknown mnemonic.
 pub(super) struct Meant {
     /// Reports it to the author.
     pub(super) help: String,
@@ -17,11 +17,11 @@ pub(super) struct Meant {
     pub(super) found: Option<Found>,
     /// The label, where a label was meant.
     pub(super) label: Option<Device>,
-    /// What to write instead of the mnemonic, and whether that is certain.
+    /// Replacement of the mnemonic, and whether that is certain.
     pub(super) instead: Option<(String, bool)>,
 }
 
-/// How many structures of each kind are open where an instruction is.
+/// Numbers of open structures of each kind at an instruction.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Open {
     branches: u32,
@@ -60,7 +60,7 @@ impl Open {
         }
     }
 
-    /// Whether something that waits to be ended is ended by an instruction; `None` for one that ends nothing.
+    /// Returns true if an instruction ends an open structure; `None` for one that ends nothing.
     fn is_ended_by(self, inst: &Inst, last: bool) -> Option<bool> {
         let basic = inst.basic()?;
         match basic {
@@ -148,7 +148,7 @@ const HABITS: &[(&[&str], &str, &str)] = &[
     ),
 ];
 
-/// What was probably meant by the mnemonic of an instruction, the `last` one of the program or not.
+/// Suggestion for the mnemonic of an instruction, the `last` one of the program or not.
 pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant> {
     /// No mnemonic is longer than this by more than a typing error.
     const LONGEST: usize = 14;
@@ -344,7 +344,7 @@ fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant
     })
 }
 
-/// How little a spelling fits: `None` if it does not come into question.
+/// Distance of a spelling from the instruction: `None` if it is out of the question.
 fn misfit(
     instr: &Instr,
     near: &str,

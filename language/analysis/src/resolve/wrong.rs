@@ -1,4 +1,4 @@
-//! What is said of operands that do not fit.
+//! Messages for operands that do not fit.
 
 use super::operands::{Matched, is_unreadable};
 use rungc_catalogue::{Basic, Form, Found, Inst, Param, Role};
@@ -190,7 +190,7 @@ fn whole_group(operand: &Operand, matched: &Matched, classes: Classes) -> Option
     (bits && classes.meets(Classes::of(&group))).then_some(group)
 }
 
-/// What to write instead of an operand of the wrong class, where that is known.
+/// Replacement of an operand of the wrong class, where known.
 fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<String> {
     let OperandKind::Device(device, _) = operand.kind else {
         return None;
@@ -323,7 +323,7 @@ fn preset_of(matched: &Matched) -> Option<Device> {
     }
 }
 
-/// How to time or count beyond the greatest preset of a timer or counter.
+/// Advice for times or counts beyond the greatest preset of a timer or counter.
 fn longer_preset(device: Device, model: &Model) -> String {
     match model
         .timer(device.number)

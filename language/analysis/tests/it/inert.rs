@@ -9,7 +9,7 @@ use rungc_syntax::DeviceClass::{D, M};
 use rungc_syntax::{FittedModule, codes};
 use std::collections::BTreeSet;
 
-/// Whether `rungc check` warns of an inert device in a program for a PLC with these modules.
+/// Returns true if `rungc check` warns of an inert device in a program for a PLC with these modules.
 fn is_warned(model: &'static Model, text: &str, modules: Vec<FittedModule>) -> bool {
     let mut program = rungc_frontend::read_text("p.il", text).program;
     program.parameters.get_or_insert_default().modules = modules;

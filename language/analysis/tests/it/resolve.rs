@@ -114,7 +114,7 @@ fn instructions_that_are_not_read_hide_no_length() {
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
 }
 
-/// What the pages show is what the checks accept, on every model that has the instruction.
+/// The examples on the pages pass the checks, on every model that has the instruction.
 #[test]
 fn examples_resolve_without_errors() {
     let mut wrong = Vec::new();

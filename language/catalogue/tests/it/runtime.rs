@@ -1,4 +1,4 @@
-//! What the runtime says of an instruction is what its row says. The two cannot share it: the runtime stands alone in
+//! Agreement of the runtime and the rows about an instruction. The two cannot share it: the runtime stands alone in
 //! emitted code and does not know the catalogue.
 
 use rungc_catalogue::{Inst, Lower, all};
@@ -84,7 +84,8 @@ fn documentation() -> BTreeMap<(String, String), String> {
     all
 }
 
-/// Whether documentation names a row, its FNC number if it states one, and its operands if they follow the mnemonic.
+/// Returns true if documentation names a row, its FNC number if it states one, and its operands if they follow the
+/// mnemonic.
 fn documents(doc: &str, inst: &Inst, names: &[&str]) -> bool {
     let mut words = doc.split(|c: char| c.is_whitespace() || ",:()".contains(c));
     let spellings = inst.spellings();

@@ -1,4 +1,4 @@
-//! What is written is a project by the schema, and reads back to the same list; a chart does what the step ladder does.
+//! Written projects conform to the schema, and read back to the same list; a chart behaves like the step ladder.
 
 use rungc_export::{Body, to_plcopen};
 use rungc_frontend::{Names, ReadOptions, read_bytes_with};

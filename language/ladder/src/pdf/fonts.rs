@@ -1,4 +1,4 @@
-//! Which font shows a character.
+//! Selection of fonts by character.
 //!
 //! Nothing is embedded. Every reader has the standard fonts (ISO 32000-1 §9.6.2.2); for Chinese, Japanese and Korean
 //! texts it takes a font of its system for the character collection that is named (§9.7.5.2). So a file is small, the
@@ -37,7 +37,7 @@ impl Font {
         Font::Korean,
     ];
 
-    /// What pages call it.
+    /// Name in page contents.
     pub(super) fn name(self) -> Name<'static> {
         Name(match self {
             Font::Latin => b"L",
@@ -110,7 +110,7 @@ pub(super) struct Run {
     pub bytes: Vec<u8>,
     /// Width in sizes of the font.
     pub width: f64,
-    /// Whether its characters are as wide as high; they are made narrower where they stand for narrow ones.
+    /// True if its characters are as wide as high; they are made narrower where they replace narrow ones.
     pub narrowed: bool,
 }
 
@@ -137,7 +137,7 @@ pub(super) fn runs(text: &str) -> Vec<Run> {
     runs
 }
 
-/// How wide a text is, in sizes of the font.
+/// Width of a text, in sizes of the font.
 pub(super) fn width(text: &str) -> f64 {
     runs(text).iter().map(|run| run.width).sum()
 }

@@ -1,4 +1,4 @@
-//! Where the parts of a chart lie, in columns and lines of characters.
+//! Layout of a chart, in columns and lines of characters.
 //!
 //! A flow runs down a line. Where it divides, its branches lie side by side, and meet again at the state or transition
 //! that most of them lead to. Each state is placed once; what leads to one that lies elsewhere is an arrow with its
@@ -17,7 +17,7 @@ const SPINE: usize = 4;
 const ROOM: usize = 40;
 /// Columns of a line of text on narrower pages, one after another.
 const NARROW: [usize; 3] = [28, 20, 14];
-/// How many divergences may lie in each other; beyond, arrows lead on to flows further below.
+/// Most levels of nested divergences; beyond, arrows lead on to flows further below.
 const DEEPEST: usize = 100;
 
 /// A part of a chart. Columns and lines count from 0.
@@ -45,7 +45,7 @@ pub(super) enum Piece {
     },
 }
 
-/// What a line of text says.
+/// Content of a line of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Words {
     /// The name of a state.
@@ -69,12 +69,12 @@ enum Point {
     Transition(usize),
 }
 
-/// How far a branch reaches.
+/// Extent of a branch.
 struct Run {
     width: usize,
     /// The line below it.
     bottom: usize,
-    /// Whether it ends where the branches meet.
+    /// True if it ends at the meeting point of the branches.
     open: bool,
     /// The states at its end.
     last: Vec<usize>,
@@ -83,7 +83,7 @@ struct Run {
 /// Branches side by side.
 struct Fork {
     run: Run,
-    /// Where they meet, if that is not where the branches around them do.
+    /// Meeting point, if it is not that of the surrounding branches.
     meets: Option<Point>,
 }
 
@@ -176,9 +176,9 @@ struct Placer<'a> {
     pieces: Vec<Piece>,
     placed: Vec<bool>,
     drawn: Vec<bool>,
-    /// Where the branches around the place at hand meet, the innermost last.
+    /// Meeting points of the surrounding branches, the innermost last.
     stops: Vec<Point>,
-    /// How many divergences are around it.
+    /// Number of surrounding divergences.
     depth: usize,
     /// Columns of a line of text.
     room: usize,
@@ -308,7 +308,7 @@ impl Placer<'_> {
         run
     }
 
-    /// Whether a state has its place elsewhere than at the end of the branch at hand.
+    /// Returns true if a state's place is not at the end of the current branch.
     fn is_elsewhere(&self, state: usize) -> bool {
         let meets = self.stops.contains(&Point::State(state));
         self.placed[state] || meets || self.depth > DEEPEST
@@ -482,8 +482,8 @@ impl Placer<'_> {
         });
     }
 
-    /// Where most of some branches meet: the nearest state that selected ones lead to, or the nearest transition that
-    /// leaves states of parallel ones together.
+    /// Meeting point of most of these branches: the nearest state that selected ones lead to, or the nearest transition
+    /// that leaves states of parallel ones together.
     fn meeting(&self, branches: &[Point], parallel: bool) -> Option<Point> {
         let mut reached: BTreeMap<Point, (usize, usize)> = BTreeMap::new();
         for &branch in branches {
@@ -535,7 +535,7 @@ impl Placer<'_> {
         found
     }
 
-    /// What the flows do not show.
+    /// Remarks on parts that the flows do not show.
     fn remarks(&self) -> Vec<String> {
         let names = |states: &[usize]| {
             let names = states

@@ -4,7 +4,7 @@ use super::Chart;
 use super::place::{BOX, Piece, Sheet, Words, place_within};
 use unicode_width::UnicodeWidthChar;
 
-/// Which neighbours the lines of a cell reach.
+/// Neighbours that the lines of a cell reach.
 const LEFT: u8 = 1;
 const RIGHT: u8 = 2;
 const UP: u8 = 4;

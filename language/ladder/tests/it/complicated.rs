@@ -13,7 +13,7 @@ use rungc_syntax::Instr;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-/// How many contacts, coils and boxes a network has, and how many branches.
+/// Numbers of contacts, coils and boxes of a network, and of branches.
 #[derive(Clone, Copy, Default)]
 struct Size {
     cells: usize,

@@ -45,7 +45,7 @@ fn picture(list: &str) -> String {
     })
 }
 
-/// Whether the list of a ladder is the program.
+/// Asserts that the list of a ladder is the program.
 fn assert_inverse(program: &Program, name: &str) {
     with(program, |resolved, ladder| {
         let list = instructions(ladder);

@@ -1,5 +1,5 @@
-//! What a drawing says, read independently of the crate: power floods over the characters of the picture, from the left
-//! rail through closed contacts to the outputs, and must drive what the list drives, for random contacts.
+//! Interpretation of a drawing, independent of the crate: power floods over the characters of the picture, from the
+//! left rail through closed contacts to the outputs, and must drive the same outputs as the list, for random contacts.
 
 use crate::common;
 use crate::common::programs_in;
@@ -13,10 +13,10 @@ use rungc_syntax::Program;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-/// How many random assignments each network is tried with.
+/// Number of random assignments tried for each network.
 const TRIALS: u64 = 24;
 
-/// How wide networks are drawn: so wide that few are continued below, and so narrow that most are.
+/// Widths of the drawings: so wide that few are continued below, and so narrow that most are.
 const WIDTHS: [usize; 2] = [500, 60];
 
 /// A random bit for what a contact is called, always the same within a trial.
@@ -29,7 +29,7 @@ fn chance(trial: u64, name: &str) -> bool {
     hash.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 60 & 1 == 1
 }
 
-/// What a symbol that changes a result makes of it: `/` inverts, arrows need a separate bit.
+/// Result of a symbol that changes it: `/` inverts, arrows need a separate bit.
 fn changed(symbol: char, power: bool, trial: u64) -> bool {
     match symbol {
         '/' => !power,
@@ -38,7 +38,7 @@ fn changed(symbol: char, power: bool, trial: u64) -> bool {
     }
 }
 
-/// How a contact joins, what is before its device in its name, and whether it is closed while that is off.
+/// Operation of a contact, the prefix of its device in its name, and true if it is closed while the device is off.
 fn contact(basic: Basic) -> Option<(Join, &'static str, bool)> {
     Some(match basic {
         Basic::Ld => (Join::Ld, "", false),
@@ -57,7 +57,8 @@ fn contact(basic: Basic) -> Option<(Join, &'static str, bool)> {
     })
 }
 
-/// What the instructions of a network drive, computed as the PLC does: with a stack of blocks and one of branches.
+/// Outputs driven by the instructions of a network, computed as the PLC does: with a stack of blocks and one of
+/// branches.
 fn by_list(resolved: &Resolved, network: &Network, trial: u64) -> Vec<bool> {
     let (mut blocks, mut branches, mut driven) = (vec![true], Vec::new(), Vec::new());
     for at in network.instrs.clone().skip(network.labels) {
@@ -118,7 +119,7 @@ struct Picture {
     right: usize,
 }
 
-/// What a drawing connects.
+/// Connections of a drawing.
 struct Circuit {
     elements: Vec<Element>,
     /// The places before outputs, from the top down.
@@ -129,7 +130,7 @@ struct Circuit {
 
 /// Something between two wires.
 struct Element {
-    /// What it is called and what it looks like: `X000` and `/`, `[= D0 K1]` and ` `, or a change of the result.
+    /// Its name and symbol: `X000` and `/`, `[= D0 K1]` and ` `, or a change of the result.
     name: String,
     symbol: char,
     from: (usize, usize),
@@ -260,7 +261,7 @@ impl Picture {
         }
         let mut nets = HashMap::new();
         for row in 0..self.rows.len() {
-            // What a rail's `├` leads to is the rail, too; the next place may be an element.
+            // The neighbour of a rail's `├` is the rail, too; the next place may be an element.
             nets.insert((row, self.left), 0);
             if self.at((row, self.left)) == '├' {
                 self.flood((row, self.left + 1), 0, &mut nets);
@@ -324,7 +325,7 @@ impl Circuit {
         }
     }
 
-    /// What the drawing drives, from the top down.
+    /// Outputs driven by the drawing, from the top down.
     fn drives(&self, trial: u64) -> Vec<bool> {
         let mut fed: BTreeMap<usize, Vec<&Element>> = BTreeMap::new();
         // A row that ends with a mark continues where the mark appears again, once.
@@ -376,7 +377,7 @@ fn power(
     on
 }
 
-/// Where a character of a wire leads.
+/// Directions of a wire's character.
 fn wires(c: char) -> &'static str {
     match c {
         '─' => "LR",
@@ -394,7 +395,7 @@ fn wires(c: char) -> &'static str {
     }
 }
 
-/// What was compared.
+/// Compared drawings.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 struct Drawn {
     networks: usize,
@@ -599,7 +600,7 @@ fn block(rng: &mut impl FnMut(usize) -> usize, depth: usize, out: &mut Vec<&'sta
     }
 }
 
-/// What a random block drives, with branches.
+/// Writes the outputs of a random block, with branches.
 fn branches(rng: &mut impl FnMut(usize) -> usize, depth: usize, out: &mut Vec<&'static str>) {
     const OUT: [&str; 4] = ["OUT Y0", "SET Y1", "MOV K1 D9", "OUT T0 K5"];
     for _ in 0..rng(3) {
@@ -640,7 +641,7 @@ proptest! {
         block(&mut rng, 2, &mut lines);
         branches(&mut rng, 2, &mut lines);
         lines.push("END");
-        // What inverts a block is a list; END is drawn in any case.
+        // A block that is inverted is a list; END is drawn in any case.
         let lists = lines.iter().any(|line| ["INV", "MEP", "MEF"].contains(line));
         let drawn = compare(&program(&lines.join("\n")), "random").networks;
         prop_assert!(drawn == 2 || lists && drawn == 1);

@@ -13,7 +13,7 @@ use rungc_rt::Pulses;
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, M, P, S, T, X, Y};
 
-/// What the hardware manuals print for FX1S and FX1N.
+/// Times in the hardware manuals of FX1S and FX1N.
 const TIMES: InstructionTimes = InstructionTimes {
     basic: 550,
     longer: &[],

@@ -15,7 +15,7 @@ use rungc_syntax::DeviceClass::{D, M, P, S, Y};
 
 const FX2: &str = "it has fewer devices and instructions than fx2n, and what does not exist there is not reported";
 
-/// What the hardware manual prints.
+/// Times in the hardware manual.
 const TIMES: InstructionTimes = InstructionTimes {
     basic: 80,
     longer: &[],

@@ -17,7 +17,7 @@ use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, ER, M, P, R, S, T, X, Y};
 use std::ops::RangeInclusive;
 
-/// What the hardware manuals print for the FX3S, and for the FX3G in its standard mode.
+/// Times in the hardware manuals of the FX3S, and of the FX3G in its standard mode.
 const TIMES_FX3SG: InstructionTimes = InstructionTimes {
     basic: 210,
     longer: &[],
@@ -25,7 +25,7 @@ const TIMES_FX3SG: InstructionTimes = InstructionTimes {
     source: "FX3S and FX3G hardware manuals, performance specifications",
 };
 
-/// What the hardware manual prints for the FX3U.
+/// Times in the hardware manual of the FX3U.
 const TIMES_FX3U: InstructionTimes = InstructionTimes {
     basic: 65,
     longer: &[],
@@ -194,7 +194,7 @@ const DVIT: &[RangeInclusive<u16>] = &[
     8460..=8463,
 ];
 
-/// What measures pulses on FX3S and FX3G while M8075 is on.
+/// Meters of pulses on FX3S and FX3G, active while M8075 is on.
 const METERS: &[Meter] = &[
     meter(0, 8074, &[Relay(8075), Relay(8076)], 8080),
     meter(1, 8080, &[Relay(8075), Relay(8077)], 8081),

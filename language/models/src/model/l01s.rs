@@ -82,7 +82,7 @@ pub(super) const L01S: Model = Model {
     ..FX2N
 };
 
-/// What measures pulses, of which the manual names the registers only (l01s-programming, table of special registers).
+/// Meters of pulses; the manual names their registers only (l01s-programming, table of special registers).
 const METERS: &[Meter] = &[
     meter(0, 8074),
     meter(1, 8080),

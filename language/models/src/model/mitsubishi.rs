@@ -5,7 +5,7 @@ use crate::special::{
     INVERTERS, POWER, SHOWN, Special, TRACE, specials,
 };
 
-/// What all have.
+/// Devices of all.
 pub(super) const ALL: &[Special] = specials! {
     M 8000 r 1 scan "on while the program runs";
     M 8001 r 0 scan "off while the program runs";
@@ -109,14 +109,14 @@ pub(super) const ALL: &[Special] = specials! {
     D 8195 rw 0 scan "V7";
 };
 
-/// What all but FX1S have in addition.
+/// Additional devices of all but FX1S.
 pub(super) const FROM_FX1N: &[Special] = specials! {
     M 8183-8191 r 0 by("serial ports") "N:N link: stations 0 to 7 have an error, data is sent";
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     D 8201-8218 r 0 by("serial ports") "N:N link: times and errors";
 };
 
-/// What FX2N and FX3 have in addition.
+/// Additional devices of FX2N and FX3.
 pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8005 r 0 scan "the battery is low";
     M 8006 r 0 scan "the battery has been low";
@@ -146,7 +146,7 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
 };
 
-/// What FX2N, FX3G and FX3U have in addition: modules and annunciators.
+/// Additional devices of FX2N, FX3G and FX3U: modules and annunciators.
 pub(super) const NOT_FX3S: &[Special] = specials! {
     M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
     M 8048 r 0 scan "an annunciator is on (with M8049)";
@@ -169,7 +169,7 @@ pub(super) const D8145: &[Special] = specials! {
     D 8148 rw 100 by("ZRN, DRVI, DRVA") "time of acceleration and deceleration in ms";
 };
 
-/// What FX1S and FX1N have in addition.
+/// Additional devices of FX1S and FX1N.
 pub(super) const FX1: &[Special] = specials! {
     M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
@@ -198,7 +198,7 @@ pub(super) const FX2N: &[Special] = specials! {
     D 8102 r 8 scan "program capacity in k steps";
 };
 
-/// What FX3S, FX3G and FX3U have in addition.
+/// Additional devices of FX3S, FX3G and FX3U.
 pub(super) const FX3: &[Special] = specials! {
     M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
     M 8151-8159 r 0 inert(INVERTERS) "inverter communication";
@@ -299,7 +299,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
 };
 
-/// What FX3G and FX3U have in addition: outputs from Y002 up.
+/// Additional devices of FX3G and FX3U: outputs from Y002 up.
 pub(super) const FX3GU: &[Special] = specials! {
     M 8360 r 0 by("pulse outputs") "pulses are sent at Y002";
     M 8361 rw 0 by("ZRN, DSZR") "Y002: clear signal";
@@ -318,7 +318,7 @@ pub(super) const FX3GU: &[Special] = specials! {
     D 8368-8369 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: times of acceleration and deceleration in ms";
 };
 
-/// What FX3S and FX3G have in addition.
+/// Additional devices of FX3S and FX3G.
 pub(super) const FX3SG: &[Special] = specials! {
     M 8075 rw 0 scan "pulses of X000, X001, X003 and X004 are measured";
     M 8076-8079 rw 0 scan "measures the pulses of X000, X001, X003, X004";

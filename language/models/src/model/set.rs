@@ -99,7 +99,7 @@ impl ModelSet {
         ModelSet(self.0 | others.0)
     }
 
-    /// Whether `model` is one of them.
+    /// Returns true if `model` is one of them.
     pub const fn has(self, model: ModelId) -> bool {
         self.0 >> model as u32 & 1 == 1
     }

@@ -1,4 +1,4 @@
-//! What the files of models share: how runs of devices are written, and runs that several models have.
+//! Common parts of the models' files: the notation of runs of devices, and runs that several models have.
 
 use super::{FastTimers, Range, Timers};
 use crate::runs::IndexAlias;

@@ -12,8 +12,8 @@ pub extern "C" fn rungc_client_begin(client: &mut Client, family: Ports, part: u
     *client = Client::new(family, part);
 }
 
-/// What to do now, `now_us` microseconds after any beginning; a request that is to be sent is in `request`. `rows` are
-/// the `count` rows of the server, the same in each call. Call it between two scans.
+/// Next action of a client, `now_us` microseconds after an arbitrary origin; a request to be sent is in `request`.
+/// `rows` are the `count` rows of the server, the same in each call. Call it between two scans.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_client_next(
     client: &mut Client,

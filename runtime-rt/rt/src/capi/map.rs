@@ -1,4 +1,4 @@
-//! How a [`Map`] finds devices, and what else instructions ask of a program.
+//! Lookup of devices by a [`Map`], and the other services that instructions need of a program.
 
 use super::hal::Board;
 use super::{Area, Kind, Layout, Map, OnError};
@@ -16,7 +16,7 @@ use crate::wiring::Pulses;
 use core::mem::offset_of;
 use core::ptr::null_mut;
 
-/// Where a device is.
+/// Location of a device.
 enum Found {
     /// Stored there.
     At(Kind, *mut u8),
@@ -37,7 +37,7 @@ pub(super) fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
 }
 
 impl Area {
-    /// Which of its devices one is in memory, if it holds it.
+    /// Index of a device in this area's memory, if the area holds it.
     #[inline]
     fn place_of(&self, class: Class, number: u32) -> Option<u32> {
         let n = number.wrapping_sub(self.first);
@@ -65,7 +65,7 @@ impl Map {
         unsafe { &*self.layout }
     }
 
-    /// Where its devices are, sorted.
+    /// Areas of its devices, sorted.
     fn areas(&self) -> &[Area] {
         let layout = self.layout();
         elements(layout.areas, layout.area_count)
@@ -84,7 +84,7 @@ impl Map {
         self.at(self.area(area)?, class, number)
     }
 
-    /// Where words begin, if this area holds all of them side by side.
+    /// Address of the first of `count` words, if this area holds all of them contiguously.
     fn run(&self, area: u8, class: Class, first: u32, count: usize) -> Option<*mut i16> {
         let area = self.area(area)?;
         let last = first.checked_add(u32::try_from(count).ok()?.checked_sub(1)?)?;
@@ -184,7 +184,7 @@ impl Map {
         }
     }
 
-    /// Where a device is stored, if it is.
+    /// Address of a device, if it is stored.
     #[inline(never)]
     pub(super) fn stored(&self, class: Class, number: u32) -> Option<(Kind, *mut u8)> {
         let (class, number) = self.alias(class, number).unwrap_or((class, number));
@@ -262,7 +262,7 @@ pub(super) fn counter_of(kind: Kind, at: *mut u8) -> Option<*mut i32> {
     }
 }
 
-/// What a place in the program's struct holds; 0 or off where there is none.
+/// Value at an address in the program's struct; 0 or off for NULL.
 pub(super) fn read<T: Copy + Default>(at: *mut T) -> T {
     // SAFETY: NULL, or what the program's struct holds there, as the C compiler placed it.
     unsafe { at.as_ref() }.copied().unwrap_or_default()
@@ -500,7 +500,7 @@ impl Plc for Map {
     }
 }
 
-/// Whether devices of a class have a state.
+/// Returns true if devices of a class have a state.
 fn is_bit(class: Class) -> bool {
     matches!(
         class,
@@ -508,7 +508,7 @@ fn is_bit(class: Class) -> bool {
     )
 }
 
-/// Whether a device has a 16-bit value.
+/// Returns true if a device has a 16-bit value.
 fn is_word(class: Class, number: u32) -> bool {
     match class {
         Class::C => number < FIRST_COUNTER32,

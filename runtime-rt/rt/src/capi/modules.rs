@@ -36,8 +36,8 @@ pub extern "C" fn rungc_module_fit(module: &mut ModuleRoom, kind: u16) -> bool {
     true
 }
 
-/// What is connected to a channel from now on; channels are counted from 0, and the signal is in millionths of a volt
-/// (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if there is no such input.
+/// Connects a signal to a channel; channels are counted from 0, and the signal is in millionths of a volt (quantity 0),
+/// of a milliampere (1) or of a degree Celsius (2). False if there is no such input.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_module_connect(
     module: &mut ModuleRoom,
@@ -53,7 +53,7 @@ pub extern "C" fn rungc_module_connect(
     connected.is_some()
 }
 
-/// What a channel puts out, in millionths of that unit; 0 if it puts out nothing of the kind.
+/// Output signal of a channel, in millionths of that unit; 0 if it outputs no such quantity.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_module_signal(module: &mut ModuleRoom, channel: u8, quantity: u8) -> i32 {
     let quantity = Quantity::of(quantity);

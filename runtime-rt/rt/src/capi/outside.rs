@@ -1,4 +1,4 @@
-//! What is outside a program on a computer, for hosts in C: there is one for the process.
+//! Connections and log of a program on a computer, for hosts in C: one instance per process.
 
 use super::Map;
 use crate::io::{Outside, Terminals};
@@ -56,7 +56,7 @@ pub extern "C" fn rungc_outside_note(line: *const c_char) {
     with(|outside| outside.note(text(line).trim_end_matches('\n')));
 }
 
-/// Whether a connection reads standard input, which means no commands then.
+/// Returns true if a connection reads standard input, which leaves none for commands.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_outside_takes_input() -> bool {
     with(|outside| outside.takes_input())
@@ -73,12 +73,12 @@ pub extern "C" fn rungc_outside_begin(program: *const c_char, map: &Map) -> bool
     begun.is_ok()
 }
 
-/// What a host does for connections: `input_edge` hears of inputs that change, `output` has the state of an output
-/// terminal. Both are given `context`; `input_edge` may be NULL.
+/// Callbacks of a host for connections: `input_edge` receives changes of inputs, `output` returns the state of an
+/// output terminal. Both are given `context`; `input_edge` may be NULL.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Terminal {
-    /// What the functions are given.
+    /// Argument passed to the functions.
     pub context: *mut c_void,
     /// An input terminal turns on or off.
     pub input_edge: Option<extern "C" fn(context: *mut c_void, number: u32, on: bool)>,

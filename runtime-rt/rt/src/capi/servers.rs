@@ -10,7 +10,7 @@ use crate::comm::{Frame, Served};
 pub struct Reply {
     /// RUN or STOP, if the request asks for it.
     pub request: Request,
-    /// How many characters it has; 0: the request is not answered.
+    /// Length in characters; 0: the request is not answered.
     pub length: u16,
     /// Its characters.
     pub bytes: [u8; LONGEST_REPLY],

@@ -34,10 +34,10 @@ const M_MISSING: Relay = Relay(8281);
 /// Bytes of the last frame received; the frame, its first four bytes in the first two registers, the low word first.
 pub(crate) const D_LENGTH: Register = Register(8292);
 pub(crate) const D_DATA: Register = Register(8295);
-/// How long CANRX waits, in milliseconds.
+/// Time-out of CANRX, in milliseconds.
 pub(crate) const D_TIME_OUT: Register = Register(8299);
 
-/// How long CANRX waits for its frame, in microseconds: 5 to 1000 ms (h1u-h2u-programming §5.9.5).
+/// Time-out of CANRX, in microseconds: 5 to 1000 ms (h1u-h2u-programming §5.9.5).
 pub(crate) fn turn_us(plc: &dyn Plc) -> u32 {
     match D_TIME_OUT.value(plc) {
         0 => TURN_US,
@@ -171,7 +171,7 @@ pub(crate) fn send(hal: &mut dyn Hal, frame: &CanFrame, now_us: u32) -> bool {
     characters.all(|&byte| port.send(byte, now_us))
 }
 
-/// Whether the characters received so far are a frame. Answers of the adapter are dropped.
+/// Decides whether the characters received so far form a frame. Answers of the adapter are dropped.
 pub(super) fn cut(received: &[u8]) -> Cut {
     match received {
         // Neither letter is a digit: what came before was cut.
@@ -183,13 +183,13 @@ pub(super) fn cut(received: &[u8]) -> Cut {
     }
 }
 
-/// Which instruction waits for a frame. All zero is none.
+/// Instruction that waits for a frame. All zero is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct CanTurn {
     /// The instruction: its step plus 1; 0: none waits.
     pub owner: u32,
-    /// When it began to wait.
+    /// Start of its wait.
     pub since_us: u32,
     /// Its identifier.
     pub id: u32,
@@ -223,12 +223,12 @@ impl CanTurn {
         }
     }
 
-    /// Whether the instruction that waits has waited for longer than it may.
+    /// Returns true if the waiting instruction has exceeded its time-out.
     pub fn is_late(&self, now_us: u32, turn_us: u32) -> bool {
         self.owner != 0 && !self.released && now_us.wrapping_sub(self.since_us) >= turn_us
     }
 
-    /// Whether an instruction waits for its frame.
+    /// Returns true if an instruction waits for its frame.
     pub fn waits(&self) -> bool {
         self.owner != 0 && !self.released && !self.come
     }
@@ -311,7 +311,7 @@ mod tests {
         turn.receive(frame(0x201));
         assert_eq!(turn.visit(1, 0x200, 2000, TURN_US), None);
         assert_eq!(turn.visit(2, 0x201, 2000, TURN_US), Some(frame(0x201)));
-        // One that gets nothing lets the next one wait.
+        // An instruction without a frame lets the next one wait.
         assert_eq!(turn.visit(1, 0x200, 3000, TURN_US), None);
         assert_eq!(turn.visit(2, 0x201, 3000 + TURN_US, TURN_US), None);
         turn.receive(frame(0x201));

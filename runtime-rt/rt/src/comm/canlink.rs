@@ -57,7 +57,7 @@ const MISSED: u32 = 3;
 
 /// The station is a slave that the master watches.
 pub const WATCHED: u8 = 1;
-/// What the station sends to all is for this one, too.
+/// Role of a station whose broadcasts this station receives.
 pub const HEARD: u8 = 2;
 
 /// States of stations (h1u-h2u-programming §5.9.4).
@@ -65,7 +65,7 @@ const ABSENT: i16 = 1;
 const NORMAL: i16 = 2;
 const GONE: i16 = 5;
 
-/// What a frame is. The smaller number comes first on the bus.
+/// Kind of a frame. The smaller number comes first on the bus.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Kind {
@@ -80,7 +80,7 @@ pub enum Kind {
     Heartbeat = 3,
 }
 
-/// What waits takes effect.
+/// Register of the command that puts pending words into effect.
 pub(crate) const TAKE_EFFECT: u16 = 0;
 /// All send what is to be sent together.
 pub(crate) const TOGETHER: u16 = 1;
@@ -88,9 +88,9 @@ pub(crate) const TOGETHER: u16 = 1;
 /// The parts of an identifier.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Head {
-    /// What the frame is.
+    /// Kind of the frame.
     pub kind: Kind,
-    /// Who sends it.
+    /// Station that sends it.
     pub sender: u8,
     /// Whom it is for.
     pub receiver: u8,
@@ -126,7 +126,7 @@ impl Head {
     }
 }
 
-/// Where the memory of the card has what.
+/// Offsets in the memory of the card.
 const STATION: usize = 0;
 const MASTER: usize = 1;
 const COUNT: usize = 2;
@@ -141,7 +141,7 @@ const FRAMES: usize = HEARD_MS + 4 * STATIONS;
 const FRAME: usize = 4 + 2 * WORDS;
 const _: () = assert!(FRAMES + WAITING * FRAME <= SIZE);
 
-/// What a station knows of its network.
+/// State of a station's network.
 pub(crate) struct Network<'a>(&'a mut Memory);
 
 impl<'a> Network<'a> {
@@ -176,7 +176,7 @@ impl<'a> Network<'a> {
         *self.0 = Memory::new();
     }
 
-    /// Who this station is, who the master is, and how often they send heartbeats.
+    /// Sets this station, the master, and the interval of heartbeats.
     pub(crate) fn set_up(&mut self, station: u8, master: u8, heartbeat_ms: u16) {
         self.set_byte(STATION, station);
         self.set_byte(MASTER, master);
@@ -188,12 +188,12 @@ impl<'a> Network<'a> {
         self.byte(STATION)
     }
 
-    /// Whether this station is the master.
+    /// Returns true if this station is the master.
     pub(crate) fn is_master(&self) -> bool {
         self.byte(STATION) == self.byte(MASTER)
     }
 
-    /// What another station is to this one.
+    /// Sets the roles of another station towards this one.
     pub(crate) fn set_roles(&mut self, station: u8, roles: u8) {
         if usize::from(station) < STATIONS {
             self.set_byte(ROLES + usize::from(station), roles);
@@ -204,12 +204,12 @@ impl<'a> Network<'a> {
         self.byte(ROLES + usize::from(station)) & role != 0
     }
 
-    /// Whether the master has stopped the network, as a slave knows it.
+    /// Returns true if the master has stopped the network, as a slave knows it.
     fn is_stopped(&self) -> bool {
         self.byte(STOPPED) != 0
     }
 
-    /// Whether a heartbeat is due; the next one is due after its time.
+    /// Returns true if a heartbeat is due; the next one is due after its interval.
     pub(crate) fn beats(&mut self, now_ms: u32) -> bool {
         let every = self.number(HEARTBEAT_MS);
         let due = every > 0 && now_ms.wrapping_sub(self.number(BEAT)) >= every;
@@ -246,7 +246,7 @@ impl<'a> Network<'a> {
         })
     }
 
-    /// Whether the bus has rejected a frame in this scan: those after it wait, so that frames keep their order.
+    /// Returns true if the bus has rejected a frame in this scan: those after it wait, so that frames keep their order.
     pub(crate) fn has_refused(&self, scan: u16) -> bool {
         self.number(REFUSED) == u32::from(scan)
     }
@@ -281,7 +281,7 @@ impl<'a> Network<'a> {
     }
 }
 
-/// Whether a station takes part in its network now. A slave obeys the master's heartbeats.
+/// Returns true if a station takes part in its network now. A slave obeys the master's heartbeats.
 pub(crate) fn runs(plc: &mut dyn Plc) -> bool {
     let on = M_NETWORK.is_on(plc);
     let Some(network) = Network::of(plc) else {
@@ -345,7 +345,7 @@ pub(super) fn take(plc: &mut dyn Plc, frame: &CanFrame) -> bool {
     true
 }
 
-/// What has waited is written.
+/// Writes the pending words.
 fn take_effect(plc: &mut dyn Plc) {
     let mut index = 0;
     while let Some((register, data, length)) =

@@ -20,7 +20,7 @@ const ADAPTER: LineFormat = LineFormat {
 /// An entry of the table: a protocol, or several that belong together.
 pub struct Codec {
     protocols: Protocols,
-    /// What a port does under the protocol.
+    /// Implementation of the protocol.
     pub(super) handler: &'static dyn Handler,
 }
 

@@ -53,16 +53,16 @@ const MOST_LOOPED: u32 = 254;
 /// Relay that GW sets in all PLCs on the line.
 const M_GLOBAL: u32 = 8126;
 
-/// What a port and its model make of the protocol.
+/// Settings of the protocol by port and model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// Own station: 0 to 15 (H1U, H2U, L01S), 1 to 63 (HM).
     pub station: u8,
-    /// Whether frames carry a sum (b13 of the format word).
+    /// True if frames carry a sum (b13 of the format word).
     pub sum: bool,
-    /// Whether CR LF ends a frame (b15 of the format word, format 4).
+    /// True if CR LF ends a frame (b15 of the format word, format 4).
     pub crlf: bool,
-    /// Which part of the protocol the model has.
+    /// Dialect of the model.
     pub dialect: Dialect,
 }
 
@@ -75,7 +75,7 @@ pub enum Dialect {
     Hm,
 }
 
-/// What a slave keeps between frames.
+/// State of a slave between frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Remote {
@@ -90,9 +90,10 @@ impl Remote {
     }
 }
 
-/// Whether the characters received so far are a request. One of format 1 whose length is unknown ends by silence.
+/// Decides whether the characters received so far form a request. A request of format 1 whose length is unknown ends by
+/// silence.
 ///
-/// What else a computer sends (ACK or NAK for data, EOT and CL) begins no request and is dropped: nothing answers it.
+/// Anything else a computer sends (ACK or NAK for data, EOT and CL) begins no request and is dropped without an answer.
 pub fn cut(settings: Settings, received: &[u8]) -> Cut {
     match received {
         [ENQ] => Cut::More,
@@ -107,7 +108,7 @@ pub fn cut(settings: Settings, received: &[u8]) -> Cut {
     }
 }
 
-/// How many characters a request of format 1 has, as far as they show.
+/// Length of a request of format 1 in characters, as far as known.
 fn expected(settings: Settings, received: &[u8]) -> Option<usize> {
     let contents = received.get(HEAD..)?;
     let count = |at: usize| hex_byte(contents, at).map(usize::from);
@@ -135,7 +136,7 @@ fn wait_ms(request: &[u8]) -> u16 {
     10 * digit.unwrap_or(0) as u16
 }
 
-/// Why a request is rejected: the code that follows NAK.
+/// Reason to reject a request: the code that follows NAK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     /// 02: the sum is wrong.
@@ -164,7 +165,7 @@ impl Refusal {
         }
     }
 
-    /// What the PLC notes of it; a request at the wrong time is not a fault of the line.
+    /// Fault that the PLC records for it; a request at the wrong time is not a fault of the line.
     fn fault(self) -> Result<(), LineFault> {
         Err(match self {
             Refusal::Sum => LineFault::Sum,
@@ -176,7 +177,7 @@ impl Refusal {
     }
 }
 
-/// What a request that was executed is answered by.
+/// Answer to an executed request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Answer {
     /// The data that the reply holds.

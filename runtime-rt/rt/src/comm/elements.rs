@@ -42,7 +42,7 @@ impl<M: Map + ?Sized> Places for M {
     }
 }
 
-/// Whether a bit of a word is on.
+/// Returns true if a bit of a word is on.
 fn is_on(word: u16, bit: u32) -> bool {
     word >> bit & 1 == 1
 }

@@ -101,12 +101,12 @@ impl<'a> Frame<'a> {
         summed.iter().fold(0, |sum, &byte| sum.wrapping_add(byte))
     }
 
-    /// How many characters it has.
+    /// Length in characters.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether it has none: silence.
+    /// Returns true if it has no characters: silence.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -122,7 +122,7 @@ impl<'a> Frame<'a> {
         self.overflows = false;
     }
 
-    /// Whether characters were lost because the buffer is full.
+    /// Returns true if characters were lost because the buffer is full.
     pub fn overflows(&self) -> bool {
         self.overflows
     }

@@ -45,7 +45,7 @@ mod flag {
     pub const RANGE: u16 = 1 << 8;
 }
 
-/// What an instruction sends and receives.
+/// Data that an instruction sends and receives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Transfer {
@@ -65,11 +65,11 @@ pub struct Transfer {
     pub one_a_word: bool,
 }
 
-/// What a port does for RS or the like. All zero is nothing.
+/// State of a port that executes RS or the like. All zero is nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Free {
-    /// What the driven instruction wants.
+    /// Transfer of the driven instruction.
     pub transfer: Transfer,
     /// The step of the instruction, plus 1; 0: none is driven.
     pub owner: u32,
@@ -81,11 +81,11 @@ pub struct Free {
     awaits: bool,
     /// Characters to send, those before and after the data included.
     total: u16,
-    /// How many of them the hardware has taken.
+    /// Number of them that the hardware has accepted.
     taken: u16,
     /// Data characters received.
     received: u16,
-    /// When the last character was in.
+    /// Time of the last received character.
     last_us: u32,
     /// The last four characters received, the last one the lowest.
     window: u32,
@@ -94,7 +94,7 @@ pub struct Free {
     sum: u16,
     /// The sum that has come; above 255, digits of it were wrong.
     claimed: u16,
-    /// How many characters are still to come after the end of the data: a sum, CR and LF.
+    /// Number of characters expected after the end of the data: a sum, CR and LF.
     tail: u8,
 }
 
@@ -235,14 +235,14 @@ impl Session<'_> {
         self.own.progress.free.window = 0;
     }
 
-    /// When a character began.
+    /// Time at which a character began.
     fn begin_of(&self, character: Received) -> u32 {
         character
             .at_us
             .wrapping_sub(self.status.format.character_us())
     }
 
-    /// Whether a character is lost; shows that something was wrong with it.
+    /// Returns true if a character is faulty and so dropped, after reporting the fault.
     fn is_wrong(&mut self, character: Received) -> bool {
         if character.fault == CharFault::None {
             return false;
@@ -315,7 +315,7 @@ impl Session<'_> {
         }
     }
 
-    /// What was to be received is there.
+    /// Ends a reception that is complete.
     fn end_hm(&mut self) {
         self.end_reception();
         self.clear(flag::RECEIVE);

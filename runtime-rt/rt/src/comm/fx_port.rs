@@ -41,7 +41,7 @@ const MOST_EXTENDED: u32 = 0xfe;
 
 /// First address of program memory: its parameters.
 pub const PROGRAM_MEMORY: u32 = 0x8000;
-/// Where the program begins in it.
+/// Offset of the first instruction.
 const PROGRAM: u32 = 0x805c;
 /// The word of `END`.
 const END: u16 = 0x000f;
@@ -60,17 +60,17 @@ const M_FORCE_RUN: u32 = special::M_FORCED_RUN.number();
 /// Forced STOP.
 const M_FORCE_STOP: u32 = special::M_FORCED_STOP.number();
 
-/// What a model makes of the protocol.
+/// Settings of the protocol by model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Where the extended commands find devices.
+    /// Address space of the extended commands.
     pub space: Space,
-    /// Whether M8035 to M8037 switch RUN and STOP, and D8101 shows what D8001 shows, as on FX. HM uses these devices
+    /// True if M8035 to M8037 switch RUN and STOP, and D8101 shows the same as D8001, as on FX. HM uses these devices
     /// otherwise (hm-motion-controller §4.4).
     pub fx_relays: bool,
 }
 
-/// Whether the characters received so far are a request.
+/// Decides whether the characters received so far form a request.
 pub fn cut(received: &[u8]) -> Cut {
     match received {
         [ENQ] => Cut::Whole,
@@ -127,10 +127,11 @@ pub fn answer(
     }
 }
 
-/// What is between STX and ETX, if the sum is right: in a request, and in an answer with data.
+/// The text between STX and ETX of a request, or of an answer with data.
 ///
 /// # Errors
-/// What is wrong with the frame.
+///
+/// The frame is malformed, or its sum is wrong.
 pub fn text_of(request: &[u8]) -> Result<&[u8], LineFault> {
     let [STX, text @ .., ETX, high, low] = request else {
         return Err(LineFault::Form);
@@ -158,9 +159,9 @@ pub fn rate(text: &[u8]) -> Option<u16> {
     })
 }
 
-/// What is sent back for a request.
+/// Answer to a request.
 enum Answer {
-    /// What the reply holds from STX on.
+    /// The contents of the reply from STX on.
     Data,
     /// ACK.
     Done,
@@ -234,7 +235,7 @@ impl Server<'_> {
                 fields.end()?;
                 Ok(self.find_in_program(from, word.swap_bytes(), reply))
             }
-            // Where the program ends, as tools ask before they read it.
+            // End of the program, as tools query it before they read it.
             [b'F', b'8'] => Ok(self.find_in_program(PROGRAM, END, reply)),
             _ if rate(text).is_some() => Ok(Answer::Done),
             // Clear and write of program memory, identity challenge, end of a download.
@@ -446,7 +447,7 @@ impl Server<'_> {
         })
     }
 
-    /// Whether a byte may be written: a place that is not the system's, of a device that the model has.
+    /// Returns true if a byte may be written: it is not the system's, and its device exists.
     fn takes(&self, space: Space, address: u32) -> bool {
         let Some((area, Place { first, .. })) = space.find(address) else {
             return false;

@@ -76,17 +76,17 @@ impl LineFormat {
         }
     }
 
-    /// Whether a format word names a bit rate.
+    /// Returns true if a format word selects a bit rate.
     pub fn has_rate(word: u16) -> bool {
         RATES[usize::from(word >> 4 & 15)] != 0
     }
 
-    /// Whether the format word of HM's UINIT names a bit rate.
+    /// Returns true if the format word of HM's UINIT selects a bit rate.
     pub fn has_uinit_rate(word: u16) -> bool {
         HM_RATES.get(usize::from(word >> 8)).is_some()
     }
 
-    /// What the format word of HM's UINIT says: 8 data bits and 2 stop bits where the others have 7 and 1.
+    /// Line format of a format word of HM's UINIT: 8 data bits and 2 stop bits where the others have 7 and 1.
     pub fn from_uinit(word: u16, half_duplex: bool) -> Self {
         let rate = HM_RATES.get(usize::from(word >> 8));
         LineFormat {
@@ -121,7 +121,7 @@ impl LineFormat {
         1 + self.data_bits as u32 + parity + self.stop_bits as u32
     }
 
-    /// How long `halves` halves of a character take, in nanoseconds.
+    /// Duration of `halves` halves of a character, in nanoseconds.
     pub const fn nanoseconds(&self, halves: u32) -> u64 {
         self.bits() as u64 * halves as u64 * 500_000_000 / self.rate() as u64
     }
@@ -139,7 +139,7 @@ impl LineFormat {
         }
     }
 
-    /// How long a character takes, in microseconds.
+    /// Duration of a character, in microseconds.
     pub const fn character_us(&self) -> u32 {
         self.microseconds(2)
     }
@@ -154,7 +154,8 @@ impl LineFormat {
         }
     }
 
-    /// What partners have to agree on, as one number: bits per second, 8 bits of data bits, 4 of parity, 4 of stop bits.
+    /// The parameters that partners have to agree on, packed into one number: bits per second, 8 bits of data bits, 4
+    /// of parity, 4 of stop bits.
     pub const fn packed(&self) -> i64 {
         (self.bits_per_second as i64) << 16
             | (self.data_bits as i64) << 8
@@ -179,7 +180,7 @@ impl Parity {
     }
 }
 
-/// What is wrong with a character.
+/// Fault of a character.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum CharFault {
@@ -213,11 +214,11 @@ impl CharFault {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Received {
-    /// When its last bit was in: microseconds since power-on, wrapping.
+    /// Time of its last bit: microseconds since power-on, wrapping.
     pub at_us: u32,
     /// Its value.
     pub byte: u8,
-    /// What is wrong with it.
+    /// Fault of the character.
     pub fault: CharFault,
 }
 

@@ -28,7 +28,7 @@ use super::computer_link::master::{self, Job, Schedule};
 use super::{Cut, Frame, LineFault, Map};
 use crate::plc::Class;
 
-/// What a PLC is on a link.
+/// Role of a PLC on a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Master of a parallel link.
@@ -52,7 +52,7 @@ pub enum Role {
     },
 }
 
-/// What a link remembers. All zero is one that begins.
+/// State of a link. All zero is one that begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Link {
@@ -66,19 +66,19 @@ pub struct Link {
     asked: bool,
     /// The station whose turn it is.
     station: u8,
-    /// How often it was asked again.
+    /// Number of repeated requests.
     tries: u8,
-    /// How many slaves the master says there are.
+    /// Number of slaves according to the master.
     slaves: u8,
-    /// Which mode it says.
+    /// Mode according to the master.
     mode: u8,
     /// Missing stations, one bit each.
     missing: u16,
-    /// When the time-out began.
+    /// Start of the time-out.
     since_us: u32,
-    /// When the partner was last heard.
+    /// Time of the last frame from the partner.
     heard_us: u32,
-    /// When the round began.
+    /// Start of the round.
     round_us: u32,
     /// The master's turns.
     schedule: Schedule,
@@ -107,7 +107,7 @@ impl Link {
         }
     }
 
-    /// Whether the characters received so far are a frame.
+    /// Decides whether the characters received so far form a frame.
     pub fn cut(&self, role: Role, received: &[u8]) -> Cut {
         match role {
             Role::ComputerLinkMaster { .. } if !self.waiting => Cut::Drop,
@@ -192,7 +192,7 @@ impl Link {
         self.sent = false;
     }
 
-    /// Whether the answer is overdue.
+    /// Returns true if the answer is overdue.
     fn is_overdue(&mut self, now_us: u32, time_out_us: u32) -> bool {
         if !self.sent {
             self.sent = true;
@@ -232,7 +232,7 @@ fn set_relay(number: u32, on: bool, map: &mut dyn Map) {
     let _ = map.set_bit(Class::M, number, on);
 }
 
-/// What one station sends: bits of M and words of D.
+/// Data sent by one station: bits of M and words of D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Block {
     /// First relay, and how many.
@@ -242,7 +242,7 @@ struct Block {
 }
 
 impl Block {
-    /// How many digits it has in a frame.
+    /// Number of digits in a frame.
     fn digits(self) -> usize {
         4 * (self.bits.1.div_ceil(16) + self.words.1) as usize
     }

@@ -8,7 +8,7 @@ use super::wiring::{Ports, Protocol};
 use super::{Frame, Memory, Served};
 
 impl Session<'_> {
-    /// What the port is on a link.
+    /// Role of the port on a link.
     fn role(&self) -> Option<Role> {
         slaves::role(self.status.protocol, self.status.uinit[2])
     }

@@ -23,7 +23,7 @@ pub trait Map {
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
     /// Resets a timer or counter: value 0, contact off.
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;
-    /// Whether the PLC is in RUN.
+    /// True if the PLC is in RUN.
     fn running(&self) -> bool;
     /// Asks for RUN or STOP; the PLC changes over before its next scan.
     fn request_running(&mut self, running: bool);
@@ -35,19 +35,20 @@ pub trait Map {
         None
     }
 
-    /// Whether a request over Modbus TCP to this unit is for these devices: 0, 1 and 255 mean the PLC itself rather
-    /// than a device connected to it. A map of several PLCs is that of this unit from then on.
+    /// Selects the unit of a request over Modbus TCP; returns false if it is not for these devices. Units 0, 1 and 255
+    /// mean the PLC itself rather than a device connected to it. A map of several PLCs is that of this unit from then
+    /// on.
     fn takes_unit(&mut self, unit: u8) -> bool {
         matches!(unit, 0 | 1 | 255)
     }
 
-    /// Whether `count` bit devices from `first` on are all there.
+    /// Returns true if `count` bit devices from `first` on all exist.
     fn has_bits(&self, class: Class, first: u32, count: u32) -> bool {
         let end = first.checked_add(count);
         end.is_some_and(|end| (first..end).all(|n| self.bit(class, n).is_some()))
     }
 
-    /// Whether `count` 16-bit word devices from `first` on are all there.
+    /// Returns true if `count` 16-bit word devices from `first` on all exist.
     fn has_words(&self, class: Class, first: u32, count: u32) -> bool {
         let end = first.checked_add(count);
         end.is_some_and(|end| (first..end).all(|n| self.word(class, n).is_some()))
@@ -82,7 +83,7 @@ impl<'a, P: Plc + ?Sized> Served<'a, P> {
 }
 
 impl<P: Plc + ?Sized> Served<'_, P> {
-    /// Where a device is stored; rejects one that is not.
+    /// Area that stores a device; rejects a device that is not stored.
     fn stored(&self, class: Class, number: u32) -> Option<u8> {
         let (last_class, first, run) = self.last.get();
         if last_class == class && number.wrapping_sub(first) < run.count {

@@ -6,7 +6,7 @@ use super::wiring::{Ports, Protocol};
 use super::{Frame, LineFault, Served};
 
 impl Session<'_> {
-    /// How much one request may be about.
+    /// Limits of one request.
     fn master_limits(&self) -> Limits {
         match (self.plc.ports(), self.status.protocol) {
             (Ports::L01s, Protocol::MasterAscii) => Limits::L01S_ASCII,
@@ -59,8 +59,8 @@ impl Session<'_> {
         }
     }
 
-    /// Whether an answer that has begun may still end well: it has a whole time-out for each next character, and the
-    /// time of the longest frame, of `longest` characters, beside that for its beginning.
+    /// Returns true if an answer that has begun may still complete in time: each next character has a whole time-out,
+    /// and the beginning has that plus the duration of the longest frame, of `longest` characters.
     fn answer_may_end(&self, longest: usize) -> bool {
         let exchange = &self.own.progress.exchange;
         let quiet_us = self.now_us.wrapping_sub(self.status.last_us);

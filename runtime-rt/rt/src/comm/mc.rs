@@ -19,7 +19,7 @@ pub const LONGEST: usize = 21 + 7168 / 2;
 /// First byte of a request in frame 3E; the second one is 0.
 const REQUEST_3E: u8 = 0x50;
 
-/// Whether the bytes received so far are a request of either frame.
+/// Decides whether the bytes received so far form a request of either frame.
 pub fn cut(received: &[u8]) -> Cut {
     let whole = match received {
         [REQUEST_3E] => return Cut::More,
@@ -46,7 +46,7 @@ pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<()
     }
 }
 
-/// Why a request is rejected; each frame has its own codes.
+/// Reason to reject a request; each frame has its own codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     /// A command that is not served.
@@ -101,7 +101,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Whether a count is allowed.
+/// Checks a number of points.
 fn points(count: u32, most: u32) -> Result<u32, Refusal> {
     if (1..=most).contains(&count) {
         Ok(count)

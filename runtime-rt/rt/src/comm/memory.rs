@@ -1,10 +1,10 @@
-//! What a slave keeps from one frame to the next.
+//! State of a slave between frames.
 
 /// Bytes of a monitor list of the programming port, which needs the most.
 pub const SIZE: usize = 0x390;
 
-/// What a slave keeps from one frame to the next: the monitor list of the programming port, or the blocks of QLink. A port speaks one protocol at a
-/// time, so they share it. All zero is nothing.
+/// State of a slave between frames: the monitor list of the programming port, or the blocks of QLink. A port speaks one
+/// protocol at a time, so they share it. All zero is nothing.
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub struct Memory(pub(super) [u8; SIZE]);

@@ -103,7 +103,7 @@ pub use slave_alone::advance_slave;
 pub(crate) use wiring::note_missing;
 pub use wiring::{Choice, D_ADPRW_PORT, PortWiring, Ports, Protocol};
 
-/// What the characters received so far are, in a protocol whose frames have a length or an end.
+/// Classification of the characters received so far, in a protocol whose frames have a length or an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// A frame continues.
@@ -116,9 +116,9 @@ pub enum Cut {
     Drop,
 }
 
-/// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1:
-/// 63x0 to 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
-/// The first ten are numbered as the codes of Modbus are.
+/// Fault of a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1: 63x0 to
+/// 63x9 of Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port). The first ten are
+/// numbered as the codes of Modbus are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineFault {
     /// The station number is out of range (63x0).

@@ -1,4 +1,4 @@
-//! What a port consists of in a program's memory.
+//! Components of a port in a program's memory.
 
 use super::can::CanTurn;
 use super::computer_link::Remote;
@@ -9,11 +9,11 @@ use super::modbus::Exchange;
 use super::port::FRAME;
 use super::{Memory, Protocol};
 
-/// What a port is doing.
+/// State of a port.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Status {
-    /// What it speaks.
+    /// Protocol that it speaks.
     pub protocol: Protocol,
     /// The first scan in RUN is over: what the port speaks stays until STOP.
     pub bound: bool,
@@ -28,7 +28,7 @@ pub struct Status {
     /// The bit rate that a partner has asked for instead of the protocol's own, in hundreds of bits per second; 0: none
     /// has.
     pub rate: u16,
-    /// What UINIT has set up: protocol and station, format, first register of the work area.
+    /// Setup by UINIT: protocol and station, format, first register of the work area.
     pub uinit: [u16; 3],
     /// Characters received.
     pub received: u16,
@@ -38,9 +38,9 @@ pub struct Status {
     pub taken: u16,
     /// The last settings of the hardware.
     pub format: LineFormat,
-    /// When the last character was in.
+    /// Time of the last received character.
     pub last_us: u32,
-    /// When a frame begins to be sent.
+    /// Time at which a frame begins to be sent.
     pub due_us: u32,
 }
 
@@ -70,7 +70,7 @@ impl Status {
     }
 }
 
-/// How far the protocols are that do more than answer: those of instructions, and links. All zero is a beginning.
+/// Progress of the protocols that do more than answer: those of instructions, and links. All zero is a beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Progress {
@@ -78,7 +78,7 @@ pub struct Progress {
     pub free: Free,
     /// Links between PLCs.
     pub link: Link,
-    /// Which instruction waits for a frame on CAN.
+    /// Instruction that waits for a frame on CAN.
     pub can: CanTurn,
     /// Instructions of a Modbus master.
     pub exchange: Exchange,
@@ -102,13 +102,13 @@ impl Progress {
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub struct Port<const LENGTH: usize = FRAME, P = Progress, K = Memory> {
-    /// What it is doing.
+    /// State of the port.
     pub status: Status,
-    /// How far its protocols are.
+    /// Progress of its protocols.
     pub progress: P,
     /// The frame that is received or sent.
     pub buffer: [u8; LENGTH],
-    /// What a slave keeps.
+    /// State of a slave between frames.
     pub memory: K,
 }
 
@@ -181,12 +181,12 @@ impl<const LENGTH: usize, P: Part<Progress>, K: Part<Memory>> Port<LENGTH, P, K>
 /// A serial port in a program's memory, whatever it has room for.
 #[derive(Debug)]
 pub struct PortMut<'a> {
-    /// What it is doing.
+    /// State of the port.
     pub status: &'a mut Status,
-    /// How far its protocols are, if they do more than answer.
+    /// Progress of its protocols, if they do more than answer.
     pub progress: Option<&'a mut Progress>,
     /// The frame that is received or sent.
     pub buffer: &'a mut [u8],
-    /// What a slave keeps, if its protocols keep anything.
+    /// State of a slave between frames, if its protocols have any.
     pub memory: Option<&'a mut Memory>,
 }

@@ -32,7 +32,7 @@ pub(super) struct Session<'a, P: ?Sized = dyn Plc + 'a, H: ?Sized = dyn Hal + 'a
     pub(super) request: Option<bool>,
 }
 
-/// Whether `at_us` has come, both wrapping.
+/// Returns true if `at_us` has passed, both wrapping.
 pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
     now_us.wrapping_sub(at_us) as i32 >= 0
 }
@@ -389,7 +389,7 @@ where
 type Devices<'a, 'b> = Served<'b, dyn Plc + 'a>;
 
 impl<'a> Session<'a> {
-    /// Who answers, as the registers say now.
+    /// Settings of the answering protocols, as the registers are now.
     pub(super) fn slave(&self) -> Slave {
         let format = match self.own.wiring.station {
             None => self.status.uinit[1],
@@ -404,12 +404,12 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Whether what has been received is a frame of this codec.
+    /// Returns true if the received characters are a frame of this codec.
     pub(super) fn is_whole(&mut self, codec: &Codec, received: usize) -> bool {
         self.cut_by(codec.handler, received) == Cut::Whole
     }
 
-    /// What this handler says of the characters so far.
+    /// Classification by this handler of the characters so far.
     pub(super) fn cut_by(&mut self, handler: &dyn Handler, received: usize) -> Cut {
         let slave = self.slave();
         let port = self.plc.port(self.own.wiring.number);

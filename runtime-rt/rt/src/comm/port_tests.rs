@@ -7,7 +7,7 @@ use crate::{Class, Plc, RtFn, k};
 use proptest::prelude::*;
 use std::vec::Vec;
 
-/// How long a character takes at 9600 bit/s and 10 bits, in microseconds.
+/// Duration of a character at 9600 bit/s and 10 bits, in microseconds.
 const CHARACTER_US: u32 = 1042;
 
 /// An H2U in RUN whose COM1 has these registers.
@@ -35,7 +35,7 @@ fn feed(plc: &mut Double, from_us: u32, bytes: &[u8]) -> u32 {
     at_us
 }
 
-/// What COM1 has sent by this time.
+/// Characters sent by COM1 until this time.
 fn sent(plc: &mut Double, now_us: u32) -> Vec<u8> {
     let line = plc.hal.line(1).unwrap();
     std::iter::from_fn(|| line.take(now_us).map(|character| character.byte)).collect()
@@ -159,7 +159,7 @@ fn rs_sends_marks_around_its_data_and_waits_for_them() {
     pass(&mut plc, 20_000, end_us + 1000);
     assert_eq!(plc.bit(Class::M, 8123), Some(true));
     assert_eq!((plc.d(50, 2), plc.d(8123, 1)[0]), (std::vec![0x6261, 0], 2));
-    // What comes before the program takes notice is lost.
+    // Characters received before the program reacts are lost.
     let end_us = feed(&mut plc, end_us + 1000, b"\x02cd\x03");
     pass(&mut plc, end_us, end_us + 1000);
     assert_eq!(plc.d(50, 1), [0x6261]);

@@ -31,7 +31,7 @@ impl Protocols {
         Protocol::EnhancedSlave,
     ]);
 
-    /// Those that need to know what a model serves by Modbus.
+    /// Protocols that need the Modbus profile of a model.
     pub const MODBUS: Self = Protocols::of(&[
         Protocol::ModbusRtu,
         Protocol::ModbusAscii,
@@ -41,12 +41,12 @@ impl Protocols {
     ])
     .or(Self::QLINK);
 
-    /// Those that keep something from one frame to the next.
+    /// Protocols with state between frames.
     const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort])
         .or(Self::QLINK)
         .or(Self::CANLINK);
 
-    /// Those that do more than answer, and so are in the midst of something between two calls.
+    /// Protocols that do more than answer, and so have progress between two calls.
     const WITH_PROGRESS: Self = Protocols::of(&[
         Protocol::Free,
         Protocol::MasterRtu,
@@ -92,12 +92,12 @@ impl Protocols {
         Protocols(self.0 & !other.0)
     }
 
-    /// Whether it has something in common with another.
+    /// Returns true if it has a protocol in common with another.
     pub const fn meets(self, other: Self) -> bool {
         self.0 & other.0 != 0
     }
 
-    /// Whether it contains a protocol.
+    /// Returns true if it contains a protocol.
     pub const fn contains(self, protocol: Protocol) -> bool {
         self.0 & 1 << protocol as u32 != 0
     }
@@ -110,12 +110,12 @@ impl Protocols {
         }
     }
 
-    /// Whether one of them keeps something from one frame to the next ([`super::Memory`]).
+    /// Returns true if one of them has state between frames ([`super::Memory`]).
     pub const fn keeps_memory(self) -> bool {
         self.meets(Self::WITH_MEMORY)
     }
 
-    /// Whether one of them does more than answer ([`Progress`]).
+    /// Returns true if one of them does more than answer ([`Progress`]).
     pub const fn has_progress(self) -> bool {
         self.meets(Self::WITH_PROGRESS)
     }

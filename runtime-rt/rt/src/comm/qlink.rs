@@ -31,19 +31,19 @@ const BLOCKS: usize = 2;
 const MOST: usize = 120;
 /// Bytes that a block takes: its number plus 1, numbers of bits and of registers, addresses.
 const BLOCK: usize = 4 + 2 * MOST;
-/// Where the memory says which block is replaced next.
+/// Offset of the number of the block to be replaced next.
 const OLDER: usize = BLOCKS * BLOCK;
 const _: () = assert!(OLDER < SIZE);
 
 /// Most bytes of data in an answer.
 const MOST_DATA: usize = 240;
 
-/// Whether a frame of Modbus RTU is one of QLink.
+/// Returns true if a frame of Modbus RTU is one of QLink.
 pub(super) fn is_qlink(request: &[u8]) -> bool {
     matches!(request, [_, DEFINE | READ, ..])
 }
 
-/// Why a request is rejected: the exception's code, and what the PLC notes.
+/// Reason to reject a request: the exception's code, and the fault that the PLC records.
 type Refusal = (u8, LineFault);
 
 const NO_DEVICE: Refusal = (ILLEGAL_ADDRESS, LineFault::Address);
@@ -169,7 +169,7 @@ fn word_of(bytes: &[u8]) -> u16 {
     }
 }
 
-/// What marks a block's number in the memory, where 0 means no block.
+/// Mark of a block's number in the memory, where 0 means no block.
 fn mark(number: u16) -> [u8; 2] {
     (number + 1).to_be_bytes()
 }

@@ -1,5 +1,5 @@
-//! What a server over TCP speaks, and what one of its connections has said so far. It knows no network: whoever has
-//! one hands over the characters, and sends the answers.
+//! Services over TCP: the protocol of a server, and the state of one of its connections. They access no network: the
+//! caller passes the characters received, and sends the answers.
 
 use super::modbus::tcp;
 use super::{Cut, Frame, LineFault, Map, Memory, Ports, fx_port, mc};
@@ -40,7 +40,7 @@ impl Speaks {
         [Self::ModbusTcp, Self::Mc, Self::ProgrammingPort]
     }
 
-    /// What it is called.
+    /// Display name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::ModbusTcp => "Modbus TCP",
@@ -65,7 +65,7 @@ pub fn address(text: &str) -> Option<SocketAddr> {
     own.ok().or_else(|| text.parse().ok())
 }
 
-/// What a server speaks, for a model.
+/// Protocol of a server, for a model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(C)]
 pub struct Service {
@@ -87,7 +87,7 @@ impl Service {
         }
     }
 
-    /// Whether the characters so far are a request.
+    /// Decides whether the characters so far form a request.
     fn cut(self, received: &[u8]) -> Cut {
         match self.speaks {
             Speaks::ModbusTcp => tcp::cut(received),
@@ -96,13 +96,14 @@ impl Service {
         }
     }
 
-    /// Whether a character that begins no request ends the connection: nothing says where the next request begins.
+    /// Returns true if a character that begins no request ends the connection: the beginning of the next request is
+    /// unknown.
     fn is_lost_after_drop(self) -> bool {
         self.speaks != Speaks::ProgrammingPort
     }
 }
 
-/// What a character of a connection was.
+/// Effect of a character received by a connection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Heard {
@@ -121,7 +122,7 @@ pub enum Heard {
 #[repr(C)]
 pub struct Connection {
     service: Service,
-    /// How much of `received` there is.
+    /// Number of characters in `received`.
     length: u16,
     /// It is a request that is over.
     over: bool,
@@ -167,12 +168,12 @@ impl Connection {
         heard
     }
 
-    /// What its server speaks.
+    /// Service of its server.
     pub const fn service(&self) -> Service {
         self.service
     }
 
-    /// What has come of the request, whole after its last character.
+    /// Characters of the request so far, whole after its last character.
     pub fn request(&self) -> &[u8] {
         let length = usize::from(self.length);
         self.received.get(..length).unwrap_or_default()

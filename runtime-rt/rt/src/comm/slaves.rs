@@ -1,4 +1,4 @@
-//! How the codecs that answer are set up.
+//! Settings of the codecs that answer.
 
 use super::computer_link::{self, Dialect};
 use super::fx_port::{self, Space};
@@ -11,13 +11,13 @@ use super::wiring::{Ports, Protocol};
 pub(super) struct Slave {
     /// The family of models.
     pub(super) family: Ports,
-    /// What D8001 shows.
+    /// Content of D8001.
     pub(super) type_code: u16,
     /// Own station number.
     pub(super) station: u16,
     /// The format word.
     pub(super) format: u16,
-    /// What the model serves as a Modbus slave.
+    /// Devices that the model serves as a Modbus slave.
     pub(super) profile: &'static Profile,
 }
 
@@ -30,7 +30,7 @@ impl Protocol {
         !matches!(self, Protocol::Free)
     }
 
-    /// Whether silence ends its frames; those of others have an end.
+    /// Returns true if silence ends its frames; those of others have an end.
     pub const fn ends_by_silence(self) -> bool {
         matches!(
             self,
@@ -39,7 +39,7 @@ impl Protocol {
     }
 }
 
-/// What a port is on a link that PLCs keep up by themselves; `area` is the first register of HM's work area.
+/// Role of a port on a link that PLCs maintain by themselves; `area` is the first register of HM's work area.
 pub(super) fn role(protocol: Protocol, area: u16) -> Option<Role> {
     Some(match protocol {
         Protocol::ParallelMaster => Role::ParallelMaster,
@@ -54,7 +54,7 @@ pub(super) fn role(protocol: Protocol, area: u16) -> Option<Role> {
 }
 
 impl Slave {
-    /// What the registers make of a slave by Modbus.
+    /// Settings of a Modbus slave, by the registers.
     pub(super) fn modbus(&self, framing: Framing) -> modbus::Settings {
         modbus::Settings {
             framing,
@@ -63,7 +63,7 @@ impl Slave {
         }
     }
 
-    /// Whether the model answers QLink.
+    /// Returns true if the model answers QLink.
     pub(super) fn has_qlink(&self) -> bool {
         matches!(self.family, Ports::Inovance)
     }
@@ -77,7 +77,7 @@ impl Slave {
         }
     }
 
-    /// What the model and the format word make of a computer link.
+    /// Settings of a computer link, by the model and the format word.
     pub(super) fn computer_link(&self) -> computer_link::Settings {
         const SUM: u16 = 1 << 13;
         const CR_LF: u16 = 1 << 15;
@@ -97,7 +97,7 @@ impl Slave {
 }
 
 impl Ports {
-    /// What a model of the family serves as a Modbus slave; `type_code` is what its D8001 shows.
+    /// Devices that a model of the family serves as a Modbus slave; `type_code` is the content of its D8001.
     pub fn modbus(self, type_code: u16) -> &'static Profile {
         match self {
             Ports::Inovance if type_code / 1000 == H1U => &modbus::H1U,
@@ -108,7 +108,7 @@ impl Ports {
         }
     }
 
-    /// What a model of the family makes of the programming port's protocol.
+    /// Settings of the programming port's protocol for a model of the family.
     pub fn programming_port(self) -> fx_port::Settings {
         fx_port::Settings {
             space: match self {

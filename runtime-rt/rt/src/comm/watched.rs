@@ -10,13 +10,13 @@ use std::vec::Vec;
 pub(super) struct Watched {
     /// The devices.
     pub(super) plc: Double,
-    /// How many devices were written.
+    /// Number of devices written.
     pub(super) writes: usize,
-    /// How often a device was to be written that does not exist.
+    /// Number of writes to devices that do not exist.
     pub(super) strays: usize,
-    /// What was asked of the RUN/STOP switch last.
+    /// Last request for the RUN/STOP switch.
     pub(super) request: Option<bool>,
-    /// What D8001 shows.
+    /// Content of D8001.
     pub(super) type_code: u16,
     /// Program memory, if partners may read it.
     pub(super) program: Option<Vec<u8>>,
@@ -114,7 +114,7 @@ pub(super) fn hex(bytes: &[u8]) -> String {
     pairs.join(" ")
 }
 
-/// What a codec puts into a frame of 1024 characters, and what it reports.
+/// Contents of a frame of 1024 characters that a codec fills, and the fault that it reports.
 pub(super) fn reply_of(
     codec: impl FnOnce(&mut Frame) -> Result<(), LineFault>,
 ) -> (Vec<u8>, Result<(), LineFault>) {

@@ -13,7 +13,7 @@ use crate::special::{Register, Relay};
 pub(crate) use fx::ModbusWiring;
 pub use rules::Rules;
 
-/// What a port speaks. The numbers are part of the C ABI.
+/// Protocol of a port. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Protocol {
@@ -55,7 +55,7 @@ pub enum Protocol {
 }
 
 impl Protocol {
-    /// What a protocol number (D8126 and similar registers) means on H1U and H2U (h1u-h2u-programming §5.1).
+    /// Protocol of a protocol number (D8126 and similar registers) on H1U and H2U (h1u-h2u-programming §5.1).
     #[inline(always)]
     pub fn from_number(number: u16) -> Self {
         match number {
@@ -77,7 +77,7 @@ impl Protocol {
         }
     }
 
-    /// What reports call it.
+    /// Display name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Protocol::Off => "off",
@@ -100,7 +100,7 @@ impl Protocol {
         }
     }
 
-    /// Whether instructions of the program ask by Modbus.
+    /// Returns true if instructions of the program send Modbus requests.
     pub const fn is_master(self) -> bool {
         matches!(
             self,
@@ -108,7 +108,7 @@ impl Protocol {
         )
     }
 
-    /// Whether its frames are Modbus.
+    /// Returns true if its frames are Modbus.
     pub const fn is_modbus(self) -> bool {
         matches!(
             self,
@@ -121,7 +121,7 @@ impl Protocol {
     }
 }
 
-/// What chooses the protocol of a port.
+/// Selection of a port's protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// The programming port of H1U and H2U, whose register may make it a Modbus slave in RUN.
@@ -156,9 +156,9 @@ pub enum Choice {
 pub struct PortWiring {
     /// Its number in the model's manual.
     pub number: u8,
-    /// What chooses its protocol.
+    /// Selection of its protocol.
     pub choice: Choice,
-    /// What follows from that.
+    /// Rules of that selection.
     pub rules: &'static Rules,
     /// Register: format word.
     pub format: Option<Register>,
@@ -198,9 +198,9 @@ pub struct PortWiring {
     pub envelope: Option<Envelope>,
     /// Registers and relays of Modbus on FX3.
     pub modbus: Option<ModbusWiring>,
-    /// Where an error shows.
+    /// Devices that show an error.
     pub error: Option<ErrorPlace>,
-    /// What the codes are counted from: 6200, 6300, or 3800.
+    /// Base of the error codes: 6200, 6300, or 3800.
     pub codes: u16,
     /// The lowest code of an error of Modbus; 0: errors of Modbus have no separate codes.
     pub modbus_errors: u16,
@@ -261,7 +261,7 @@ pub(super) const M_PARALLEL_SLAVE: Relay = Relay(8071);
 /// Ports 2 and 3 of L01S are set up by their registers rather than programming ports (l01s-programming §9).
 const M_PORT_2_SET_UP: Relay = Relay(8196);
 const M_PORT_3_SET_UP: Relay = Relay(8192);
-/// Which port ADPRW of L01S works on: 0 for port 2, 1 for port 3 (l01s-programming §8.1.2).
+/// Port of ADPRW of L01S: 0 for port 2, 1 for port 3 (l01s-programming §8.1.2).
 pub const D_ADPRW_PORT: Register = Register(8397);
 
 /// Port 2 of L01S speaks Modbus.
@@ -337,7 +337,7 @@ impl Ports {
         }
     }
 
-    /// Whether it is FX3 or a board that takes its programs.
+    /// Returns true for FX3 and boards that run its programs.
     pub const fn is_fx3(self) -> bool {
         matches!(self, Ports::Fx3 | Ports::Fx3g | Ports::Board3u)
     }
@@ -375,7 +375,7 @@ impl Ports {
     }
 }
 
-/// Whether a relay is on; off where there is none.
+/// Returns true if a relay is on; off if there is none.
 pub(crate) fn is_on(plc: &(impl Plc + ?Sized), relay: Option<Relay>) -> bool {
     relay.is_some_and(|relay| relay.is_on(plc))
 }
@@ -430,7 +430,7 @@ impl PortWiring {
         }
     }
 
-    /// Whether it is the CAN card.
+    /// Returns true for the CAN card.
     pub const fn is_can(&self) -> bool {
         matches!(self.choice, Choice::Can)
     }
@@ -440,12 +440,12 @@ impl PortWiring {
         core::iter::once(self).chain(self.instead)
     }
 
-    /// Whether the end of the first scan in RUN binds the choice; elsewhere the registers choose at any time.
+    /// Returns true if the end of the first scan in RUN binds the choice; elsewhere the registers choose at any time.
     pub const fn binds(&self) -> bool {
         matches!(self.choice, Choice::Com0 | Choice::Com1 | Choice::Number)
     }
 
-    /// What the registers choose now; `uinit` is what UINIT has set up.
+    /// Protocol that the registers choose now; `uinit` is the setup by UINIT.
     pub fn protocol(&self, plc: &dyn Plc, uinit: [u16; 3]) -> Protocol {
         (self.rules.protocol)(self, plc, uinit)
     }
@@ -487,8 +487,8 @@ impl PortWiring {
         }
     }
 
-    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards and FX3 count milliseconds
-    /// here, but tens of them for RS and RS2; on FX3, 0 is 3 s.
+    /// Time-out of a Modbus master for an answer, in microseconds. Compatible boards and FX3 count milliseconds here,
+    /// but tens of them for RS and RS2; on FX3, 0 is 3 s.
     pub(crate) fn answer_time_out_us(&self, plc: &dyn Plc) -> u32 {
         match (self.choice, value(plc, self.time_out)) {
             (Choice::Channel, 0) => 3_000_000,
@@ -497,7 +497,7 @@ impl PortWiring {
         }
     }
 
-    /// How many scans lie between two requests of RD3A and WR3A.
+    /// Number of scans between two requests of RD3A and WR3A.
     pub(crate) fn gap_scans(&self, plc: &dyn Plc) -> u16 {
         value(plc, self.gap)
     }

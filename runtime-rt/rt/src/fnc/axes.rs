@@ -18,7 +18,7 @@ const RAMP_MS: (i32, i32) = (50, 5000);
 const COUNT: usize = 2;
 const INTERRUPTED: usize = 3;
 
-/// What kind of motion it is.
+/// Kind of motion.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// DPLSY: at one speed, which may change.
@@ -35,7 +35,7 @@ enum Kind {
     Variable,
 }
 
-/// What an instruction asks for.
+/// Motion that an instruction requests.
 struct Order {
     kind: Kind,
     /// Speed in pulses a unit of time.
@@ -111,7 +111,7 @@ pub fn axis_plsv(cx: &mut Cx) -> Done {
     })
 }
 
-/// What all of them do in a scan; operand `i` is the axis.
+/// Executes one of them in a scan; operand `i` is the axis.
 fn drive(
     cx: &mut Cx,
     i: usize,

@@ -74,7 +74,8 @@ mod at {
 const BY_INPUT: i16 = 1;
 const BY_PHASE: i16 = 2;
 
-/// How many cycles may end in one scan; a master that has moved on further is caught up with in the next scans.
+/// Most cycles that may end in one scan; the distance of a master that has moved on further is made up in the next
+/// scans.
 const MOST_CYCLES: u32 = 16;
 
 /// CAM D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, and engages and
@@ -157,11 +158,11 @@ fn advance(cx: &mut Cx, axis: Registers, pulses: &mut i64) -> Result<i32, Fault>
     Ok(0)
 }
 
-/// How far the master has travelled while the cam waits to engage; `None` once it engages.
+/// Distance that the master has travelled while the cam waits to engage; `None` once it engages.
 fn travel(cx: &mut Cx, axis: Registers) -> Result<Option<i32>, Fault> {
     let mode = cx.word(BLOCK, at::ENGAGE_MODE)?;
     if mode & BY_INPUT != 0 && !has(cx, flag::ARMED) {
-        // What the master travels before the input comes does not count.
+        // Travel of the master before the input comes does not count.
         cx.state().0[ZERO] = cx.dword(MASTER, 0)?;
         if !sees(cx, axis, at::ENGAGE_INPUT, at::ENGAGE_POLARITY)? {
             return Ok(Some(0));
@@ -191,8 +192,8 @@ fn offset(cx: &mut Cx) -> Result<i32, Fault> {
     cx.dword(BLOCK, place).map(|offset| offset.max(0))
 }
 
-/// Whether only what is added to the phase ends the travel before a cycle: then the cycle begins with phase 0, whatever
-/// is left over.
+/// Returns true if only the addition to the phase ends the travel before a cycle: then the cycle begins with phase 0,
+/// whatever is left over.
 fn enters_by(cx: &mut Cx, added: i32) -> Result<bool, Fault> {
     let mode = cx.word(BLOCK, at::ENGAGE_MODE)?;
     let waits = !has(cx, flag::ENGAGED) && mode & BY_PHASE != 0;
@@ -286,7 +287,7 @@ fn bits(code: i16) -> Result<(Class, u32), Fault> {
     }
 }
 
-/// What is added to the phase in this scan: by its compensation, and by the auxiliary axis times its gear.
+/// Addition to the phase in this scan: by its compensation, and by the auxiliary axis times its gear.
 fn added_phase(cx: &mut Cx) -> Result<i32, Fault> {
     let (compensation, auxiliary) = (compensation(cx)?, auxiliary(cx)?);
     let state = cx.state();
@@ -329,13 +330,13 @@ fn register(named: i16) -> Result<u32, Fault> {
     u32::try_from(named).map_err(|_| Fault::DEVICE)
 }
 
-/// What the master has moved on since phase 0.
+/// Distance of the master since phase 0.
 fn phase(cx: &mut Cx) -> Result<i32, Fault> {
     Ok(cx.dword(MASTER, 0)?.wrapping_sub(cx.state().0[ZERO]))
 }
 
-/// Whether one of the inputs that a word of the block names is there; a second word says which of them are there when
-/// they are off.
+/// Returns true if one of the inputs that a word of the block names is active; a second word selects those that are
+/// active when off.
 fn sees(cx: &Cx, axis: Registers, inputs: i32, polarity: i32) -> Result<bool, Fault> {
     let inputs = cx.word(BLOCK, inputs)? as u16;
     let polarity = cx.word(BLOCK, polarity)? as u16;

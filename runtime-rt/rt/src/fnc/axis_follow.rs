@@ -39,7 +39,7 @@ pub(super) fn long(cx: &Cx, number: u32) -> Result<i32, Fault> {
     Ok(pair(word(cx, number)?, word(cx, number + 1)?))
 }
 
-/// What the master has counted: that of an axis or input whose increment is named is its position, so that no increment
+/// Count of the master: if it is named by the increment of an axis or input, this is the position, so that no increment
 /// is lost.
 fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
     if let Some(position) = position_of_increment(cx) {

@@ -32,7 +32,7 @@ mod stage {
     pub const TURN_FORWARD: i32 = 6;
 }
 
-/// What HOME sees.
+/// Signals that HOME evaluates.
 struct Signals {
     /// The DOG, or the zero signal in its place.
     dog: bool,
@@ -83,7 +83,7 @@ fn begin(cx: &mut Cx, axis: Registers) -> Done {
     run(cx, axis, first, signals.only_zero)
 }
 
-/// What is wrong with the speeds of a return. The manual says when each code is checked and not against what: an axis
+/// Error code for invalid speeds of a return. The manual gives the time of each check and not its criterion: an axis
 /// that starts faster than it is to return is above its speed, one that returns slower than it is to creep is below it,
 /// and one that stands still never arrives.
 fn wrong_speed(cx: &Cx, axis: Registers) -> Option<i16> {

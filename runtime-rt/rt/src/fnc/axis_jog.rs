@@ -8,7 +8,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::pulse::Train;
 
-/// How long it waits between the pulses and going on and on.
+/// Pause between the single pulses and continuous motion.
 const PAUSE_MS: u32 = 500;
 
 /// Word of the memory with the stage, and the one with the time.
@@ -27,7 +27,7 @@ pub fn axis_jog(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin, &go_on)
 }
 
-/// Which direction the inputs ask for: whether reverse.
+/// Direction that the inputs select: true for reverse.
 fn direction(cx: &Cx, axis: Registers) -> Result<Option<bool>, Fault> {
     let [forward, reverse] = [cx.read(3)?, cx.read(4)?].map(|mask| mask as u16);
     Ok(match axis.is_on(cx, reverse, false) {

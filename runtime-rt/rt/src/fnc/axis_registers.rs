@@ -1,5 +1,5 @@
-//! What HM's motion instructions have in common: the registers of an axis (hm-motion-controller §8.2.3), its signals,
-//! and who has it.
+//! Common parts of HM's motion instructions: the registers of an axis (hm-motion-controller §8.2.3), its signals, and
+//! its owner.
 //!
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is.
 
@@ -55,21 +55,21 @@ pub(super) mod event {
 /// Outputs that send pulses, and all that an axis may be bound to: three more are only counted.
 const PULSE_OUTPUTS: i16 = 6;
 const OUTPUTS: i16 = 9;
-/// What the outputs in use share, in millihertz.
+/// Total frequency that the outputs in use share, in millihertz.
 const HIGHEST: u64 = 600_000_000;
-/// What [`D_OUTPUT_USE`] shows of an output for pulses, for the direction.
+/// Values of [`D_OUTPUT_USE`] for an output used for pulses, for the direction.
 const USE_PULSES: i16 = 2;
 const USE_DIRECTION: i16 = 3;
 /// The output of the direction of Y000; those of the others follow.
 const DIRECTION: u32 = 0o10;
 
-/// How far an instruction is, as [`held`] knows it.
+/// Progress of an instruction, as [`held`] tracks it.
 const PHASE: usize = 1;
 const WAITS: i32 = 0;
 const RUNS: i32 = 1;
 const ENDED: i32 = 2;
 
-/// What an instruction does in a scan in which it is driven and has the axis.
+/// Action of an instruction in a scan in which it is driven and owns the axis.
 type Step<'a> = &'a dyn Fn(&mut Cx, Registers) -> Done;
 
 /// Runs a motion: `begin` once the axis of operand `i` is free, `go_on` in the scans after that. When its drive goes
@@ -141,7 +141,7 @@ impl Registers {
         cx.set_special_word(self.register(offset), value);
     }
 
-    /// What the axis sends.
+    /// Pulse generator of the axis.
     pub fn generator<'a>(self, cx: &'a mut Cx) -> Result<&'a mut Generator, Fault> {
         let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
         Ok(&mut axis.generator)
@@ -166,7 +166,7 @@ impl Registers {
         self.millihertz(cx, self.word(cx, offset).into())
     }
 
-    /// What the highest acceleration adds to the square of a speed at each pulse, in mHz².
+    /// Increase of the square of a speed per pulse at the highest acceleration, in mHz².
     pub fn slope(self, cx: &Cx) -> u64 {
         let acceleration = u64::try_from(self.word(cx, at::ACCELERATION)).unwrap_or(0);
         let unit = self.unit_ms(cx);
@@ -193,18 +193,18 @@ impl Registers {
         Train::steady(speed as u32, total)
     }
 
-    /// Whether a bit of the register of events is set.
+    /// Returns true if a bit of the register of events is set.
     pub fn has(self, cx: &Cx, bit: u8) -> bool {
         self.word(cx, at::EVENTS) as u16 >> bit & 1 == 1
     }
 
-    /// Whether a signal of the axis is there, whose inputs a register says.
+    /// Returns true if a signal of the axis is active, whose inputs a register names.
     pub fn sees(self, cx: &Cx, inputs: u32, (enable, inverted): (u8, u8)) -> bool {
         let mask = self.word(cx, inputs) as u16;
         self.has(cx, enable) && self.is_on(cx, mask, self.has(cx, inverted))
     }
 
-    /// Whether one of these inputs is on, or off if inverted. They may be relays.
+    /// Returns true if one of these inputs is on, or off if inverted. They may be relays.
     pub fn is_on(self, cx: &Cx, mask: u16, inverted: bool) -> bool {
         let (class, first) = match self.has(cx, event::INPUTS) {
             true => (Class::X, 0),
@@ -213,14 +213,14 @@ impl Registers {
         on_of(cx, class, first, mask, inverted)
     }
 
-    /// Whether the zero signal is there, whose inputs are never relays.
+    /// Returns true if the zero signal is active, whose inputs are never relays.
     pub fn sees_zero(self, cx: &Cx) -> bool {
         let (enable, inverted) = event::ZERO;
         let mask = self.word(cx, at::ZERO) as u16;
         self.has(cx, enable) && on_of(cx, Class::X, 0, mask, self.has(cx, inverted))
     }
 
-    /// Whether it is bound to an output.
+    /// Returns true if it is bound to an output.
     pub fn has_output(self, cx: &Cx) -> bool {
         (0..OUTPUTS).contains(&self.word(cx, at::OUTPUT))
     }
@@ -235,7 +235,7 @@ impl Registers {
         }
     }
 
-    /// What is wrong with the parameters.
+    /// Error code for invalid parameters.
     fn error(self, cx: &Cx) -> Option<i16> {
         let (highest, first) = (self.word(cx, at::HIGHEST), self.word(cx, at::FIRST));
         if !self.has_output(cx) {
@@ -282,7 +282,7 @@ impl Registers {
         Ok(())
     }
 
-    /// Whether it has an output for its direction; without, all goes forward.
+    /// Returns true if it has an output for its direction; without one, all motion is forward.
     pub fn has_direction(self, cx: &Cx) -> bool {
         let sends = (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT));
         self.word(cx, at::DIRECTION) == 1 && sends
@@ -363,13 +363,13 @@ impl Registers {
     }
 }
 
-/// Whether one of the devices from `first` on that a mask names is on, or off if inverted.
+/// Returns true if one of the devices from `first` on that a mask names is on, or off if inverted.
 fn on_of(cx: &Cx, class: Class, first: u32, mask: u16, inverted: bool) -> bool {
     let mut named = (0..16).filter(|n| mask >> n & 1 == 1);
     named.any(|n| cx.plc.bit(class, first + n).unwrap_or(false) != inverted)
 }
 
-/// How many outputs axes are bound to, of those that send pulses; at least 1.
+/// Number of pulse outputs that axes are bound to; at least 1.
 fn outputs_in_use(cx: &Cx) -> u64 {
     let outputs = cx.plc.pulses().outputs().iter();
     let axes = outputs.filter_map(|wiring| wiring.axis);

@@ -25,7 +25,7 @@ fn identifier(cx: &Cx) -> Result<u32, Fault> {
     }
 }
 
-/// Whether the program has a CAN card that is on.
+/// Returns true if the program has a CAN card that is on.
 fn has_card(cx: &mut Cx) -> bool {
     let port = cx.plc.port(CAN_PORT);
     port.is_some_and(|port| port.status.protocol == Protocol::Can)

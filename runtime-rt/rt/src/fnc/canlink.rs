@@ -120,7 +120,7 @@ pub fn canput(cx: &mut Cx) -> Done {
     if *next == 0 && drive && is_time {
         (*next, *last_ms) = (1, now_ms as i32);
     }
-    // What the bus rejects is sent in the next scan, whether or not that drives the instruction.
+    // Frames rejected by the bus are sent in the next scan, whether or not that drives the instruction.
     while let Some(first) = cx.state().0[0].checked_sub(1).filter(|first| *first >= 0) {
         if !send(cx, head, first, count, scan)? {
             break;
@@ -131,7 +131,7 @@ pub fn canput(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// What a CANPUT sends, and to whom.
+/// Head of a frame of CANPUT: its kind and receiver.
 fn head(cx: &mut Cx) -> Result<Head, Fault> {
     let [what, receiver] = (cx.word(2, 0)? as u16).to_be_bytes();
     let register = cx.word(3, 0)? as u16;

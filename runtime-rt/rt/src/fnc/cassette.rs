@@ -8,7 +8,7 @@ use crate::special::M_COMPLETE;
 
 /// Registers of a sector.
 const SECTOR: i32 = 2048;
-/// What an erased register holds.
+/// Value of an erased register.
 const ERASED: i16 = -1;
 
 /// Copies `count` words from offset `first` on.

@@ -100,7 +100,7 @@ pub fn stoh(cx: &mut Cx) -> Done {
     set_triple(cx, 1, seconds)
 }
 
-/// What the registers show while M8015 stops the clock.
+/// Values of the registers while M8015 stops the clock.
 fn stopped(cx: &Cx) -> Option<[i16; 7]> {
     cx.special(M_CLOCK_STOP)
         .then(|| shown(cx))
@@ -276,7 +276,7 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
     Ok(())
 }
 
-/// What the clock's registers show, in TRD's order.
+/// Values of the clock's registers, in TRD's order.
 fn shown(cx: &Cx) -> [i16; 7] {
     REGISTERS.map(|register| cx.special_word(register))
 }

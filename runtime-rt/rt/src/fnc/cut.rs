@@ -46,8 +46,8 @@ fn root(square: f64) -> f64 {
     guess
 }
 
-/// How far a speed that begins with `from` gets in the part `part` of a time in which it changes by a polynomial of the
-/// fourth degree for the way: over the whole of it it gets 1, and the acceleration begins and ends with 0.
+/// Distance covered in the part `part` of a time in which a speed changes from `from` to 1 by a polynomial of the
+/// fourth degree for the way; the acceleration begins and ends with 0.
 fn catching_up(from: f64, part: f64) -> f64 {
     from * part + (1.0 - from) * (2.0 - part) * part * part * part
 }
@@ -69,7 +69,7 @@ fn limit(units: Units, limits: [f64; 2], speed: f64, acceleration: f64) -> f64 {
     by_speed.min(by_acceleration)
 }
 
-/// How many points a time has.
+/// Number of points of a time.
 fn points(time: i16, interval: i16) -> Option<i32> {
     let (time, interval) = (i32::from(time), i32::from(interval));
     (time > 0 && interval > 0 && time % interval == 0).then(|| time / interval)
@@ -81,7 +81,7 @@ struct Cut {
     time: f64,
     master: f64,
     slave: f64,
-    /// What master and slave do outside of the cut, on either side of it.
+    /// Distances of master and slave outside the cut, on either side of it.
     master_side: f64,
     slave_side: f64,
     /// Way of the master in which the slave catches up; before, it waits.

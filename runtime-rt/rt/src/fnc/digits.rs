@@ -17,7 +17,7 @@ pub fn from_nibbles(bcd: u32) -> u32 {
     })
 }
 
-/// Whether no digit of `bcd` is above 9.
+/// Returns true if no digit of `bcd` is above 9.
 pub fn is_bcd(bcd: u32) -> bool {
     (0..32).step_by(4).all(|shift| bcd >> shift & 15 <= 9)
 }

@@ -5,7 +5,7 @@ use crate::cx::Cx;
 use crate::fault::Done;
 use crate::modules::BOARD;
 
-/// What is exchanged with a board: words sent and words answered. The last of the answer counts the errors.
+/// Exchange with a board: numbers of words sent and of words answered. The last of the answer counts the errors.
 const SENT: u16 = 9;
 const ANSWERED: u16 = 9;
 

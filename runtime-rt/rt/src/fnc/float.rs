@@ -41,7 +41,7 @@ pub(super) fn one_of_three(cx: &mut Cx, i: usize, which: Ordering) -> Done {
     cx.set_bit(i, 2, which == Ordering::Greater)
 }
 
-/// Where `value` lies relative to the zone from `low` to `high`.
+/// Position of `value` relative to the zone from `low` to `high`.
 pub(super) fn zone<T: PartialOrd>(value: T, low: T, high: T) -> Ordering {
     if value < low {
         Ordering::Less
@@ -114,7 +114,7 @@ pub fn ebin(cx: &mut Cx) -> Done {
     cx.set_float(1, 0, value)
 }
 
-/// What became of a result that no float is.
+/// Handling of a result that is not representable as a float.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fit {
     Exact,

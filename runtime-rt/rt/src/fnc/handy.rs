@@ -306,7 +306,7 @@ fn sort_table(cx: &mut Cx, place: Place, descending: bool) -> Done {
     Ok(())
 }
 
-/// What the operator's switches of IST select.
+/// Modes of IST, selected by the operator's switches.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mode {
     Manual,

@@ -98,7 +98,7 @@ pub fn hky(cx: &mut Cx) -> Done {
     }
 }
 
-/// What HKY does once all keys have been read.
+/// Executes HKY once all keys have been read.
 fn take_hexadecimal_key(cx: &mut Cx, pressed: u32) -> Done {
     let key = key_of(cx, pressed);
     match key {

@@ -14,7 +14,7 @@ use crate::operand::OperandKind;
 use crate::plc::Sys;
 use crate::special::{M_COMPLETE, Relay};
 
-/// What came of an instruction that the scan has reached.
+/// State of an instruction that the scan has reached.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Turn {
     /// It has handed over its job.
@@ -25,7 +25,7 @@ enum Turn {
     None,
 }
 
-/// What a port knows the instruction at a step by.
+/// Identifier of the instruction at a step for its port.
 fn owner(step: u32) -> u32 {
     step + 1
 }
@@ -40,7 +40,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
         return Ok(Turn::None);
     };
     if !port.status.protocol.is_master() {
-        // What the first scan sets up binds at its end.
+        // The set-up of the first scan is bound at its end.
         if driven && (port.status.bound || !first_scan) {
             cx.note_other_protocol(number);
         }
@@ -80,7 +80,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
     }
 }
 
-/// What a port does for the instructions of a master.
+/// Exchange of a port for the instructions of a master.
 fn exchange_of<'a>(cx: &'a mut Cx, number: u8) -> Option<&'a mut Exchange> {
     let progress = cx.plc.port(number)?.progress?;
     Some(&mut progress.exchange)
@@ -348,7 +348,7 @@ fn l01s(cx: &mut Cx, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
     Ok(())
 }
 
-/// What an instruction of HM asks: station, address, number if there is one, data.
+/// Job of an instruction of HM: station, address, number if there is one, data.
 fn hm_job(cx: &Cx, function: u8, several: bool) -> Result<Job, Fault> {
     let data = if several { 3 } else { 2 };
     Ok(Job {

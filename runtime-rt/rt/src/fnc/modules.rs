@@ -68,7 +68,7 @@ fn place(cx: &Cx, i: usize) -> Result<u16, Fault> {
     u16::try_from(cx.count(i, 0..=32_767)?).map_err(|_| Fault::VALUE)
 }
 
-/// How many elements FROM and TO move: operand 3, or with M8164 D8164.
+/// Number of elements that FROM and TO move: operand 3, or with M8164 D8164.
 fn transfer_count(cx: &Cx) -> Result<i32, Fault> {
     let n = match cx.special(M_TRANSFER_COUNT) {
         true => cx.special_word(D_TRANSFER_COUNT).into(),
@@ -154,7 +154,7 @@ pub fn to(cx: &mut Cx) -> Done {
 /// Numbers of remote modules of H1U and H2U: 100 and the station on CAN.
 const REMOTE: core::ops::RangeInclusive<u16> = 101..=163;
 
-/// How long FROM and TO wait for a remote module (h1u-h2u-programming §5.9.5), in milliseconds.
+/// Time-out of FROM and TO for a remote module (h1u-h2u-programming §5.9.5), in milliseconds.
 const PATIENCE_MS: core::ops::RangeInclusive<i16> = 5..=1000;
 
 /// Reads or writes a module of H1U or H2U. A remote one that has not answered within D8299 ms switches M8299 on, which
@@ -187,7 +187,7 @@ pub fn to_remote(cx: &mut Cx) -> Done {
     exchange_remotely(cx, to)
 }
 
-/// How many built-in analog outputs L01S has.
+/// Number of built-in analog outputs of L01S.
 const ANALOG_OUTPUT_CHANNELS: i32 = 8;
 
 /// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050
@@ -426,7 +426,7 @@ mod tests {
         assert_eq!(ask(&mut plc, 101), late);
         plc.hal.delay_module(101, 20).unwrap();
         assert_eq!(ask(&mut plc, 101), (Ok(()), false));
-        // What is below 5 counts as 5, what is above 1000 as 1000.
+        // Values below 5 count as 5, values above 1000 as 1000.
         for (setting, longest) in [(0, 5), (-1, 5), (1, 5), (5000, 1000)] {
             plc.set_d(8299, &[setting]);
             plc.hal.delay_module(101, longest).unwrap();

@@ -1,4 +1,4 @@
-//! What the instructions for pulse outputs have in common: when one of them begins, and who has the output.
+//! Common parts of the instructions for pulse outputs: when an instruction begins, and the owner of the output.
 //!
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it
 //! begins anew, word 3 whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one,
@@ -13,7 +13,7 @@ use crate::pulse_side;
 use crate::special::{M_COMPLETE, Register, Relay};
 use crate::wiring::{Clear, Ramps, Wiring};
 
-/// How far an instruction is.
+/// Progress of an instruction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(i32)]
 enum Phase {
@@ -27,7 +27,7 @@ enum Phase {
     Begins = 3,
 }
 
-/// What is to be done in a scan.
+/// Action in a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Turn {
     /// Nothing.
@@ -118,7 +118,7 @@ impl Ramp {
         let base = 1000 * u64::from(self.base);
         Train {
             speed: 1000 * hz.min(self.highest),
-            // What a steady acceleration leaves a standstill with: √(highest speed / 2·time).
+            // Speed after one pulse at a steady acceleration: √(highest speed / 2·time).
             lowest: (base * base).max(up / 4),
             up,
             down: Train::slope(self.highest, self.down_ms),
@@ -148,12 +148,12 @@ impl Output {
         Ok(Output { number, wiring })
     }
 
-    /// What it is doing.
+    /// Axis of the output.
     pub fn axis<'a>(self, cx: &'a mut Cx) -> Result<&'a mut Axis, Fault> {
         cx.plc.axis(self.number).ok_or(Fault::DEVICE)
     }
 
-    /// Whether the model has a special relay, and it is on.
+    /// Returns true if the model has a special relay, and it is on.
     pub fn has_on(self, cx: &Cx, relay: impl Into<Option<Relay>>) -> bool {
         any_is_on(cx.plc, &[relay.into()])
     }
@@ -169,8 +169,8 @@ impl Output {
         1000 * hz.min(cx.plc.pulses().highest_hz())
     }
 
-    /// What the instruction has to do in this scan. An output that another instruction uses is taken only while the
-    /// relay for that is on. It is done when its train is.
+    /// Action of the instruction in this scan. It takes an output that another instruction uses only while the relay
+    /// for that is on. It is done when its train is.
     pub fn turn(self, cx: &mut Cx) -> Result<Turn, Fault> {
         let turn = self.turn_resting(cx)?;
         let axis = *self.axis(cx)?;
@@ -189,7 +189,7 @@ impl Output {
         Ok(Turn::Sends)
     }
 
-    /// What the instruction has to do in this scan, if it is it that says when it is done.
+    /// Action of the instruction in this scan, if the instruction itself decides when it is done.
     pub fn turn_resting(self, cx: &mut Cx) -> Result<Turn, Fault> {
         let (drive, slot) = (cx.drive(), cx.site.slot);
         let was_driven = cx.was_driven(0);
@@ -282,7 +282,7 @@ impl Output {
         set_relays(cx.plc, &self.wiring.busy, busy);
         let phase = cx.state().0[1];
         if cx.site.signal {
-            // What is shown of the instruction itself is shown in the scan.
+            // The state of the instruction itself is shown in the scan.
             return Ok(());
         }
         if drive {
@@ -383,7 +383,7 @@ impl Output {
         })
     }
 
-    /// Whether PLSV has ramps.
+    /// Returns true if PLSV has ramps.
     pub fn slides(self, cx: &Cx) -> bool {
         self.has_on(cx, self.wiring.slides)
     }
@@ -412,7 +412,7 @@ impl Output {
         Ok(())
     }
 
-    /// Whether the signal is there for which DVIT waits.
+    /// Returns true if the signal that DVIT waits for is active.
     pub fn is_interrupted(self, cx: &Cx) -> Result<bool, Fault> {
         let interrupt = self.wiring.interrupt;
         let input = |number: u32| {

@@ -272,7 +272,7 @@ mod tuning_at {
     pub const TIME: usize = 10;
     /// Steepest slope so far, per millisecond.
     pub const SLOPE: usize = 12;
-    /// Where the steepest tangent leaves the start value, in milliseconds.
+    /// Time from the start to the intersection of the steepest tangent with the start value, in milliseconds.
     pub const DELAY: usize = 14;
 }
 

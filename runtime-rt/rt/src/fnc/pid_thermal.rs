@@ -51,8 +51,8 @@ mod state {
 /// ACT: the table calls bit 3 the learning bit, the list of steps writes 16 (bit 4); both are taken.
 const LEARN: i16 = 1 << 3 | 1 << 4;
 
-/// What the instruction keeps in its private memory: time since the last sample, the period's start, sum of the
-/// integral, filtered value and last deviation.
+/// Layout of the instruction's private memory: time since the last sample, the period's start, sum of the integral,
+/// filtered value and last deviation.
 mod memory {
     pub const ELAPSED: usize = 0;
     pub const PERIOD: usize = 1;

@@ -125,7 +125,7 @@ fn do_plsv(cx: &mut Cx) -> Done {
             let generator = &mut output.axis(cx)?.generator;
             let turns = speed != 0 && generator.is_reverse() != (speed < 0);
             match generator.is_busy() {
-                // What has speed comes down before it turns round.
+                // A moving axis slows down before it reverses.
                 true if generator.is_stopping() => {}
                 true if !turns => generator.set_speed(millihertz),
                 true if slides => generator.stop(),
@@ -260,7 +260,7 @@ fn do_dszr(cx: &mut Cx) -> Done {
     output.show(cx)
 }
 
-/// What DSZR sees.
+/// Signals that DSZR evaluates.
 struct Signals {
     /// The DOG, its logic regarded.
     dog: bool,

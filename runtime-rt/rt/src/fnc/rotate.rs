@@ -75,7 +75,7 @@ pub fn sfl(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// What a shift moves: bits or words.
+/// Items that a shift moves: bits or words.
 trait Item: Sized {
     fn check(cx: &Cx, i: usize, count: i32) -> Done;
     fn copy(cx: &mut Cx, from: (usize, i32), to: (usize, i32)) -> Done;

@@ -45,7 +45,7 @@ pub fn zone(cx: &mut Cx) -> Done {
     cx.write(3, shifted)
 }
 
-/// Where the coordinates of point `i` (from 0) of `count` are in the table, as elements after its head.
+/// Position of the coordinates of point `i` (from 0) of `count` in the table, as elements after its head.
 type Place = fn(i: i32, count: i32) -> (i32, i32);
 
 /// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points.

@@ -11,7 +11,7 @@ use crate::special::{
 /// The last register of a record.
 const LAST_REGISTER: u16 = 7999;
 
-/// What [`D_SCOPE_STATE`] shows, and what starts the oscilloscope there.
+/// Values of [`D_SCOPE_STATE`], and the one that starts the oscilloscope.
 const WAITING: i16 = 0;
 const SAMPLING: i16 = 1;
 const WRONG: i16 = 2;
@@ -21,7 +21,7 @@ const START: i16 = 4;
 /// Registers that may be a trigger.
 const TRIGGERS: core::ops::RangeInclusive<i16> = 0..=999;
 
-/// What is recorded, as the parameters were at the start.
+/// Recording with the parameters at its start.
 #[derive(Clone, Copy)]
 struct Recording {
     /// In tenths of a millisecond.
@@ -81,7 +81,7 @@ fn start(cx: &mut Cx) {
     recording.keep(cx);
 }
 
-/// Whether sampling begins.
+/// Returns true if sampling begins.
 fn triggered(cx: &Cx) -> bool {
     let trigger = cx.special_word(D_SCOPE_TRIGGER);
     let value = || u16::try_from(trigger).map_or(0, |n| cx.special_word(Register(n)));

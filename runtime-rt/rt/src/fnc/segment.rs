@@ -16,7 +16,7 @@ const TIME_UNIT: i32 = 8;
 const PULSE_UNIT: i32 = 9;
 const STATE: i32 = 10;
 
-/// How the speed changes over the segment.
+/// Change of speed over the segment.
 #[derive(Clone, Copy)]
 enum Curve {
     /// Evenly.

@@ -164,14 +164,14 @@ pub fn rs2(cx: &mut Cx) -> Done {
 /// The longest transfer in bytes: 256 on H1U and H2U; FX takes up to 4096.
 const LONGEST: i32 = 4096;
 
-/// Whether a word always contains two characters: RS2 of FX3 has no mode of eight bits (FX data communication manual,
-/// part F, §8.2.3).
+/// Returns true if a word always contains two characters: RS2 of FX3 has no mode of eight bits (FX data communication
+/// manual, part F, §8.2.3).
 fn packs(cx: &Cx, number: u8) -> bool {
     let wiring = cx.plc.ports().get(number);
     wiring.is_some_and(|wiring| wiring.chosen(cx.plc).envelope.is_some()) && cx.plc.ports().is_fx3()
 }
 
-/// What a free protocol sends and receives on a port, as long as it is driven.
+/// Sends and receives by a free protocol on a port, as long as it is driven.
 fn transfer(cx: &mut Cx, number: u8) -> Done {
     let owner = cx.site.step + 1;
     let Some(port) = cx.plc.port(number) else {

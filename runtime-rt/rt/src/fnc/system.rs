@@ -1,4 +1,4 @@
-//! What the scan does for special registers in addition to the program: the running time and error log of H1U/H2U
+//! Updates of special registers by the scan in addition to the program: the running time and error log of H1U/H2U
 //! (h1u-h2u-programming §8.2.2) and the built-in analog inputs of L01S (l01s-programming §5.1) and potentiometers of
 //! FX3G.
 
@@ -10,7 +10,7 @@ use crate::special::{
 };
 use crate::word::{pair, words};
 
-/// How many errors the log holds.
+/// Capacity of the error log.
 const ENTRIES: u32 = 10;
 
 /// The running time and the error log, once a scan after the program. A new code of an operation error is added, the

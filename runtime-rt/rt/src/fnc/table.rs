@@ -4,18 +4,18 @@
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 
-/// What a word of the parameters shows.
+/// Values of the state word of the parameters.
 const IDLE: i16 = 0;
 const RUNNING: i16 = 16;
 const DONE: i16 = 32;
 const WRONG: i16 = 64;
 
-/// What makes the points of a table.
+/// Generator of the points of a table.
 pub trait Maker: Sized {
     /// The word of the parameters that shows the state.
     const STATE: i32;
 
-    /// What the parameters describe; `None` if they are invalid.
+    /// Generator described by the parameters; `None` if they are invalid.
     fn of(cx: &Cx) -> Result<Option<Self>, Fault>;
 
     /// Prepares the table.
@@ -24,10 +24,10 @@ pub trait Maker: Sized {
         Ok(())
     }
 
-    /// How many points it makes, at least one.
+    /// Number of points it makes, at least one.
     fn points(&self) -> i32;
 
-    /// How far point `point`, from 1, is from the last one of the table before.
+    /// Distance of point `point`, from 1, from the last one of the table before.
     fn position(&self, point: i32) -> i32;
 
     /// Shows what came out.
@@ -79,7 +79,7 @@ pub fn make<M: Maker>(cx: &mut Cx) -> Done {
     show::<M>(cx, DONE)
 }
 
-/// Whether the table has a point to continue from, and registers for all points.
+/// Returns true if the table has a point to continue from, and registers for all points.
 fn fits(cx: &Cx, points: i32) -> Result<bool, Fault> {
     let count = cx.dword(1, 0)?;
     let last = count

@@ -228,7 +228,7 @@ fn decimal_limits(cx: &Cx) -> (i32, i32) {
     if cx.wide() { (13, 10) } else { (8, 5) }
 }
 
-/// Whether `total` characters with `fraction` of them after a point make a number.
+/// Checks that `total` characters with `fraction` of them after a point make a number.
 fn check_format(total: i32, fraction: i32, limits: (i32, i32)) -> Done {
     let fits = (2..=limits.0).contains(&total) && (0..=limits.1).contains(&fraction);
     if fits && (fraction == 0 || fraction <= total - 3) {

@@ -13,19 +13,19 @@ use std::time::{Duration, Instant};
 use std::vec;
 use std::vec::Vec;
 
-/// How long a thread waits before it tries to reach the other end again.
+/// Pause of a thread between attempts to reach the other end.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// How long the end of a run waits for the threads to leave their outputs off.
+/// Time that the end of a run allows the threads for switching their outputs off.
 const GRACE: Duration = Duration::from_secs(2);
 
-/// What takes the values of a row: the places of its connection and of the row in it, the row, and its values.
+/// Consumer of the values of a row: the indices of its connection and of the row in it, the row, and its values.
 pub type TakeRow<'a> = dyn FnMut(usize, usize, &Row, &mut dyn Iterator<Item = Option<i16>>) + 'a;
 
-/// What fills in the values of a row, as for [`TakeRow`].
+/// Producer of the values of a row, with arguments as for [`TakeRow`].
 pub type GiveRow<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
 
-/// Why an exchange has failed.
+/// Reason why an exchange failed.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Trouble {
     /// The other end cannot be reached any more; it is opened again.
@@ -42,7 +42,7 @@ impl Trouble {
     }
 }
 
-/// What exchanges values with an other end.
+/// Exchange of values with a remote end.
 pub trait Driver: Send {
     /// Reads all rows that are read into `inputs` and writes `outputs` by the rows that are written, each at the
     /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1.
@@ -92,7 +92,7 @@ impl<P: Program> Terminals for Of<'_, P> {
     }
 }
 
-/// What a thread shares with the scan.
+/// State shared between a thread and the scan.
 #[derive(Default)]
 struct State {
     inputs: Vec<i16>,
@@ -102,7 +102,7 @@ struct State {
     ends: bool,
     /// The thread has ended.
     over: bool,
-    /// What there is to report.
+    /// Messages to report.
     said: Vec<String>,
 }
 
@@ -181,7 +181,7 @@ impl Io {
         Ok(io)
     }
 
-    /// Whether there is a connection.
+    /// Returns true if there is a connection.
     pub fn any(&self) -> bool {
         !self.running.is_empty()
     }
@@ -316,7 +316,7 @@ impl Running {
         }
     }
 
-    /// What the devices of a row are to be; `None` of one that stays as it is.
+    /// New values of a row's devices; `None` leaves a device unchanged.
     fn values(&self, row: &Row) -> impl Iterator<Item = Option<i16>> {
         let way = (self.is_up, row.loss, self.connection.loss);
         let values = self.inputs[row.place.clone()].iter();

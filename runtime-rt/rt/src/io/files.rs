@@ -26,7 +26,7 @@ const LONGEST_LINE: u64 = 1024;
 /// Files of a folder.
 struct Folder {
     path: PathBuf,
-    /// What was written last.
+    /// Values last written.
     written: BTreeMap<PathBuf, Vec<i16>>,
 }
 
@@ -65,7 +65,7 @@ impl Driver for Folder {
             {
                 continue;
             }
-            // What a disk that was full has not taken is written in the next cycle.
+            // Values that a full disk has not accepted are written in the next cycle.
             self.written.remove(&path);
             write(&path, values).map_err(failed)?;
             self.written.insert(path, values.to_vec());
@@ -123,7 +123,7 @@ fn write(path: &Path, values: &[i16]) -> io::Result<()> {
 
 /// Standard input and output: lines such as `X000=1` and `Y000=1`.
 struct Console {
-    /// What was printed last.
+    /// Values last printed.
     printed: Vec<Option<i16>>,
 }
 

@@ -18,7 +18,7 @@ const LINES: usize = 64;
 /// Attributes of a request at most.
 const ATTRIBUTES: usize = 10;
 
-/// Where chips are.
+/// Directory of the chip devices.
 const DEVICES: &str = "/dev";
 
 /// `struct gpiochip_info`.
@@ -107,7 +107,7 @@ pub(super) fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     }))
 }
 
-/// What a chip is called, whatever its number.
+/// Label of a chip, which does not depend on its number.
 fn label(chip: &File) -> io::Result<String> {
     let mut known = Chip::default();
     GET_CHIP.pass(chip, &mut known)?;
@@ -140,7 +140,7 @@ fn labelled(
         let chip = match File::open(&path) {
             Ok(chip) => chip,
             Err(error) => {
-                // One that has just gone away is none; another may be the one, for those who may open it.
+                // A chip that has just gone away does not count; another may be the one, if it may be opened.
                 if error.kind() != ErrorKind::NotFound {
                     refused = Some(format!("{}: {error}", path.display()));
                 }
@@ -180,7 +180,7 @@ fn line(row: &Row) -> (u32, u64) {
     (*offset, flags.fold(direction, |all, flag| all | flag))
 }
 
-/// What a connection asks of a chip in a direction.
+/// Request of a connection for lines of a chip in one direction.
 fn asked(connection: &Connection, reads: bool) -> Result<Lines, String> {
     let mut lines = Lines {
         offsets: [0; LINES],
@@ -236,7 +236,7 @@ fn lines(chip: &File, connection: &Connection, reads: bool) -> Result<Option<Own
     Ok(Some(file))
 }
 
-/// Why lines cannot be had.
+/// Message for lines that cannot be requested.
 fn refusal(error: io::Error) -> String {
     /// `ENOTTY`: the file knows no such request.
     const NO_CHIP: i32 = 25;

@@ -1,4 +1,4 @@
-//! What `--io` and `--log` of an executable do.
+//! Options `--io` and `--log` of an executable.
 
 use super::cycle::{Io, Terminals};
 use super::log::Log;
@@ -15,7 +15,7 @@ use std::vec::Vec;
 /// The largest description, in bytes.
 const LARGEST: u64 = 1 << 20;
 
-/// What is outside a program that runs as an executable: its connections and its log.
+/// Environment of a program that runs as an executable: its connections and its log.
 #[derive(Default)]
 pub struct Outside {
     described: Vec<Connection>,
@@ -64,7 +64,7 @@ impl Outside {
         Ok(())
     }
 
-    /// Whether a connection reads standard input, which means no commands then.
+    /// Returns true if a connection reads standard input, which leaves none for commands.
     pub fn takes_input(&self) -> bool {
         let reads = |connection: &Connection| {
             connection.kind == Kind::Console && connection.values(true) > 0

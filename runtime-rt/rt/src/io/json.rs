@@ -37,7 +37,7 @@ pub(super) fn items(text: &str) -> Vec<(Option<String>, Value)> {
 /// Objects and arrays in each other, at most.
 const DEEPEST: u32 = 16;
 
-/// What is left to read.
+/// Remaining input.
 struct Rest<'a>(&'a [u8]);
 
 impl Rest<'_> {

@@ -16,7 +16,7 @@ const WAITING: usize = 256;
 /// A log of this size, in bytes, is moved to `FILE.1`, and a new one begins.
 const LARGEST: u64 = 1 << 20;
 
-/// How long the end of a run waits for the disk.
+/// Time that the end of a run allows for writing to disk.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// A log at work.
@@ -32,7 +32,7 @@ impl Log {
     /// # Errors
     /// The file cannot be written.
     pub(super) fn begin(path: &str) -> io::Result<Self> {
-        // What is wrong with the path is said at once.
+        // An error in the path is reported at once.
         append(Path::new(path), "")?;
         let path = PathBuf::from(path);
         let (lines, waiting) = mpsc::sync_channel(WAITING);

@@ -41,13 +41,13 @@ const DISCONNECT: u8 = 0xe0;
 struct Broker {
     stream: TcpStream,
     timeout: Duration,
-    /// What has come and is not yet a whole packet.
+    /// Received bytes that do not form a whole packet yet.
     came: Vec<u8>,
     heard: Instant,
     said: Instant,
     /// The topic that shows whether the PLC is there.
     status: Option<String>,
-    /// What was published last, by topic.
+    /// Values last published, by topic.
     published: BTreeMap<String, String>,
 }
 

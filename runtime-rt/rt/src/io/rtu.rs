@@ -75,7 +75,7 @@ impl<L: SerialLine + 'static> Rtu<L> {
 impl<L: SerialLine> Wire for Rtu<L> {
     fn ask(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
         thread::sleep(self.silence);
-        // What is left of an answer that came too late belongs to no request.
+        // The rest of a late answer belongs to no request.
         self.line.discard()?;
         self.line.send(request)?;
         let until = Instant::now() + self.timeout;
@@ -99,7 +99,7 @@ impl<L: SerialLine> Wire for Rtu<L> {
     }
 }
 
-/// How long an answer is that begins so, with its sum; `None` while that is not known.
+/// Length of a reply that begins with these bytes, including its checksum; `None` if not yet known.
 fn length(reply: &[u8]) -> Option<usize> {
     match *reply {
         [_, function, ..] if function & 0x80 != 0 => Some(5),

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-/// What a connection is to.
+/// Kind of remote end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// Remote I/O over TCP.
@@ -67,7 +67,7 @@ impl Kind {
         }
     }
 
-    /// How a row is written.
+    /// Examples of rows, for help messages.
     const fn example(self) -> &'static str {
         match self {
             Kind::ModbusTcp | Kind::ModbusRtu => {
@@ -91,13 +91,13 @@ impl Kind {
 /// Keys of every connection.
 const COMMON: [&str; 4] = ["every", "timeout", "fault", "loss"];
 
-/// What inputs are while the other end cannot be reached, unless their row says so.
+/// Value of inputs while the remote end cannot be reached, unless their row specifies one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Loss {
     /// Off, and 0.
     #[default]
     Zero,
-    /// What they were last.
+    /// The last value.
     Hold,
 }
 
@@ -114,7 +114,7 @@ pub enum Table {
     InputRegisters,
 }
 
-/// What a row is connected to at the other end.
+/// Target of a row at the remote end.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum End {
     /// A run of a Modbus slave's devices.
@@ -137,7 +137,7 @@ pub enum End {
     Text,
 }
 
-/// Where a value of a row is among those of its direction.
+/// Positions of a row's values among those of its direction.
 pub type Place = Range<usize>;
 
 /// Devices of consecutive numbers, and what they are connected to.
@@ -147,20 +147,20 @@ pub struct Row {
     pub class: Class,
     /// Number of the first.
     pub first: u32,
-    /// How many.
+    /// Number of devices.
     pub count: u32,
-    /// Whether they take values from the other end, rather than give it theirs.
+    /// True if the devices take values from the remote end, false if they supply them.
     pub reads: bool,
-    /// What they are connected to.
+    /// Target they are connected to.
     pub end: End,
     /// The value of each while the other end cannot be reached; that of the connection if there is none.
     pub loss: Option<i16>,
-    /// Where their values are among those of the connection that are read, or written.
+    /// Positions of their values among those the connection reads, or writes.
     pub place: Place,
 }
 
 impl Row {
-    /// Whether its devices are bits.
+    /// Returns true if its devices are bits.
     pub fn is_bits(&self) -> bool {
         is_bits(self.class)
     }
@@ -182,11 +182,11 @@ impl Row {
 /// Terminals and registers, and the other end that they are connected to.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Connection {
-    /// What the description calls it.
+    /// Name in the description.
     pub name: String,
-    /// What it is to.
+    /// Kind of the remote end.
     pub kind: Kind,
-    /// Where the other end is.
+    /// Address of the remote end.
     pub end: String,
     /// Milliseconds from the start of one cycle to the start of the next.
     pub every_ms: u64,
@@ -194,7 +194,7 @@ pub struct Connection {
     pub timeout_ms: u64,
     /// The bit that is on while the other end cannot be reached.
     pub fault: Option<(Class, u32)>,
-    /// What inputs are then.
+    /// Value of inputs while the connection is lost.
     pub loss: Loss,
     /// Other keys, which its driver reads.
     pub options: BTreeMap<String, String>,
@@ -202,14 +202,14 @@ pub struct Connection {
     pub rows: Vec<Row>,
 }
 
-/// What is wrong with a description.
+/// Error in a description.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mistake {
     /// The place of the key among the pairs; none: what is wrong is the whole.
     pub pair: Option<usize>,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
-    /// What helps; may be empty.
+    /// Suggested remedy; may be empty.
     pub help: String,
 }
 
@@ -278,7 +278,7 @@ impl Connection {
         self.rows.iter().filter(move |row| row.reads == reads)
     }
 
-    /// How many values it reads, or writes.
+    /// Number of values that it reads, or writes.
     pub fn values(&self, reads: bool) -> usize {
         let ends = self.directed(reads).map(|row| row.place.end);
         ends.max().unwrap_or(0)
@@ -329,7 +329,7 @@ impl Connection {
         }
     }
 
-    /// What is wrong with the keys of TLS together.
+    /// Error in the combination of TLS keys.
     fn lacks_keys(&self) -> Option<&'static str> {
         let has = |option: &str| self.options.contains_key(option);
         match (has("ca"), has("certificate"), has("key")) {
@@ -341,7 +341,7 @@ impl Connection {
         }
     }
 
-    /// Whether a broker is reached by TLS: a key says how.
+    /// Returns true if a broker is reached by TLS, as its keys specify.
     pub fn is_encrypted(&self) -> bool {
         self.options.contains_key("ca")
     }
@@ -483,7 +483,7 @@ impl Connection {
     }
 }
 
-/// What the words of a row name at the other end.
+/// Parses the words of a row as a target at the remote end.
 fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Result<End, String> {
     let cannot = || {
         format!(

@@ -55,7 +55,7 @@ const CLOCAL: u32 = 0o4000;
 /// The rate is the number in `output_rate`.
 const BOTHER: u32 = 0o10000;
 
-/// What the kernel takes and gives by a pointer to it.
+/// Types exchanged with the kernel through a pointer.
 ///
 /// # Safety
 /// The type is that of the kernel's headers, and any bytes are a value of it.
@@ -81,7 +81,7 @@ const SET_TERMIOS: Request = Request {
 const GET_TERMIOS: Request = Request::answer(b'T', 0x2a);
 
 impl Request {
-    /// One that gives a value.
+    /// A request that returns a value.
     pub(super) const fn answer(group: u8, number: u8) -> Self {
         Request {
             direction: 2,
@@ -90,7 +90,7 @@ impl Request {
         }
     }
 
-    /// One that takes a value and gives it back.
+    /// A request that passes a value and returns one.
     pub(super) const fn exchange(group: u8, number: u8) -> Self {
         Request {
             direction: 3,

@@ -7,7 +7,7 @@ use std::fs;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-/// What is wrong with a connection, a line for each mistake: key, message, help.
+/// Errors of a connection, one per line: key, message, help.
 fn mistakes(pairs: &[(&str, &str)]) -> String {
     let mistakes = Connection::read("plant", pairs).expect_err("a mistake is found");
     let lines = mistakes.iter().map(|mistake| {

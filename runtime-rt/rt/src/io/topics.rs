@@ -39,7 +39,7 @@ pub fn topics(row: &Row) -> Vec<Topic> {
 }
 
 impl Topic {
-    /// What it shows of the values of its row.
+    /// Payload for the values of its row.
     pub fn payload(&self, row: &Row, values: &[i16]) -> String {
         if let Some(n) = self.device {
             return values

@@ -36,7 +36,7 @@ impl Module {
         }
     }
 
-    /// What an input word shows: what was measured, or the filter in force while that is set.
+    /// Value of an input word: the measured one, or the filter in force while that is set.
     pub(super) fn answered(&self, n: usize) -> i16 {
         match (self.kind().duty, self.command(), n) {
             (Duty::Board { .. }, FILTER, 0) => self.filter,
@@ -44,7 +44,7 @@ impl Module {
         }
     }
 
-    /// What a board says that it does.
+    /// Answer of a board to its command.
     pub(super) fn answer(&self) -> i16 {
         match (self.kind().duty, self.command()) {
             (Duty::Board { answer, .. }, 0) => answer,
@@ -52,7 +52,7 @@ impl Module {
         }
     }
 
-    /// What an output of a board puts out.
+    /// Value output by an output of a board.
     pub(super) fn shown(&self, n: usize) -> i16 {
         self.given(n).clamp(0, i16::MAX.into()) as i16
     }

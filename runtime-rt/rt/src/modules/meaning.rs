@@ -1,9 +1,9 @@
-//! What buffer memory is for, in words.
+//! Descriptions of buffer memory.
 
 use super::{Access, AxisWord, Role, Term};
 
 impl Role {
-    /// What a word with this role is for, as a phrase.
+    /// Meaning of a word with this role, as a phrase.
     pub fn meaning(self) -> &'static str {
         match self {
             Role::InputRanges => "range of each input, a hexadecimal digit each, the lowest CH1's",

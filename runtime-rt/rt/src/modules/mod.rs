@@ -25,7 +25,7 @@ pub use unit::Module;
 /// The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
 pub const BOARD: u16 = 200;
 
-/// What a channel measures or puts out.
+/// Quantity that a channel measures or outputs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Quantity {
@@ -70,9 +70,9 @@ impl Quantity {
 /// An analog signal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Signal {
-    /// What it is.
+    /// Quantity of the signal.
     pub quantity: Quantity,
-    /// How much, in millionths of its unit: microvolts, nanoamperes, millionths of a degree.
+    /// Value in millionths of its unit: microvolts, nanoamperes, millionths of a degree.
     pub millionths: i32,
 }
 
@@ -83,9 +83,9 @@ const THOUSAND: i32 = 1000;
 const MILLIAMPERES_PER_VOLT: i32 = 4;
 
 impl Signal {
-    /// How much of a quantity an input sees, in millionths: a current input that gets a voltage draws what its 250 Ω
-    /// let through, a voltage input that gets a current sees more than it can measure. `None`: no such signal reaches
-    /// it.
+    /// Value of a quantity as an input measures it, in millionths: a current input that gets a voltage draws the
+    /// current through its 250 Ω, a voltage input that gets a current sees more than it can measure. `None`: no such
+    /// signal reaches it.
     pub fn seen_as(self, quantity: Quantity) -> Option<i32> {
         use Quantity::{Milliamperes, Volts};
         match (self.quantity, quantity) {
@@ -103,7 +103,7 @@ impl Signal {
 /// A range that a channel can be set to: a straight line between analog and digital values, and its ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Range {
-    /// What it measures or puts out.
+    /// Quantity that it measures or outputs.
     pub quantity: Quantity,
     /// The analog value, in mV, µA or 0.001 °C, that is 0 as a digital value.
     pub offset: i32,
@@ -168,13 +168,13 @@ impl Range {
         curve.offset.saturating_mul(THOUSAND).saturating_add(above)
     }
 
-    /// Whether a digital value is one that the range has.
+    /// Returns true if a digital value is within the range.
     pub fn holds(&self, digital: i32) -> bool {
         (self.low..=self.high).contains(&digital)
     }
 }
 
-/// What a program may do with a word of buffer memory.
+/// Access of a program to a word of buffer memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Access {
     /// Read it.
@@ -190,20 +190,20 @@ pub enum Access {
 pub struct Bfm {
     /// The number of the first.
     pub first: u16,
-    /// How many there are.
+    /// Number of words.
     pub count: u8,
-    /// How far apart their numbers are.
+    /// Distance between their numbers.
     pub stride: u16,
-    /// What they are for.
+    /// Meaning of the words.
     pub role: Role,
-    /// What a program may do with them.
+    /// Access allowed to a program.
     pub access: Access,
-    /// What they hold as the module comes from the factory.
+    /// Factory setting.
     pub default: i16,
 }
 
 impl Bfm {
-    /// Which of its words has this number.
+    /// Index of the word with this number.
     pub fn word(&self, number: u16) -> Option<usize> {
         let at = number.checked_sub(self.first)?;
         let word = usize::from(at / self.stride);
@@ -217,7 +217,7 @@ impl Bfm {
     }
 }
 
-/// How a program starts the conversions of a module that does not convert by itself.
+/// Start of conversions in a module that does not convert by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Start {
     /// The module converts all open channels by turns.
@@ -231,7 +231,7 @@ pub enum Start {
     Fx2n2da,
 }
 
-/// Which PLCs a kind of module belongs to.
+/// PLCs that a kind of module belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Place {
     /// FROM and TO reach it, on any model that has them.
@@ -246,7 +246,7 @@ pub enum Place {
     L01s,
 }
 
-/// What a module does in addition to converting.
+/// Function of a module in addition to converting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Duty {
     /// Nothing.
@@ -262,11 +262,11 @@ pub enum Duty {
     Positioner,
     /// It is an analog board, with this answer to the PLC.
     Board {
-        /// What D8230 shows while it works.
+        /// Value of D8230 while it works.
         answer: i16,
         /// The greatest filter constant; beyond it, a board that has an earlier one keeps that one.
         most_filter: i16,
-        /// Whether each input has a terminal for voltage and one for current. Else the table of ranges has one for each
+        /// True if each input has a terminal for voltage and one for current. Else the table of ranges has one for each
         /// input.
         has_both: bool,
     },
@@ -279,11 +279,11 @@ pub struct Kind {
     pub name: &'static str,
     /// Other names of modules that a program cannot tell from it.
     pub aliases: &'static [&'static str],
-    /// Where it is described.
+    /// Source of the description.
     pub source: &'static str,
-    /// How many inputs it has: its first channels.
+    /// Number of inputs: its first channels.
     pub inputs: u8,
-    /// How many outputs it has: the channels after its inputs.
+    /// Number of outputs: the channels after its inputs.
     pub outputs: u8,
     /// The ranges of its inputs, by their digits; `None` turns a channel off.
     pub input_ranges: &'static [Option<Range>],
@@ -291,23 +291,23 @@ pub struct Kind {
     pub output_ranges: &'static [Option<Range>],
     /// The last number of its buffer memory.
     pub last: u16,
-    /// How many input terminals and output terminals it has.
+    /// Numbers of input terminals and output terminals.
     pub points: [u8; 2],
-    /// Which PLCs it belongs to.
+    /// PLCs it belongs to.
     pub place: Place,
-    /// What it does in addition to converting.
+    /// Function in addition to converting.
     pub duty: Duty,
     /// Its buffer memory. What is not in it up to `last` is reserved: it reads as 0.
     pub bfms: &'static [Bfm],
-    /// How long it takes to convert a channel, in microseconds, where the program does not choose it.
+    /// Conversion time of a channel, in microseconds, unless the program chooses it.
     pub conversion_us: u32,
-    /// How many samples a mean has at most.
+    /// Most samples of a mean.
     pub most_samples: i16,
-    /// How many it has if the program asks for fewer than 1 or more than that.
+    /// Samples of a mean if the program asks for fewer than 1 or more than that.
     pub usual_samples: i16,
-    /// What is written to change ranges, offset and gain.
+    /// Value that unlocks changes of ranges, offset and gain.
     pub unlocked: i16,
-    /// What starts its conversions.
+    /// Start of its conversions.
     pub start: Start,
 }
 

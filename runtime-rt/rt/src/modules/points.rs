@@ -24,7 +24,7 @@ impl Module {
         (number < count).then(|| i32::from(points >> number & 1) * ON)
     }
 
-    /// Whether an input terminal is on.
+    /// Returns true if an input terminal is on.
     pub(super) fn is_on(&self, number: usize) -> bool {
         self.points[0] >> number & 1 == 1
     }

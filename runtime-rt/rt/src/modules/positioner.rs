@@ -8,14 +8,14 @@
 use super::{AxisWord, Module, Role};
 use crate::pulse::{Generator, Train};
 
-/// How many axes it has.
+/// Number of axes.
 const AXES: usize = 4;
 
 /// Digits of the mode.
 const BY_DISTANCE: i16 = 1;
 const TO_ORIGIN: i16 = 4;
 
-/// What a return to the origin does.
+/// Course of a return to the origin.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Homing {
     /// It does not take place.

@@ -1,11 +1,11 @@
-//! What words of buffer memory are for.
+//! Roles of words of buffer memory.
 
-/// What a word of buffer memory is for.
+/// Role of a word of buffer memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Role {
     /// The ranges of the inputs, a hexadecimal digit each, the lowest that of the first.
     InputRanges,
-    /// How many samples make a mean.
+    /// Number of samples in a mean.
     Samples,
     /// The mean of the last samples.
     Mean,
@@ -15,11 +15,11 @@ pub enum Role {
     MeanFahrenheit,
     /// The last sample in tenths of a degree Fahrenheit.
     PresentFahrenheit,
-    /// How long a conversion takes.
+    /// Conversion time.
     Rate,
     /// 1 restores what the inputs were set to at the factory.
     InputReset,
-    /// Whether ranges, offset and gain of the inputs may be changed.
+    /// Lock of ranges, offset and gain of the inputs.
     InputLock,
     /// Bits that give the offset or the gain to channels, two for each.
     InputTakeOver,
@@ -43,13 +43,13 @@ pub enum Role {
     PeakReset,
     /// Channels that have measured too little or too much, two bits for each; stays until 0 is written.
     RangeLatch,
-    /// What is wrong with the inputs.
+    /// Error of the inputs.
     InputError,
     /// The ranges of the outputs, a hexadecimal digit each.
     OutputRanges,
-    /// What an output puts out.
+    /// Value of an output.
     Output,
-    /// What the outputs do in STOP, a hexadecimal digit each: 0 they hold, 1 they go to their offset.
+    /// Behaviour of the outputs in STOP, a hexadecimal digit each: 0 they hold, 1 they go to their offset.
     StopModes,
     /// Hexadecimal digits that give offset or gain to two channels.
     OutputTakeOver,
@@ -63,13 +63,13 @@ pub enum Role {
     OutputGains,
     /// 1 restores what the outputs were set to at the factory.
     OutputReset,
-    /// Whether ranges, offset and gain of the outputs may be changed.
+    /// Lock of ranges, offset and gain of the outputs.
     OutputLock,
-    /// What is wrong with the outputs.
+    /// Error of the outputs.
     OutputError,
     /// The version of the module's software.
     Version,
-    /// Which module it is.
+    /// Identification of the module.
     Identification,
     /// A setting that the simulated module keeps and does not act on.
     Setting,
@@ -77,15 +77,15 @@ pub enum Role {
     LowByte,
     /// The high bits of what was measured last.
     HighBits,
-    /// What is to be put out.
+    /// Value to output.
     Data,
     /// Bits that choose a channel and start conversions.
     Control,
-    /// What each input measures, a word each.
+    /// Type of each input, a word each.
     InputTypes,
-    /// What each output puts out, a word each.
+    /// Type of each output, a word each.
     OutputTypes,
-    /// What an output puts out, as the module shows it.
+    /// Value of an output, as the module shows it.
     OutputShown,
     /// The input terminals, a bit each.
     InputPoints,
@@ -93,9 +93,9 @@ pub enum Role {
     OutputPoints,
     /// After how many milliseconds without an exchange the output terminals go off.
     Silence,
-    /// What a board is to do.
+    /// Command to a board.
     Command,
-    /// What a board does.
+    /// Answer of a board.
     Answer,
     /// A word of the control of temperatures, one for each channel.
     Thermostat(Term),
@@ -144,7 +144,7 @@ pub enum Term {
     SecondGain,
     /// Unit of the ramp's time: 0 minutes, 1 seconds.
     RampUnit,
-    /// How much the target rises in a unit of time.
+    /// Rise of the target per unit of time.
     RampStep,
     /// Upper limit of the measured value.
     UpperInput,
@@ -172,7 +172,7 @@ pub enum Term {
     UpperOutputChange,
     /// Its lower limit.
     LowerOutputChange,
-    /// What control does: 0 nothing, 1 on and off, 2 tuning, 3 PID.
+    /// State of control: 0 none, 1 on and off, 2 tuning, 3 PID.
     State,
     /// The alarm that stopped it.
     Alarm,
@@ -203,7 +203,7 @@ pub enum AxisWord {
     Ramp,
     /// Bits that start and stop axes and clear what they have reached.
     Control,
-    /// How each axis moves, a hexadecimal digit each.
+    /// Mode of each axis, a hexadecimal digit each.
     Mode,
     /// Target and speed of each axis, two words each.
     Move,
@@ -215,7 +215,7 @@ pub enum AxisWord {
     Options,
     /// The lowest speed of an axis in Hz.
     LowestSpeed,
-    /// How each axis returns to its origin, a hexadecimal digit each.
+    /// Homing mode of each axis, a hexadecimal digit each.
     HomingMode,
     /// A bit for each axis that moves.
     Busy,

@@ -62,16 +62,16 @@ const fn degrees(low: i32, high: i32) -> Option<Range> {
     range(Celsius, [0, 100_000], 1000, [low, high])
 }
 
-/// What an input of twelve bits can hold.
+/// Limits of an input of twelve bits.
 const INPUT: [i32; 2] = [-2048, 2047];
 
-/// What an input of twelve bits without a sign can hold.
+/// Limits of an input of twelve bits without a sign.
 const UNSIGNED_INPUT: [i32; 2] = [0, 2047];
 
-/// What an output takes.
+/// Limits of an output.
 const OUTPUT: [i32; 2] = [-2350, 2350];
 
-/// What an output takes in its fine ranges.
+/// Limits of an output in its fine ranges.
 const FINE_OUTPUT: [i32; 2] = [5 * OUTPUT[0], 5 * OUTPUT[1]];
 
 /// Ranges of H2U-4AD, and of FX2N-4AD, which has the first four.
@@ -221,7 +221,7 @@ const fn temperatures(id: i16) -> [Bfm; 10] {
     ]
 }
 
-/// What most kinds have in common.
+/// Common properties of most kinds.
 const COMMON: Kind = Kind {
     name: "",
     aliases: &[],
@@ -265,7 +265,7 @@ pub static KINDS: [Kind; COUNT] = {
     all
 };
 
-/// How many kinds there are.
+/// Number of kinds.
 const COUNT: usize = H2U.len()
     + thermostats::KINDS.len()
     + digital::KINDS.len()

@@ -21,7 +21,7 @@ const TOO_CLOSE: i16 = 50;
 const WRONG_WAY: i16 = 51;
 const UP_AND_DOWN: i16 = 52;
 
-/// How far the measured value may fall back while tuning, in 0.1 °C.
+/// Largest fall of the measured value that tuning tolerates, in 0.1 °C.
 const MOST_FALL: f32 = TUNE_MIN_DISTANCE / 3.0;
 
 /// Limits: the bit that switches them on, that of the warning, the alarm if they are the wrong way round, and their
@@ -54,7 +54,7 @@ const SECOND: Limits = limits(6, 6, 7, Term::UpperSecond, Term::LowerSecond);
 /// The bit of the greatest deviation, in the word of limits and in that of warnings.
 const DEVIATION: (i16, i16) = (1 << 1, 1 << 3);
 
-/// What a channel does; the numbers are those of BFM 156.
+/// State of a channel; the numbers are those of BFM 156.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum State {
     Stopped = 0,
@@ -77,7 +77,7 @@ struct Relay {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Thermostat {
     state: State,
-    /// Whether an alarm keeps it stopped until it is started anew.
+    /// True if an alarm keeps it stopped until it is started anew.
     is_barred: bool,
     since_ms: i32,
     ramp_ms: i32,
@@ -87,7 +87,7 @@ pub(super) struct Thermostat {
     /// The integral part, before the gain.
     integral: f32,
     outputs: [f32; 2],
-    /// Whether on-off control has each output on.
+    /// Demand of on-off control for each output.
     demands: [bool; 2],
     relays: [Relay; 2],
     tuning: Tuning,
@@ -104,7 +104,7 @@ struct Tuning {
 }
 
 impl Thermostat {
-    /// One that is stopped.
+    /// A stopped channel.
     pub(super) const fn new() -> Self {
         let relay = Relay {
             is_on: false,

@@ -26,9 +26,9 @@ pub(super) struct Input {
     pub(super) curve: Option<Curve>,
     pub(super) sum: i32,
     pub(super) samples: i16,
-    /// Whether the last sample was out of range.
+    /// True if the last sample was out of range.
     is_out: bool,
-    /// Whether there was a sample since power-on.
+    /// True if there was a sample since power-on.
     is_measured: bool,
 }
 
@@ -56,7 +56,7 @@ pub struct Module {
     /// The low byte that the next conversion of an output takes.
     held_low: i16,
     is_running: bool,
-    /// Which input terminals are on, and which output terminals.
+    /// States of the input terminals, and of the output terminals.
     pub(super) points: [u16; 2],
     /// The filter of a board.
     pub(super) filter: i16,
@@ -139,7 +139,7 @@ impl Module {
         self.is_running = running;
     }
 
-    /// Where word `n` of a row is among all.
+    /// Index of word `n` of a row among all.
     fn place(&self, bfm: &Bfm, n: usize) -> Option<usize> {
         let before = self.kind.bfms.iter();
         let before = before.take_while(|other| other.first != bfm.first);
@@ -153,7 +153,7 @@ impl Module {
         word.copied().unwrap_or(0)
     }
 
-    /// Where word `n` of a role is among all, if the module has it.
+    /// Index of word `n` of a role among all, if the module has it.
     fn slot(&self, role: Role, n: usize) -> Option<usize> {
         let mut start = 0;
         for bfm in self.kind.bfms {
@@ -250,7 +250,7 @@ impl Module {
             .find(|range| quantity.is_none_or(|quantity| range.quantity == quantity))
     }
 
-    /// What is connected to input `channel`, counted from 0, from now on; `None` if the module does not have it.
+    /// Connects a signal to input `channel`, counted from 0; `None` if the module does not have it.
     pub fn connect(&mut self, channel: u8, signal: Signal) -> Option<()> {
         match signal.quantity {
             Quantity::InputTerminal => return self.switch(channel, signal.millionths != 0),
@@ -265,8 +265,8 @@ impl Module {
         Some(())
     }
 
-    /// What is at a channel, counted from 0: what is connected to an input, or what an output puts out, in
-    /// millionths; 0 if that is of another quantity. `None` if the module does not have the channel.
+    /// Signal at a channel, counted from 0: that connected to an input, or that of an output, in millionths; 0 if that
+    /// is of another quantity. `None` if the module does not have the channel.
     pub fn signal(&self, channel: u8, quantity: Quantity) -> Option<i32> {
         if let Quantity::InputTerminal | Quantity::OutputTerminal = quantity {
             return self.point(channel, quantity);
@@ -287,7 +287,7 @@ impl Module {
         Some(range.map_or(0, |range| self.put_out(channel, &range)))
     }
 
-    /// What an output puts out, in millionths.
+    /// Output value in millionths.
     fn put_out(&self, channel: usize, range: &Range) -> i32 {
         let Some(output) = self.outputs.get(channel) else {
             return 0;
@@ -339,19 +339,19 @@ impl Module {
         }
     }
 
-    /// Whether there is a sample of an input.
+    /// Returns true if there is a sample of an input.
     pub(super) fn is_measured(&self, channel: usize) -> bool {
         let input = self.inputs.get(channel);
         input.is_some_and(|input| input.is_measured)
     }
 
-    /// Whether nothing is connected to an input.
+    /// Returns true if nothing is connected to an input.
     pub(super) fn is_open(&self, channel: usize) -> bool {
         let input = self.inputs.get(channel);
         input.is_none_or(|input| input.signal.is_none())
     }
 
-    /// How long it takes to convert a channel.
+    /// Conversion time of a channel.
     fn conversion_us(&self) -> u32 {
         match (self.kind.with(Role::Rate), self.get(Role::Rate, 0)) {
             (Some(_), 1) => 6000,
@@ -360,7 +360,7 @@ impl Module {
         }
     }
 
-    /// What an input measures, held in its range, and whether it had to be.
+    /// Measured value of an input, limited to its range, and flags for a value above or below it.
     fn measure(&self, channel: usize, range: &Range) -> (i32, bool, bool) {
         let Some(input) = self.inputs.get(channel) else {
             return (0, false, false);
@@ -413,7 +413,7 @@ impl Module {
         }
     }
 
-    /// How many samples make a mean of a channel.
+    /// Number of samples in a mean of a channel.
     fn samples_wanted(&self, channel: usize) -> i16 {
         let asked = self.get(Role::Samples, channel);
         match (1..=self.kind.most_samples).contains(&asked) {
@@ -460,7 +460,7 @@ impl Module {
         bit(is_out, RANGE_ERROR) | bit(self.is_locked(Role::OutputLock), LOCKED)
     }
 
-    /// Whether settings may not be changed.
+    /// Returns true if settings are locked.
     pub(super) fn is_locked(&self, role: Role) -> bool {
         self.kind.with(role).is_some() && self.get(role, 0) != self.kind.unlocked
     }
@@ -544,7 +544,7 @@ impl Module {
         }
     }
 
-    /// What the inputs or outputs were set to at the factory. The word that asked for it is 0 then.
+    /// Restores the factory settings of the inputs or outputs. The word that requested it is 0 then.
     fn reset(&mut self, role: Role) {
         let both = self.kind.inputs == 0 || self.kind.outputs == 0;
         let first_of_outputs = self
@@ -565,7 +565,7 @@ impl Module {
         self.restore(|bfm| both || of_outputs == (bfm.first >= first_of_outputs));
     }
 
-    /// What an output was given last.
+    /// Value last written to an output.
     pub(super) fn given(&self, channel: usize) -> i32 {
         let output = self.outputs.get(channel);
         output.map_or(0, |output| output.digital)

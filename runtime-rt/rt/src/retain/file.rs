@@ -13,10 +13,10 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::vec::Vec;
 
-/// How often a host looks whether a latched device has changed, in milliseconds.
+/// Interval at which a host checks latched devices for changes, in milliseconds.
 const EVERY_MS: u32 = 1000;
 
-/// How long the disk may take before devices count as not saved, in milliseconds.
+/// Time after which devices count as not saved while the disk is busy, in milliseconds.
 const SLOW_MS: u32 = 10_000;
 
 /// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed
@@ -27,7 +27,7 @@ pub struct RetainFile {
     sequence: u32,
     saved: Option<u32>,
     looked_ms: u32,
-    /// What writes between scans; there is none before it is first needed.
+    /// Thread that writes between scans, started when first needed.
     writer: Option<Writer>,
     /// The state that it writes now.
     writing: Option<u32>,
@@ -149,7 +149,7 @@ impl RetainFile {
                 Some(writer) => writer.results.recv().unwrap_or_else(|_| Err(gone())),
                 None => Err(gone()),
             };
-            // What has failed is tried once more.
+            // A failed save is tried once more.
             let _ = self.written(result);
         }
         let state = record::state(program);
@@ -217,7 +217,7 @@ impl RetainFile {
         Some(self.about(&format!("{why}; latched devices are not saved")))
     }
 
-    /// Whether latched devices cannot be saved, as [`RetainFile::keep`] has reported.
+    /// Returns true if latched devices cannot be saved, as [`RetainFile::keep`] has reported.
     pub fn fails(&self) -> bool {
         self.fails
     }

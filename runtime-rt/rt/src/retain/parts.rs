@@ -14,10 +14,10 @@ pub trait Registers {
     fn write_half(&mut self, address: u32, value: u16);
 }
 
-/// What unlocks the control register, one after the other.
+/// Keys that unlock the control register, one after the other.
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
-/// How often the busy bit is read before an operation counts as failed: far longer than the slowest erasure.
+/// Polls of the busy bit before an operation counts as failed: far longer than the slowest erasure.
 const PATIENCE: u32 = 1 << 28;
 
 /// The flash controller of a family: addresses and bits.
@@ -109,7 +109,7 @@ impl<M: Mapped> Flash for M {
 /// Two slots in memory that is written like RAM and keeps its contents: with a battery, or FRAM.
 #[derive(Clone, Debug)]
 pub struct Ram<R> {
-    /// How it reaches memory.
+    /// Access to memory.
     pub registers: R,
     /// Addresses of the slots, multiples of 4.
     pub slots: [Range<u32>; 2],
@@ -146,7 +146,7 @@ impl<R: Registers> Mapped for Ram<R> {
 /// of 128 KB one to two seconds.
 #[derive(Clone, Debug)]
 pub struct Stm32f4<R> {
-    /// How it reaches registers.
+    /// Access to registers.
     pub registers: R,
     /// Addresses of the slots.
     pub slots: [Range<u32>; 2],
@@ -237,7 +237,7 @@ impl<R: Registers> Mapped for Stm32f4<R> {
 /// some 50 µs for each half word, and 20 to 40 ms for the erasure of a page.
 #[derive(Clone, Debug)]
 pub struct Stm32f1<R> {
-    /// How it reaches registers.
+    /// Access to registers.
     pub registers: R,
     /// Addresses of the slots.
     pub slots: [Range<u32>; 2],

@@ -54,7 +54,7 @@ impl Crc {
     }
 }
 
-/// What four bits contribute to the checksum.
+/// Contribution of four bits to the checksum.
 const fn half(bits: u32) -> u32 {
     let mut value = bits;
     let mut i = 0;
@@ -65,7 +65,7 @@ const fn half(bits: u32) -> u32 {
     value
 }
 
-/// What a device of a class is in a record.
+/// Form of a class's devices in a record.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Bit,
@@ -202,9 +202,9 @@ pub(super) type Source<'s, E> = &'s mut dyn FnMut(u32, &mut [u8]) -> Result<(), 
 /// A complete record.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Record {
-    /// Where it begins.
+    /// Its offset.
     pub(super) at: u32,
-    /// How long it is.
+    /// Its length.
     pub(super) length: u32,
     /// Its sequence number.
     pub(super) sequence: u32,

@@ -37,7 +37,7 @@ pub struct Slots<F> {
     next: Option<(usize, u32)>,
     /// Checksum of the values that were saved or loaded last.
     saved: Option<u32>,
-    /// When [`Slots::poll`] looked last whether something has changed.
+    /// Time of the last check for changes by [`Slots::poll`].
     looked_ms: u32,
 }
 
@@ -94,7 +94,7 @@ impl<F: Flash> Slots<F> {
         let sequence = self
             .newest
             .map_or(0, |newest| newest.1.sequence.wrapping_add(1));
-        // What fails from here on leaves a piece of a record.
+        // An error from here on leaves a part of a record.
         self.next = Some((slot, at.saturating_add(aligned(length))));
         let mut writer = Writer {
             flash: &mut self.flash,
@@ -146,12 +146,12 @@ impl<F: Flash> Slots<F> {
         Ok(changed)
     }
 
-    /// How many records a slot takes between two erasures.
+    /// Number of records a slot takes between two erasures.
     pub fn saves_per_erasure(&self, retained: &Retained) -> u32 {
         self.flash.slot_len() / aligned(retained.record_len())
     }
 
-    /// Where the next record goes: after the newest one, or in the other slot, which then is erased.
+    /// Location of the next record: after the newest one, or in the other slot, which is then erased.
     fn room(&mut self, length: u32) -> Result<(usize, u32), FlashFailed> {
         let end = self.flash.slot_len();
         if aligned(length) > end {
@@ -175,12 +175,12 @@ fn aligned(length: u32) -> u32 {
     length.next_multiple_of(ALIGN)
 }
 
-/// What a slot holds.
+/// Contents of a slot.
 #[derive(Clone, Copy)]
 struct Found {
     /// Its last complete record.
     newest: Option<Record>,
-    /// Where all bytes are erased from.
+    /// Offset from which all bytes are erased.
     end: u32,
 }
 

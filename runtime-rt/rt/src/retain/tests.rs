@@ -1,4 +1,4 @@
-//! What a save leaves when power fails at any byte of it, and the flash controllers of parts as models of their
+//! Results of saves interrupted by a power failure at any byte, and the flash controllers of parts as models of their
 //! registers.
 
 use super::*;
@@ -155,7 +155,7 @@ impl Flash for Cells {
     }
 }
 
-/// What a store gives a program that was switched on.
+/// Result of loading after power-on from a store.
 fn loaded(flash: Cells) -> (Loaded, Kept) {
     let mut kept = Kept::new();
     let loaded = Slots::open(flash).unwrap().load(&mut kept).unwrap();
@@ -377,7 +377,7 @@ struct Part {
     unlocking: u32,
     page: u32,
     erased: Vec<u32>,
-    /// How often the busy bit is still seen.
+    /// Remaining reads of the busy bit as set.
     busy: u32,
 }
 

@@ -26,7 +26,7 @@ struct Open {
     address: SocketAddr,
 }
 
-/// What has gone over the connections of a client.
+/// Traffic counters of a client's connections.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     requests: u64,

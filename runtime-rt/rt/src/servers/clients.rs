@@ -1,4 +1,4 @@
-//! What a program asks of servers over TCP.
+//! Requests of a program to servers over TCP.
 
 use crate::comm::modbus::client::{Client, ClientRow, Link, Wish};
 use crate::comm::service::Speaks;
@@ -12,7 +12,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use std::vec::Vec;
 
-/// How long an attempt to connect may take.
+/// Timeout of an attempt to connect.
 const CONNECT_WAIT: Duration = Duration::from_secs(3);
 
 /// Characters that one connection may bring between two scans.
@@ -52,7 +52,7 @@ pub struct Asked<'a> {
     pub client: SocketAddr,
     /// The server.
     pub server: SocketAddr,
-    /// Whether it is a request; else an answer, or what came of one.
+    /// True for a request, false for an answer or its outcome.
     pub request: bool,
     /// The frame.
     pub bytes: &'a [u8],
@@ -92,7 +92,7 @@ impl Clients {
         }
     }
 
-    /// What has gone over the connections, a row for each as in [`Servers::table`](super::Servers::table).
+    /// Traffic of the connections, a row for each as in [`Servers::table`](super::Servers::table).
     pub fn table(&self) -> Vec<String> {
         let rows = self.clients.iter().map(|asking| {
             let tally = asking.client.tally;
@@ -199,7 +199,7 @@ impl Asking {
     }
 }
 
-/// Whether there is nothing to read yet.
+/// Returns true if there is nothing to read yet.
 fn is_later(error: &io::Error) -> bool {
     [ErrorKind::WouldBlock, ErrorKind::Interrupted].contains(&error.kind())
 }

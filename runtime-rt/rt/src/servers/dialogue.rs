@@ -1,4 +1,4 @@
-//! What one connection has said, and what it is answered.
+//! Dialogue over one connection: received requests and their answers.
 
 use crate::comm::service::{Connection, Heard, LONGEST_REPLY, Service};
 use crate::comm::{Frame, Map};
@@ -8,12 +8,12 @@ use std::vec::Vec;
 #[derive(Debug)]
 pub struct Dialogue(Connection);
 
-/// What a connection does next.
+/// Reaction of a connection to received bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reaction {
-    /// What it sends.
+    /// Bytes to send.
     pub reply: Vec<u8>,
-    /// Whether it closes: what came is not a request.
+    /// True if the connection closes, because the input was not a request.
     pub closes: bool,
     /// The requests that were carried out or rejected.
     pub exchanges: Vec<Exchange>,
@@ -22,11 +22,11 @@ pub struct Reaction {
 /// A request and its answer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exchange {
-    /// What was asked.
+    /// The request.
     pub request: Vec<u8>,
     /// The answer; empty if there is none.
     pub reply: Vec<u8>,
-    /// Whether the request was rejected.
+    /// True if the request was rejected.
     pub rejected: bool,
 }
 

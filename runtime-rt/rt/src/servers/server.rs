@@ -31,9 +31,9 @@ struct Connection {
     peer: SocketAddr,
     dialogue: Dialogue,
     to_send: Vec<u8>,
-    /// What is to be sent ends the connection.
+    /// True if the connection closes after the pending output.
     closes: bool,
-    /// When something came last.
+    /// Time of the last input.
     heard: Instant,
 }
 
@@ -52,7 +52,7 @@ impl Server {
         })
     }
 
-    /// Where it listens; port 0 has become a free one.
+    /// Address it listens on, with the port chosen for port 0.
     ///
     /// # Errors
     /// What the system says.
@@ -60,12 +60,12 @@ impl Server {
         self.listener.local_addr()
     }
 
-    /// Whether a client is connected.
+    /// Returns true if a client is connected.
     pub fn is_connected(&self) -> bool {
         !self.connections.is_empty()
     }
 
-    /// What it speaks.
+    /// Protocol that it speaks.
     pub fn service(&self) -> Service {
         self.service
     }

@@ -122,7 +122,7 @@ fn server() -> (Server, SocketAddr) {
     (server, address)
 }
 
-/// What a client does while the server is asked over and over.
+/// Runs a client while the server is polled continuously.
 fn while_served<R: Send>(
     server: &mut Server,
     plc: &mut Registers,

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::string::String;
 use std::vec::Vec;
 
-/// How often each function is run.
+/// Runs of each function.
 const TRIES: usize = 200;
 
 type Devices = BTreeSet<(u8, u32)>;
@@ -143,7 +143,7 @@ impl Random {
     }
 }
 
-/// Which devices a function uses in a call with random operands on random devices.
+/// Devices that a function uses in a call with random operands on random devices.
 fn used(function: RtFn, random: &mut Random) -> Watched {
     let mut plc = if random.below(3) == 0 {
         Double::wide()
@@ -196,7 +196,7 @@ fn used(function: RtFn, random: &mut Random) -> Watched {
     let mut hal = VirtualHal::new();
     let done = function.call(&mut Cx::new(&mut plc, &mut hal as &mut dyn Hal, &ops, site));
     if let Err(fault) = done {
-        // What an error shows is the same for all functions.
+        // The effects of an error are the same for all functions.
         let before = (plc.read.take(), plc.written.clone());
         report(&mut plc, fault, 0);
         (plc.read, plc.written) = (RefCell::new(before.0), before.1);

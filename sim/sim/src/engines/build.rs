@@ -37,7 +37,7 @@ impl EngineKind {
     }
 }
 
-/// Why an executable could not be built.
+/// Reason for which an executable could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// A file could not be written, or a tool not be started.
@@ -45,7 +45,7 @@ pub enum BuildError {
     Io {
         /// The file or the tool.
         what: String,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
     /// A tool rejected the emitted code, which is an error of the compiler.
@@ -123,7 +123,7 @@ fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> 
     Ok(target.join("debug").join("batch"))
 }
 
-/// What emitted C must compile with, without a warning.
+/// Flags with which emitted C must compile without a warning.
 const C_FLAGS: &str = "-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
 
 /// Writes the C files of a batch and lets `make` build it, with these flags in addition to the standard ones.

@@ -22,7 +22,7 @@ pub struct Board {
     machine: &'static str,
     /// Rust's name of the target.
     pub target: &'static str,
-    /// How much the C compiler optimises: results must not depend on it.
+    /// Optimisation level of the C compiler: results must not depend on it.
     optimisation: &'static str,
 }
 
@@ -49,8 +49,8 @@ impl Board {
     }
 }
 
-/// What every image is linked with, beside the batch: the start-up file of the example for a board, and what QEMU's
-/// machine has.
+/// Files that every image is linked with, beside the batch: the start-up file of the example for a board, and the parts
+/// for QEMU's machine.
 const SUPPORT: [(&str, &str); 3] = [
     (
         "startup.c",
@@ -63,7 +63,7 @@ const SUPPORT: [(&str, &str); 3] = [
     ("semihosting.c", include_str!("cortex_m/semihosting.c")),
 ];
 
-/// How an image is linked.
+/// Linker options of an image.
 const LINK: [&str; 6] = [
     "--specs=rdimon.specs",
     "-nostartfiles",
@@ -76,13 +76,13 @@ const LINK: [&str; 6] = [
 const GCC: &str = "arm-none-eabi-gcc";
 const QEMU: &str = "qemu-system-arm";
 
-/// How many seconds an answer may take: `.ci/run` gives simulated machines what other tests leave of this one.
+/// Time-out of an answer in seconds: `.ci/run` gives simulated machines the time that other tests leave.
 const PATIENCE: u32 = 300;
 
 /// The variable that names the parts of the standard library that cargo builds from their sources.
 pub const BUILD_STD: &str = "CARGO_UNSTABLE_BUILD_STD";
 
-/// What is missing on this computer to build for a board and to run there; empty if nothing is.
+/// Tools missing on this computer to build for a board and to run the result; empty if there are all.
 pub fn missing(board: &Board) -> Vec<String> {
     let is_there = |name: &str| Command::new(name).arg("--version").output().is_ok();
     let tools = ["make", GCC, QEMU].into_iter();
@@ -96,7 +96,7 @@ pub fn missing(board: &Board) -> Vec<String> {
     missing
 }
 
-/// What is missing where [`cargo`] is.
+/// Message for a missing Rust target, if there is a [`cargo`].
 pub fn no_rust(target: &str) -> String {
     format!("Rust for {target} (rustup target add {target})")
 }
@@ -132,7 +132,7 @@ pub fn cargo(target: &str) -> Option<Command> {
     Some(cargo)
 }
 
-/// Whether a cargo builds the standard library from its sources.
+/// Returns true if a cargo builds the standard library from its sources.
 pub fn builds_library(cargo: &Command) -> bool {
     let builds = |(name, value): (&OsStr, Option<&OsStr>)| name == BUILD_STD && value.is_some();
     cargo.get_envs().any(builds)

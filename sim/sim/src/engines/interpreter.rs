@@ -15,7 +15,7 @@ pub struct Interpreter<'m> {
     plcs: Vec<Station<'m>>,
     /// Those of the case before it.
     idle: Vec<Station<'m>>,
-    /// Which of them is asked.
+    /// Index of the selected machine.
     current: usize,
     /// Makes who looks on, for the program of a number.
     observers: Option<Observers<'m>>,
@@ -89,7 +89,7 @@ fn operand(class: Class, number: u32) -> Operand {
     Operand::device(class, i32::try_from(number).unwrap_or(i32::MAX))
 }
 
-/// What happens between two scans.
+/// Applies an event between two scans.
 fn happen(machine: &mut Machine, hal: &mut VirtualHal, request: Request) {
     match request {
         Request::Edge(n, level) => machine.input_edge(hal, n, level),
@@ -98,7 +98,7 @@ fn happen(machine: &mut Machine, hal: &mut VirtualHal, request: Request) {
     }
 }
 
-/// What is asked about outputs and their pulses; `None` if it is something else.
+/// Answer to a request about outputs and their pulses; `None` for other requests.
 fn sent(machine: &mut Machine, request: Request) -> Option<i64> {
     Some(match request {
         Request::Output(n) => machine.output(n).into(),

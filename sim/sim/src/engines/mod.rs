@@ -29,7 +29,7 @@ pub trait Engine {
     }
 }
 
-/// What went wrong with an engine.
+/// Error of an engine.
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     /// The batch has no such program.
@@ -40,7 +40,7 @@ pub enum EngineError {
     Start {
         /// Its path.
         command: String,
-        /// What the system says.
+        /// Error of the system.
         error: std::io::Error,
     },
     /// The executable ended before it answered.

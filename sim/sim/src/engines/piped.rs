@@ -56,7 +56,7 @@ impl Piped {
 
 impl Drop for Piped {
     fn drop(&mut self) {
-        // One that has failed is gone already.
+        // A child that has failed is gone already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -8,15 +8,15 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How many seconds an answer may take, where nothing else is said. All scans of a case are answered within this time,
-/// which a loop in the program would exceed.
+/// Default time-out of an answer, in seconds. All scans of a case are answered within this time, which a loop in the
+/// program would exceed.
 const PATIENCE: u32 = 20;
 
 /// A batch executable. It is started at the first request and again after it was killed or has crashed.
 pub struct Process {
     name: String,
     command: Command,
-    /// How many seconds an answer may take.
+    /// Time-out of an answer, in seconds.
     patience: u32,
     running: Option<Running>,
 }

@@ -8,7 +8,7 @@ use std::fmt;
 /// Pulses that an axis follows at once where no switch is near.
 const MOST_PULSES: f64 = i32::MAX as f64;
 
-/// What drives an axis.
+/// Drive of an axis.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Drive {
     /// The pulses of an output.
@@ -24,16 +24,16 @@ pub(super) enum Drive {
     Outputs {
         /// Output that drives it forward.
         forward: u32,
-        /// What drives it back.
+        /// Drive in the backward direction.
         back: Back,
-        /// What it goes forward in a millisecond.
+        /// Forward distance per millisecond.
         out_speed: f64,
-        /// What it goes back in a millisecond.
+        /// Backward distance per millisecond.
         back_speed: f64,
     },
 }
 
-/// What drives an axis back.
+/// Drive of an axis in the backward direction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Back {
     /// Nothing: it runs forward only.
@@ -49,18 +49,18 @@ pub(super) enum Back {
 pub struct Axis {
     pub(super) name: String,
     pub(super) unit: String,
-    /// How much of a length makes a unit.
+    /// Length of a unit.
     pub(super) per_unit: f64,
     pub(super) drive: Drive,
     pub(super) position: f64,
-    /// How far it has moved in the last millisecond.
+    /// Distance moved in the last millisecond.
     pub(super) moved: f64,
     /// The ends of its way.
     pub(super) travel: Option<[f64; 2]>,
     pub(super) switches: Vec<Switch>,
-    /// What measures its position, in its unit.
+    /// Sensors of its position, in its unit.
     pub(super) sensors: Vec<Sensor>,
-    /// Whether it has run into an end of its way.
+    /// Collision with an end of its travel, if any.
     pub(super) collision: Option<Collision>,
 }
 
@@ -69,9 +69,9 @@ pub struct Axis {
 pub struct Collision {
     /// Name of the axis.
     pub axis: String,
-    /// When, in milliseconds since the machine began.
+    /// Time in milliseconds since the machine began.
     pub at_ms: u64,
-    /// Where, in the unit of the axis.
+    /// Position in the unit of the axis.
     pub position: f64,
     /// That unit.
     pub unit: String,
@@ -103,7 +103,7 @@ impl Axis {
         &self.unit
     }
 
-    /// Where it is, in its unit.
+    /// Position in its unit.
     pub fn position(&self) -> f64 {
         self.position / self.per_unit
     }
@@ -124,7 +124,8 @@ impl Axis {
         speed / self.per_unit
     }
 
-    /// Whether it is where it is expected, within half a pulse or, of a motor, half of what it goes in a millisecond.
+    /// Returns true if it is at the expected position, within half a pulse or, for a motor, half of its distance in a
+    /// millisecond.
     pub fn is_at(&self, expected: f64) -> bool {
         let tolerance = match self.drive {
             Drive::Pulses { .. } => 0.5,
@@ -141,7 +142,7 @@ impl Axis {
         }
     }
 
-    /// Whether pulses drive it.
+    /// Returns true if pulses drive it.
     pub(super) fn follows_pulses(&self) -> bool {
         self.pulse_output().is_some()
     }
@@ -151,7 +152,7 @@ impl Axis {
         self.switches.iter().map(state)
     }
 
-    /// What its drive needs to see of the PLC.
+    /// Adds the outputs of the PLC that its drive depends on.
     pub(super) fn looks_at(&self, wanted: &mut Vec<Look>) {
         match self.drive {
             Drive::Pulses {
@@ -175,7 +176,7 @@ impl Axis {
         }
     }
 
-    /// How many pulses it may follow before one of its switches changes, at least one.
+    /// Number of pulses that it may follow before one of its switches changes, at least one.
     pub(super) fn room(&self) -> u32 {
         let rooms = self.switches.iter().map(|s| s.room(self.position));
         rooms.fold(f64::INFINITY, f64::min).clamp(1.0, MOST_PULSES) as u32
@@ -214,7 +215,7 @@ impl Axis {
 }
 
 impl Drive {
-    /// What the axis is driven in a millisecond.
+    /// Distance of the axis in a millisecond.
     fn follow(&mut self, see: &dyn Fn(Look) -> i32) -> f64 {
         match self {
             Drive::Pulses {

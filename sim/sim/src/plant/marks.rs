@@ -1,4 +1,4 @@
-//! Where along its way an axis switches an input.
+//! Positions at which an axis switches an input.
 
 use super::Moment;
 
@@ -37,7 +37,7 @@ impl Marks {
         }
     }
 
-    /// Whether the input is on there.
+    /// Returns true if the input is on there.
     fn is_on(self, index: i64) -> bool {
         match self {
             Marks::Range { .. } => index == 1,
@@ -45,7 +45,7 @@ impl Marks {
         }
     }
 
-    /// Where a section begins.
+    /// Start of a section.
     fn begin(self, index: i64) -> f64 {
         match self {
             Marks::Range { from, to } => {
@@ -75,12 +75,12 @@ pub(super) struct Switch {
 }
 
 impl Switch {
-    /// Whether it is on at this position.
+    /// Returns true if it is on at this position.
     pub(super) fn is_on(&self, at: f64) -> bool {
         self.marks.is_on(self.marks.index(at))
     }
 
-    /// How far an axis can go from this position, either way, before it changes, or less.
+    /// Distance that an axis can go from this position, either way, before it changes, or less.
     pub(super) fn room(&self, at: f64) -> f64 {
         let index = self.marks.index(at);
         let (first, last) = self.marks.sections();
@@ -90,7 +90,7 @@ impl Switch {
         borders.fold(f64::INFINITY, f64::min)
     }
 
-    /// What it does on the way from one position to another, of which the axis goes `speed` in the millisecond.
+    /// Adds its changes on the way from one position to another; the axis goes `speed` in the millisecond.
     pub(super) fn pass(&self, from: f64, to: f64, speed: f64, moments: &mut Vec<Moment>) {
         let (begin, end) = (self.marks.index(from), self.marks.index(to));
         let mut enter = |index: i64, border: f64| {

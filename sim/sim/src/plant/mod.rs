@@ -24,12 +24,12 @@ use crate::wire::Change;
 use delay::Delay;
 use std::ops::Range;
 
-/// What the machine asks of an output.
+/// Query of the machine about an output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
-    /// Whether output terminal Y is on: 0 or 1.
+    /// State of output terminal Y: 0 or 1.
     Output(u32),
-    /// How many pulses output Y has sent since power-on, those in reverse counting down; wraps.
+    /// Number of pulses output Y has sent since power-on, those in reverse counting down; wraps.
     Pulses(u32),
     /// The signal at a channel of a module, in millionths.
     Channel(Channel),
@@ -37,10 +37,10 @@ pub enum Look {
 
 /// The terminals of a PLC, as the machine is wired to them.
 pub trait Terminals {
-    /// What may go wrong.
+    /// Error type.
     type Error;
 
-    /// What the outputs do now.
+    /// Present values of the outputs.
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Self::Error>;
 
     /// Lets the PLC send pulses from one time until another, in microseconds of its clock, which wraps, but only until
@@ -59,7 +59,7 @@ pub trait Terminals {
     fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), Self::Error>;
 }
 
-/// What was seen of one of the things that were looked at.
+/// Value of one of the queries.
 fn found(wanted: &[Look], seen: &[i32], look: Look) -> i32 {
     let mut both = wanted.iter().zip(seen);
     let found = both.find(|(wanted, _)| **wanted == look);
@@ -115,7 +115,7 @@ impl Plant {
         self.measure(terminals)
     }
 
-    /// What everything does in a millisecond but axes that pulses drive: the changes of inputs, in any order.
+    /// Moves everything by a millisecond except axes that pulses drive; returns the changes of inputs, in any order.
     fn drive<T: Terminals>(
         &mut self,
         now_ms: u64,
@@ -238,7 +238,7 @@ impl Plant {
         self.axes.iter().chain(&self.cylinders)
     }
 
-    /// What an input sees of a contact that is closed or not as it is usual.
+    /// State of an input for a contact that is normally open or closed.
     fn contact(&self, input: u32, on: bool) -> bool {
         on != self.normally_closed.contains(&input)
     }

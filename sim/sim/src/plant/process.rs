@@ -4,7 +4,7 @@ use super::Look;
 use crate::target::Channel;
 use std::collections::VecDeque;
 
-/// What drives a process.
+/// Drive of a process.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Drive {
     /// An output: fully or not at all.
@@ -25,7 +25,7 @@ impl Drive {
         }
     }
 
-    /// How much it drives, 0 to 1.
+    /// Degree of the drive, 0 to 1.
     fn part(&self, seen: i32) -> f64 {
         match *self {
             Drive::Output(_) => f64::from(seen.clamp(0, 1)),
@@ -37,7 +37,7 @@ impl Drive {
     }
 }
 
-/// What turns a value of the machine into an analog signal.
+/// Conversion of a value of the machine into an analog signal.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Sensor {
     pub(super) channel: Channel,
@@ -72,9 +72,9 @@ pub struct Process {
     pub(super) rest: f64,
     pub(super) full: f64,
     pub(super) drive: Drive,
-    /// Which part of the way it goes in a millisecond.
+    /// Part of the way that it goes in a millisecond.
     pub(super) share: f64,
-    /// How it was driven in each millisecond of the dead time, the oldest first.
+    /// Drive in each millisecond of the dead time, the oldest first.
     pub(super) waiting: VecDeque<f64>,
     pub(super) value: f64,
     pub(super) sensors: Vec<Sensor>,
@@ -96,7 +96,7 @@ impl Process {
         self.value
     }
 
-    /// Whether it is where it is expected, within a hundredth of its range.
+    /// Returns true if it is at the expected value, within a hundredth of its range.
     pub fn is_at(&self, expected: f64) -> bool {
         (self.value - expected).abs() <= (self.full - self.rest).abs() / 100.0
     }

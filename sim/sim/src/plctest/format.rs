@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What names stand for in one of several cases.
+/// Values of names in one of several cases.
 type Row = BTreeMap<String, Scalar>;
 
 /// A row by its names, and what it calls itself.
@@ -54,7 +54,7 @@ pub(super) struct Reader<'t> {
     /// The scenarios of the file, and how many of them the step being read may name.
     pub(super) scenarios: Vec<RawScenario>,
     pub(super) scenarios_known: usize,
-    /// What names stand for in the case being read, if it is one of several.
+    /// Values of names in the case being read, if it is one of several.
     row: Option<Row>,
 }
 

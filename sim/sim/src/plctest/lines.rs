@@ -17,11 +17,11 @@ pub(super) struct Lines {
     wires: Vec<Vec<SerialPort>>,
     /// The ports that are off their lines.
     cut: Vec<SerialPort>,
-    /// What is on its way to ports, in the order of its times.
+    /// Data in transit to ports, in the order of its times.
     pending: Vec<(SerialPort, Received)>,
-    /// What ports have sent in this step.
+    /// Data sent by ports in this step.
     sent: BTreeMap<SerialPort, Sent>,
-    /// What CAN cards have sent of a frame that is not whole yet.
+    /// Incomplete frames sent by CAN cards.
     part: BTreeMap<SerialPort, Vec<u8>>,
 }
 

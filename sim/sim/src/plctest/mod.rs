@@ -67,9 +67,9 @@ pub struct Case {
     pub model: ModelId,
     /// The PLC of that model that it is for, if it names one.
     pub variant: Option<&'static Variant>,
-    /// Where the behaviour is stated: a manual's file and lines.
+    /// Source of the behaviour: a manual's file and lines.
     pub source: String,
-    /// How the behaviour follows from that.
+    /// Relation of the behaviour to the source.
     pub basis: Option<Basis>,
     /// A remark.
     pub note: String,
@@ -85,11 +85,11 @@ pub struct Case {
     pub wires: Vec<Vec<Port>>,
     /// Servers over TCP: port number, and what they speak.
     pub serve: Vec<(u16, Protocol)>,
-    /// What must hold after each scan.
+    /// Rules that must hold after each scan.
     pub rules: Rules,
-    /// What is compared with a run that was accepted.
+    /// Trace to be compared with an accepted run.
     pub trace: Option<Trace>,
-    /// What is checked.
+    /// Kind of check.
     pub check: Check,
 }
 
@@ -108,7 +108,7 @@ pub struct OtherPlc {
     pub init: Vec<Setting>,
 }
 
-/// What a case is based on.
+/// Basis of a case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Basis {
@@ -120,10 +120,10 @@ pub enum Basis {
     Fx,
 }
 
-/// What a case checks.
+/// Check of a case.
 #[derive(Clone, Debug)]
 pub enum Check {
-    /// What the program does.
+    /// The behaviour of the program.
     Steps {
         /// Set once before the first scan.
         init: Vec<Setting>,
@@ -152,9 +152,9 @@ pub struct Step {
     pub power_cycle: bool,
     /// The RUN/STOP switches of these PLCs.
     pub running: Vec<(usize, bool)>,
-    /// What comes to ports.
+    /// Input of ports.
     pub rx: Vec<(Port, Vec<Item>)>,
-    /// What ports send during the step: any of these.
+    /// Output expected from ports during the step: any of these.
     pub expect_tx: Vec<(Port, Vec<Sent>)>,
     /// The ports that are off their lines from now on, if that changes.
     pub cut: Option<Vec<Port>>,
@@ -170,27 +170,28 @@ pub struct Step {
     pub analog: Vec<(u8, i16)>,
     /// Sets devices.
     pub set: Vec<Setting>,
-    /// What comes in at input terminals.
+    /// Signals at input terminals.
     pub signals: Vec<Signal>,
-    /// How many scans run.
+    /// Number of scans.
     pub run: Run,
-    /// What the step waits for: it ends after the scan after which all of it holds, and fails if that does not come.
+    /// Conditions to wait for: the step ends after the scan after which all hold, and fails if they do not come to
+    /// hold.
     pub until: Vec<Setting>,
     /// Virtual milliseconds that a scan takes.
     pub scan_ms: u32,
-    /// What devices must hold then.
+    /// Expected devices after the step.
     pub expect: Vec<Setting>,
-    /// What must come to hold while the step runs.
+    /// Conditions that must come to hold during the step.
     pub within: Vec<Within>,
-    /// What must hold after each scan of the step.
+    /// Rules that must hold after each scan of the step.
     pub rules: Rules,
-    /// What buffer memory must hold then.
+    /// Expected buffer memory after the step.
     pub expect_bfm: Vec<(u16, u16, i16)>,
-    /// Where axes of the machine must be then, in their units.
+    /// Expected positions of the machine's axes after the step, in their units.
     pub expect_position: Vec<(String, f64)>,
 }
 
-/// How long a step runs.
+/// Length of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Run {
     /// This many scans.
@@ -204,11 +205,11 @@ pub enum Run {
 pub struct Setting {
     /// The PLC: 0 for that of the case, the others in their order.
     pub plc: usize,
-    /// What it names.
+    /// Named target.
     pub target: Target,
     /// Its value.
     pub value: Value,
-    /// How far from it is near enough, if the file says so.
+    /// Tolerance, if the file states one.
     pub tolerance: Option<f64>,
 }
 

@@ -22,9 +22,9 @@ pub enum CaseProgram {
 /// A program in a separate file.
 #[derive(Clone, Debug)]
 pub struct ProgramFile {
-    /// What was read. Mistakes in it are a matter of the case.
+    /// Result of reading. Mistakes in it are a matter of the case.
     pub read: Read,
-    /// What operands with an index can reach, as its settings say.
+    /// Ranges of operands with an index, from its settings.
     pub bounds: Vec<Bound>,
     /// Codes of errors that are warnings in it.
     pub warn: Vec<&'static str>,
@@ -96,7 +96,7 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
     })
 }
 
-/// What is wrong with settings, one mistake a line.
+/// Errors in settings, one per line.
 pub(super) fn mistakes(error: &Error) -> String {
     let Error::Mistakes {
         path,
@@ -133,7 +133,7 @@ impl<'de> Deserialize<'de> for RawProgram {
     }
 }
 
-/// Whether a text is the path of a file rather than a list: one line that ends as names of files do.
+/// Returns true if a text is the path of a file rather than a list: one line that ends like a file name.
 fn is_path(text: &str) -> bool {
     let Some(ending) = Path::new(text).extension().and_then(|e| e.to_str()) else {
         return false;

@@ -71,7 +71,7 @@ pub(super) struct RawCase {
 /// Devices and their values, with their place.
 pub(super) type RawSettings = Spanned<Map<Spanned<Scalar>>>;
 
-/// What the names with a `$` are in one of several cases.
+/// Values of the names with a `$` in one of several cases.
 pub(super) type RawRow = Spanned<Map<Spanned<Scalar>>>;
 
 /// Steps that cases run by a name.
@@ -91,7 +91,7 @@ pub(super) struct RawWhenever {
     pub(super) within_ms: Option<Spanned<RawCount>>,
 }
 
-/// What holds early in a step.
+/// Condition within a time of a step.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawWithin {
@@ -189,6 +189,6 @@ pub(super) enum Scalar {
 pub(super) struct Near {
     /// The number in the middle.
     pub(super) value: f64,
-    /// How far from it is near enough, in the same unit.
+    /// Tolerance, in the same unit.
     pub(super) tolerance: f64,
 }

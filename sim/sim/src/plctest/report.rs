@@ -1,11 +1,11 @@
-//! What became of the cases.
+//! Results of the cases.
 
 use super::{Id, RuleKind, Suite, Value};
 use crate::target::Target;
 use std::fmt;
 use std::time::Duration;
 
-/// Why a case failed.
+/// Reason for which a case failed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Failure {
     /// Its program does not compile: line and message of each error.
@@ -28,20 +28,20 @@ pub enum Failure {
         /// Name, expected and actual value of each.
         values: Vec<(String, Value, Value)>,
     },
-    /// What must hold over time did not.
+    /// Violation of a rule over time.
     Rule {
         /// Step of the case, from 1.
         step: usize,
         /// The rule's line in the file.
         line: u32,
-        /// Which rule.
+        /// The rule.
         kind: RuleKind,
-        /// What happened.
+        /// Description of the violation.
         message: String,
     },
     /// The run is not the one that was accepted.
     Trace {
-        /// How it differs.
+        /// Description of the difference.
         message: String,
         /// The run.
         actual: String,
@@ -50,20 +50,20 @@ pub enum Failure {
     Machine {
         /// Step of the case, from 1; 0 before the first.
         step: usize,
-        /// What is wrong.
+        /// Description of the error.
         message: String,
     },
     /// The engine failed.
     Engine {
         /// Step of the case, from 1; 0 for `init`.
         step: usize,
-        /// What it says.
+        /// Error message.
         message: String,
     },
 }
 
 impl Failure {
-    /// Whether the program ran and did otherwise than the case expects.
+    /// Returns true if the program ran and its behaviour differs from the expectation.
     pub fn is_of_program(&self) -> bool {
         match self {
             Failure::Differs { .. }
@@ -115,15 +115,15 @@ impl fmt::Display for Failure {
 /// The result of one case on one engine.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outcome {
-    /// Which case.
+    /// The case.
     pub id: Id,
     /// Name of the engine.
     pub engine: String,
-    /// Why it failed, if it did.
+    /// Reason for its failure, if it failed.
     pub failure: Option<Failure>,
-    /// Whether it did not run, because it is known to pass.
+    /// True if it did not run because it is known to pass.
     pub cached: bool,
-    /// How long it took.
+    /// Duration.
     pub elapsed: Duration,
 }
 
@@ -135,17 +135,17 @@ pub struct Report {
 }
 
 impl Report {
-    /// Those that failed.
+    /// Failed cases.
     pub fn failures(&self) -> impl Iterator<Item = &Outcome> {
         self.outcomes.iter().filter(|o| o.failure.is_some())
     }
 
-    /// How many passed.
+    /// Number of cases passed.
     pub fn passed(&self) -> usize {
         self.outcomes.iter().filter(|o| o.failure.is_none()).count()
     }
 
-    /// Whether all passed.
+    /// Returns true if all passed.
     pub fn is_success(&self) -> bool {
         self.failures().next().is_none()
     }

@@ -1,4 +1,4 @@
-//! What must hold over time: `never`, `whenever`, `within` and `until`.
+//! Rules over time: `never`, `whenever`, `within` and `until`.
 
 use super::format::Reader;
 use super::raw::{RawSettings, RawWhenever, RawWithin};
@@ -7,12 +7,12 @@ use super::{Failure, Setting, Step};
 use rungc_tables::Spanned;
 use std::fmt;
 
-/// What must hold after each scan.
+/// Rules that must hold after each scan.
 #[derive(Clone, Debug, Default)]
 pub struct Rules {
-    /// What must never hold.
+    /// Conditions that must never hold.
     pub never: Vec<Never>,
-    /// What must follow what.
+    /// Conditions that must be followed by others.
     pub whenever: Vec<Whenever>,
 }
 
@@ -21,20 +21,20 @@ pub struct Rules {
 pub struct Never {
     /// Its line in the file, from 1.
     pub line: u32,
-    /// What must not hold.
+    /// Condition that must not hold.
     pub all: Vec<Setting>,
 }
 
-/// When one thing begins to hold, another holds after the same scan, or after one at most this much later.
+/// A condition that must be followed by another, after the same scan or after one at most this much later.
 #[derive(Clone, Debug)]
 pub struct Whenever {
     /// Its line in the file, from 1.
     pub line: u32,
-    /// What begins.
+    /// Triggering condition.
     pub when: Vec<Setting>,
-    /// What must follow.
+    /// Condition that must follow.
     pub then: Vec<Setting>,
-    /// How soon, in milliseconds; 0 for the same scan.
+    /// Time limit in milliseconds; 0 for the same scan.
     pub within_ms: u32,
 }
 
@@ -43,9 +43,9 @@ pub struct Whenever {
 pub struct Within {
     /// Its line in the file, from 1.
     pub line: u32,
-    /// How many milliseconds.
+    /// Number of milliseconds.
     pub ms: u32,
-    /// What must come to hold.
+    /// Condition that must come to hold.
     pub all: Vec<Setting>,
 }
 
@@ -100,7 +100,7 @@ impl Step {
         at_end.chain(within).chain(self.rules.settings())
     }
 
-    /// Whether anything is looked at after each scan.
+    /// Returns true if a rule is checked after each scan.
     fn watches(&self) -> bool {
         !self.within.is_empty() || !self.rules.never.is_empty() || !self.rules.whenever.is_empty()
     }
@@ -108,7 +108,7 @@ impl Step {
 
 /// Reading.
 impl Reader<'_> {
-    /// What must hold after each scan.
+    /// Rules that must hold after each scan.
     pub(super) fn rules(
         &mut self,
         never: Vec<RawSettings>,
@@ -140,7 +140,7 @@ impl Reader<'_> {
         Rules { never, whenever }
     }
 
-    /// What must come to hold while a step runs.
+    /// Condition that must come to hold while a step runs.
     pub(super) fn within(&mut self, raw: Spanned<RawWithin>) -> Option<Within> {
         let at = raw.span().start;
         let raw = raw.into_inner();
@@ -162,24 +162,24 @@ impl Reader<'_> {
     }
 }
 
-/// What is known of the rules while a case runs.
+/// State of the rules while a case runs.
 #[derive(Default)]
 pub(super) struct Watch<'c> {
     /// The rules of the case and, at the end, those of the step.
     never: Vec<&'c Never>,
     whenever: Vec<(&'c Whenever, Followed)>,
-    /// How many of them are the case's.
+    /// Number of the case's rules among them.
     of_case: (usize, usize),
-    /// What has not come to hold in the step that runs.
+    /// Conditions that have not come to hold in the running step.
     within: Vec<&'c Within>,
 }
 
-/// How far a [`Whenever`] is.
+/// Progress of a [`Whenever`].
 #[derive(Clone, Copy, Default)]
 struct Followed {
-    /// Whether the first thing held after the last scan.
+    /// True if the trigger held after the last scan.
     held: bool,
-    /// When it began, if the other has not followed.
+    /// Time at which the trigger began to hold, if the other condition has not followed.
     since_ms: Option<u32>,
 }
 
@@ -236,7 +236,7 @@ impl fmt::Display for All<'_, '_> {
 }
 
 impl Running<'_> {
-    /// Whether all of it holds now.
+    /// Returns true if all of it holds now.
     pub(super) fn holds(&mut self, all: &[Setting]) -> Result<bool, Failure> {
         for setting in all {
             if self.differs(setting)?.is_some() {
@@ -255,7 +255,7 @@ impl Running<'_> {
         }
     }
 
-    /// What differs from what is expected, as a sentence.
+    /// Differences from the expectation, as a sentence.
     fn differences(&mut self, all: &[Setting]) -> Result<String, Failure> {
         let mut texts = Vec::new();
         for setting in all {

@@ -91,7 +91,7 @@ pub fn run_steps(
     run_case(engine, case, (plcs.collect(), servers), init, steps)
 }
 
-/// Whether the compiler raised the error that a case asks for.
+/// Checks that the compiler raised the error that a case expects.
 fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
     let wanted = match (rejects.code, rejects.line) {
         (0, None) => "an error".to_string(),
@@ -121,15 +121,15 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
     Err(Failure::Accepted(message))
 }
 
-/// What the runner knows of a PLC.
+/// Properties of a PLC for the runner.
 pub(super) struct PlcInfo {
     /// Its program in the batch.
     module: usize,
-    /// Whether the program takes notice of what happens outside its scan.
+    /// True if the program reacts to events outside its scan.
     takes_events: bool,
-    /// Whether it sends pulses.
+    /// True if it sends pulses.
     sends_pulses: bool,
-    /// Whether the program may ask for scans of constant length.
+    /// True if the program may ask for scans of constant length.
     asks_constant_scan: bool,
     /// Its serial ports.
     pub(super) ports: Vec<u8>,
@@ -147,7 +147,7 @@ impl PlcInfo {
     }
 }
 
-/// Whether the module stores what asks for scans of constant length.
+/// Returns true if the module stores the devices that request scans of constant length.
 fn asks_constant_scan(module: &Module) -> bool {
     let Some(asks) = module.model.constant_scan() else {
         return false;
@@ -173,9 +173,9 @@ pub(super) struct Running<'e> {
     current: usize,
     /// The names of the others.
     names: Vec<String>,
-    /// Whether a scan has run since power-on.
+    /// True if a scan has run since power-on.
     scanned: bool,
-    /// How many milliseconds scans are to last at least, as the last one asked.
+    /// Minimum scan time in milliseconds, as the last scan requested.
     constant_ms: u32,
     /// The machine around the PLC.
     pub(super) plant: Option<Plant>,
@@ -263,7 +263,7 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// What is asked from now on is for this PLC.
+    /// Selects the PLC for the following requests.
     pub(super) fn select(&mut self, plc: usize) -> Result<(), Failure> {
         if self.current != plc {
             self.ask(Request::Plc(plc))?;
@@ -283,7 +283,7 @@ impl Running<'_> {
         self.ask(Request::Run(running)).map(drop)
     }
 
-    /// Where that switch is.
+    /// Returns true if that switch is at RUN.
     pub(super) fn is_running(&self, plc: usize) -> bool {
         !self.stopped.contains(&plc)
     }
@@ -324,7 +324,7 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// What a step says before its first scan.
+    /// Applies the settings of a step before its first scan.
     fn begin_step(&mut self, step: &Step) -> Result<(), Failure> {
         if step.power_cycle {
             self.power_cycle()?;
@@ -479,13 +479,13 @@ impl Running<'_> {
         })
     }
 
-    /// What a device holds, in the shape of the value expected of it.
+    /// Value of a device, in the shape of its expected value.
     pub(super) fn current(&mut self, setting: &Setting) -> Result<Value, Failure> {
         self.select(setting.plc)?;
         self.get(setting.target, &setting.value)
     }
 
-    /// What a device holds, if that is not what is expected of it.
+    /// Value of a device, if it differs from the expectation.
     pub(super) fn differs(&mut self, setting: &Setting) -> Result<Option<Value>, Failure> {
         let actual = self.current(setting)?;
         Ok((!agrees(setting, &actual)).then_some(actual))
@@ -522,14 +522,14 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// Whether the PLC that is asked takes notice of what happens outside its scan.
+    /// Returns true if the selected PLC reacts to events outside its scan.
     fn takes_events(&self) -> bool {
         self.plcs
             .get(self.current)
             .is_some_and(|plc| plc.takes_events)
     }
 
-    /// Whether the PLC that is asked sends pulses.
+    /// Returns true if the selected PLC sends pulses.
     pub(super) fn sends_pulses(&self) -> bool {
         self.plcs
             .get(self.current)
@@ -540,7 +540,7 @@ impl Running<'_> {
     pub(super) fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
         let before = self.inputs.insert((self.current, number), on);
         let before = before.unwrap_or(false);
-        // What is on at power-on has not gone on.
+        // Inputs that are on at power-on have no edge.
         if self.takes_events() && self.scanned && on != before {
             self.ask(Request::Edge(number, on))?;
         }
@@ -570,7 +570,7 @@ impl Running<'_> {
         }
     }
 
-    /// What the target holds, in the shape of the value expected of it.
+    /// Value of the target, in the shape of its expected value.
     fn get(&mut self, target: Target, expected: &Value) -> Result<Value, Failure> {
         let class = |class| rt_class(class).unwrap_or(Class::D);
         let int = |value: i64| Value::Int(value as i32);
@@ -628,7 +628,7 @@ impl Running<'_> {
     }
 }
 
-/// What sets a target.
+/// Requests that set a target.
 fn requests(setting: &Setting) -> Vec<Request> {
     let (class, number, _) = setting.target.devices(0);
     let class = rt_class(class).unwrap_or(Class::D);

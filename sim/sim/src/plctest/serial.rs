@@ -1,11 +1,11 @@
-//! What test files say about communication.
+//! Communication in test files.
 
 use rungc_rt::comm::{CAN_PORT, CanFrame, CharFault, Frame};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// What a port is expected to send: one text, or any of several.
+/// Expected output of a port: one text, or any of several.
 #[derive(Clone, Deserialize)]
 #[serde(
     untagged,
@@ -45,7 +45,7 @@ pub(super) enum Switch {
     Stop,
 }
 
-/// What a server over TCP speaks.
+/// Protocol of a server over TCP.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Protocol {
@@ -57,7 +57,7 @@ pub enum Protocol {
     Fx,
 }
 
-/// Which way a text goes.
+/// Direction of a text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Way {
     /// `rx`.
@@ -71,11 +71,11 @@ pub(super) enum Way {
 pub struct Port {
     /// Its PLC: 0 for that of the case, the others in their order.
     pub plc: usize,
-    /// Which port.
+    /// The port.
     pub id: PortId,
 }
 
-/// Which port of a PLC.
+/// Identifier of a PLC's port.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PortId {
     /// `COM1`.
@@ -101,7 +101,7 @@ impl fmt::Display for PortId {
 const FIRST: &str = "a";
 
 impl PortId {
-    /// What the name of a port means: `COM1`, `CAN`, `TCP:502`, `TCP:502/b`.
+    /// Port for a name: `COM1`, `CAN`, `TCP:502`, `TCP:502/b`.
     pub(super) fn parse(port: &str) -> Result<PortId, &'static str> {
         let id = match port.split_once(':') {
             None if port == "CAN" => Some(PortId::Can),
@@ -129,7 +129,7 @@ impl PortId {
         }
     }
 
-    /// What comes to it by this text.
+    /// Input of the port described by this text.
     pub(super) fn items(&self, text: &str) -> Vec<Item> {
         match self {
             PortId::Can => {
@@ -141,7 +141,7 @@ impl PortId {
         }
     }
 
-    /// What it sends by this text.
+    /// Output of the port described by this text.
     pub(super) fn sent(&self, text: &str) -> Sent {
         match self {
             PortId::Can => Sent {
@@ -156,7 +156,7 @@ impl PortId {
         }
     }
 
-    /// What it has sent, as a test file says it.
+    /// Output of the port in the notation of test files.
     pub(super) fn shown(&self, sent: &Sent) -> String {
         match self {
             PortId::Can => frames(&sent.bytes),
@@ -165,7 +165,7 @@ impl PortId {
     }
 }
 
-/// What comes to a port.
+/// Item of a port's input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Item {
     /// A byte.
@@ -176,7 +176,7 @@ pub enum Item {
     Close,
 }
 
-/// What a port has sent in a step.
+/// Output of a port in a step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sent {
     /// Its bytes.
@@ -244,7 +244,7 @@ fn items(text: &str) -> Vec<Item> {
     text.split_whitespace().filter_map(item).collect()
 }
 
-/// What a text says that a port sends.
+/// Output of a port described by a text.
 fn sent(text: &str) -> Sent {
     let bytes = items(text).into_iter().filter_map(|item| match item {
         Item::Byte(byte, _) => Some(byte),
@@ -256,7 +256,7 @@ fn sent(text: &str) -> Sent {
     }
 }
 
-/// What is wrong with a byte that has this letter.
+/// Fault of a byte with this letter.
 fn fault_of(letter: &str) -> Option<CharFault> {
     match letter {
         "p" => Some(CharFault::Parity),
@@ -267,12 +267,12 @@ fn fault_of(letter: &str) -> Option<CharFault> {
     }
 }
 
-/// Whether this may name a PLC or a connection.
+/// Returns true if this is a valid name of a PLC or a connection.
 pub(super) fn is_name(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
-/// What is wrong with the bytes or frames on a port.
+/// Error in the bytes or frames of a port.
 pub(super) fn check_text(port: &str, way: Way, text: &str) -> Result<(), &'static str> {
     let mut words: Vec<&str> = text.split_whitespace().collect();
     if port == "CAN" {

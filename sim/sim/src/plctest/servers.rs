@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// The servers of a case, and the connections to them.
 #[derive(Default)]
 pub(super) struct Servers {
-    /// What is spoken at each TCP port.
+    /// Service of each TCP port.
     services: BTreeMap<u16, Service>,
     /// By port and name.
     connections: BTreeMap<(u16, String), Connection>,
@@ -27,9 +27,9 @@ pub(super) struct Servers {
 struct Connection {
     /// `None` after the client has closed it.
     dialogue: Option<Dialogue>,
-    /// What is on its way: when it is there, and what; nothing if the client closes the connection.
+    /// Data in transit: its time of arrival and content; empty if the client closes the connection.
     pending: Vec<(u32, Vec<u8>)>,
-    /// What came back in this step.
+    /// Answers in this step.
     sent: Sent,
 }
 
@@ -145,7 +145,7 @@ impl Running<'_> {
         }
     }
 
-    /// What connections were sent that was to be otherwise.
+    /// Outputs to connections that differ from the expectation.
     pub(super) fn end_servers(&self, step: &Step) -> Vec<(String, Value, Value)> {
         let nothing = Sent::default();
         let expected = step.expect_tx.iter();
@@ -160,7 +160,7 @@ impl Running<'_> {
         wrong.collect()
     }
 
-    /// What a port sent in place of what was expected.
+    /// Output of a port that differs from the expectation.
     pub(super) fn unlike(
         &self,
         port: &Port,
@@ -192,7 +192,7 @@ impl<T> PopIfFirst<T> for Vec<T> {
 /// The devices of an engine as a server sees them.
 struct Devices<'e> {
     engine: RefCell<&'e mut dyn Engine>,
-    /// What went wrong with the engine.
+    /// Error of the engine.
     failed: RefCell<Option<EngineError>>,
     running: Cell<bool>,
     wish: Option<bool>,

@@ -49,7 +49,7 @@ impl Reader<'_> {
         steps
     }
 
-    /// How long a step runs, and what ends it early.
+    /// Length of a step, and the condition that ends it early.
     fn length(&mut self, raw: &RawStep) -> (Run, Vec<Setting>) {
         let until = self.expected(raw.until.clone());
         let given = [&raw.scans, &raw.run_ms, &raw.at_most_ms];
@@ -168,7 +168,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Where the RUN/STOP switches of PLCs are put.
+    /// Positions of the PLCs' RUN/STOP switches.
     fn mode(&mut self, mode: &Spanned<RawMode>) -> Vec<(usize, bool)> {
         match mode.get_ref() {
             RawMode::All(switch) => {
@@ -191,7 +191,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What comes in at input terminals.
+    /// Signals at input terminals.
     fn signals(&mut self, pulses: Map<RawPulses>, encoder: Option<RawEncoder>) -> Vec<Signal> {
         let mut signals = Vec::new();
         for (name, RawPulses { count, hz }) in pulses {

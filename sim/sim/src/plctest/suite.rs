@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Which case of which file.
+/// Identifier of a case in a file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
 pub struct Id {
     /// Position of the file in the suite.
@@ -20,7 +20,7 @@ pub struct Id {
     pub case: usize,
 }
 
-/// What became of a case's program.
+/// Result of building a case's program.
 #[derive(Debug)]
 pub(super) enum Built {
     /// They are these modules: the program of the case, and those of the other PLCs in their order.
@@ -34,12 +34,12 @@ pub(super) enum Built {
 /// The PLC's code, the line in the program, and the message of each error.
 type Errors = Vec<(Option<u16>, u32, String)>;
 
-/// How programs are compiled.
+/// Options for compiling programs.
 #[derive(Clone, Copy)]
 struct How<'a> {
     /// Codes of errors that are warnings.
     warn: &'a [&'static str],
-    /// Whether they are marked.
+    /// True if they are marked.
     marks: bool,
 }
 
@@ -82,7 +82,7 @@ impl Suite {
         let mut built = Vec::with_capacity(files.len());
         for (number, file) in files.iter().enumerate() {
             let shared = Shared::of(file);
-            // Where cases share a program, by the first of them.
+            // First of the cases that share a program.
             let mut done: BTreeMap<usize, Result<usize, Errors>> = BTreeMap::new();
             let mut of_file = Vec::with_capacity(file.cases.len());
             for (i, case) in file.cases.iter().enumerate() {
@@ -118,7 +118,7 @@ impl Suite {
         }
     }
 
-    /// Where the parts of a program come from, which has the number that engines give it. They are known only of
+    /// Sources of the parts of a program, which has the number that engines give it. Only available after
     /// [`Suite::compile_marked`].
     pub fn marks(&self, module: usize) -> &Marks {
         &self.marks[module]
@@ -173,12 +173,12 @@ impl Suite {
         })
     }
 
-    /// How many cases there are.
+    /// Number of cases.
     pub fn len(&self) -> usize {
         self.files.iter().map(|f| f.cases.len()).sum()
     }
 
-    /// Whether there is no case at all.
+    /// Returns true if there is no case at all.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -204,8 +204,8 @@ fn build(case: &Case, how: How, modules: &mut Vec<Lowered>) -> Built {
     }
 }
 
-/// Which cases of a file run the same program on the same PLC, so that it is compiled once, with the devices that any
-/// of them looks at.
+/// Cases of a file that run the same program on the same PLC, so that it is compiled once, with the devices that any of
+/// them reads.
 struct Shared {
     /// The first case with the same program, for each case that shares it.
     firsts: Vec<Option<usize>>,
@@ -381,7 +381,7 @@ fn options_of(
     }
 }
 
-/// What a case asks of the program of a PLC. Partners on a line may ask for any device.
+/// Options that a case requires for the program of a PLC. Partners on a line may ask for any device.
 fn options(case: &Case, plc: usize, observe: Devices) -> CompileOptions {
     let ports = opened(case, plc);
     let other = plc.checked_sub(1).and_then(|i| case.others.get(i));

@@ -14,19 +14,19 @@ const FOLDER: &str = "traces";
 /// Lines of context around the first line in which two traces differ.
 const CONTEXT: usize = 3;
 
-/// What a case compares with a run that was accepted.
+/// Comparison of a case with an accepted run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Trace {
     /// The devices, with the PLC of each.
     pub devices: Vec<(usize, Target)>,
-    /// Where the accepted run is.
+    /// Path of the accepted run.
     pub path: PathBuf,
     /// The accepted run; `None` if there is none.
     pub accepted: Option<String>,
 }
 
 impl Trace {
-    /// Where a run is kept that differs from the accepted one.
+    /// Path of a run that differs from the accepted one.
     pub fn pending(&self) -> PathBuf {
         self.path.with_extension("trace.new")
     }
@@ -41,7 +41,7 @@ fn file_name(name: &str) -> String {
 }
 
 impl Reader<'_> {
-    /// What is traced in a case.
+    /// Trace of a case.
     pub(super) fn trace(&mut self, case: &str, names: &[Spanned<String>]) -> Option<Trace> {
         let mut devices = Vec::new();
         for name in names {
@@ -137,7 +137,7 @@ impl<'c> Tracer<'c> {
     }
 }
 
-/// Where two traces first differ, with a few lines before it.
+/// First difference between two traces, with a few lines before it.
 pub(super) fn difference(accepted: &str, actual: &str) -> String {
     let (old, new): (Vec<&str>, Vec<&str>) = (accepted.lines().collect(), actual.lines().collect());
     let same = old.iter().zip(&new).take_while(|(a, b)| a == b).count();

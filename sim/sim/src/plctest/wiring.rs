@@ -11,7 +11,7 @@ use rungc_models::{Model, ModelId};
 use rungc_rt::Class;
 use rungc_syntax::DeviceClass;
 
-/// Whether a case and its machine fit each other.
+/// Checks that a case and its machine fit each other.
 pub(super) fn check(
     machine: Option<&Description>,
     model: ModelId,
@@ -139,7 +139,7 @@ impl Running<'_> {
 }
 
 impl Running<'_> {
-    /// What asks for this.
+    /// Requests for these queries.
     fn requests(&self, at: &[Look]) -> Vec<Request> {
         let now_ms = self.now_ms();
         let request = |look: &Look| match *look {

@@ -7,7 +7,7 @@ use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, Plc, VirtualHal};
 use std::fmt;
 
-/// How many characters of a text are read at most.
+/// Most characters of a text that are read.
 pub const TEXT_LENGTH: usize = 64;
 
 /// A PLC between two scans, with what is around it.
@@ -33,7 +33,7 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// What a device holds.
+/// Value of a device.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Reading {
     /// A bit.
@@ -47,7 +47,7 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// What the target holds; `None` if the model or its hardware has no such device.
+    /// Value of the target; `None` if the model or its hardware has no such device.
     pub fn of(seen: Seen, target: Target) -> Option<Reading> {
         let Seen { machine, hal, .. } = seen;
         Some(match target {
@@ -120,7 +120,7 @@ impl fmt::Display for Reading {
         match self {
             Reading::Bit(on) => u8::from(*on).fmt(f),
             Reading::Integer(value, _) => value.fmt(f),
-            // What the device holds is a single, and is shown with no more digits than one has.
+            // The device holds a single-precision value, which is shown with no more digits than it has.
             Reading::Float(value) => (*value as f32).fmt(f),
             Reading::Text(text) => write!(f, "{text:?}"),
         }

@@ -154,7 +154,7 @@ impl<W: Write> Vcd<W> {
     }
 }
 
-/// Whether both are written alike; a float that is not a number is like itself.
+/// Returns true if both are written alike; a float that is not a number equals itself.
 fn same(a: &Reading, b: &Reading) -> bool {
     match (a, b) {
         (Reading::Float(a), Reading::Float(b)) => a.to_bits() == b.to_bits(),
@@ -162,7 +162,7 @@ fn same(a: &Reading, b: &Reading) -> bool {
     }
 }
 
-/// How a signal that holds this is declared.
+/// Declaration of a signal with such values.
 fn variable(reading: &Reading) -> (VarType, u32) {
     match reading {
         Reading::Bit(_) => (VarType::Wire, 1),

@@ -1,5 +1,4 @@
-//! What frames say, in human-readable form: function, address, count, exception, and the devices that a request is
-//! about.
+//! Decoding of frames into human-readable form: function, address, count, exception, and the devices of a request.
 //!
 //! What a request reads and writes is not decoded a second time: the codec that answers it carries it out on a
 //! [`Probe`].
@@ -32,7 +31,7 @@ const CONTROLS: [(u8, &str); 9] = [
 /// Rejects a request.
 const NAK: u8 = 0x15;
 
-/// What a server or a port speaks.
+/// Protocol of a server or a port.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Speech {
     /// A protocol over TCP.
@@ -43,7 +42,7 @@ pub enum Speech {
     Serial(Protocol),
 }
 
-/// Which way a frame goes.
+/// Direction of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Direction {
     /// To the PLC.
@@ -52,7 +51,7 @@ pub enum Direction {
     Out,
 }
 
-/// What a frame says.
+/// Decoded frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoded {
     /// In human-readable form.
@@ -78,7 +77,7 @@ impl Decoder {
         Decoder { family, type_code }
     }
 
-    /// What a frame says; `before` is the last one in the other direction.
+    /// Decodes a frame; `before` is the last one in the other direction.
     pub fn decode(
         &self,
         speech: Speech,
@@ -132,7 +131,7 @@ impl Decoder {
                 _ => Dialect::Fx(*b"9D"),
             },
         };
-        // Whether there is a sum, the frame does not say: the way in which it makes sense is the right one.
+        // The frame does not show whether there is a sum: the interpretation that makes sense is the right one.
         let decoded = [true, false].map(|sum| {
             self.carried_out(bytes, |map, reply| {
                 computer_link::answer(settings(sum), &mut Remote::new(), bytes, map, reply)
@@ -186,7 +185,7 @@ impl Decoder {
     }
 }
 
-/// What a request does.
+/// Description of a request's effect.
 fn about(probe: &Probe) -> String {
     let read = probe.read();
     let mut parts = Vec::new();
@@ -261,7 +260,7 @@ fn characters(bytes: &[u8]) -> String {
     text
 }
 
-/// What was wrong with a frame.
+/// Name of a frame's fault.
 fn fault_name(fault: LineFault) -> &'static str {
     match fault {
         LineFault::Station => "wrong station",
@@ -280,7 +279,7 @@ fn fault_name(fault: LineFault) -> &'static str {
 }
 
 impl Speech {
-    /// What it is called.
+    /// Display name.
     pub fn name(self) -> &'static str {
         match self {
             Speech::Tcp(speaks) => speaks.name(),
@@ -289,7 +288,7 @@ impl Speech {
         }
     }
 
-    /// Whether the PLC asks, and the other end answers.
+    /// Returns true if the PLC sends the requests, and the other end answers.
     pub fn asks(self) -> bool {
         match self {
             Speech::Tcp(_) => false,

@@ -1,5 +1,5 @@
-//! What goes over the servers and serial ports of a running PLC: it is decoded ([`Decoder`]) and counted ([`Traffic`]).
-//! The servers themselves are the runtime's ([`rungc_rt::servers`]).
+//! Traffic of the servers and serial ports of a running PLC: it is decoded ([`Decoder`]) and counted ([`Traffic`]). The
+//! servers themselves are the runtime's ([`rungc_rt::servers`]).
 
 mod decode;
 mod probe;

@@ -1,5 +1,5 @@
-//! What a request is about: the devices that a codec reads and writes when it carries the request out on a PLC that has
-//! all of them.
+//! Devices of a request: those that a codec reads and writes when it carries the request out on a PLC that has all of
+//! them.
 
 use rungc_rt::Class;
 use rungc_rt::comm::Map;
@@ -17,7 +17,7 @@ const MOST_RUNS: usize = 8;
 #[derive(Debug, Default)]
 pub struct Probe {
     read: RefCell<Devices>,
-    /// What is written.
+    /// Devices that are written.
     pub written: Devices,
     /// RUN or STOP, if it is asked for.
     pub request: Option<bool>,
@@ -33,7 +33,7 @@ impl Probe {
         }
     }
 
-    /// What is read. A codec also looks at what it will write, to see that it is there.
+    /// Devices that are read. A codec also reads the devices that it will write, to check that they exist.
     pub fn read(&self) -> Devices {
         let read = self.read.borrow();
         read.difference(&self.written).copied().collect()
@@ -120,7 +120,7 @@ pub fn ranges(devices: &Devices) -> String {
     text
 }
 
-/// What a device is called.
+/// Name of a device.
 fn name(class: Class, number: u32) -> String {
     match class {
         Class::X | Class::Y => format!("{class:?}{number:03o}"),

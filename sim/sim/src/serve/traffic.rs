@@ -1,10 +1,10 @@
-//! What has gone over the connections of a run, for the table at its end.
+//! Traffic of a run's connections, for the table at its end.
 
 use super::decode::{Decoded, Decoder, Direction, Speech};
 use super::probe::{Devices, ranges};
 use std::collections::BTreeMap;
 
-/// Where a frame was seen.
+/// Place where a frame was seen.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Place {
     /// The server or port: `Modbus TCP 127.0.0.1:5020`, `COM1`.
@@ -16,11 +16,11 @@ pub struct Place {
 /// A frame on its way.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
-    /// Where.
+    /// The place.
     pub place: &'a Place,
-    /// What is spoken there.
+    /// Protocol there.
     pub speech: Speech,
-    /// Which way it goes.
+    /// Direction of the frame.
     pub direction: Direction,
     /// The frame.
     pub bytes: &'a [u8],
@@ -37,7 +37,7 @@ struct Connection {
     written: Devices,
     /// The last frame, and which way it went.
     last: Option<(Direction, Vec<u8>)>,
-    /// What the request that is not answered yet writes.
+    /// Devices that the unanswered request writes.
     pending: Devices,
 }
 
@@ -118,7 +118,7 @@ impl Traffic {
         decoded
     }
 
-    /// Whether a row says something: a server that has had clients has a row for each of them.
+    /// Returns true if a row is informative: a server that has had clients has a row for each of them.
     fn is_shown(&self, place: &Place) -> bool {
         let mut others = self.connections.keys();
         !place.peer.is_empty() || !others.any(|other| other.port == place.port && other != place)

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 struct Plc {
     outputs: BTreeMap<u32, bool>,
     pulses: BTreeMap<u32, i32>,
-    /// What Y000 sends in a millisecond, since when, and how many of these pulses are over.
+    /// Train of Y000: pulses per millisecond, start, and number of pulses sent.
     train: (i32, u64, u32),
     changes: Vec<Change>,
     inputs: BTreeMap<u32, bool>,

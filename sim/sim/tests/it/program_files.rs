@@ -132,7 +132,7 @@ fn mistakes_have_their_place() {
         why.ends_with("rungc.toml:2:9: unknown model `h9u`"),
         "{why}"
     );
-    // What is wrong with the program is a matter of the case.
+    // Errors in the program concern the case.
     let broken = folder("a.il", "LD X000\nOUTT Y000\nEND\n", None);
     let failed = failures(broken.path());
     assert_eq!(failed.len(), 1);

@@ -1,4 +1,4 @@
-//! What the runner says about cases that fail.
+//! Reports of the runner on failing cases.
 
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{self, Suite};

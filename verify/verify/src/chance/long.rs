@@ -91,7 +91,7 @@ impl<'s> LongRuns<'s> {
                 if self.failed >= ATTEMPTS {
                     return None;
                 }
-                // What cannot be shown in this lane ends it.
+                // A violation that cannot be shown ends this lane.
                 lanes.alive &= !(bad & bad.wrapping_neg());
             }
         }

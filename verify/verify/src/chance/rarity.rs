@@ -1,19 +1,20 @@
-//! Which runs have come further than others: those whose memory holds what few others do.
+//! Selection of the runs that have come further than others: those whose memory holds values that few others have.
 
 use super::Lanes;
 use crate::system::System;
 
-/// How often each bit of memory was seen on.
+/// Frequency at which each bit of memory was on.
 pub(super) struct Rarity {
     on: Vec<f64>,
     seen: f64,
 }
 
-/// How many lanes the rarest continue in, in addition to where they are.
+/// Number of lanes in which the rarest continue, in addition to their own.
 const REPLACED: usize = 24;
-/// How many they are.
+/// Number of the rarest lanes.
 const COPIED: usize = 8;
-/// What is left of what was seen, each time: what was rare long ago is not rare when many lanes have come to it.
+/// Decay of earlier observations in each step: values that were rare long ago are not rare when many lanes have reached
+/// them.
 const KEPT: f64 = 0.98;
 
 impl Rarity {
@@ -44,7 +45,7 @@ impl Rarity {
                 *score += if bits >> lane & 1 == 1 { of_on } else { of_off };
             }
         }
-        // What has broken a constraint is over.
+        // A lane that violated a constraint is over.
         for (lane, score) in scores.iter_mut().enumerate() {
             if lanes.alive >> lane & 1 == 0 {
                 *score = -1.0;

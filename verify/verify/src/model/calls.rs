@@ -1,4 +1,4 @@
-//! What is not modelled: calls of the runtime, which may write what they are handed and special devices.
+//! Operations that are not modelled: calls of the runtime, which may write their operands and special devices.
 
 use super::shared::{Seen, Signature};
 use super::{Encoder, Input, Key};
@@ -18,13 +18,13 @@ const SPECIAL: [(DeviceClass, u32, u32); 3] = [
     (DeviceClass::D, 8000, u32::MAX),
 ];
 
-/// How operands in buffer memory are called.
+/// Name of operands in buffer memory.
 const BUFFER: &str = "buffer memory of special modules";
 
-/// How many words of a FROM are known to be those of the module.
+/// Most words of a FROM that are known to be those of the module.
 const MOVED: i32 = 256;
 
-/// What an operation error writes.
+/// Devices written by an operation error.
 const ERRORS: [(DeviceClass, u32, u32); 4] = [
     (DeviceClass::M, 8004, 8006),
     (DeviceClass::M, 8067, 8069),
@@ -60,7 +60,7 @@ impl Encoder<'_> {
         keys
     }
 
-    /// What a statement writes of the devices that its operands name.
+    /// Devices that a statement writes through its operands.
     pub(super) fn of_operands(&self, stmt: &Stmt) -> Vec<Key> {
         let mut runs = Vec::new();
         let (model, exprs) = (self.module.model, &self.module.exprs);
@@ -98,8 +98,9 @@ impl Encoder<'_> {
         self.leave_tokens(Some(call), &seen, guard);
     }
 
-    /// What FROM moves from a module to registers, or one word of it to a group of bits, if all is as usual: its other
-    /// operands are constants, the module is there, and nothing changes the count. Otherwise, they may get anything.
+    /// Values that FROM moves from a module to registers, or one word of it to a group of bits, in the usual case: its
+    /// other operands are constants, the module exists, and nothing changes the count. Otherwise, the targets may get
+    /// any value.
     fn moved(&mut self, call: &Call) -> BTreeMap<Key, Bits> {
         let mut moved = BTreeMap::new();
         let number = |arg: &Arg| match *arg {
@@ -150,7 +151,7 @@ impl Encoder<'_> {
         moved
     }
 
-    /// What a module holds at an address in this scan: anything.
+    /// Value of a module at an address in this scan: any value.
     fn held(&mut self, module: u8, address: i64) -> Option<Bits> {
         // Addresses have 16 bits.
         let key = Key::Buffer(module, u16::try_from(address).ok()?.into());
@@ -160,7 +161,7 @@ impl Encoder<'_> {
         Some(held)
     }
 
-    /// What a statement looks at, if programs are compared.
+    /// Inputs of a statement, if programs are compared.
     fn seen(&mut self, stmt: &Stmt, anywhere: bool, step: u32) -> Seen {
         match self.is_compared() {
             true => self.looks(stmt, anywhere, step),
@@ -203,7 +204,7 @@ impl Encoder<'_> {
         self.leave_tokens(None, &seen, guard);
     }
 
-    /// What a module holds where a fetch reads it, if that is known; in each scan it may be anything.
+    /// Value of a module that a fetch reads, if it is known; in each scan it may be any value.
     fn buffer(&mut self, fetch: &Fetch) -> Option<Bits> {
         let Arg::Buffer {
             module,

@@ -9,7 +9,7 @@ use rungc_models::runs::is_counter32;
 use rungc_rt::{CmpOp, word};
 use rungc_syntax::DeviceClass;
 
-/// How many bits a value of a type has.
+/// Number of bits in a value of a type.
 fn width(ty: Ty) -> usize {
     match ty {
         Ty::Bit => 1,
@@ -269,7 +269,7 @@ impl Encoder<'_> {
         })
     }
 
-    /// Whether `count` devices from a place on exist, in one run.
+    /// Bit that is on if `count` devices from a place on exist, in one run.
     fn in_range(&mut self, place: Place, count: u32) -> Lit {
         let number = i64::from(place.number);
         let Some(index) = place.index else {
@@ -309,7 +309,7 @@ impl Encoder<'_> {
         value
     }
 
-    /// What an access without an index reads.
+    /// Value read by an access without an index.
     pub fn read_at(&mut self, kind: AccessKind, class: DeviceClass, number: u32) -> Bits {
         match kind {
             AccessKind::Bit => vec![self.read_bit(class, number)],

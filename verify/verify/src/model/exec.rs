@@ -14,7 +14,7 @@ use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 
-/// How often a loop is unrolled whose count is not constant, and how often a jump back is followed.
+/// Limit for unrolling a loop whose count is not constant, and for following a jump back.
 const ROUNDS: u32 = 300;
 
 impl Encoder<'_> {
@@ -64,7 +64,7 @@ impl Encoder<'_> {
         self.temps[temp] = Some(value);
     }
 
-    /// Whether a statement writes nothing but zeros.
+    /// Returns true if a statement writes nothing but zeros.
     fn is_clearing(&self, stmt: &Stmt) -> bool {
         let zero = |id: ExprId| {
             matches!(
@@ -81,7 +81,7 @@ impl Encoder<'_> {
 
     /// Executes a statement; under which condition the next one is reached.
     fn step(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
-        // What is off in every scan cannot be set to something else.
+        // Memory that is off in every scan cannot be set to something else.
         self.clears = guard != Lit::TRUE && self.is_clearing(stmt);
         if let Stmt::Network(network) = stmt {
             self.network = Some(*network);

@@ -48,7 +48,8 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
     }
 }
 
-/// Whether something other than the program can write it: devices, and of timers and counters the values and contacts.
+/// Returns true if something other than the program can write it: devices, and of timers and counters the values and
+/// contacts.
 pub(super) fn is_settable(key: Key) -> bool {
     match key {
         Key::Timer(_, part) => matches!(part, TimerPart::Value | TimerPart::Done),
@@ -58,7 +59,7 @@ pub(super) fn is_settable(key: Key) -> bool {
     }
 }
 
-/// How many bits a piece of memory has.
+/// Number of bits in a piece of memory.
 fn width(key: Key, unit_ms: u16) -> usize {
     match key {
         Key::Bit(..) | Key::Edge(_) | Key::Flag(_) | Key::First | Key::Running => 1,
@@ -176,7 +177,7 @@ impl Encoder<'_> {
         self.state.insert(key, now);
     }
 
-    /// What a piece of memory holds before the first scan; `None`: anything.
+    /// Value of a piece of memory before the first scan; `None`: any value.
     pub fn initial(&self, key: Key) -> Option<i64> {
         let model = self.module.model;
         let latched = |class, number| self.module.is_latched(class, number) && !self.world.fresh;
@@ -224,7 +225,7 @@ impl Encoder<'_> {
         }
     }
 
-    /// What a piece of memory holds now; nothing is known of one that the program does not name.
+    /// Present value of a piece of memory; unknown if the program does not name it.
     pub(super) fn load(&mut self, key: Key) -> Bits {
         if let Key::Flag(flag) = key
             && self.events.contains(&flag)
@@ -334,7 +335,7 @@ impl Encoder<'_> {
         }
     }
 
-    /// What a statement writes that is executed between two scans.
+    /// Adds the memory written by a statement that is executed between two scans.
     fn outside_of(&mut self, stmt: &Stmt) {
         let keys = self.of_operands(stmt);
         self.outside.extend(keys);

@@ -37,9 +37,9 @@ pub enum TimerPart {
     Preset,
     /// The contact.
     Done,
-    /// Whether the coil was on when it was executed last.
+    /// State of the coil at its last execution.
     Coil,
-    /// Whether the coil was executed in this scan.
+    /// True if the coil was executed in this scan.
     Counted,
     /// Milliseconds since the last whole unit.
     Part,
@@ -52,7 +52,7 @@ pub enum CounterPart {
     Value,
     /// The contact.
     Done,
-    /// Whether the coil was on when it was executed last.
+    /// State of the coil at its last execution.
     Coil,
 }
 
@@ -69,7 +69,7 @@ pub enum Key {
     Counter(u32, CounterPart),
     /// An edge memory.
     Edge(u32),
-    /// What a call of the runtime remembers, by number: one bit that stands for all of it, if programs are compared.
+    /// Memory of a call of the runtime, by number: one bit that stands for all of it, if programs are compared.
     Slot(u16),
     /// The same of everything around the PLC that calls of the runtime ask and change.
     Outer,
@@ -81,17 +81,17 @@ pub enum Key {
     Entry(u32, u32),
     /// A word of the buffer memory of a special module: the number of the module and the address.
     Buffer(u8, u32),
-    /// Whether it is the first scan.
+    /// True in the first scan.
     First,
-    /// Whether the PLC is in RUN.
+    /// True if the PLC is in RUN.
     Running,
     /// Milliseconds since power-on.
     Now,
-    /// What a property remembers, by number.
+    /// Memory of a property, by number.
     Monitor(u32),
 }
 
-/// What a free bit of a scan is.
+/// Meaning of a free bit of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Input {
     /// A bit of a device that something other than the program sets before the scan.
@@ -111,7 +111,7 @@ pub enum Digit {
     Hundreds,
     /// Whole tens beyond them.
     Tens,
-    /// What remains.
+    /// The remainder.
     Ones,
 }
 
@@ -120,21 +120,21 @@ pub enum Digit {
 pub struct Gap {
     /// Step of the network in which it is, if it is in one.
     pub step: Option<u32>,
-    /// What it is, as the end of "not modelled: …".
+    /// Description, as the end of "not modelled: …".
     pub what: String,
 }
 
-/// What is supposed of the world around the program.
+/// Assumptions about the environment of the program.
 #[derive(Clone, Debug)]
 pub struct World {
     /// The most milliseconds from one scan to the next.
     pub scan_ms: u32,
-    /// Whether latched devices begin with 0, as on a new PLC.
+    /// True if latched devices begin with 0, as on a new PLC.
     pub fresh: bool,
     /// Devices that something other than the program writes.
     pub free: BTreeSet<(DeviceClass, u32)>,
-    /// Whether a timer that runs may expire at any time, as far as nothing looks at its value: a proof holds for every
-    /// preset then.
+    /// True if a running timer may expire at any time, as far as its value is not read: a proof then holds for every
+    /// preset.
     pub any_preset: bool,
     /// Devices that properties look at, in addition to those of the program.
     pub observed: BTreeSet<(DeviceClass, u32)>,
@@ -152,11 +152,10 @@ impl Default for World {
     }
 }
 
-/// How many statements a scan may execute, loops unrolled, before the rest of it counts as not modelled.
+/// Most statements of a scan, loops unrolled, before the rest of it counts as not modelled.
 const STATEMENTS: u32 = 400_000;
 
-/// How large the logic of a scan may become, before the rest of it counts as not modelled: far larger than any solver
-/// takes.
+/// Largest size of a scan's logic before the rest of it counts as not modelled: far larger than any solver handles.
 const NODES: usize = 4_000_000;
 
 /// The time of a scan, as logic.
@@ -166,7 +165,7 @@ struct Time {
     hundreds: Bits,
     tens: Bits,
     all: Bits,
-    /// What tens and hundreds leave.
+    /// Remainders of tens and hundreds.
     below_hundred: Bits,
     below_ten: Bits,
 }
@@ -182,18 +181,18 @@ pub struct Encoder<'m> {
     constraints: Vec<Lit>,
     wishes: Vec<Lit>,
     first_wishes: Vec<Lit>,
-    /// What is not modelled exactly, each once.
+    /// Operations that are not modelled exactly, each once.
     pub gaps: Vec<Gap>,
     gap_numbers: FxHashMap<Gap, usize>,
     /// All memory, as it is before the scan.
     before: BTreeMap<Key, Bits>,
     /// All memory, as the scan has left it so far.
     state: BTreeMap<Key, Bits>,
-    /// What the program may write.
+    /// Memory that the program may write.
     written: BTreeSet<Key>,
-    /// What is written now is cleared, which leaves setting it to something else.
+    /// True while writes clear, which does not count as setting a value.
     clears: bool,
-    /// What something outside the scan may write between two scans.
+    /// Memory that may be written from outside the scan, between two scans.
     outside: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
     events: BTreeSet<u32>,
@@ -201,14 +200,14 @@ pub struct Encoder<'m> {
     exact_timers: Option<BTreeSet<u32>>,
     temps: TiVec<rungc_ir::node::TempId, Option<Bits>>,
     values: FxHashMap<ExprId, Bits>,
-    /// Where jumps of the bodies that are being executed go, the innermost last.
+    /// Targets of jumps in the bodies being executed, the innermost last.
     jumps: Vec<FxHashMap<LabelId, Lit>>,
     /// Under which condition the rest of the scan is not modelled.
     lost: Lit,
     lost_gap: Option<usize>,
     time: Option<Time>,
     scan_time: Option<Bits>,
-    /// What special modules hold in this scan, word by word.
+    /// Values of special modules in this scan, word by word.
     buffers: BTreeMap<Key, Bits>,
     network: Option<u32>,
     statements: u32,
@@ -216,9 +215,9 @@ pub struct Encoder<'m> {
     watch_limit: u64,
     monitors: u32,
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
-    /// What is shared with another program.
+    /// Parts shared with another program.
     beside: Option<Beside>,
-    /// What is noted for those who look for what can never happen.
+    /// Probes for the search for events that can never happen.
     pub probes: Option<Probes>,
 }
 
@@ -340,7 +339,7 @@ impl<'m> Encoder<'m> {
         bits
     }
 
-    /// Where the rest of a scan is not modelled, it may leave anything.
+    /// Makes all memory arbitrary where the rest of a scan is not modelled.
     fn lose(&mut self) {
         let (lost, Some(gap)) = (self.lost, self.lost_gap) else {
             return;
@@ -366,7 +365,7 @@ impl<'m> Encoder<'m> {
         self.constraints.push(holds);
     }
 
-    /// Whether the PLC is in RUN after the scan: what the program leaves when it stops is not looked at.
+    /// Bit that is on if the PLC is in RUN after the scan: the results of a program that stops are not evaluated.
     pub fn running(&self) -> Lit {
         self.state[&Key::Running][0]
     }
@@ -381,7 +380,7 @@ impl<'m> Encoder<'m> {
         (self.extra_latches.len() - 1, bits)
     }
 
-    /// What such a memory holds after the scan.
+    /// Sets the value of such a memory after the scan.
     pub fn remember(&mut self, monitor: usize, next: Bits) {
         self.extra_latches[monitor].2 = next;
     }
@@ -393,8 +392,8 @@ impl<'m> Encoder<'m> {
             .map_or_else(Bits::new, |time| time.all.clone())
     }
 
-    /// Whether the program could read a device but nothing in it writes it, or only clears it: a panel or another PLC
-    /// may set it.
+    /// Returns true if the program could read a device but nothing in it writes it, or only clears it: a panel or
+    /// another PLC may set it.
     fn is_unwritten(&self, key: Key) -> bool {
         use DeviceClass::{D, ER, M, R, S, V, Z};
         let asked = match key {
@@ -404,7 +403,7 @@ impl<'m> Encoder<'m> {
         asked && memory::is_settable(key) && !self.written.contains(&key)
     }
 
-    /// Whether something other than the program sets a device before each scan.
+    /// Returns true if something other than the program sets a device before each scan.
     pub fn is_free(&self, key: Key) -> bool {
         matches!(key, Key::Bit(DeviceClass::X, _))
             || self.outside.contains(&key)
@@ -412,13 +411,13 @@ impl<'m> Encoder<'m> {
             || self.is_named_free(key)
     }
 
-    /// Whether it belongs to a device of [`World::free`].
+    /// Returns true if it belongs to a device of [`World::free`].
     pub fn is_named_free(&self, key: Key) -> bool {
         let is_free = |device| self.world.free.contains(&device);
         memory::is_settable(key) && memory::device_of(key).is_some_and(is_free)
     }
 
-    /// What counts as an input beside terminals: what is unwritten, and what [`World::free`] names.
+    /// Memory that counts as an input beside terminals: unwritten memory, and that named by [`World::free`].
     pub fn opened(&self) -> impl Iterator<Item = Key> {
         let keys = self.before.keys().copied();
         keys.filter(|&key| self.is_unwritten(key) || self.is_named_free(key))
@@ -446,13 +445,13 @@ impl<'m> Encoder<'m> {
         self.state.get(&key)
     }
 
-    /// What holds in every scan.
+    /// Conditions that hold in every scan.
     pub fn constraints(&self) -> &[Lit] {
         &self.constraints
     }
 
-    /// What the system of several programs takes from this one: its memory, except what these give way to, and its
-    /// inputs. What one of them counts as an input is one for all.
+    /// Adds this program's part of a system of several programs: its memory, except that replaced by another's, and its
+    /// inputs. An input of one of them is one for all.
     pub fn add_to(
         &self,
         system: &mut System,
@@ -509,7 +508,7 @@ impl<'m> Encoder<'m> {
 }
 
 impl Digit {
-    /// How many milliseconds one of it is.
+    /// Its value in milliseconds.
     pub fn milliseconds(self) -> u32 {
         match self {
             Digit::Hundreds => 100,

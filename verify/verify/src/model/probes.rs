@@ -1,4 +1,4 @@
-//! What is noted of a scan for those who look for what can never happen in it.
+//! Probes of a scan for the search for events that can never happen in it.
 
 use super::Encoder;
 use crate::aig::Lit;
@@ -7,7 +7,7 @@ use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
-/// When a bit device is written.
+/// Writes of a bit device.
 #[derive(Clone, Copy, Debug)]
 pub struct Written {
     /// The network that writes it first, by number.
@@ -18,7 +18,7 @@ pub struct Written {
     pub off: Lit,
 }
 
-/// When a timer runs.
+/// Execution of a timer.
 #[derive(Clone, Copy, Debug)]
 pub struct Expiry {
     /// The network that drives it first, by number.
@@ -29,7 +29,7 @@ pub struct Expiry {
     pub expires: Lit,
 }
 
-/// When a network does something.
+/// Effects of a network.
 #[derive(Clone, Copy, Debug)]
 pub struct Rung {
     /// The scan comes to it.
@@ -43,7 +43,7 @@ pub struct Rung {
 pub struct Compared {
     /// The network that it is in, by number.
     pub network: u32,
-    /// What holds between the numbers.
+    /// Relation between the numbers.
     pub op: CmpOp,
     /// The numbers.
     pub sides: [ExprId; 2],

@@ -14,7 +14,7 @@ use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
-/// What is not modelled and may be shared.
+/// Operation that is not modelled and may be shared.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Signature {
     /// An operation on floats.
@@ -27,10 +27,10 @@ pub enum Signature {
     Answer(String),
 }
 
-/// What something that is not modelled looks at.
+/// Inputs of an operation that is not modelled.
 #[derive(Default)]
 pub(super) struct Seen {
-    /// What it is.
+    /// Description of the operation.
     pub text: String,
     /// All bits that it may depend on.
     pub bits: Vec<Lit>,
@@ -39,7 +39,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// What it makes of a piece of memory.
+    /// Signature of the operation's effect on a piece of memory.
     pub fn of(&self, key: Key) -> Signature {
         let stores_step = matches!(
             key,
@@ -55,29 +55,29 @@ impl Seen {
     }
 }
 
-/// What a program shares with the one that was executed before it.
+/// Parts that a program shares with the one executed before it.
 #[derive(Clone, Default)]
 pub struct Beside {
     /// The graph of the other program.
     pub aig: Aig,
-    /// What is not modelled in it.
+    /// Operations not modelled in it.
     pub gaps: Vec<Gap>,
-    /// What the program's memory is called in the other one.
+    /// Names of the program's memory in the other one.
     pub names: Names,
     /// Bits of memory with which both begin a scan, by the names in the other program.
     begins: FxHashMap<Key, Bits>,
-    /// What is free in both.
+    /// Bits that are free in both.
     inputs: FxHashMap<Input, Lit>,
     /// Results of what is not modelled.
     results: FxHashMap<(Signature, Vec<Lit>), Bits>,
 }
 
-/// What the memory of one program is called in another. Devices have the same names in both.
+/// Names of one program's memory in another. Devices have the same names in both.
 #[derive(Clone, Default)]
 pub struct Names(pub FxHashMap<Key, Key>);
 
 impl Names {
-    /// What a memory is called there. Numbers without a counterpart mean something else there.
+    /// Name of a memory there. Numbers without a counterpart have other meanings there.
     pub fn name(&self, key: Key) -> Key {
         const NOWHERE: u32 = 1 << 31;
         match (self.0.get(&key), key) {
@@ -100,8 +100,8 @@ impl Beside {
 }
 
 impl Encoder<'_> {
-    /// What another program shares with this one if it begins its scans with these memories as they are here, by their
-    /// names here. This program's graph goes into it.
+    /// Parts that another program shares with this one if it begins its scans with these memories as they are here, by
+    /// their names here. This program's graph goes into it.
     pub fn share(&mut self, begins: impl Fn(Key) -> bool, names: &Names) -> Beside {
         let before = self.before.iter().filter(|(key, _)| begins(**key));
         let begins = before.map(|(&key, bits)| (key, bits.clone())).collect();
@@ -155,12 +155,12 @@ impl Encoder<'_> {
         BTreeSet::from_iter(slots).into_iter().collect()
     }
 
-    /// Whether the program is executed beside another.
+    /// Returns true if the program is executed beside another.
     pub(super) fn is_compared(&self) -> bool {
         self.beside.is_some()
     }
 
-    /// What this is called in the program beside which this one is executed.
+    /// Name of a memory in the program beside which this one is executed.
     fn shared_name(&self, key: Key) -> Key {
         self.beside
             .as_ref()
@@ -275,7 +275,7 @@ impl Encoder<'_> {
         }
     }
 
-    /// What a call leaves in the memory that stands for what it remembers and asks.
+    /// Sets the memory that represents the state and requests of a call.
     pub(super) fn leave_tokens(&mut self, call: Option<&Call>, seen: &Seen, guard: Lit) {
         if !self.is_compared() {
             return;

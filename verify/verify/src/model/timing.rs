@@ -10,10 +10,10 @@ use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
-/// How many bits the units of a step have: enough for the longest timer, and a unit more.
+/// Number of bits in the units of a step: enough for the longest timer, and a unit more.
 const UNITS: usize = 17;
 
-/// How far a timer moves on: whole units, and milliseconds beyond them.
+/// Advance of a timer: whole units, and milliseconds beyond them.
 struct Step {
     units: Bits,
     rest: Bits,
@@ -68,7 +68,7 @@ impl Encoder<'_> {
         self.driven(number, kind, preset, driven);
     }
 
-    /// Whether a timer may expire at any time.
+    /// Returns true if a timer may expire at any time.
     fn is_vague(&self, number: u32) -> bool {
         let exact = self.exact_timers.as_ref();
         exact.is_some_and(|exact| !exact.contains(&number))

@@ -7,9 +7,9 @@ use rungc_sim::Target;
 /// A mistake in a condition.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mistake {
-    /// Where, in bytes.
+    /// Offset in bytes.
     pub at: usize,
-    /// What is wrong, as a sentence without a full stop.
+    /// Description, as a sentence without a full stop.
     pub why: String,
 }
 
@@ -118,7 +118,7 @@ struct Reader<'n> {
     names: &'n dyn Fn(&str) -> Vec<Target>,
 }
 
-/// How deep parentheses and inversions may nest.
+/// Most levels of nested parentheses and inversions.
 const DEPTH: usize = 200;
 
 impl Reader<'_> {
@@ -231,7 +231,7 @@ impl Reader<'_> {
         ))
     }
 
-    /// What a name stands for.
+    /// Target of a name.
     fn target(&self, word: &str, quoted: bool) -> Result<Target, String> {
         let upper = word.to_uppercase();
         let written = match word.split_once('.') {
@@ -265,7 +265,7 @@ fn shown(target: Target) -> String {
     class.number(number).to_string()
 }
 
-/// What stands on a side of a comparison, or alone.
+/// Operand of a comparison, or a single condition.
 enum Operand {
     On(Target),
     Number(Number),

@@ -1,4 +1,4 @@
-//! Which private memory of two programs means the same.
+//! Correspondence of the private memory of two programs.
 //!
 //! Flags, cells and tables have names. Edges and calls of the runtime have numbers, in the order in which they stand:
 //! they are aligned by what they look at. A wrong pair does no harm: its memory turns out to differ.
@@ -11,7 +11,7 @@ use rungc_syntax::align;
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 
-/// What the private memory of the new program is called in the old one.
+/// Names of the new program's private memory in the old one.
 pub(super) fn names(old: &Module, new: &Module) -> Names {
     let mut names = FxHashMap::default();
     for (flag, at) in new.flags.iter().zip(0..) {

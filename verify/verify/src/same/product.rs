@@ -23,7 +23,7 @@ pub(super) struct Product<'m> {
     new: Encoder<'m>,
     /// Memory of the old program that may differ.
     apart: BTreeSet<Key>,
-    /// What something else than the programs sets, by the old program's names.
+    /// Memory set from outside the programs, by the old program's names.
     free: BTreeSet<Key>,
 }
 
@@ -114,7 +114,7 @@ impl<'m> Product<'m> {
         differing
     }
 
-    /// What the induction over all memory rests on: that a scan which begins with the same ends with a difference.
+    /// Formula of the induction over all memory: a scan that begins with equal values ends with a difference.
     pub fn apart(&self, names: &Names) -> Formula {
         let mut aig = self.new.aig.clone();
         let mut all = [self.old.constraints(), self.new.constraints()].concat();
@@ -129,12 +129,12 @@ impl<'m> Product<'m> {
         Formula { aig, all }
     }
 
-    /// Whether a memory, by its name in the old program, is checked to be equal.
+    /// Returns true if a memory, by its name in the old program, is checked to be equal.
     fn is_shared(&self, name: Key) -> bool {
         !self.apart.contains(&name) && !self.free.contains(&name)
     }
 
-    /// Whether a memory of both, by its name in the old program, is proved to be equal after every scan.
+    /// Returns true if a memory of both, by its name in the old program, is proved to be equal after every scan.
     pub fn is_equal(&self, name: Key) -> bool {
         let after = |encoder: &Encoder| encoder.after(name).cloned();
         self.is_shared(name) && after(&self.old).is_some() && after(&self.new).is_some()
@@ -150,7 +150,7 @@ impl<'m> Product<'m> {
         .collect()
     }
 
-    /// Whether both ask and change the world around them in the same way: modules, ports, pulse outputs.
+    /// Returns true if both query and change their environment in the same way: modules, ports, pulse outputs.
     pub fn same_outside(&self) -> bool {
         self.is_equal(Key::Outer)
     }
@@ -211,7 +211,7 @@ impl<'m> Product<'m> {
         (system, questions)
     }
 
-    /// What begins with any value begins with the same in both.
+    /// Makes memory with arbitrary initial values begin equal in both.
     fn begin_equal(&self, system: &mut System, names: &Names) {
         let Some(first) = self.old.before(Key::First).map(|bits| bits[0]) else {
             return;

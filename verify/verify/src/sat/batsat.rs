@@ -28,7 +28,7 @@ impl super::Engine for Engine {
 
     fn clause(&mut self, lits: &[SatLit]) {
         let mut clause = self.known(lits);
-        // Whether all can still hold is asked when it is solved.
+        // Consistency is checked when the formula is solved.
         self.0.add_clause_reuse(&mut clause);
     }
 

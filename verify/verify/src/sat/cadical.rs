@@ -10,7 +10,7 @@ pub(super) struct Engine {
     assumed: Vec<SatLit>,
 }
 
-/// When the solver gives up.
+/// Time at which the solver gives up.
 struct Deadline(Instant);
 
 impl Callbacks for Deadline {

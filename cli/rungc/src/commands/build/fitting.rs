@@ -1,4 +1,4 @@
-//! Which options of `rungc build` go together.
+//! Compatibility of the options of `rungc build`.
 
 use super::Failure;
 use crate::args::{Backend, Emit, Format, Plan, Reporting};
@@ -104,13 +104,13 @@ fn main_fits(
     }
 }
 
-/// What an image lacks.
+/// Message for an image without a board.
 const NO_BOARD: &str =
     "--emit IMAGE needs --board, a description of the board (docs/src/boards.md)";
 
-/// Why `--servers` does not apply.
+/// Message for `--servers` where it does not apply.
 const NO_SERVERS: &str =
     "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
 
-/// Why `--io` does not apply.
+/// Message for `--io` where it does not apply.
 const NO_IO: &str = "--io only applies to --emit bin, and to --emit c and --emit rust with --main";

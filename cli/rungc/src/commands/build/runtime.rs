@@ -1,4 +1,4 @@
-//! The runtime in a folder of its own, which emitted crates share.
+//! The runtime in a separate folder, which emitted crates share.
 
 use super::{Built, at, bytes, write_folder};
 use rungc_codegen_rust::Runtime;

@@ -18,10 +18,10 @@ use rungc_verify::property::{Condition, Property};
 use rungc_verify::replay::story;
 use std::time::Duration;
 
-/// How long a program is looked at.
+/// Time limit for a program.
 const TIME: Duration = Duration::from_secs(20);
 
-/// What is found in a program that compiles, and how many questions stay open.
+/// Findings in a program that compiles, and the number of open questions.
 pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> (Diagnostics, usize) {
     let mut diagnostics = Diagnostics::new();
     let options = CompileOptions {
@@ -50,7 +50,7 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> (Diagnost
     (diagnostics, report.open)
 }
 
-/// Whether an instruction writes a device as its first operand, such as a coil.
+/// Returns true if an instruction writes a device as its first operand, such as a coil.
 pub fn writes(instr: &Instr, device: Device) -> bool {
     let found = rungc_catalogue::find(&instr.mnemonic);
     let reads = found.is_some_and(|found| {
@@ -63,7 +63,7 @@ pub fn writes(instr: &Instr, device: Device) -> bool {
     !reads && first == Some(device)
 }
 
-/// Where findings are in the source.
+/// Positions of findings in the source.
 struct Place<'a> {
     program: &'a Program,
     /// The step of each instruction.
@@ -84,8 +84,8 @@ impl Place<'_> {
             .map(|(instr, _)| instr)
     }
 
-    /// Whether a network depends on relays that are on or off always: then it was meant so. A bit of a word may be one
-    /// that a panel sets beside those that the program writes.
+    /// Returns true if a network depends on relays that are always on or off: then it was intended. A bit of a word may
+    /// be one that a panel sets beside those that the program writes.
     fn is_meant(&self, network: u32) -> bool {
         self.instrs(network).any(|instr| {
             let word_bit = |kind: &OperandKind| matches!(kind, OperandKind::WordBit(..));
@@ -103,7 +103,7 @@ impl Place<'_> {
         })
     }
 
-    /// Whether a step ladder has this step.
+    /// Returns true if a step ladder has this step.
     fn is_step(&self, device: Device) -> bool {
         self.program.instrs.iter().any(|instr| {
             let first = instr
@@ -188,7 +188,7 @@ impl Place<'_> {
         })
     }
 
-    /// Whether an operand of the source is this value.
+    /// Returns true if an operand of the source is this value.
     fn is(&self, operand: &OperandKind, side: ExprId) -> bool {
         match *self.module.expr(side) {
             Expr::Widen(inner) => self.is(operand, inner),
@@ -206,7 +206,7 @@ impl Place<'_> {
         }
     }
 
-    /// How it is known, in words.
+    /// Description of the evidence.
     fn evidence(&self, finding: &Finding, name: &str) -> String {
         match &finding.evidence {
             Evidence::Induction(1) => {

@@ -6,14 +6,14 @@ use crate::args::DiffArgs;
 use crate::commands::{Context, Failure, Outcome, Result};
 use std::path::{Path, PathBuf};
 
-/// Where Git says that a file does not exist.
+/// Path by which Git denotes a missing file.
 const ABSENT: &str = "/dev/null";
 
-/// What Git asks to compare.
+/// Comparison requested by Git.
 pub struct Call<'a> {
     /// The path in the repository, before and now.
     paths: [&'a Path; 2],
-    /// Where the contents are.
+    /// Paths of the contents.
     files: [&'a Path; 2],
 }
 

@@ -12,7 +12,7 @@ use rungc_verify::same;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// How long all outputs together may take, and one of them at most.
+/// Time limits: for all outputs together, and for one of them.
 const TIME: [Duration; 2] = [Duration::from_secs(10), Duration::from_secs(2)];
 
 /// The longest time from one scan to the next that proofs suppose, in milliseconds.

@@ -12,7 +12,7 @@ const USUAL_WIDTH: u16 = 120;
 /// Characters on a line that a page of a forge shows.
 const PAGE_WIDTH: u16 = 100;
 
-/// What differs, in one line.
+/// Summary of the differences, in one line.
 pub fn summary(compared: &Compared) -> String {
     let comparison = &compared.comparison;
     let verbs = ["changed", "added", "removed", "moved", "remarked"];
@@ -92,7 +92,7 @@ fn fenced(body: &str) -> String {
     format!("{fence}diff\n{body}{fence}\n")
 }
 
-/// What happened to a network.
+/// Heading for the change of a network.
 fn heading(compared: &Compared, change: Change) -> String {
     let place = |of: Drawn, at: usize| {
         let first = of.network(at).instrs.start;

@@ -1,4 +1,4 @@
-//! What a test of a run expects, so that it fails as long as the program does what was found.
+//! Expectations of a test for a run, which fail as long as the program shows the finding.
 
 use super::{Searched, Shown};
 use crate::commands::verify::test_file::table;
@@ -9,12 +9,12 @@ use rungc_syntax::DeviceClass;
 use rungc_verify::property::{Condition, Number, Property};
 use rungc_verify::replay::Setting;
 
-/// What a case of a test file says beside its steps.
+/// Parts of a case in a test file beside its steps.
 #[derive(Default)]
 pub struct Expected {
     /// Lines of the case: rules over time.
     pub rules: Vec<String>,
-    /// What holds after the last step.
+    /// Values after the last step.
     pub at_end: Vec<(String, i64)>,
     /// One more scan at the end, after which that still holds.
     pub one_more: bool,
@@ -78,7 +78,7 @@ fn only(condition: &Condition) -> Option<Values> {
 }
 
 impl Searched<'_> {
-    /// What the devices that are in question hold at the end of a run; `None` if none are.
+    /// Values of the devices in question at the end of a run; `None` if there are none.
     pub fn after(&self, found: &Found) -> Option<Vec<Setting>> {
         let mut after = None;
         let conditions = match found.what {
@@ -105,7 +105,7 @@ impl Searched<'_> {
         after
     }
 
-    /// What a test of the run expects.
+    /// Expectations of a test for the run.
     pub fn expected(&self, shown: &Shown) -> Expected {
         let mut expected = Expected::default();
         let last = shown.story.last();

@@ -15,7 +15,7 @@ const WORTH_COMPILING: u64 = 1_000_000;
 /// Lanes that have been built.
 pub struct Built {
     pub executable: PathBuf,
-    /// Where they are, until the search is over.
+    /// Folder of the executables, until the search is over.
     _folder: tempfile::TempDir,
 }
 

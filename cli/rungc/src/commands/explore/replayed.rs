@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 impl Searched<'_> {
-    /// What an engine does otherwise than the search has found.
+    /// Differences between an engine and the findings of the search.
     pub fn replay(&self, shown: &[Shown]) -> Result<Vec<String>, Failure> {
         if shown.is_empty() || self.subject.file == Path::new("-") {
             return Ok(Vec::new());

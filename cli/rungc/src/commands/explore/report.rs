@@ -1,4 +1,4 @@
-//! What was found, as text.
+//! Report of the findings, as text.
 
 use super::{Searched, Shown, What};
 use crate::commands::counted;
@@ -10,7 +10,7 @@ use rungc_verify::replay::Setting;
 use std::fmt::Write;
 
 impl Searched<'_> {
-    /// What was found, as a sentence.
+    /// Description of a finding, as a sentence.
     pub fn sentence(&self, what: &What) -> String {
         let instruction = |step: u32| match self.module.origin(step) {
             Some(origin) => format!("`{}` (step {step})", origin.text),

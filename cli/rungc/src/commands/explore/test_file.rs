@@ -64,7 +64,7 @@ impl Searched<'_> {
         }
     }
 
-    /// What was found, in a few words: a name for its test.
+    /// Short description of a finding: a name for its test.
     pub fn title(&self, what: &What) -> String {
         let output = |n: u32| DeviceClass::Y.number(n);
         match what {

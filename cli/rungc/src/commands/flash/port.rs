@@ -8,7 +8,7 @@ use rungc_rt::comm::{LineFormat, Parity};
 use std::io;
 use std::time::Duration;
 
-/// How long the line takes for the longest message.
+/// Time-out of the line for the longest message.
 const SENDING: Duration = Duration::from_secs(5);
 
 /// An open line.

@@ -8,7 +8,7 @@ use rungc_syntax::codes;
 use std::io::ErrorKind;
 use std::process::Command;
 
-/// What is called.
+/// Name of the program.
 const PROGRAM: &str = "probe-rs";
 
 /// Calls probe-rs to write and verify an image, and to reset the part if it shall start.

@@ -12,15 +12,15 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What stands for a volume that is looked for.
+/// Argument for a volume to be searched for.
 const AUTO: &str = "auto";
 
-/// Where flash of an RP2040 is, and what is erased at once.
+/// Start and end of an RP2040's flash, and the unit of erasing.
 const FLASH: u32 = 0x1000_0000;
 const FLASH_END: u64 = 0x1100_0000;
 const SECTOR: u32 = 4096;
 
-/// How often it is looked whether the board has restarted.
+/// Interval of checks for a restarted board.
 const PERIOD: Duration = Duration::from_millis(100);
 
 /// Copies an image to a volume.
@@ -80,7 +80,7 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     Ok(())
 }
 
-/// What is lost for ever.
+/// Warning about the data that are lost for ever.
 fn loss(payload: &Payload) -> String {
     let first = payload.origin - payload.origin % SECTOR;
     let last = payload.end().next_multiple_of(SECTOR.into()) - 1;
@@ -90,7 +90,7 @@ fn loss(payload: &Payload) -> String {
     )
 }
 
-/// Whether the volume vanishes before long.
+/// Returns true if the volume vanishes before long.
 fn is_gone(volume: &Path, wait: Duration) -> bool {
     let begin = Instant::now();
     while volume.join(INFO).exists() {

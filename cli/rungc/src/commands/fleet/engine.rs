@@ -1,4 +1,4 @@
-//! What runs the PLCs of a group, and why.
+//! Selection of the engine for a group's PLCs, with the reason.
 
 use crate::commands::build::announced;
 use crate::commands::{Context, Failure};
@@ -15,11 +15,11 @@ const WORTH_COMPILING: u32 = 8;
 /// From how many on it is worth the runtime library, which takes a minute the first time.
 const WORTH_LIBRARY: u32 = 64;
 
-/// What was chosen for a group.
+/// Engine chosen for a group.
 pub struct Chosen<'m> {
     /// Emitted C; `None`: interpreters.
     pub engine: Option<Box<dyn Engine + 'm>>,
-    /// Why it is nothing faster; `None` if there is nothing to say.
+    /// Reason for which it is nothing faster; `None` if there is none to report.
     pub why: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What the summary says of operation errors, and of what stopped PLCs.
+//! Operation errors in the summary, and reasons for which PLCs stopped.
 
 use crate::commands::counted;
 use rungc_fleet::Failed;
@@ -12,13 +12,13 @@ const MOST_LINES: usize = 20;
 /// Runs of numbers that a line has at most.
 const MOST_RUNS: usize = 8;
 
-/// What is known of a group beside its PLCs.
+/// Properties of a group beside its PLCs.
 pub struct About<'m> {
     /// The program.
     pub module: &'m Module,
     /// The number of its first PLC.
     pub first: u32,
-    /// Why its engine is nothing faster.
+    /// Reason for which its engine is nothing faster.
     pub why: Option<String>,
 }
 
@@ -27,7 +27,7 @@ struct Row {
     code: u16,
     step: u32,
     times: u64,
-    /// When and where it happened first.
+    /// Time and place of the first occurrence.
     first: Option<(u32, u32)>,
     plcs: Vec<u32>,
 }

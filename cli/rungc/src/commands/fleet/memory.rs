@@ -1,4 +1,4 @@
-//! What a fleet takes of the system: memory, and open files.
+//! System resources of a fleet: memory, and open files.
 
 use rungc_fleet::Fleet;
 
@@ -18,7 +18,7 @@ pub fn allow_files(fleet: &Fleet) {
     let limit = getrlimit(Resource::Nofile);
     if limit.current.is_some_and(|current| current < wanted) {
         let current = Some(limit.maximum.map_or(wanted, |most| most.min(wanted)));
-        // Where that is not enough, the port that cannot be opened is reported.
+        // If that is not enough, the port that cannot be opened is reported.
         let _ = setrlimit(Resource::Nofile, Rlimit { current, ..limit });
     }
 }

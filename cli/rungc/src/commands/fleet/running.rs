@@ -11,13 +11,13 @@ use std::time::{Duration, Instant};
 /// Scan times that are kept apart, in microseconds: those of a thousandth of the longest are one.
 const STEP_US: u64 = 10;
 
-/// How many such steps there are; what takes longer counts as the last.
+/// Number of such steps; longer times count as the last.
 const STEPS: usize = 100_000;
 
 /// A fleet at work.
 pub struct Fleets<'m> {
     groups: Vec<Group<'m>>,
-    /// What is known of each group.
+    /// Properties of each group.
     about: Vec<About<'m>>,
     broker: Option<Broker>,
     cycle_ms: u64,
@@ -25,7 +25,7 @@ pub struct Fleets<'m> {
     times: Times,
 }
 
-/// How long the scans of all PLCs took.
+/// Durations of the scans of all PLCs.
 struct Times {
     /// By steps.
     counts: Vec<u32>,
@@ -105,7 +105,7 @@ impl<'m> Fleets<'m> {
 
     /// Waits for the next scan. Returns when the run began.
     fn rest(&self, begin: Instant, due: Duration, cycle: Duration, pace: &mut Pace) -> Instant {
-        /// How long an interruption waits to be noticed.
+        /// Time within which an interruption is noticed.
         const NOTICED: Duration = Duration::from_millis(100);
         if cycle > NOTICED {
             while !interruption::is_asked() && begin.elapsed() + NOTICED < due {
@@ -211,7 +211,7 @@ impl Times {
         self.longest_us = self.longest_us.max(us);
     }
 
-    /// What 99.9 % of the scans took at most.
+    /// Upper bound of 99.9 % of the scans.
     fn usual_us(&self) -> u64 {
         let mut within = 0;
         let step = self.counts.iter().position(|&count| {

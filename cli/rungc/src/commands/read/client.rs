@@ -23,7 +23,7 @@ pub struct Client {
     retries: u32,
 }
 
-/// What a PLC answers.
+/// Reply of a PLC.
 #[derive(Debug)]
 pub enum Reply {
     /// Yes.
@@ -62,7 +62,7 @@ impl Client {
         })
     }
 
-    /// Why the PLC cannot be read.
+    /// Failure to read the PLC.
     pub fn failure(&self, why: &str) -> Failure {
         Failure::Because(format!("{}: {why}", self.name))
     }
@@ -128,7 +128,7 @@ impl Client {
         let mut received = Vec::new();
         while Instant::now() < deadline {
             received.extend(self.read()?);
-            // What precedes an answer is noise on the line.
+            // Characters before an answer are noise on the line.
             let begin = received.iter().position(|c| matches!(*c, STX | ACK | NAK));
             received.drain(..begin.unwrap_or(received.len()));
             match received.as_slice() {
@@ -164,7 +164,7 @@ impl Client {
         Ok(())
     }
 
-    /// What has come; nothing if the line was silent.
+    /// Received characters; empty if the line was silent.
     fn read(&mut self) -> Result<Vec<u8>, Failure> {
         let mut buffer = [0; LONGEST];
         match self.wire.receive(&mut buffer) {

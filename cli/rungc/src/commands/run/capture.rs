@@ -20,7 +20,7 @@ const PACKET: u32 = 6;
 /// Shows readers the order of bytes.
 const BYTE_ORDER: u32 = 0x1a2b_3c4d;
 
-/// What an interface carries: packets of IP; serial data with the header of RTAC devices.
+/// Link types of interfaces: packets of IP; serial data with the header of RTAC devices.
 const LINKTYPE_RAW: u16 = 101;
 const LINKTYPE_RTAC_SERIAL: u16 = 250;
 
@@ -31,14 +31,14 @@ const OPTION_NAME: u16 = 2;
 const DATA_SENT: u8 = 1;
 const DATA_RECEIVED: u8 = 2;
 
-/// How many routers a packet may pass; and the window of a connection: both arbitrary here.
+/// Time to live of a packet, and the window of a connection: both arbitrary here.
 const HOPS: u8 = 64;
 const WINDOW: u16 = u16::MAX;
 
 /// A capture in the making.
 pub struct Capture {
     file: File,
-    /// When the run began.
+    /// Start of the run.
     begin_us: u64,
     /// Serial ports in the order of their interfaces; interface 0 is that of TCP.
     ports: Vec<String>,

@@ -79,7 +79,7 @@ impl Connecting {
         io.map(Connecting).map_err(Failure::Because)
     }
 
-    /// Whether there is one.
+    /// Returns true if there is one.
     pub fn any(&self) -> bool {
         self.0.any()
     }

@@ -1,4 +1,4 @@
-//! What the PLC would show of errors while a program runs: the operation errors, and what stopped it.
+//! Errors as the PLC would show them while a program runs: the operation errors, and the reason for which it stopped.
 
 use crate::commands::tell;
 use rungc_interp::OperationError;
@@ -10,9 +10,9 @@ use rungc_syntax::{Device, DeviceClass, Index};
 /// Reports errors with the instructions that caused them.
 pub struct Errors<'a> {
     module: &'a Module,
-    /// Whether errors are reported as they occur.
+    /// True if errors are reported as they occur.
     at_once: bool,
-    /// How many have been reported.
+    /// Number of errors reported.
     reported: usize,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// What stopped the program: the watchdog, at a loop or a jump.
+    /// Message for a program stopped by the watchdog, at a loop or a jump.
     pub fn watchdog(&self, now_ms: u64, error: LastError) -> String {
         let step = u32::from(error.stop_step);
         let code = plc_errors::WATCHDOG;

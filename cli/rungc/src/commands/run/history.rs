@@ -12,15 +12,15 @@ use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::slice::Iter;
 
-/// How many scans are executed again at most, if nothing has come from outside.
+/// Most scans executed again, if there was no input from outside.
 const EVERY: u64 = 100;
-/// How many moments are kept; one takes about 0.2 MB.
+/// Number of stored moments, of about 0.2 MB each.
 const MOMENTS: usize = 128;
 
 /// A run before a scan.
 #[derive(Clone)]
 pub struct Moment<'a> {
-    /// When.
+    /// Time of the moment.
     pub now_ms: u64,
     /// The PLC.
     pub machine: Saved,
@@ -28,9 +28,9 @@ pub struct Moment<'a> {
     pub hal: VirtualHal,
     /// The machine that it is wired to.
     pub plant: Option<Plant>,
-    /// What is still to be set.
+    /// Pending settings.
     pub pending: Peekable<Iter<'a, Setting>>,
-    /// How far the page had come, and what it had forced.
+    /// State of the page's control, with the forced values.
     pub control: Control,
 }
 
@@ -47,7 +47,7 @@ impl<'a> History<'a> {
         self.disturbed = true;
     }
 
-    /// Whether the moment before a scan is to be kept, after which there are this many scans less one.
+    /// Returns true if the moment before a scan is to be stored, after which there are this many scans less one.
     pub fn is_due(&self, scans: u64) -> bool {
         let last = self.moments.back().map(|moment| moment.control.scans);
         self.disturbed || last.is_none_or(|last| scans >= last + EVERY)
@@ -62,7 +62,7 @@ impl<'a> History<'a> {
         self.moments.push_back(moment);
     }
 
-    /// How many scans of these the run can go back.
+    /// Length of the undo history, in scans.
     pub fn reach(&self, scans: u64) -> u64 {
         let first = self.moments.front();
         first.map_or(0, |first| scans.saturating_sub(first.control.scans + 1))

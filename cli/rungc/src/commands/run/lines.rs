@@ -25,8 +25,8 @@ use wire::{Chunk, Event, Wire};
 /// Characters that wait for a line that does not take them; more are lost, as on an open wire.
 const UNSENT: usize = 4096;
 
-/// How far ahead of their times characters are handed over: a frame goes out as a whole, because pauses between its
-/// parts would tear it. The other end sends them one after the other.
+/// Time by which characters are sent ahead: a frame is sent as a whole, because pauses between its parts would break
+/// it. The other end sends them one after the other.
 const AHEAD_US: u32 = 1 << 30;
 
 /// The serial lines of a run.
@@ -36,10 +36,10 @@ pub struct Lines(Vec<Line>);
 /// A port of the PLC, and the port of this machine that it is.
 struct Line {
     number: u8,
-    /// What the port is called, and what the other end is.
+    /// Names of the port and of the other end.
     port: String,
     name: String,
-    /// What the other end is sent when it is open.
+    /// Data sent to the other end when it is open.
     opening: String,
     events: Receiver<Event>,
     /// The other end, while it is open.
@@ -49,12 +49,12 @@ struct Line {
     /// Characters that the other end has not taken.
     unsent: Vec<u8>,
     format: LineFormat,
-    /// What the port speaks.
+    /// Protocol of the port.
     protocol: Protocol,
-    /// When the last character was in, and when the last one is out, in microseconds since the run began.
+    /// Times of the last received character, and of the end of the last one sent, in microseconds since the run began.
     last_us: u64,
     sent_us: u64,
-    /// What is on the wire.
+    /// Frames on the wire.
     frames: Frames,
     place: Place,
 }
@@ -79,8 +79,8 @@ impl Lines {
         lines.collect::<Result<_, _>>().map(Lines)
     }
 
-    /// What has come in since the last call reaches the ports, at its times but not before `from_ms`; the run began at
-    /// `begin`.
+    /// Passes characters received since the last call to the ports, at their times but not before `from_ms`; the run
+    /// began at `begin`.
     pub fn receive(
         &mut self,
         hal: &mut VirtualHal,
@@ -98,7 +98,7 @@ impl Lines {
         }
     }
 
-    /// What the ports have sent goes out.
+    /// Sends the output of the ports.
     pub fn send(
         &mut self,
         hal: &mut VirtualHal,
@@ -256,7 +256,7 @@ impl Line {
         let before = chunk.bytes.len().saturating_sub(1) as u64;
         let mut at_us = came_us.saturating_sub(character_us * before);
         for &byte in &chunk.bytes {
-            // What came before the port was done sending answers what a faster line has shown already.
+            // Characters from before the end of the port's output answer data that a faster line has shown already.
             let earliest = [
                 1000 * from_ms,
                 self.last_us.max(self.sent_us) + character_us,
@@ -268,7 +268,7 @@ impl Line {
                 ..Received::new()
             };
             if let Some(line) = hal.line(self.number) {
-                // What does not fit is lost, as in the receiver of a PLC that is not asked in time.
+                // Excess characters are lost, as in the receiver of a PLC that is not polled in time.
                 let _ = line.feed(character);
             }
             let line = (self.protocol, self.format);

@@ -16,20 +16,20 @@ use serde_json::{Value, json};
 use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
-/// How often the page is brought up to date.
+/// Interval of updates of the page.
 const EVERY: Duration = Duration::from_millis(100);
 /// The slowest pace.
 const SLOWEST: u32 = 1000;
 
-/// What a page is to show, and where it is served.
+/// Settings of a page, and its address.
 pub struct Page<'a> {
     /// Its title.
     pub title: &'a str,
-    /// Where it is served.
+    /// Address at which it is served.
     pub address: SocketAddr,
-    /// Whether it takes no commands.
+    /// True if it accepts no commands.
     pub read_only: bool,
-    /// What the watch list holds at first.
+    /// Initial contents of the watch list.
     pub watched: Vec<Target>,
 }
 
@@ -47,18 +47,18 @@ pub struct Running<'a, 'm> {
     pub back: u64,
 }
 
-/// How far a run has come, and what the page holds.
+/// Progress of a run, and the state of the page.
 #[derive(Clone)]
 pub struct Control {
-    /// How many scans have been executed.
+    /// Number of scans executed.
     pub scans: u64,
     forced: Vec<(Target, f64)>,
     was_running: bool,
-    /// What edges in the ladder had seen.
+    /// States of edges in the ladder.
     edges: Vec<[bool; 2]>,
 }
 
-/// Whether the next scan is due.
+/// Decision about the next scan.
 pub enum Due {
     /// It is.
     Now,
@@ -103,7 +103,7 @@ impl Running<'_, '_> {
     }
 }
 
-/// What lets time stand still.
+/// Condition that pauses the run.
 enum Break {
     /// A device has changed, or has come to a value. With what it was after the scan before.
     Device(Target, Option<f64>, Option<Reading>),
@@ -130,7 +130,7 @@ pub struct Live {
     watched: Vec<Target>,
     breaks: Vec<Break>,
     log: Log,
-    /// Why time stands still.
+    /// Reason for the pause.
     paused: Option<String>,
     /// The network at whose breakpoint it does.
     stopped_at: Option<usize>,
@@ -138,13 +138,13 @@ pub struct Live {
     scans_left: Option<u32>,
     slower: u32,
     control: Control,
-    /// Whether the run goes through scans again that the page has seen.
+    /// True if the run repeats scans that the page has seen.
     again: bool,
-    /// Whether a command has changed the PLC.
+    /// True if a command has changed the PLC.
     disturbed: bool,
-    /// Whether the run is late by its clock because time stood still or passed slower.
+    /// True if the run is late by its clock because of a pause or a slower pace.
     shifted: bool,
-    /// When the page was brought up to date.
+    /// Time of the last update of the page.
     shown: Option<Instant>,
 }
 
@@ -296,22 +296,22 @@ impl Live {
         }
     }
 
-    /// Whether the run has become late by its clock since this was last asked.
+    /// Returns true if the run has become late by its clock since the last call.
     pub fn has_shifted(&mut self) -> bool {
         std::mem::take(&mut self.shifted)
     }
 
-    /// Whether a command has changed the PLC since this was last asked.
+    /// Returns true if a command has changed the PLC since the last call.
     pub fn has_disturbed(&mut self) -> bool {
         std::mem::take(&mut self.disturbed)
     }
 
-    /// How many scans have been executed.
+    /// Number of scans executed.
     pub fn scans(&self) -> u64 {
         self.control.scans
     }
 
-    /// How far the run has come, and what is forced.
+    /// Progress of the run, and the forced values.
     pub fn control(&self) -> Control {
         Control {
             edges: self.scene.edges(),
@@ -488,7 +488,7 @@ fn axes(seen: Seen) -> Value {
     axes.chain(processes).collect()
 }
 
-/// What a reading is as a number.
+/// Value of a reading as a number.
 fn number(reading: &Reading) -> Option<f64> {
     match reading {
         Reading::Bit(on) => Some(f64::from(u8::from(*on))),

@@ -5,7 +5,7 @@ use signal_hook::consts::{SIGUSR1, SIGUSR2, SIGXFSZ};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What a signal has asked for.
+/// Requests by a signal.
 const NOTHING: usize = 0;
 const STOP: usize = 1;
 const RUN: usize = 2;

@@ -6,15 +6,15 @@ use std::time::{Duration, Instant};
 /// A run that is later than this has stood still (a suspended machine, a debugger). It does not catch up.
 const STANDSTILL: Duration = Duration::from_secs(1);
 
-/// How late scans may begin, in microseconds, to be counted together.
+/// Steps of lateness by which scans are counted, in microseconds.
 const STEPS_US: [u64; 13] = [
     50, 100, 200, 300, 500, 1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 1_000_000,
 ];
 
-/// When the scans of a run in real time begin.
+/// Start times of the scans of a run in real time.
 pub struct Pace {
     clock: clock::Clock,
-    /// How many scans began with each step of lateness.
+    /// Number of scans that began with each step of lateness.
     counts: [u64; STEPS_US.len()],
     sum_us: u64,
     latest_us: u64,
@@ -50,7 +50,7 @@ impl Pace {
         begin
     }
 
-    /// How late scans began; `None` if none has waited.
+    /// Lateness of the scans; `None` if none has waited.
     pub fn summary(&self) -> Option<String> {
         let scans: u64 = self.counts.iter().sum();
         let mean = self.sum_us.checked_div(scans)?;

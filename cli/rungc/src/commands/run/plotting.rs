@@ -11,7 +11,7 @@ use rungc_syntax::DeviceClass;
 use std::io::Write;
 use std::path::Path;
 
-/// What a curve shows.
+/// Quantity that a curve shows.
 #[derive(Clone, Copy)]
 enum Subject {
     /// Position of an axis of the machine, by its place there.
@@ -39,7 +39,7 @@ fn named(target: Target, module: &Module) -> String {
     }
 }
 
-/// What a device holds, as far as it can be drawn.
+/// Value of a device as a number, if it can be drawn.
 fn number(seen: Seen, target: Target) -> Option<f64> {
     match Reading::of(seen, target)? {
         Reading::Bit(on) => Some(f64::from(u8::from(on))),
@@ -52,7 +52,7 @@ fn number(seen: Seen, target: Target) -> Option<f64> {
 /// A diagram in the making.
 pub struct Plotting {
     plot: Plot,
-    /// What the horizontal axis shows instead of time.
+    /// Quantity on the horizontal axis instead of time.
     over: Option<Target>,
     curves: Vec<(CurveId, Subject)>,
     file: AtomicFile,

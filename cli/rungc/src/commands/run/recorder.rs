@@ -24,12 +24,12 @@ const MOST_STEPS: usize = 10_000;
 pub struct Recorder {
     path: PathBuf,
     head: String,
-    /// What is compared.
+    /// Targets to compare.
     targets: Vec<Target>,
-    /// What they held after the last scan; nothing before the first.
+    /// Their values after the last scan; empty before the first.
     last: Vec<Reading>,
     steps: Vec<Step>,
-    /// What was set since the last scan.
+    /// Settings since the last scan.
     set: Vec<(String, f64)>,
 }
 
@@ -38,7 +38,7 @@ pub struct Recorder {
 struct Step {
     set: Vec<(String, f64)>,
     scans: u32,
-    /// Which targets are compared after it, and what they hold.
+    /// Targets compared after it, and their values.
     expect: Vec<(usize, Reading)>,
 }
 

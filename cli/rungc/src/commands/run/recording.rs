@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// A recording that is being written.
 pub struct Recording {
-    /// What the first signals show; those of the machine follow.
+    /// Targets of the first signals; those of the machine follow.
     targets: Vec<Target>,
     vcd: Vcd<BufWriter<File>>,
     file: AtomicFile,

@@ -6,7 +6,7 @@ use rungc_rt::retain::RetainFile;
 use rungc_rt::{Class, Plc, Program};
 use std::path::PathBuf;
 
-/// Where a run keeps latched devices.
+/// Storage of a run's latched devices.
 #[derive(Clone, Debug)]
 pub struct Kept {
     /// The file.

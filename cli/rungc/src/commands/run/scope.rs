@@ -15,18 +15,18 @@ use std::path::{Path, PathBuf};
 /// Parameters and state of the oscilloscope.
 pub const REGISTERS: [Register; 14] = D_SCOPE_MODE.run();
 
-/// What D8038 shows.
+/// Values of D8038.
 const SAMPLING: i16 = 1;
 const DONE: i16 = 3;
 
 /// Columns of a value over several words.
 const WIDE: [usize; 3] = [1, 2, 4];
 
-/// What the samples hold of one register.
+/// Samples of one register.
 #[derive(Clone, PartialEq, Debug)]
 struct Channel {
     name: String,
-    /// How many words it has.
+    /// Number of words.
     words: usize,
 }
 
@@ -115,7 +115,7 @@ fn word(machine: &Machine, number: u32) -> i16 {
 }
 
 impl Record {
-    /// What the registers hold.
+    /// Record in the registers.
     fn of(machine: &Machine) -> Record {
         let register = |register: Register| word(machine, register.number());
         let number = |value: i16| u32::try_from(value).unwrap_or(0);

@@ -23,7 +23,7 @@ pub struct Servers {
     type_code: u16,
 }
 
-/// What a run asks of servers over TCP.
+/// Requests of a run to servers over TCP.
 pub struct Asked(Clients);
 
 impl Asked {

@@ -36,7 +36,7 @@ use std::time::{Duration, Instant};
 struct Simulation<'a> {
     machine: Machine<'a>,
     hal: VirtualHal,
-    /// What the real-time clock follows in a run that keeps step with it.
+    /// Time source of the real-time clock in a run that keeps step with it.
     wall: Option<WallClock>,
     pending: Peekable<Iter<'a, Setting>>,
     shown: &'a [Target],
@@ -58,43 +58,43 @@ struct Simulation<'a> {
     watch: Watch,
     live: Option<Live>,
     history: History<'a>,
-    /// Whether the run writes nothing that would go back with it.
+    /// True if the run writes nothing that would have to be undone.
     can_go_back: bool,
-    /// Whether anything but clients of servers may bring something from outside before each scan.
+    /// True if there may be input from outside before each scan, other than by clients of servers.
     comes_from_outside: bool,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
     overrun: bool,
 }
 
-/// How many milliseconds a scan takes if nothing says so.
+/// Default duration of a scan, in milliseconds.
 pub const USUAL_SCAN_MS: u64 = 10;
 
-/// What is to be run, and how.
+/// Options of a run.
 pub struct Run<'a> {
     /// The command line.
     pub args: &'a RunArgs,
-    /// Where latched devices are kept from run to run.
+    /// Storage of latched devices from run to run.
     pub retain: Option<Kept>,
     /// The program.
     pub module: &'a Module,
-    /// Whether operation errors are reported as they occur.
+    /// True if operation errors are reported as they occur.
     pub errors_at_once: bool,
-    /// What is set, in the order of the times.
+    /// Settings in the order of their times.
     pub settings: &'a [Setting],
-    /// What the table shows.
+    /// Targets in the table.
     pub shown: &'a [Target],
-    /// What was asked for with `--watch`.
+    /// Targets of `--watch`.
     pub watched: &'a [Target],
-    /// What the horizontal axis of the diagram shows, if not time.
+    /// Quantity on the diagram's horizontal axis, if not time.
     pub over: Option<Target>,
-    /// Whether there is a table.
+    /// True if there is a table.
     pub table: bool,
     /// The special modules that are fitted.
     pub modules: &'a [FittedModule],
-    /// What the programming port shows as program memory.
+    /// Program memory for the programming port.
     pub program_memory: Option<&'a [u8]>,
-    /// What terminals and registers are connected to.
+    /// Connections of terminals and registers.
     pub connections: Vec<Connection>,
 }
 
@@ -110,7 +110,7 @@ impl Run<'_> {
         let mut machine = Machine::new(module);
         let (hal, wall) = self.hardware();
         machine.set_program_memory(self.program_memory);
-        // What does not exist is said before anything is shown or written.
+        // Missing devices are reported before anything is shown or written.
         self.look_for_all(Seen {
             machine: &machine,
             hal: &hal,
@@ -211,7 +211,7 @@ impl Run<'_> {
         Plotting::begin(path, seen, what, duration).map(Some)
     }
 
-    /// Whether anything but clients of servers may bring something from outside before each scan.
+    /// True if there may be input from outside before each scan, other than by clients of servers.
     fn comes_from_outside(&self) -> bool {
         let lines = self.args.serve.lines(self.module.model);
         !(self.connections.is_empty() && self.module.requests.is_empty() && lines.is_empty())
@@ -336,7 +336,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// How the run has gone.
+    /// Outcome of the run.
     fn outcome(&self) -> Outcome {
         match self.plant.as_ref().and_then(Plant::collision) {
             Some(_) => Outcome::Failed,
@@ -529,7 +529,7 @@ impl<'a> Simulation<'a> {
         Ok(scan_ms)
     }
 
-    /// How many milliseconds a scan lasts: what one takes, and the wait for the constant scan time.
+    /// Duration of a scan in milliseconds: its own, and the wait for the constant scan time.
     fn scan_ms(&self, given_ms: Option<u64>) -> u64 {
         let constant_ms = self.machine.constant_scan_ms().map(u64::from);
         match (given_ms, constant_ms) {
@@ -538,7 +538,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Whether nothing happens between two scans but what is set.
+    /// Returns true if nothing happens between two scans but settings.
     fn is_idle_between_scans(&self) -> bool {
         self.plant.is_none()
             && self.recording.is_none()
@@ -554,7 +554,7 @@ impl<'a> Simulation<'a> {
         }
         for left in (0..scan_ms).rev() {
             self.millisecond()?;
-            // What a scan begins with is recorded as it leaves it.
+            // The initial state of a scan is recorded as it leaves it.
             if left > 0 {
                 self.record()?;
             }

@@ -1,8 +1,8 @@
-//! What `rungc run` shows: a table with a row for each change, and a timing diagram of the bits at the end.
+//! Output of `rungc run`: a table with a row for each change, and a timing diagram of the bits at the end.
 
 use std::fmt::Write as _;
 
-/// How a watched device is shown.
+/// Presentation of a watched device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// As a lamp, and as a line of the timing diagram.
@@ -18,7 +18,7 @@ pub enum Kind {
 pub struct Column {
     /// The device's name as given.
     pub name: String,
-    /// How to show it.
+    /// Presentation.
     pub kind: Kind,
 }
 

@@ -1,4 +1,4 @@
-//! What is seen of the frames of a run: the table of connections at its end, and `--trace-frames`.
+//! Observation of a run's frames: the table of connections at its end, and `--trace-frames`.
 
 use super::capture::Capture;
 use crate::commands::{Failure, tell};
@@ -11,7 +11,7 @@ use std::io::Write as _;
 use std::net::SocketAddr;
 use std::path::Path;
 
-/// Where frames are logged, if not to a file.
+/// Name of the frames' log that is not a file.
 pub const STANDARD_ERROR: &str = "-";
 
 /// Frames and their connections.
@@ -22,10 +22,10 @@ pub struct Watch {
     heard: Option<Vec<String>>,
 }
 
-/// How many frames are kept until they are heard.
+/// Number of frames stored until they are retrieved.
 const HEARD: usize = 200;
 
-/// Where frames are logged.
+/// Log of frames.
 enum Log {
     Nowhere,
     StandardError,
@@ -35,7 +35,7 @@ enum Log {
     Failed,
 }
 
-/// What a frame went over.
+/// Transport of a frame.
 #[derive(Clone, Copy)]
 pub enum Way {
     /// A serial port.

@@ -1,4 +1,4 @@
-//! Which test files and cases run.
+//! Selection of test files and cases.
 
 use super::super::Failure;
 use crate::args::Shard;
@@ -52,7 +52,7 @@ pub fn keep(files: &mut Vec<TestFile>, shard: Shard) {
     files.retain(|file| !file.cases.is_empty());
 }
 
-/// Whether something of this name is in a part.
+/// Returns true if a case of this name belongs to a part.
 pub fn is_in(shard: Shard, name: &str) -> bool {
     // FNV-1a, the same on every machine and in every version.
     let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {

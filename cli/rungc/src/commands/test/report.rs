@@ -5,13 +5,13 @@ use serde::Serialize;
 use std::io;
 use std::time::Duration;
 
-/// What ran, and what came of it.
+/// Cases that ran, and their results.
 pub struct Results<'a> {
     /// The cases.
     pub suite: &'a Suite,
     /// Their results.
     pub report: &'a Report,
-    /// How long it took, with compiling.
+    /// Duration, with compiling.
     pub elapsed: Duration,
 }
 

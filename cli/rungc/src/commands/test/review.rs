@@ -8,7 +8,7 @@ use std::fs;
 use std::io::{self, BufRead};
 use std::path::PathBuf;
 
-/// What is to become of a trace that differs.
+/// Decision about a trace that differs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Wish {
     Accept,

@@ -18,7 +18,7 @@ pub fn sarif(results: &Results) -> io::Result<String> {
     sarif::log(rules, items, Vec::new())
 }
 
-/// What a kind of failure is, for those who see only the log.
+/// Description of a kind of failure, for readers of the log alone.
 fn rule(kind: &str) -> Value {
     let text = match kind {
         "does-not-compile" => "The program of a test case does not compile.",

@@ -102,7 +102,7 @@ fn hash(value: &impl Hash) -> String {
     format!("{first:016x}{:016x}", hasher.finish())
 }
 
-/// What distinguishes this executable from others.
+/// Identification of this executable.
 fn executable() -> io::Result<(u64, u128)> {
     let metadata = fs::metadata(std::env::current_exe()?)?;
     let changed = metadata.modified()?.duration_since(UNIX_EPOCH);

@@ -13,15 +13,15 @@ use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 use walkdir::WalkDir;
 
-/// How often files are looked at.
+/// Interval of checks for changed files.
 const PERIOD: Duration = Duration::from_millis(250);
 
-/// When each file was changed last, and its length.
+/// Time of each file's last change, and its length.
 type Seen = BTreeMap<PathBuf, (Option<SystemTime>, u64)>;
 
 /// Runs the tests, and again after each change, until interrupted.
 pub fn run(args: &TestArgs, cx: Context) -> Result {
-    // What is wrong with the command line itself ends it.
+    // An error in the command line itself ends it.
     Chosen::of(args, cx)?;
     let mut inputs: BTreeSet<PathBuf> = BTreeSet::new();
     loop {
@@ -30,7 +30,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
             let files = chosen.load(args)?;
             Ok((chosen, files))
         });
-        // What a file is read from is known once it can be read; until then, what it was read from before.
+        // The inputs of a file are known once it can be read; until then, the previous ones apply.
         if let Ok((chosen, files)) = &loaded {
             inputs = all_inputs(args, chosen, files);
         }

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// A run that the interpreter has shown.
 pub struct Shown<'a> {
-    /// What it shows: the number of a property or of an output.
+    /// Number of the property or the output.
     pub what: usize,
     /// The program, by number.
     pub program: usize,
@@ -72,7 +72,7 @@ pub fn replay(
     Ok(differing)
 }
 
-/// Whether a tool is missing, as opposed to a fault of what was emitted.
+/// Returns true if a tool is missing, as opposed to a fault of the emitted code.
 fn lacks_tool(kind: EngineKind, error: &BuildError) -> bool {
     let runs = |tool: &str| {
         let mut command = std::process::Command::new(tool);

@@ -1,4 +1,4 @@
-//! What other programs read: the question, or the proof.
+//! Exports for other programs: the question, or the proof.
 
 use crate::args::VerifyArgs;
 use crate::commands::properties::Asked;
@@ -49,7 +49,7 @@ pub fn questions(
     can_prove(args)
 }
 
-/// Whether what proves formulas is there, if it is needed.
+/// Checks that the prover of formulas is installed, if it is needed.
 pub fn can_prove(args: &VerifyArgs) -> std::result::Result<(), Failure> {
     match args.drat {
         true => solver(),
@@ -95,7 +95,7 @@ pub fn proofs(
 /// The solver that writes proofs.
 const SOLVER: &str = "cadical";
 
-/// What is said if the solver cannot be started.
+/// Failure to start the solver.
 fn unstarted(error: &std::io::Error) -> Failure {
     Failure::Because(format!(
         "--drat: `{SOLVER}`, which makes the proofs, cannot be started: {error}; install it (Debian: `apt install \
@@ -103,7 +103,7 @@ fn unstarted(error: &std::io::Error) -> Failure {
     ))
 }
 
-/// Whether the solver is there.
+/// Checks that the solver is installed.
 fn solver() -> std::result::Result<(), Failure> {
     let version = Command::new(SOLVER).arg("--version").output();
     version.map(|_| ()).map_err(|error| unstarted(&error))
@@ -120,7 +120,7 @@ fn prove(formula: &Path, time: Duration, force: bool) -> std::result::Result<(),
         .arg(&proof)
         .output()
         .map_err(|error| unstarted(&error))?;
-    /// What SAT solvers end with when a formula cannot be satisfied.
+    /// Exit code of SAT solvers for a formula that cannot be satisfied.
     const UNSATISFIABLE: i32 = 20;
     if output.status.code() == Some(UNSATISFIABLE) {
         return Ok(());

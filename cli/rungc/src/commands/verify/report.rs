@@ -19,14 +19,14 @@ pub struct Result<'a> {
     pub asked: &'a str,
     pub property: &'a Property,
     pub decision: &'a Decision,
-    /// What something other than the program may write.
+    /// Devices that may be written from outside the program.
     pub outside: &'a Outside,
-    /// How long it took.
+    /// Duration.
     pub time: Duration,
 }
 
 impl Result<'_> {
-    /// What it means for the exit code.
+    /// Outcome for the exit code.
     pub fn outcome(&self) -> Outcome {
         match (&self.decision.verdict, self.property.is_wanted()) {
             (Verdict::Undecided(_), _) => Outcome::Undecided,
@@ -71,7 +71,7 @@ impl Result<'_> {
         }
     }
 
-    /// What led to the verdict, and what it depends on.
+    /// Describes the grounds of the verdict, and its dependencies.
     fn describe(&self, text: &mut String, module: &Module) {
         if let Verdict::Found(trace) = &self.decision.verdict {
             tell(text, module, &story(module, self.property, trace));
@@ -115,7 +115,7 @@ impl Result<'_> {
     }
 }
 
-/// Why something is not decided, in words.
+/// Reason for which a property is not decided, in words.
 pub fn reason(why: &Why) -> String {
     match why {
         Why::Time { scans } => format!(
@@ -137,7 +137,7 @@ pub fn reason(why: &Why) -> String {
     }
 }
 
-/// How many properties hold, or are reached: `2 of 3 hold`.
+/// Number of properties that hold, or are reached: `2 of 3 hold`.
 pub fn summary(results: &[Result]) -> String {
     let good = results.iter().map(Result::outcome);
     let good = good.filter(|outcome| *outcome == Outcome::Success).count();
@@ -177,7 +177,7 @@ pub fn human(
     text
 }
 
-/// What is not modelled, a line each.
+/// Lists the parts that are not modelled, a line each.
 pub fn gaps(text: &mut String, gaps: &[Gap]) {
     for gap in gaps {
         let step = gap
@@ -191,7 +191,7 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
     }
 }
 
-/// What every proof supposes.
+/// Assumptions of every proof.
 pub fn assumptions(options: &Options, assumed: &[String], outside: &Outside) -> Vec<String> {
     let ms = options.world.scan_ms;
     let mut lines = vec![
@@ -214,7 +214,7 @@ pub fn assumptions(options: &Options, assumed: &[String], outside: &Outside) -> 
     lines
 }
 
-/// What is supposed of those who could write devices that the program writes.
+/// Assumption about writers of devices that the program writes.
 fn untouched(outside: &Outside) -> String {
     let named = match outside.sources()[..] {
         [] => "`--free`".to_string(),

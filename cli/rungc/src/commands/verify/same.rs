@@ -169,7 +169,7 @@ fn publish(
     Ok(reporter.add_verdicts(&findings, cases)?)
 }
 
-/// What a verdict means as a diagnostic.
+/// Diagnostic for a verdict.
 fn finding(output: &Output) -> Option<(&'static Code, String)> {
     let name = named(output);
     match &output.verdict {

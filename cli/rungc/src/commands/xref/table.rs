@@ -32,7 +32,7 @@ pub struct Entry {
     /// The comment of the first, or the meaning of a special device.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub comment: String,
-    /// Who uses them, in the order of the program.
+    /// Uses, in the order of the program.
     pub uses: Vec<Line>,
 }
 
@@ -69,12 +69,12 @@ pub struct Line {
     pub network: usize,
     /// Step number of the instruction.
     pub step: u32,
-    /// What is done.
+    /// Kind of use.
     #[serde(rename = "use")]
     pub kind: &'static str,
     /// The instruction.
     pub instruction: String,
-    /// How far the use goes that only running the program shows: `indexed` or `open`.
+    /// Range of a use that is known only at run time: `indexed` or `open`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<&'static str>,
 }
@@ -86,7 +86,7 @@ pub struct Overlap {
     pub first: Line,
     /// The other one.
     pub second: Line,
-    /// What they share.
+    /// Devices that they share.
     pub shared: Area,
 }
 

@@ -32,13 +32,13 @@ struct Published {
     analog: &'static str,
     /// Pins that converters drive, with the registers that hold what they convert.
     puts_out: &'static [(&'static str, u32)],
-    /// How these pins are set up.
+    /// Set-up of these pins.
     drives: &'static str,
-    /// What UARTs send on, and what they receive on.
+    /// Pins on which UARTs send, and those on which they receive.
     lines: [&'static str; 2],
-    /// How the pins that send and receive are set up.
+    /// Set-up of the pins that send and receive.
     line_modes: [&'static str; 2],
-    /// How inputs are set up, and the switch.
+    /// Set-up of inputs, and of the switch.
     input_modes: [&'static str; 2],
     /// The pin that switches the driver of an RS-485 line.
     driver: &'static str,
@@ -52,7 +52,7 @@ struct Published {
 /// The address of USART1 of every STM32 here.
 const USART1: u32 = 0x4001_3800;
 
-/// What the boards with an STM32F103 have in common.
+/// Common properties of the boards with an STM32F103.
 const F103: Published = Published {
     name: "",
     chip: "stm32f1",
@@ -174,7 +174,7 @@ fn client(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// What a script has printed.
+/// Output of a script.
 fn answer(mut script: Command) -> Value {
     let output = script.output().unwrap();
     assert!(output.status.success(), "{}", text(&output.stderr));

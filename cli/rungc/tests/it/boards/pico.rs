@@ -63,7 +63,7 @@ pub fn check_emulated(board: &Published, image: &Path) {
     assert_eq!(step(6, "resets"), 0);
 }
 
-/// What others read in the file is the image that the ELF file has.
+/// Other tools read the image of the ELF file from the file for the volume.
 #[test]
 fn others_read_the_image_for_the_volume() {
     let board = &PUBLISHED[4];
@@ -88,7 +88,7 @@ fn others_read_the_image_for_the_volume() {
 /// Bytes of the machine code of the second stage of the boot ROM.
 const STAGE_LENGTH: usize = 76;
 
-/// What its source is in machine code.
+/// Machine code of its source.
 fn second_stage(folder: &Path) -> Vec<u8> {
     let source = Path::new(env!("RUNGC_ROOT")).join("firmware/templates/boot2.s");
     for (tool, args) in [

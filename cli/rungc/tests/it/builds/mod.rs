@@ -95,7 +95,7 @@ fn cmake_takes_emitted_folders_as_they_are_or_installed() {
         run(path, &format!("cmake --build {name}-out"));
         run(path, &format!("cmake --install {name}-out --prefix there"));
     }
-    // What was installed does not need what it was built of, and may be moved.
+    // An installation does not need its sources, and may be moved.
     for gone in ["light-c", "tank-c", "light-out", "tank-out", "lib"] {
         fs::remove_dir_all(path.join(gone)).unwrap();
     }

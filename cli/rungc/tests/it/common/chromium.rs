@@ -7,8 +7,8 @@ use std::env;
 use std::path::Path;
 use std::process::Command;
 
-/// What a script of `clients` reports of a page; nothing without a browser. `RUNGC_PICTURES` names a folder for
-/// pictures of the page.
+/// Report of a script of `clients` about a page; `None` without a browser. `RUNGC_PICTURES` names a folder for pictures
+/// of the page.
 pub fn report(url: &str, script: &str) -> Option<Value> {
     let Some(modules) = env::var_os("RUNGC_BROWSER") else {
         eprintln!(

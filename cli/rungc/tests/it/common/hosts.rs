@@ -11,7 +11,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How long anything may take on a loaded machine.
+/// Time-out of any operation on a loaded machine.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Shows in Y000 to Y003 how often it was started, in D200, which is latched. While X000 is on, D210 (latched) counts
@@ -65,7 +65,7 @@ Y012 = 'write'
 Y013 = 'write'
 ";
 
-/// What runs the program.
+/// Host of the program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Host {
     InC,

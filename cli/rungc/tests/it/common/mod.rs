@@ -92,7 +92,7 @@ pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
     folder
 }
 
-/// Where the runtime is kept once it is built, for all tests.
+/// Folder of the built runtime, for all tests.
 pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
 }
@@ -176,7 +176,7 @@ pub fn normal(text: &str, folder: &Path) -> String {
     lines.join("\n")
 }
 
-/// What was called, what it printed and how it ended.
+/// Command, its output and its exit code.
 pub fn shown(folder: &Path, args: &[&str]) -> String {
     let output = rungc(folder, args);
     let (out, err) = (text(&output.stdout), text(&output.stderr));

@@ -29,12 +29,12 @@ impl Drop for Ends {
     }
 }
 
-/// Whether there is a broker.
+/// Returns true if a broker is installed.
 pub fn is_there() -> bool {
     are_there(&["mosquitto", "mosquitto_pub"])
 }
 
-/// Whether programs are there that a test needs.
+/// Returns true if the programs that a test needs are installed.
 pub fn are_there(programs: &[&str]) -> bool {
     let is_missing = |name: &&&str| {
         let mut command = Command::new(name);
@@ -96,7 +96,7 @@ pub fn publish(port: u16, user: Option<(&str, &str)>, topic: &str, payload: &str
     assert!(command.status().unwrap().success());
 }
 
-/// What a client prints of topics, with these options.
+/// Output of a client about topics, with these options.
 pub fn subscribe(port: u16, user: Option<(&str, &str)>, options: &[&str]) -> String {
     let mut command = client("mosquitto_sub", port, user);
     text(&command.args(options).output().unwrap().stdout)

@@ -7,18 +7,18 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-/// How long a run may take to open its ports.
+/// Time-out for a run to open its ports.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// How long the first scans may take, which set up the lines.
+/// Time-out of the first scans, which set up the lines.
 const FIRST_SCANS: Duration = Duration::from_millis(500);
 
 /// A run, which ends with the test.
 pub struct Run {
     child: Child,
-    /// What it reports, line by line.
+    /// Reports, line by line.
     said: Receiver<String>,
-    /// What is open, such as `COM1` or `Modbus TCP`, and where.
+    /// Open ends, such as `COM1` or `Modbus TCP`, and their addresses.
     open: Vec<(String, String)>,
 }
 
@@ -69,7 +69,7 @@ impl Run {
         let errors = child.stderr.take().unwrap();
         let (sender, said) = mpsc::channel();
         thread::spawn(move || {
-            // Whether or not anybody listens, so that the run can keep writing.
+            // Continues even without a listener, so that the run can keep writing.
             for line in BufReader::new(errors).lines().map_while(Result::ok) {
                 let _ = sender.send(line);
             }
@@ -97,7 +97,7 @@ impl Run {
         self.place(port)
     }
 
-    /// What it has reported since.
+    /// Reports since the last call.
     pub fn said(&self) -> Vec<String> {
         self.said.try_iter().collect()
     }

@@ -5,7 +5,7 @@ use crate::tools::{self, cargo, leave_out, no_rust, with_cargo, with_library};
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// What runs a program.
+/// Form in which a program runs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// `rungc serve`.
@@ -21,7 +21,7 @@ pub enum Form {
 /// The machine of [`Form::Arm`].
 const ARM: &str = "armv7-unknown-linux-gnueabihf";
 
-/// Where the C library of [`ARM`] is.
+/// Path of the C library of [`ARM`].
 const LIBRARIES: &str = "/usr/arm-linux-gnueabihf";
 
 impl Form {
@@ -60,7 +60,7 @@ impl Form {
         Some(run)
     }
 
-    /// How a run ends that is interrupted.
+    /// Exit code of an interrupted run.
     pub fn code(self) -> i32 {
         match self {
             Form::Serve => 130,

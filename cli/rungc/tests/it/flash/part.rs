@@ -11,7 +11,7 @@ const ACK: u8 = 0x79;
 const NACK: u8 = 0x1F;
 const FLASH: usize = 0x0800_0000;
 
-/// What disturbs the line or the part.
+/// Disturbance of the line or the part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fault {
     /// The write of this number, from 0 on, is rejected.
@@ -40,7 +40,7 @@ pub struct Part {
     pub is_extended: bool,
     pub is_read_protected: bool,
     pub is_write_protected: bool,
-    /// Where it holds the size of its flash.
+    /// Address of its flash size register.
     pub size_at: usize,
     pub faults: Vec<Fault>,
     /// Addresses of pages that were erased and of blocks that were written, in order.
@@ -82,7 +82,7 @@ impl Part {
         }
     }
 
-    /// What is at an address, if anything is.
+    /// Contents at an address, if there are any.
     fn memory(&self, at: usize, count: usize) -> Option<Vec<u8>> {
         let kib = (self.flash.len() / 1024) as u16;
         if at == self.size_at {

@@ -20,7 +20,7 @@ pub fn leave_out(missing: &str) {
     eprintln!("not run: there is no {missing}");
 }
 
-/// Whether all programs are there, or the test is to be left out.
+/// Returns true if all programs are installed; otherwise the test is left out.
 pub fn tools(programs: &[&str]) -> bool {
     let missing: Vec<_> = programs.iter().filter(|name| !is_there(name)).collect();
     missing.iter().for_each(|name| leave_out(name));

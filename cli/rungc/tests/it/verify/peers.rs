@@ -21,7 +21,7 @@ fn kept_apart() -> [String; 3] {
     [reverser("ANI Y000"), timer.to_string(), chain.to_string()]
 }
 
-/// What every test of a proof asks.
+/// Arguments of every test of a proof.
 const PROVED: [&str; 7] = [
     "verify",
     "program.il",
@@ -32,7 +32,7 @@ const PROVED: [&str; 7] = [
     "--cleared",
 ];
 
-/// Whether a peer is there; one that `.ci/run` has installed must be.
+/// Returns true if a peer is installed; one that `.ci/run` has installed must be.
 fn there(peer: &str, variable: &str, is_there: bool) -> bool {
     let required = std::env::var_os(variable).is_some();
     assert!(
@@ -45,7 +45,7 @@ fn there(peer: &str, variable: &str, is_there: bool) -> bool {
     is_there
 }
 
-/// How many formulas there are in a folder: SAT solvers find that none of them can be satisfied.
+/// Number of formulas in a folder: SAT solvers find that none of them can be satisfied.
 fn confirmed(folder: &Path, solvers: &[&str]) -> usize {
     let mut formulas = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -142,7 +142,7 @@ fn sat_solvers_confirm_that_outputs_are_the_same() {
         assert!(proof.join(needed).exists(), "{needed}");
         confirmed(&proof, &solvers);
     }
-    // What is not the same has no formulas.
+    // Different outputs have no formulas.
     let old = COUNTED[0];
     let folder = folder(&[
         ("old.il", old.as_bytes()),

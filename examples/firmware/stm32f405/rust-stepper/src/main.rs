@@ -23,17 +23,17 @@ use stepper::Stepper;
 /// Under QEMU, the button is pressed automatically: it is on from 10 to 20 ms.
 const DEMO: bool = cfg!(feature = "demo");
 
-/// What the button did.
+/// Edges of the button.
 static EDGES: EdgeQueue<16> = EdgeQueue::new();
 
-/// What is sent on the pins of pulse outputs.
+/// Pulse outputs, whose pulses are sent on their pins.
 static PULSES: Mutex<RefCell<SharedAxes<{ Stepper::PULSE_OUTPUTS }>>> =
     Mutex::new(RefCell::new([None; Stepper::PULSE_OUTPUTS]));
 
-/// When the next one of them changes, in microseconds.
+/// Time of the next change of a pulse output, in microseconds.
 static DUE: Mutex<Cell<Option<u32>>> = Mutex::new(Cell::new(None));
 
-/// Whether the button was on at the last tick.
+/// True if the button was on at the last tick.
 static WAS_ON: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 
 fn button(now_us: u32) -> bool {

@@ -13,7 +13,7 @@ const CPU_HZ: u32 = if cfg!(feature = "demo") {
     16_000_000
 };
 
-/// How many lamps there are.
+/// Number of lamps.
 pub const LAMPS: usize = 5;
 const FIRST_LAMP: usize = 11;
 
@@ -37,13 +37,13 @@ impl Register {
     }
 }
 
-/// How often the clock interrupts, in microseconds.
+/// Period of the clock's interrupt, in microseconds.
 const TICK_US: u32 = 50;
 
 /// Time since the clock was set up: milliseconds, and microseconds, which wrap sooner.
 static TIME: Mutex<Cell<(u32, u32)>> = Mutex::new(Cell::new((0, 0)));
 
-/// What an interrupt also does.
+/// Additional handler of the interrupt.
 static ON_TICK: Mutex<Cell<Option<fn(u32)>>> = Mutex::new(Cell::new(None));
 
 #[exception]
@@ -86,7 +86,7 @@ pub fn micros() -> u32 {
     free(|cs| TIME.borrow(cs).get().1)
 }
 
-/// What is called at each of these steps, in an interrupt, with the time.
+/// Sets the handler that is called at each of these steps, in an interrupt, with the time.
 pub fn on_tick(handler: fn(u32)) {
     free(|cs| ON_TICK.borrow(cs).set(Some(handler)));
 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// An open compound file.
 pub(super) struct Container<'b> {
     file: RefCell<CompoundFile<Cursor<&'b [u8]>>>,
-    /// How many bytes may still be read. Streams share no sectors: together they are not longer than the file.
+    /// Number of bytes that may still be read. Streams share no sectors: together they are not longer than the file.
     left: Cell<usize>,
 }
 
@@ -28,7 +28,7 @@ impl<'b> Container<'b> {
         let mut content = Vec::new();
         let mut file = self.file.borrow_mut();
         let stream = file.open_stream(name).ok()?;
-        // What can be read before a damaged sector is kept.
+        // The readable part before a damaged sector is used.
         let _ = stream
             .take(self.left.get() as u64)
             .read_to_end(&mut content);
@@ -55,7 +55,7 @@ impl<'b> Container<'b> {
 pub(super) struct Row {
     /// Name of the stream.
     pub id: String,
-    /// What it holds: `MAIN.Program.pou`.
+    /// Name: `MAIN.Program.pou`.
     pub name: String,
     /// The folder of the project that it lies in, which a program file shares with its tasks.
     pub folder: String,

@@ -1,4 +1,4 @@
-//! Which devices a source names: a compiled program that lacks one of them is older than its source.
+//! Devices that a source names: a compiled program that lacks one of them is older than its source.
 
 use crate::gx::program;
 use crate::gx::tokens::{self, Bare, Token};
@@ -29,7 +29,7 @@ pub(super) fn of_ladder(code: &[u8], labels: &BTreeMap<String, Device>) -> BTree
     BTreeSet::from_iter(devices.filter(is_stored))
 }
 
-/// Whether a device stores something; pointers and nesting levels are numbered anew by the compiler.
+/// Returns true if a device stores a value; pointers and nesting levels are renumbered by the compiler.
 fn is_stored(device: &Device) -> bool {
     !matches!(
         device.class,

@@ -27,7 +27,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const DATA: &str = "_hdb";
 /// The stream of the outer file that names those of the inner one.
 const LIST: &str = "projectdatalist.xml";
-/// What to do in the editor.
+/// Advice for the editor.
 const REBUILD: &str = "open the project in GX Works2, choose Compile > Rebuild All and save it";
 
 /// Reads a `.gxw` file.
@@ -341,7 +341,7 @@ impl<'o> Works<'o> {
         read
     }
 
-    /// How old a compiled program is, compared with its sources.
+    /// Age of a compiled program relative to its sources.
     fn age(&self, compiled: &Compiled, code: &[u8], sources: &[Source]) -> Age {
         let newer = |(_, pou): &Source| compiled.created >= pou.saved;
         if sources.iter().all(newer) {
@@ -411,7 +411,7 @@ impl<'o> Works<'o> {
         }
     }
 
-    /// Which of these POUs the text or the labels of another POU name.
+    /// Names of these POUs that occur in the text or the labels of another POU.
     fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
         let names = BTreeSet::from_iter(pous.iter().map(|part| part.stem()));
         let mut named = BTreeSet::new();
@@ -442,9 +442,9 @@ impl<'o> Works<'o> {
     }
 }
 
-/// How many devices a message names.
+/// Most devices that a message names.
 const SHOWN: usize = 5;
-/// How many POUs a message names.
+/// Most POUs that a message names.
 const NAMED: usize = 20;
 /// More parts of one kind than any project for an FX-family PLC has.
 const MAX_PARTS: usize = 1000;
@@ -459,7 +459,7 @@ fn listed(names: &[&str], limit: usize) -> String {
     }
 }
 
-/// How old a compiled program is.
+/// Age of a compiled program.
 enum Age {
     /// As new as its source.
     Newer,
@@ -469,7 +469,7 @@ enum Age {
     Older(String),
 }
 
-/// Which of a ladder and a compiled program that differ is taken: the ladder, unless it alone is damaged.
+/// Selects one of a ladder and a compiled program that differ: the ladder, unless it alone is damaged.
 fn better(source: Read, compiled: Read, pou: &str, found: &mut Diagnostics) -> Read {
     if source.diagnostics.has_errors() && !compiled.diagnostics.has_errors() {
         found.push(damage_of_sources(&format!("the ladder `{pou}` is damaged")));
@@ -523,7 +523,7 @@ fn refused(name: &str, line: &str, code: &'static codes::Code, message: String) 
     })
 }
 
-/// What the sources of a program are, by the first that is not a plain ladder.
+/// Description of a program's sources, by the first that is not a plain ladder.
 fn described(sources: &[Source]) -> String {
     let unlike = |(part, pou): &&Source| pou.language != Language::Ladder || has_labels(part, pou);
     match sources.iter().find(unlike) {
@@ -535,13 +535,13 @@ fn described(sources: &[Source]) -> String {
     }
 }
 
-/// Whether a ladder names labels.
+/// Returns true if a ladder names labels.
 fn has_labels(part: &Part, pou: &Pou) -> bool {
     let mut bodies = program::bodies(&part.bytes[pou.start..pou.end]);
     bodies.any(|body| matches!(tokens::token(body), Some(Token::Operand(Bare::Name(_)))))
 }
 
-/// Whether compiled code is more than `END` and padding.
+/// Returns true if compiled code is more than `END` and padding.
 fn holds_program(code: &[u8]) -> bool {
     !without_end(code).is_empty()
 }
@@ -563,7 +563,7 @@ fn without_end(code: &[u8]) -> &[u8] {
         .map_or(code, without_padding)
 }
 
-/// Whether a name ends with `ending`, in upper or lower case.
+/// Returns true if a name ends with `ending`, in upper or lower case.
 fn ends_with(name: &str, ending: &str) -> bool {
     name.to_lowercase().ends_with(&ending.to_lowercase())
 }

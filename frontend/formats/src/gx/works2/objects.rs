@@ -5,7 +5,7 @@ use crate::gx::fields::Fields;
 /// A moment: year, month, day, hour, minute, second, millisecond, in the order in which moments compare.
 pub(super) type Time = [u16; 7];
 
-/// What `.pou`, `.res`, `.tsk` and `.gh` begin with: title, comment, 22 bytes, a time, 4 bytes.
+/// Reads the head of `.pou`, `.res`, `.tsk` and `.gh`: title, comment, 22 bytes, a time, 4 bytes.
 fn head(fields: &mut Fields) -> Option<Time> {
     fields.text()?;
     fields.text()?;
@@ -58,7 +58,7 @@ pub(super) enum Language {
 }
 
 impl Language {
-    /// What people call it.
+    /// Display name.
     pub fn name(self) -> &'static str {
         match self {
             Language::Ladder => "ladder",
@@ -74,9 +74,9 @@ impl Language {
 pub(super) struct Pou {
     pub saved: Time,
     pub language: Language,
-    /// Where its content begins: tokens of a ladder, UTF-16 of structured text.
+    /// Start of its content: tokens of a ladder, UTF-16 of structured text.
     pub start: usize,
-    /// Where it ends.
+    /// End of its content.
     pub end: usize,
 }
 
@@ -113,9 +113,9 @@ impl Pou {
 /// A compiled program: the first region of `NAME.res`. The second is empty or an older state.
 pub(super) struct Compiled {
     pub created: Time,
-    /// Where its tokens begin.
+    /// Start of its tokens.
     pub start: usize,
-    /// Where they end.
+    /// End of its tokens.
     pub end: usize,
 }
 

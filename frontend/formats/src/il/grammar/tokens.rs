@@ -18,7 +18,7 @@ pub(super) fn digits<'s>() -> impl Rule<'s, &'s str> {
         .to_slice()
 }
 
-/// What separates words: white space, commas, and NUL, which some editors leave.
+/// Separator of words: white space, commas, and NUL, which some editors leave.
 fn separator<'s>() -> impl Rule<'s, char> {
     any().filter(|c: &char| c.is_whitespace() || matches!(c, ',' | '\0'))
 }
@@ -38,7 +38,7 @@ pub(super) fn comment_start<'s>() -> impl Rule<'s, ()> {
     choice((just(';').ignored(), just("//").ignored()))
 }
 
-/// What begins a comment in other languages.
+/// Beginning of a comment in other languages.
 pub(super) fn foreign_comment_start<'s>() -> impl Rule<'s, ()> {
     choice((just("(*").ignored(), just('#').ignored()))
 }

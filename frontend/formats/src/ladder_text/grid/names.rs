@@ -2,7 +2,7 @@
 
 use super::{Scan, is_device, kind};
 
-/// How far a name may begin or end from what it names; its middle may be half as far away.
+/// Largest distance of a name's beginning or end from its symbol; its middle may be half as far away.
 const COLUMNS: usize = 16;
 
 impl Scan<'_> {

@@ -14,7 +14,7 @@ const BEGIN_US: u32 = 0u32.wrapping_sub(300_000);
 
 /// In a run with an interrupt: how long the code between two instructions that send or count pulses takes.
 const INSTRUCTIONS_US: u32 = 700;
-/// How often such an interrupt can come.
+/// Minimum interval of such interrupts.
 pub const INTERRUPT_US: u32 = 5;
 
 /// Numbers that look random; the firmware in C has the same.
@@ -30,9 +30,9 @@ impl Numbers {
 /// Pins, counters and a queue of edges.
 struct Rig {
     now_us: u32,
-    /// When the timer is to call.
+    /// Time at which the timer is to call.
     due: Option<u32>,
-    /// What the timer's interrupt has, if it comes while a scan runs.
+    /// Axes taken by the timer's interrupt, if it comes while a scan runs.
     shared: Option<SharedAxes<1>>,
     /// The longest that it was late.
     late_us: u32,
@@ -80,7 +80,7 @@ impl Rig {
         }
     }
 
-    /// How late the timer is, if it is to call.
+    /// Delay of the timer, if it is to call.
     fn late(&self) -> Option<u32> {
         let late = self.now_us.wrapping_sub(self.due?);
         (late <= u32::MAX / 2).then_some(late)
@@ -173,15 +173,15 @@ impl PulseOutput for Rig {
     }
 }
 
-/// What a run was given, and how it went.
+/// Inputs and results of a run.
 #[derive(Default)]
 pub struct Run {
     pub pulses: u32,
     pub rises: [u32; 3],
     pub quarter: i32,
-    /// How late the interrupt was at most, in microseconds.
+    /// Largest delay of the interrupt, in microseconds.
     pub late_us: u32,
-    /// What pins did when, and at the end what the counters show.
+    /// Changes of pins with their times, and the counters at the end.
     pub trace: String,
 }
 

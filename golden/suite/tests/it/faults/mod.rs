@@ -18,9 +18,9 @@ struct Faults {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
-    /// What it is.
+    /// Name of the fault.
     pub name: String,
-    /// Why it is a fault.
+    /// Description of the fault.
     why: String,
     never: Option<String>,
     always: Option<String>,
@@ -42,12 +42,12 @@ fn condition(text: &str) -> Condition {
 }
 
 impl Fault {
-    /// What the machine sees to.
+    /// Conditions that the machine guarantees.
     pub fn assumed(&self) -> Vec<Condition> {
         self.assume.iter().map(|text| condition(text)).collect()
     }
 
-    /// What the program with the fault violates.
+    /// Property that the program with the fault violates.
     pub fn property(&self) -> Property {
         let read = |text: &Option<String>| text.as_deref().map(condition);
         let off = Condition::Constant(false);

@@ -11,9 +11,9 @@ use std::fmt::Write;
 struct Following {
     name: &'static str,
     source: &'static str,
-    /// What makes it follow, and its table if it has one; M0 is on once the table is made.
+    /// Program that makes it follow, and its table if it has one; M0 is on once the table is made.
     program: &'static str,
-    /// How far the master moves in a millisecond, and in all.
+    /// Distance of the master in a millisecond, and in all.
     master: (i32, i32),
     /// The formula, for the manual's column.
     formula: &'static str,

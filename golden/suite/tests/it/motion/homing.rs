@@ -185,7 +185,7 @@ impl Hal for Pins {
 }
 
 impl Steered {
-    /// Where it is at a time, in seconds, and how long it takes.
+    /// Position at a time, in seconds, and the duration.
     fn position(&self, at: f64) -> (f64, f64) {
         let (mut begin, mut place) = (0.0, 0.0);
         let mut found = None;

@@ -86,7 +86,7 @@ fn take(part: &Part, files: &mut Vec<TestFile>) {
     );
 }
 
-/// Why cases are disputed, by file and name.
+/// Reasons for which cases are disputed, by file and name.
 type Reasons = BTreeMap<(String, String), String>;
 
 fn disputed() -> Reasons {
@@ -161,7 +161,7 @@ impl Conformance {
         self.suite.modules()
     }
 
-    /// What goes otherwise than expected on an engine.
+    /// Deviations of an engine from the expectation.
     pub fn run(&self, engine: &mut dyn Engine) -> Vec<String> {
         let mut wrong = Vec::new();
         let report = plctest::run(&self.suite, engine, &mut |_| ControlFlow::Continue(()));

@@ -35,7 +35,7 @@ fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
 pub(super) struct Maker<'m, S> {
     pub(super) module: &'m mut Module,
     pub(super) iteration: TempId,
-    /// How far the devices are from those of the next iteration, in the order in which the iteration names them.
+    /// Distances of the devices from those of the next iteration, in the order in which the iteration names them.
     pub(super) strides: S,
 }
 
@@ -183,7 +183,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         Place { index, ..place }
     }
 
-    /// What leads from the next thing named in the first iteration to that of the present one, if it is another.
+    /// Index from the next device or edge named in the first iteration to that of the present one, if it is another.
     fn index(&mut self) -> Option<ExprId> {
         let stride = self.strides.next().unwrap_or_default();
         (stride > 0).then(|| self.module.add(Expr::Stride(self.iteration, stride)))

@@ -61,12 +61,13 @@ struct Group {
     /// Statements of an iteration.
     length: usize,
     iterations: usize,
-    /// What the first iteration names, in order.
+    /// Devices and edges that the first iteration names, in order.
     named: Vec<Named>,
 }
 
 impl Group {
-    /// Whether nothing is known that keeps [`Group::store`] from making its arrays, which takes longer to find out.
+    /// Returns true if nothing is known that prevents [`Group::store`] from making its arrays, which takes longer to
+    /// find out.
     fn fits(&self, module: &Module, arrays: &Arrays) -> bool {
         let reached = self.iterations as u32 - 1;
         let mut devices: Vec<_> = self

@@ -5,7 +5,7 @@ use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 
-/// What an iteration names, and how much higher the number of the next iteration's is.
+/// Device or edge that an iteration names, and the distance to the number in the next iteration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Named {
     pub(super) kind: Kind,
@@ -13,7 +13,7 @@ pub(super) struct Named {
     pub(super) stride: u32,
 }
 
-/// What can differ between iterations.
+/// Kind of item that can differ between iterations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Device(DeviceClass),
@@ -26,13 +26,13 @@ pub(super) struct Pair<'m> {
     module: &'m Module,
     /// Temporaries of the first iteration, and what they are in the other.
     temps: HashMap<TempId, TempId>,
-    /// What both name.
+    /// Devices and edges that both name.
     named: Vec<Named>,
 }
 
 impl<'m> Pair<'m> {
-    /// What two iterations name, in order, and by how much the numbers of the other one are higher; `None` if they
-    /// differ otherwise.
+    /// Devices and edges that two iterations name, in order, with the distances to the numbers of the other one; `None`
+    /// if the iterations differ otherwise.
     pub(super) fn of(module: &'m Module, one: &[Stmt], other: &[Stmt]) -> Option<Vec<Named>> {
         let mut pair = Pair {
             module,

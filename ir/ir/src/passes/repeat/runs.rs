@@ -12,10 +12,10 @@ use typed_index_collections::TiVec;
 /// Fewer iterations stay as they are written.
 const LEAST_ITERATIONS: usize = 4;
 
-/// How many operations a loop has to save: below, a program is easier to read with each device by its name.
+/// Fewest operations that a loop has to save: below, a program is easier to read with each device by its name.
 const LEAST_SAVED: u64 = 200;
 
-/// How many statements an iteration may have.
+/// Most statements of an iteration.
 const LONGEST_ITERATION: usize = 100;
 
 /// From which statement of a body to which each temporary is used.
@@ -55,9 +55,9 @@ fn each_temp(module: &Module, stmt: &Stmt, note: &mut impl FnMut(TempId)) {
 
 /// A statement that begins a network.
 pub(super) struct Network {
-    /// Which.
+    /// Its position.
     at: usize,
-    /// How many statements from it on a loop may have.
+    /// Most statements of a loop from here on.
     alike: usize,
 }
 
@@ -91,10 +91,10 @@ struct Run {
     /// First statement.
     first: usize,
     iterations: usize,
-    /// What its first iteration names.
+    /// Devices and edges that its first iteration names.
     named: Vec<Named>,
-    /// How many of the first iterations may not begin a group: the last of them gives a temporary a value that others
-    /// use, too.
+    /// Number of first iterations that may not begin a group: the last of them assigns a temporary that others use,
+    /// too.
     leaking: usize,
 }
 
@@ -102,7 +102,7 @@ struct Run {
 pub(super) struct Runs<'b> {
     body: &'b Body,
     shapes: Vec<Option<Shape>>,
-    /// Where each temporary is used.
+    /// Statements between which each temporary is used.
     spans: TiVec<TempId, Option<(usize, usize)>>,
     pub(super) arrays: Arrays,
     /// By the length of an iteration and where, modulo this, iterations begin: the last that was looked for.
@@ -160,7 +160,7 @@ impl<'b> Runs<'b> {
         })
     }
 
-    /// How many iterations of this length are alike from a statement on, if there are two.
+    /// Number of iterations of this length that are alike from a statement on, if there are two.
     fn iterations(&mut self, module: &Module, first: usize, length: usize) -> Option<usize> {
         let key = (length, first % length);
         if let Some(run) = self.found.get(&key)
@@ -201,7 +201,7 @@ impl<'b> Runs<'b> {
         })
     }
 
-    /// Whether what an iteration gives to temporaries is used in that iteration only.
+    /// Returns true if the temporaries that an iteration assigns are used in that iteration only.
     fn keeps_to_itself(&self, iteration: std::ops::Range<usize>) -> bool {
         let mut inside = true;
         for stmt in &self.body[iteration.clone()] {
@@ -215,7 +215,7 @@ impl<'b> Runs<'b> {
     }
 }
 
-/// How many iterations the devices that move on leave room for.
+/// Most iterations for which the advancing devices exist.
 fn most_iterations(module: &Module, named: &[Named]) -> usize {
     let most = |named: &Named| {
         let last = match named.kind {

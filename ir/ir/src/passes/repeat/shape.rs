@@ -1,4 +1,4 @@
-//! What statements have in common that differ in their devices only, as a number to compare them by.
+//! Shape of statements that differ in their devices only, as a number to compare them by.
 
 use crate::node::{
     Access, AccessKind, Branch, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt, TimerCoil,
@@ -9,14 +9,14 @@ use rungc_syntax::DeviceClass;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 
-/// How many operations a statement of an iteration may be.
+/// Most operations in a statement of an iteration.
 const LARGEST_STATEMENT: u64 = 500;
 
-/// What statements have in common that differ in their devices only.
+/// Shape of statements that differ in their devices only.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shape {
     hash: u64,
-    /// How many operations they are.
+    /// Number of operations.
     pub(super) size: u64,
 }
 

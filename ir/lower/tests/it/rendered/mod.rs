@@ -53,7 +53,7 @@ pub fn render(source: &Source, diagnostics: &[Diagnostic]) -> String {
     text
 }
 
-/// What is found, as text.
+/// Findings as text.
 pub fn shown(model: ModelId, text: &str) -> String {
     let (source, diagnostics) = findings(model, text);
     render(&source, &diagnostics)

@@ -9,7 +9,7 @@ use rungc_syntax::Device;
 /// Station numbers to try: that of a slave, and that of a master on L01S.
 const STATIONS: [u16; 2] = [1, 255];
 
-/// What the devices that choose the protocols of ports may hold.
+/// Possible values of the devices that choose the protocols of ports.
 pub struct Choices<'a> {
     facts: Facts,
     outside: &'a dyn Fn(Device) -> bool,

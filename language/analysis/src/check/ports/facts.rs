@@ -25,16 +25,16 @@ pub(super) struct Write {
     pub(super) at: usize,
     /// The value, if it is a constant.
     pub(super) value: Option<u16>,
-    /// Whether it is carried out in the first scan, whatever the devices of the program hold.
+    /// True if it is executed in the first scan, whatever the devices of the program hold.
     pub(super) first_scan: bool,
 }
 
-/// What UINIT sets up.
+/// Set-up by UINIT.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Uinit {
     /// The instruction.
     pub(super) at: usize,
-    /// Whether its port is a constant; else it may be about another one.
+    /// True if its port is a constant; else it may be about another one.
     pub(super) certain: bool,
     /// Protocol and station, if they are a constant.
     pub(super) protocol: Option<u16>,
@@ -62,7 +62,7 @@ pub(super) struct Facts {
     pub(super) uinit: BTreeMap<u8, Vec<Uinit>>,
 }
 
-/// What a register holds once the program has set it up.
+/// Value of a register once the program has set it up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Held {
     /// The value at power-on.
@@ -188,19 +188,19 @@ impl Facts {
         }
     }
 
-    /// What is written to a device.
+    /// Writes to a device.
     pub(super) fn writes(&self, device: Device) -> &[Write] {
         self.writes.get(&device).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether the program sets up a port.
+    /// Returns true if the program sets up a port.
     pub(super) fn touch(&self, wiring: &PortWiring) -> bool {
         let registers = wiring.setup_registers().map(d);
         let mut devices = registers.chain(wiring.setup_relays().map(m));
         devices.any(|device| !self.writes(device).is_empty())
     }
 
-    /// Whether UINIT is certain to set up a port.
+    /// Returns true if UINIT is certain to set up a port.
     pub(super) fn is_set_up(&self, port: u8) -> bool {
         let uinits = self.uinit.get(&port);
         uinits.is_some_and(|uinits| uinits.iter().any(|uinit| uinit.certain))
@@ -221,14 +221,14 @@ impl Facts {
         values.collect()
     }
 
-    /// Whether a relay may be on at some time.
+    /// Returns true if a relay may be on at some time.
     pub(super) fn may_be_on(&self, relay: Relay) -> bool {
         let device = m(relay);
         let mut writes = self.writes(device).iter();
         writes.any(|write| write.value != Some(0)) || self.indexed_relays.contains(&device)
     }
 
-    /// What a device holds after the set-up; bits are 0 and 1.
+    /// Value of a device after the set-up; bits are 0 and 1.
     pub(super) fn held(&self, device: Device) -> Held {
         let writes = self.writes(device);
         let Some(last) = writes.last() else {
@@ -245,7 +245,7 @@ impl Facts {
         }
     }
 
-    /// What UINIT makes of a port.
+    /// Set-up of a port by UINIT.
     fn uinit_words(&self, port: u8) -> Option<[u16; 3]> {
         match self.uinit.get(&port).map(Vec::as_slice) {
             None => Some([0; 3]),
@@ -258,7 +258,7 @@ impl Facts {
         }
     }
 
-    /// What a port speaks, if that is constant.
+    /// Protocol of a port, if it is constant.
     pub(super) fn protocol(&self, wiring: &PortWiring) -> Option<Protocol> {
         // A format that is computed also chooses, where nothing else does.
         let number = wiring.protocol;
@@ -365,7 +365,7 @@ fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
     found
 }
 
-/// Whether instructions are carried out in the first scan for certain.
+/// Decision whether instructions are certain to be executed in the first scan.
 struct When {
     skips: Skips,
     stack: Vec<bool>,
@@ -438,7 +438,7 @@ impl When {
     }
 }
 
-/// Whether a contact is on in the first scan.
+/// Returns true if a contact is on in the first scan.
 fn is_on_first(code: &Code, i: usize) -> bool {
     let Some(device) = code
         .device(i, 0)

@@ -1,4 +1,4 @@
-//! What is wrong with the set-up of serial ports.
+//! Errors in the set-up of serial ports.
 
 use super::super::Code;
 use super::facts::{Facts, Held, Uinit, Write, d, m};
@@ -173,7 +173,7 @@ impl Port<'_> {
         }
     }
 
-    /// Where a register, or the station in UINIT, is set last.
+    /// Position at which a register, or the station in UINIT, is set last.
     fn place(&self, device: Option<Device>) -> Option<usize> {
         let writes = device.map_or(&[][..], |device| self.facts.writes(device));
         let uinits = self.facts.uinit.get(&self.wiring.number);
@@ -421,7 +421,7 @@ fn remote_module(code: &Code, i: usize, out: &mut Diagnostics) {
     }
 }
 
-/// What a port is under a protocol, after "a".
+/// Noun for a port under a protocol, after "a".
 fn noun(protocol: Protocol) -> &'static str {
     match protocol {
         Protocol::Free => "port with a free protocol",

@@ -10,7 +10,7 @@ pub(super) enum Kind {
     Interrupt,
 }
 
-/// What happens if the one structure lies wholly inside the other, or crosses its end.
+/// Verdict on a structure that lies wholly inside another, or crosses its end.
 pub(super) enum Verdict {
     Fine,
     /// An error, with the PLC's number.
@@ -47,7 +47,7 @@ pub(super) fn crossing(outer: Kind, inner: Kind) -> u16 {
 }
 
 impl Kind {
-    /// How it is called in messages.
+    /// Name in messages.
     pub(super) fn name(self) -> &'static str {
         match self {
             Kind::Mc => "master control zone",
@@ -58,7 +58,7 @@ impl Kind {
         }
     }
 
-    /// What ends it.
+    /// Mnemonic of its end.
     pub(super) fn end(self) -> &'static str {
         match self {
             Kind::Mc => "MCR",

@@ -1,4 +1,4 @@
-//! What tests of ladders share.
+//! Common parts of the ladder tests.
 
 use rungc_analysis::resolve::resolve;
 use rungc_models::{Model, ModelId};

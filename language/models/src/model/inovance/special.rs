@@ -6,7 +6,7 @@ use crate::special::{
 };
 use rungc_rt::modules::Place;
 
-/// What both have.
+/// Devices of both.
 pub(super) const BOTH: &[Special] = specials! {
     M 8000 r 1 scan "RUN monitor, normally-open: on while the user program runs";
     M 8001 r 0 scan "RUN monitor, normally-closed: inverse of M8000";
@@ -449,7 +449,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8511 r 0 scan "high word of D8510";
 };
 
-/// What only H1U has.
+/// Devices of H1U only.
 pub(super) const H1U: &[Special] = specials! {
     D 8001 r 26120 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
@@ -458,7 +458,7 @@ pub(super) const H1U: &[Special] = specials! {
     D 8198 r 10226 inert(CANLINK) "identification as a CANlink remote device";
 };
 
-/// What only H2U has.
+/// Devices of H2U only.
 pub(super) const H2U: &[Special] = specials! {
     M 8088-8089 rw 0 by("pulse outputs") "Y3–4 (MTQ, MTP): as M8085";
     M 8093-8094 rw 0 scan "Y3–4 pulse-finished interrupt I505–506 enabled";

@@ -57,12 +57,12 @@ impl Device {
         }
     }
 
-    /// Whether these are registers that HM serves.
+    /// Returns true if these are registers that HM serves.
     pub(super) fn is_general_register(self, count: u32) -> bool {
         matches!(self, Device::Words(Class::D, first) if first + count <= HM_REGISTERS)
     }
 
-    /// Whether `count` words from here on are all there.
+    /// Returns true if `count` words from here on all exist.
     pub(super) fn has_words(self, count: u32, map: &dyn Map) -> bool {
         match self {
             Device::Bits(class, first) => map.has_bits(class, first, 16 * count),

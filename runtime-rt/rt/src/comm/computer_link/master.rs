@@ -39,11 +39,11 @@ const TURNS: [usize; 3] = [0, 0, 1];
 pub struct Job {
     /// The slave's station.
     pub station: u8,
-    /// Whether its registers are written.
+    /// True if its registers are written.
     pub write: bool,
     /// First register, of master and slave.
     pub first: u16,
-    /// How many registers.
+    /// Number of registers.
     pub count: u16,
 }
 
@@ -70,7 +70,7 @@ impl Job {
     }
 }
 
-/// Whose turn it is.
+/// Turns of the tasks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Schedule {
@@ -122,7 +122,7 @@ fn register(number: u32, map: &dyn Map) -> u32 {
         .map_or(0, |word| u32::from(word as u16))
 }
 
-/// How many tasks of a kind there are; none without data.
+/// Number of tasks of a kind; none without data.
 fn tasks(kind: u32, map: &dyn Map) -> u32 {
     if register(kind + 2, map) < 2 {
         0
@@ -144,7 +144,7 @@ fn job(kind: u32, index: u32, write: bool, map: &dyn Map) -> Option<Job> {
     })
 }
 
-/// What HM's frames are like: format 1 with sum.
+/// Settings of HM's frames: format 1 with sum.
 fn settings(station: u8) -> Settings {
     Settings {
         station,
@@ -170,7 +170,7 @@ pub fn request(job: Job, map: &dyn Map, frame: &mut Frame) {
     end(settings(job.station), frame);
 }
 
-/// Whether the characters received so far are the answer to a job.
+/// Decides whether the characters received so far form the answer to a job.
 pub fn cut(job: Job, received: &[u8]) -> Cut {
     let length = match received.first() {
         Some(&STX) => job.answer(),

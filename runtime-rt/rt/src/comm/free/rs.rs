@@ -17,7 +17,7 @@ const CR_LF: u16 = 1 << 15;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Mark {
     bytes: [u8; 4],
-    /// How many of them there are.
+    /// Number of characters.
     pub(super) length: u8,
 }
 
@@ -48,7 +48,7 @@ impl Mark {
         self.bytes.get(usize::from(index)).copied().unwrap_or(0)
     }
 
-    /// Whether the last characters received, the last one the lowest, are these.
+    /// Returns true if the last characters received, the last one the lowest, are these.
     fn ends(&self, window: u32) -> bool {
         let received = window.to_be_bytes();
         let length = usize::from(self.length).min(4);
@@ -56,7 +56,7 @@ impl Mark {
     }
 }
 
-/// What surrounds data.
+/// Marks around data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Marks {
     pub(super) before: Mark,
@@ -77,7 +77,7 @@ impl Marks {
         cr_lf: false,
     };
 
-    /// How many characters follow the end of the data.
+    /// Number of characters after the end of the data.
     const fn tail_length(&self) -> u8 {
         2 * self.sum as u8 + 2 * self.cr_lf as u8
     }
@@ -99,7 +99,7 @@ impl Marks {
         [a, b, c, d][usize::from(index.min(3))]
     }
 
-    /// What ends data that is received: CR and LF do if nothing else does.
+    /// Mark that ends received data: CR and LF if there is no other.
     fn end(&self) -> (Mark, u8) {
         if self.after.length == 0 && self.cr_lf {
             let [cr, lf] = LINE_END;
@@ -111,7 +111,7 @@ impl Marks {
 }
 
 impl Session<'_> {
-    /// What the format word puts around data.
+    /// Marks around data, as the format word selects them.
     fn marks(&self) -> Marks {
         let format = value(self.plc, self.own.wiring.format);
         let is = |bit: u16| format & bit != 0;
@@ -228,7 +228,7 @@ impl Session<'_> {
         }
     }
 
-    /// What was to be received is there.
+    /// Ends a reception that is complete.
     fn complete_rs(&mut self) {
         self.end_reception();
         self.own.progress.free.complete = true;

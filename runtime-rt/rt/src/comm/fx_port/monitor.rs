@@ -28,7 +28,7 @@ impl MonitorList<'_> {
         byte(index) | byte(index + 1) << 8
     }
 
-    /// How many words are sampled.
+    /// Number of sampled words.
     pub(super) fn words(&self) -> u32 {
         self.byte(0).unwrap_or(0).into()
     }

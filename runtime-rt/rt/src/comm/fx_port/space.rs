@@ -1,19 +1,19 @@
-//! Which address of the programming port is which device.
+//! Addresses of devices in the protocol of the programming port.
 
 use crate::plc::Class;
 
 /// A numbering of devices by byte addresses; bit numbers count the bits of the same bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
-    /// What the basic commands (`0 1 7 8`) of all PLCs reach.
+    /// Space of the basic commands (`0 1 7 8`) of all PLCs.
     Basic,
-    /// What the extended commands (`E…`) reach on FX1N and FX2N, and so on H1U, H2U and HM.
+    /// Space of the extended commands (`E…`) on FX1N and FX2N, and so on H1U, H2U and HM.
     Fx2n,
-    /// What they reach on FX3, and so on L01S and FX3U-compatible boards.
+    /// Their space on FX3, and so on L01S and FX3U-compatible boards.
     Fx3,
 }
 
-/// What lies in a run of addresses.
+/// Contents of a run of addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Area {
     /// Bit devices from this number on, eight to a byte, the lowest in bit 0.
@@ -28,16 +28,16 @@ pub(super) enum Area {
     Resets(Class),
     /// The monitor list.
     List,
-    /// What the devices of the monitor list are now.
+    /// Current values of the devices of the monitor list.
     Sample,
 }
 
-/// Where in an area an address is.
+/// Position of an address in an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     /// Number of the device, of the first of eight bits, or of the byte in the list or sample.
     pub(super) first: u32,
-    /// Which byte of its value, from the lowest on.
+    /// Number of the byte in its value, from the lowest on.
     pub(super) byte: u32,
 }
 
@@ -125,7 +125,7 @@ impl Space {
         base + u32::from(bit / 8)
     }
 
-    /// What lies at a byte address.
+    /// Area and position at a byte address.
     pub(super) fn find(self, address: u32) -> Option<(Area, Place)> {
         let &(start, _, area) = self
             .rows()

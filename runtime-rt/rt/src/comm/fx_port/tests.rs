@@ -221,8 +221,8 @@ fn refusals() {
     assert_eq!(client.map.writes, 0);
 }
 
-/// What GX Works2 asked and an FX3G answered when its program, `LD X000`, `OUT Y000`, `END`, was read; a PLC gives no
-/// such answer after a request to write.
+/// Requests of GX Works2 and answers of an FX3G while its program, `LD X000`, `OUT Y000`, `END`, is read; a PLC gives
+/// no such answer after a request to write.
 #[test]
 fn a_program_is_read_and_stays_what_it_is() {
     let mut client = Client::of(L01S);

@@ -12,7 +12,7 @@ const D_STATION: u32 = 8176;
 const D_SLAVES: u32 = 8177;
 /// Mode (master).
 const D_MODE: u32 = 8178;
-/// How often a slave is asked again (master).
+/// Number of retries for a slave (master).
 const D_RETRIES: u32 = 8179;
 /// Time-out in units of 10 ms (master).
 const D_TIME_OUT: u32 = 8180;
@@ -38,7 +38,7 @@ const CODE_NO_MASTER: u16 = 0x11;
 /// After so long without the master a slave reports it; the longest time-out that it can set is shorter.
 const NO_MASTER_US: u32 = 3_000_000;
 
-/// Where counts of errors stop.
+/// Limit of the error counts.
 const MOST_ERRORS: u16 = 10_000;
 
 /// Kind of a frame with a station's block.
@@ -52,7 +52,7 @@ struct Net {
     enhanced: bool,
     /// `0` to `2`, or `E`.
     mode: u8,
-    /// How many slaves there are.
+    /// Number of slaves.
     slaves: u8,
 }
 
@@ -90,7 +90,7 @@ impl Net {
         })
     }
 
-    /// What a station sends.
+    /// Block of a station.
     fn block(self, station: u8) -> Block {
         let k = u32::from(station);
         let (bits, words) = match self.mode {

@@ -65,7 +65,7 @@ pub(super) fn receive(
     Ok(())
 }
 
-/// Whether the partner is missing. It is reported once in each of its times.
+/// Reports a missing partner. It is reported once in each of its times.
 fn supervise(link: &mut Link, now_us: u32, map: &mut dyn Map) -> Result<(), LineFault> {
     let time_ms = match u32::from(value(D_TIME_OUT, map)) {
         0 => USUAL_TIME_OUT_MS,

@@ -9,7 +9,7 @@ const ETX: u8 = 0x03;
 /// Most characters of a frame: the block of an enhanced N:N link.
 const LONGEST: usize = 1 + 4 + 4 * 36 + 3;
 
-/// Whether the characters received so far are a frame.
+/// Decides whether the characters received so far form a frame.
 pub(super) fn cut(received: &[u8]) -> Cut {
     match received {
         [STX] => Cut::More,

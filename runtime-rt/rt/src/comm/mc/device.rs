@@ -9,7 +9,7 @@ use crate::runs::FIRST_COUNTER32;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Device {
     pub(super) class: Class,
-    /// Whether a point is a bit.
+    /// True if a point is a bit.
     pub(super) is_bit: bool,
     pub(super) first: u32,
 }
@@ -58,12 +58,12 @@ impl Device {
         Device::find(first, |row| u32::from(row.3) == code)
     }
 
-    /// Whether these are 32-bit counters as words.
+    /// Returns true if these are 32-bit counters as words.
     pub(super) fn is_counter32(self) -> bool {
         self.class == Class::C && !self.is_bit && self.first >= FIRST_COUNTER32
     }
 
-    /// Whether `count` words from here on are there.
+    /// Returns true if `count` words from here on exist.
     fn has_words(self, count: u32, map: &dyn Map) -> bool {
         if self.is_bit {
             map.has_bits(self.class, self.first, 16 * count)
@@ -110,7 +110,7 @@ impl Device {
         Ok(u32::from(self.word(0, map)?) | u32::from(self.word(1, map)?) << 16)
     }
 
-    /// Whether [`Device::double_word`] finds something.
+    /// Returns true if [`Device::double_word`] finds a value.
     pub(super) fn has_double_word(self, map: &dyn Map) -> bool {
         if self.is_counter32() {
             map.counter32(self.first).is_some()
@@ -204,7 +204,7 @@ impl Device {
         Ok(())
     }
 
-    /// Whether a single bit (`bit`) or word is there.
+    /// Returns true if a single bit (`bit`) or word exists.
     pub(super) fn exists(self, bit: bool, map: &dyn Map) -> bool {
         if bit {
             self.is_bit && map.bit(self.class, self.first).is_some()

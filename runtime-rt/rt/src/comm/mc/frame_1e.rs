@@ -36,7 +36,7 @@ const THIS_PC: u8 = 0xff;
 /// PC type of FX3U and FX3UC.
 const TYPE_FX3U: u8 = 0xf3;
 
-/// Whether the first byte of a request is a command of this frame.
+/// Returns true if the first byte of a request is a command of this frame.
 pub(super) fn is_command(byte: u8) -> bool {
     matches!(byte, READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK)
 }
@@ -65,7 +65,7 @@ pub(super) fn length(received: &[u8]) -> Option<usize> {
     Some(HEAD + data)
 }
 
-/// Why a frame is rejected, in the codes of this frame.
+/// Reason to reject a frame, in the codes of this frame.
 enum Refused {
     By(Refusal),
     /// The PLC itself rejects: 5B and a separate code.

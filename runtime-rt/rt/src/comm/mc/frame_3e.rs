@@ -30,7 +30,7 @@ const MOST_BITS_WRITTEN: u32 = 188;
 /// Characters of an echo.
 const MOST_ECHO: u32 = 960;
 
-/// What the PLC calls itself, in 16 characters; the code that follows is that of D8001.
+/// Name of the PLC, in 16 characters; the code that follows is that of D8001.
 const NAME: &[u8; 16] = b"RUNGC           ";
 
 /// The length of a request, as far as it shows.
@@ -63,7 +63,7 @@ pub(super) fn answer(
         };
         reply.set(data - 2, code as u8);
         reply.set(data - 1, (code >> 8) as u8);
-        // What was rejected: route and command.
+        // The rejected request: route and command.
         reply.extend(route);
         reply.extend(request.get(HEAD + 2..HEAD + 6).unwrap_or(&[0; 4]));
     }

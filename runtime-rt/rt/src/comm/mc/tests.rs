@@ -252,7 +252,7 @@ fn refusals_of_1e() {
     assert_eq!(map.writes, 0);
 }
 
-/// Whether an answer says that all went well.
+/// Returns true if an answer reports success.
 fn is_done(reply: &[u8]) -> bool {
     match reply {
         [0xd0, 0, _, _, _, _, _, _, _, code @ ..] => code.starts_with(&[0, 0]),

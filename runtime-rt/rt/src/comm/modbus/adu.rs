@@ -3,7 +3,7 @@
 use super::check::crc16;
 use crate::comm::{Cut, Frame, LineFault, hex_byte};
 
-/// How requests and replies are wrapped on a serial line.
+/// Framing of requests and replies on a serial line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Framing {
     /// Bytes as they are, and a CRC; a frame ends after 3.5 characters of silence.
@@ -20,7 +20,7 @@ pub const LONGEST_RTU: usize = 256;
 /// The longest ASCII frame.
 pub const LONGEST_ASCII: usize = 513;
 
-/// Whether the characters so far are an ASCII frame. A colon begins one wherever it comes.
+/// Decides whether the characters so far form an ASCII frame. A colon begins one wherever it comes.
 pub fn cut_ascii(received: &[u8]) -> Cut {
     match (received.first(), received.last()) {
         (_, Some(b':')) => Cut::Restart,
@@ -85,7 +85,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// How many bytes there are.
+    /// Length in bytes.
     pub fn len(&self) -> usize {
         self.0.len()
     }
@@ -103,7 +103,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Whether the bit at `index`, counted from the lowest of the byte at `first`, is on.
+    /// The bit at `index`, counted from the lowest of the byte at `first`.
     pub fn bit(&self, first: usize, index: usize) -> Option<bool> {
         let byte = self.byte(first.checked_add(index / 8)?)?;
         Some(byte >> (index % 8) & 1 == 1)
@@ -176,7 +176,7 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    /// What `cut` says after each character of `text`.
+    /// Results of `cut` after each character of `text`.
     fn cuts(text: &[u8]) -> Vec<Cut> {
         (1..=text.len())
             .map(|end| cut_ascii(&text[..end]))

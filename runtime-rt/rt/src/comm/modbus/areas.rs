@@ -1,9 +1,9 @@
-//! Which addresses stand for which devices: the map of each model as data.
+//! Modbus addresses of devices: the map of each model as data.
 
 use super::Profile;
 use crate::plc::Class;
 
-/// How devices fill addresses.
+/// Mapping of devices to addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
     /// One bit to an address; for T and C the contact.
@@ -21,15 +21,15 @@ pub enum Fill {
 pub struct Area {
     /// The first address, as in frames.
     pub address: u16,
-    /// How many addresses there are.
+    /// Number of addresses.
     pub count: u16,
     /// The class of the devices.
     pub class: Class,
     /// Number of the first device.
     pub first: u32,
-    /// How they fill addresses.
+    /// Mapping of the devices to the addresses.
     pub fill: Fill,
-    /// Whether a frame may write them.
+    /// True if a frame may write them.
     pub writable: bool,
 }
 
@@ -50,7 +50,7 @@ impl Area {
         self
     }
 
-    /// Whether `address` is one of these.
+    /// Returns true if `address` is one of these.
     fn holds(&self, address: u16) -> bool {
         address.wrapping_sub(self.address) < self.count
     }
@@ -82,7 +82,7 @@ pub enum Place {
     Half {
         /// Its number.
         counter: u32,
-        /// Whether it is the high word.
+        /// True for the high word.
         high: bool,
     },
 }
@@ -128,7 +128,7 @@ pub struct Limits {
     pub read_words: u16,
     /// Registers written (10).
     pub write_words: u16,
-    /// Whether a master knows 07, 08, 0B, 0C, 11 and 16.
+    /// True if a master supports 07, 08, 0B, 0C, 11 and 16.
     pub diagnosis: bool,
 }
 
@@ -340,7 +340,7 @@ pub static HM: Profile = Profile {
     counters_by_06: true,
 };
 
-/// What all models serve.
+/// Profiles of all models.
 pub static ALL: [&Profile; 5] = [&H1U, &H2U, &L01S, &HM, &FX3U];
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The check codes of Modbus frames.
 
-/// What one nibble adds to the CRC: polynomial A001h, lowest bit first.
+/// CRC contributions of a nibble: polynomial A001h, lowest bit first.
 const NIBBLES: [u16; 16] = {
     let mut table = [0; 16];
     let mut nibble = 0;

@@ -12,10 +12,10 @@ use super::{Limits, tcp};
 use crate::comm::{Cut, Frame, LineFault, Map, Ports};
 use crate::plc::Class;
 
-/// How long a server may take to answer, in microseconds; the manual does not say.
+/// Time-out of an answer, in microseconds; the manual does not specify one.
 const ANSWER_US: u32 = 1_000_000;
 
-/// How long a connection may take to open, and the pause before the next attempt, in microseconds.
+/// Time-out of opening a connection, and the pause before the next attempt, in microseconds.
 const OPEN_US: u32 = 3_000_000;
 const PAUSE_US: u32 = 1_000_000;
 
@@ -24,7 +24,7 @@ pub const LONGEST_ANSWER: usize = 260;
 
 const _: () = assert!(LONGEST_ANSWER == tcp::LONGEST);
 
-/// Where errors are shown.
+/// Register that shows errors.
 const ERROR: u32 = 8063;
 
 /// A row of the table.
@@ -41,7 +41,7 @@ pub struct ClientRow {
     pub function: u8,
     /// The first address in the server.
     pub address: u16,
-    /// How many coils or registers.
+    /// Number of coils or registers.
     pub count: u16,
     /// Number of the first register D that is sent or filled; coils are sixteen to a register.
     pub buffer: u32,
@@ -71,7 +71,7 @@ pub enum Link {
     Open = 2,
 }
 
-/// What a host does next with a connection.
+/// Next action of a host on a connection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum Wish {
@@ -85,7 +85,7 @@ pub enum Wish {
     Close = 3,
 }
 
-/// What a client has asked.
+/// Counters of a client's requests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Tally {
@@ -109,12 +109,12 @@ pub struct Client {
     /// The row in work, or the next one.
     row: u16,
     transaction: u16,
-    /// When it began to wait: for an answer, for the connection, or for the next attempt to open it.
+    /// Start of the wait: for an answer, for the connection, or for the next attempt to open it.
     since_us: u32,
-    /// How much of `received` there is.
+    /// Number of characters in `received`.
     length: u16,
     received: [u8; LONGEST_ANSWER],
-    /// What has been asked.
+    /// Counters of its requests.
     pub tally: Tally,
 }
 
@@ -138,8 +138,8 @@ impl Client {
         }
     }
 
-    /// What to do now, `now_us` microseconds after any beginning; a request that is to be sent is in `request`. `rows`
-    /// are those of the server, the same in each call.
+    /// Next action, `now_us` microseconds after an arbitrary origin; a request to be sent is in `request`. `rows` are
+    /// those of the server, the same in each call.
     pub fn next(
         &mut self,
         rows: &[ClientRow],
@@ -180,7 +180,7 @@ impl Client {
             (Cut::Whole, &[high, low, _, _, _, _, ref body @ ..]) => {
                 let transaction = u16::from_be_bytes([high, low]);
                 let row = rows.get(usize::from(self.row)).filter(|_| self.waits);
-                // What comes too late is not the answer to the request after it.
+                // A late answer does not belong to the next request.
                 if let Some(row) = row.filter(|_| transaction == self.transaction) {
                     let done = accept_body(&row.job(), Body(body), map);
                     self.finish(done, map);

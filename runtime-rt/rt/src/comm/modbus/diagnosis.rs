@@ -1,4 +1,4 @@
-//! What a master asks beyond reading and writing devices: the functions 07, 08, 0B, 0C, 11 and 16 of FX3's ADPRW
+//! Requests of a master beyond reading and writing devices: the functions 07, 08, 0B, 0C, 11 and 16 of FX3's ADPRW
 //! (FX3U MODBUS manual JY997D26201 §7.9 to §7.17, §8.3).
 //!
 //! A job's address is the sub-function of 08; its count is the data of 08 and the AND mask of 16. The manual puts two
@@ -17,7 +17,7 @@ const DIAGNOSE: u8 = 0x08;
 const READ_EVENT_COUNT: u8 = 0x0b;
 /// The log of events.
 const READ_EVENT_LOG: u8 = 0x0c;
-/// What the slave says that it is.
+/// Reads the identity of the slave.
 const READ_IDENTITY: u8 = 0x11;
 /// Changes bits of a register.
 const MASK_REGISTER: u8 = 0x16;
@@ -29,10 +29,10 @@ const LONGEST_LOG: usize = 64;
 /// Most bytes that follow the state of a slave.
 const LONGEST_IDENTITY: usize = 249;
 
-/// Where the data of an answer begins, after station and function.
+/// Offset of the data of an answer, after station and function.
 const DATA: usize = 2;
 
-/// Whether a function is one of these.
+/// Returns true if a function is one of these.
 pub(super) const fn is_known(function: u8) -> bool {
     matches!(
         function,
@@ -40,7 +40,7 @@ pub(super) const fn is_known(function: u8) -> bool {
     )
 }
 
-/// Whether a slave does not answer a job.
+/// Returns true if a slave does not answer a job.
 pub(super) fn is_silent(job: &Job) -> bool {
     (job.function, job.address) == (DIAGNOSE, LISTEN_ONLY)
 }

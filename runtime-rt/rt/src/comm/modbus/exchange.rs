@@ -10,7 +10,7 @@ use super::master::{Buffer, Job, accept};
 use crate::comm::{LineFault, Map};
 use crate::plc::Class;
 
-/// How far an exchange is.
+/// Progress of an exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 enum Phase {
@@ -27,7 +27,7 @@ enum Phase {
     Over = 4,
 }
 
-/// How an exchange has ended.
+/// Outcome of an exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum End {
@@ -45,22 +45,22 @@ pub enum End {
 #[repr(C)]
 pub struct Exchange {
     job: Job,
-    /// Which instruction it is for.
+    /// Instruction it is for.
     owner: u32,
     time_out_us: u32,
-    /// When the request was out.
+    /// Time at which the request was out.
     since_us: u32,
     phase: Phase,
     end: End,
-    /// How often the request may still be sent again.
+    /// Number of remaining retries.
     retries: u8,
-    /// How often it has been.
+    /// Number of retries so far.
     tries: u8,
     /// The scan in which the instruction has learnt of the last end ([`crate::Sys::scan`]); 0 before.
     pub told: u16,
 }
 
-/// What an instruction finds that the scan reaches.
+/// State of the port for an instruction that the scan reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visit {
     /// Nothing to do: the port works for another one or still for this one, or it is not driven.
@@ -133,37 +133,37 @@ impl Exchange {
         self.owner
     }
 
-    /// What it asks.
+    /// Job of the exchange.
     pub fn job(&self) -> &Job {
         &self.job
     }
 
-    /// Whether the answer is awaited.
+    /// Returns true if the answer is pending.
     pub fn is_waiting(&self) -> bool {
         self.phase == Phase::Waiting
     }
 
-    /// How long the answer may take to begin, in microseconds.
+    /// Time-out for the beginning of the answer, in microseconds.
     pub fn time_out_us(&self) -> u32 {
         self.time_out_us
     }
 
-    /// How long ago the request was out, in microseconds.
+    /// Time since the request was out, in microseconds.
     pub fn waited_us(&self, now_us: u32) -> u32 {
         now_us.wrapping_sub(self.since_us)
     }
 
-    /// Whether the port works for none.
+    /// Returns true if the port has no exchange.
     pub fn is_free(&self) -> bool {
         self.phase == Phase::Free
     }
 
-    /// How often the request has been sent again.
+    /// Number of retries so far.
     pub fn tries(&self) -> u8 {
         self.tries
     }
 
-    /// Whether the port works for another instruction than this one.
+    /// Returns true if the port works for another instruction than this one.
     pub fn works_for_another(&self, owner: u32) -> bool {
         self.phase != Phase::Free && self.owner != owner
     }
@@ -178,7 +178,7 @@ impl Exchange {
         self.phase = Phase::Sent;
     }
 
-    /// Whether the request is on the line.
+    /// Returns true if the request is on the line.
     pub fn is_sending(&self) -> bool {
         self.phase == Phase::Sent
     }

@@ -115,7 +115,7 @@ impl Buffer {
         })
     }
 
-    /// Whether `count` coils or registers fit in devices that exist.
+    /// Returns true if `count` coils or registers fit in devices that exist.
     fn holds(self, count: u16, coils: bool, map: &dyn Map) -> bool {
         let count = u32::from(count);
         match self.layout {
@@ -129,7 +129,7 @@ impl Buffer {
     }
 }
 
-/// What a master asks.
+/// Request of a master.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub struct Job {
@@ -139,24 +139,24 @@ pub struct Job {
     pub function: u8,
     /// The first address, as on the line.
     pub address: u16,
-    /// How many coils or registers; 05 and 06 write one, whatever it says.
+    /// Number of coils or registers; 05 and 06 write one regardless.
     pub count: u16,
-    /// Where the data is, or goes.
+    /// Devices that hold or receive the data.
     pub buffer: Buffer,
 }
 
 impl Job {
-    /// Whether a slave answers.
+    /// Returns true if a slave answers.
     pub fn is_answered(&self) -> bool {
         self.station != BROADCAST && !diagnosis::is_silent(self)
     }
 
-    /// Whether it is about coils rather than registers.
+    /// Returns true for coils rather than registers.
     fn coils(&self) -> bool {
         [READ_COILS, READ_INPUTS, WRITE_COIL, WRITE_COILS].contains(&self.function)
     }
 
-    /// How many coils or registers it may be about, and is.
+    /// Number of coils or registers, checked against the limits.
     fn count(&self, limits: &Limits) -> Result<u16, LineFault> {
         let most = match self.function {
             READ_COILS | READ_INPUTS => limits.read_bits,
@@ -185,7 +185,7 @@ pub fn request(
     close(framing, frame)
 }
 
-/// What is in it between the parts that a line puts around it: from the station on, without a check code.
+/// Appends the request without its framing: from the station on, without a check code.
 pub(super) fn request_body(
     limits: &Limits,
     job: &Job,
@@ -293,10 +293,10 @@ pub fn refusal(framing: Framing, job: &Job, reply: &[u8]) -> Option<[u8; 2]> {
     Some([function, body.byte(2)?]).filter(|_| refuses)
 }
 
-/// Where the data of an answer begins.
+/// Offset of the data of an answer.
 const DATA: usize = 3;
 
-/// Whether an answer has this many bytes of data, and says so.
+/// Checks that an answer has this many bytes of data, and that its length field agrees.
 fn expect_data(body: Body, bytes: u16) -> Result<(), LineFault> {
     let says = body.byte(DATA - 1).map(u16::from);
     match says == Some(bytes) && body.len() == DATA + usize::from(bytes) {
@@ -305,8 +305,8 @@ fn expect_data(body: Body, bytes: u16) -> Result<(), LineFault> {
     }
 }
 
-/// Whether an answer repeats the address of a write and, of 0F and 10, the quantity. What 05 and 06 write is not looked
-/// at again: slaves are known that answer with what they made of it.
+/// Checks that an answer repeats the address of a write and, of 0F and 10, the quantity. The value written by 05 and 06
+/// is not compared: some slaves answer with the value that they derived from it.
 fn confirms(job: &Job, body: Body) -> Result<(), LineFault> {
     let several = [WRITE_COILS, WRITE_REGISTERS].contains(&job.function);
     match (body.len(), body.word(2), body.word(4)) {

@@ -46,27 +46,27 @@ pub(super) use slave::{answer_ascii, answer_rtu};
 
 use super::LineFault;
 
-/// What a model serves as a slave.
+/// Devices that a model serves as a slave.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
     /// Its name in emitted code, in small letters.
     pub name: &'static str,
-    /// What 01 reads, 05 and 0F write.
+    /// Areas that 01 reads, 05 and 0F write.
     pub coils: &'static [Area],
-    /// What 02 reads.
+    /// Areas that 02 reads.
     pub inputs: &'static [Area],
-    /// What 03 reads, 06 and 10 write.
+    /// Areas that 03 reads, 06 and 10 write.
     pub registers: &'static [Area],
-    /// What 04 reads.
+    /// Areas that 04 reads.
     pub input_registers: &'static [Area],
-    /// How much one frame may be about.
+    /// Limits of one frame.
     pub limits: Limits,
-    /// Whether 05 takes any value but 0 for on, rather than FF00h alone.
+    /// True if 05 accepts any value but 0 for on, rather than FF00h alone.
     pub any_value_is_on: bool,
     /// Bytes of the shortest request as an RTU frame, which H1U and H2U say is one of five (h1u-h2u-programming §8.1,
     /// 63x1).
     pub shortest: usize,
-    /// Whether 06 writes half of a 32-bit counter.
+    /// True if 06 writes half of a 32-bit counter.
     pub counters_by_06: bool,
 }
 
@@ -84,10 +84,10 @@ mod function {
     pub const REFUSED: u8 = 0x80;
 }
 
-/// What 05 sends to switch on.
+/// Value that 05 sends to switch on.
 const COIL_ON: u16 = 0xff00;
 
-/// Why a slave rejects a request.
+/// Reason for which a slave rejects a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Exception {
     /// 01: a function that it does not know.
@@ -122,7 +122,7 @@ impl Exception {
         }
     }
 
-    /// What a port notes of it (h1u-h2u-programming §8.1: "standard error frame").
+    /// Fault that a port records for it (h1u-h2u-programming §8.1: "standard error frame").
     fn fault(self) -> LineFault {
         match self {
             Exception::Function => LineFault::Command,

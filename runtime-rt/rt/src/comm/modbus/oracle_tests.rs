@@ -70,7 +70,7 @@ fn fill(seed: u64) -> (Double, Storage) {
     (plc, storage)
 }
 
-/// Whether both hold the same.
+/// Returns true if both hold the same values.
 fn agree(plc: &Double, storage: &Storage) -> bool {
     (0..COILS).all(|n| plc.bit(Class::M, n as u32) == storage.get_coil(n as u16).ok())
         && (0..REGISTERS).all(|n| {

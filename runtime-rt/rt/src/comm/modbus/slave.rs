@@ -9,14 +9,14 @@ use super::function::{
 use super::{Area, COIL_ON, Exception, Profile};
 use crate::comm::{Frame, LineFault, Places};
 
-/// How a port is set up as a slave.
+/// Settings of a port as a slave.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// RTU or ASCII.
     pub framing: Framing,
     /// The PLC's own station as its register holds it; 1 to 247 answer.
     pub station: u16,
-    /// What it serves.
+    /// Devices that it serves.
     pub profile: &'static Profile,
 }
 
@@ -125,27 +125,27 @@ pub(super) fn refuse(body: Body, why: Exception, reply: &mut Frame) {
     reply.extend(&[station, function | REFUSED, why.code()]);
 }
 
-/// What is done with the devices of a request, one after the other.
+/// Operation on the devices of a request, one after the other.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pass {
     /// They are read.
     Read,
-    /// Whether all of them are there.
+    /// They are checked to exist.
     Check,
     /// They are written.
     Write,
 }
 
-/// What a request is about.
+/// Target of a request.
 struct Request<'a> {
     areas: &'static [Area],
     /// The first address.
     first: u16,
-    /// How many addresses.
+    /// Number of addresses.
     count: u16,
     /// Coils rather than registers.
     bits: bool,
-    /// What is written; `None`: they are read.
+    /// Data to write; `None`: they are read.
     new: Option<&'a [u8]>,
 }
 
@@ -202,7 +202,7 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// What the address at an index is to be written with.
+    /// New value of the address at an index.
     #[inline(always)]
     fn new_value(&self, index: u16) -> Option<u16> {
         let (new, index) = (Body(self.new?), usize::from(index));
@@ -213,7 +213,7 @@ impl<'a> Request<'a> {
     }
 }
 
-/// How many bytes of data there are for a quantity that is within the limits of a frame.
+/// Number of data bytes for a quantity that is within the limits of a frame.
 fn bytes_of(count: u16, bits: bool) -> u8 {
     match bits {
         true => count.div_ceil(8) as u8,

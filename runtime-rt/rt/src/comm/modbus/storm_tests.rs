@@ -6,7 +6,7 @@ use crate::double::Double;
 use crate::{Class, Plc};
 use std::vec::Vec;
 
-/// How long a character takes at 115,200 bit/s and 10 bits, in microseconds.
+/// Duration of a character at 115,200 bit/s and 10 bits, in microseconds.
 const CHARACTER_US: u32 = 87;
 
 /// Frames of a run.
@@ -20,7 +20,7 @@ fn sealed(body: &[u8]) -> Vec<u8> {
     [body, &crc16(body).to_le_bytes()].concat()
 }
 
-/// What a frame on the line is to do.
+/// Expected handling of a frame on the line.
 enum Frame {
     /// It is answered like this.
     Good(Vec<u8>),
@@ -33,7 +33,7 @@ struct Line {
     /// Of a xorshift generator.
     state: u32,
     now_us: u32,
-    /// What D100 and the following registers are to hold.
+    /// Expected contents of D100 and the following registers.
     words: Vec<i16>,
 }
 

@@ -5,7 +5,7 @@ use super::slave::{refuse, serve_or_refuse};
 use super::{Exception, Profile};
 use crate::comm::{Cut, Frame, LineFault, Map};
 
-/// Where the length of a frame is.
+/// Offset of the length of a frame.
 const LENGTH: usize = 4;
 /// Bytes before the unit of a frame.
 const HEADER: usize = 6;
@@ -13,8 +13,8 @@ const HEADER: usize = 6;
 /// The longest frame.
 pub const LONGEST: usize = 260;
 
-/// Whether the characters so far are a frame. After [`Cut::Drop`] the connection is of no use: nothing says where a
-/// frame begins.
+/// Decides whether the characters so far form a frame. After [`Cut::Drop`] the connection is unusable: the beginning of
+/// the next frame is unknown.
 pub fn cut(received: &[u8]) -> Cut {
     let word = |at: usize| match received.get(at..at + 2) {
         Some(&[high, low]) => Some(u16::from_be_bytes([high, low])),

@@ -1,4 +1,4 @@
-//! What chooses the protocol of a port of FX, and Modbus on the channels of FX3.
+//! Selection of the protocol of FX's ports, and Modbus on the channels of FX3.
 
 use super::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
 use crate::comm::LineFault;
@@ -74,7 +74,7 @@ impl ModbusWiring {
         self.relay(9)
     }
 
-    /// How long slaves work on a broadcast, in microseconds.
+    /// Time that slaves need for a broadcast, in microseconds.
     pub(crate) fn after_broadcast_us(self, plc: &dyn Plc) -> u32 {
         match self.register(10).value(plc) {
             0 => 400_000,
@@ -88,7 +88,7 @@ impl ModbusWiring {
         u32::from(self.register(11).value(plc).min(MOST_MS)) * 1000
     }
 
-    /// How often a request without an answer is sent again.
+    /// Number of retries of a request without an answer.
     pub(crate) fn retries(self, plc: &dyn Plc) -> u8 {
         const MOST: u16 = 20;
         self.register(12).value(plc).min(MOST) as u8

@@ -1,4 +1,4 @@
-//! What ports of a kind do that others do not, as functions: a program links only those of the ports it has.
+//! Rules of ports by kind, as functions: a program links only those of the ports it has.
 
 use super::{
     Choice, D_CARD, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, M_PORT_2_MODBUS, M_PORT_2_SET_UP,
@@ -13,10 +13,10 @@ use crate::plc::Plc;
 /// Type of the CAN card.
 const CAN_CARD: u16 = 7;
 
-/// What ports of a kind do.
+/// Rules of a kind of port.
 #[derive(Clone, Copy, Debug)]
 pub struct Rules {
-    /// What the registers choose now; the words are what UINIT has set up.
+    /// Protocol that the registers choose now; the words are the setup by UINIT.
     pub(super) protocol: fn(&PortWiring, &dyn Plc, [u16; 3]) -> Protocol,
     /// The format of characters that the registers choose, for the free protocol (true) or others.
     pub(super) line: fn(&PortWiring, &dyn Plc, [u16; 3], bool) -> LineFormat,
@@ -71,8 +71,8 @@ fn by_word(wiring: &PortWiring, plc: &(impl Plc + ?Sized), free: bool) -> LineFo
 }
 
 impl PortWiring {
-    /// Whether [`advance_slave`](crate::comm::advance_slave) knows the port: what chooses its protocol is all known
-    /// when a program is built.
+    /// Returns true if [`advance_slave`](crate::comm::advance_slave) supports the port: the inputs of its selection are
+    /// all known when a program is built.
     pub const fn may_be_slave_alone(&self) -> bool {
         matches!(
             self.choice,
@@ -85,8 +85,8 @@ impl PortWiring {
         )
     }
 
-    /// What the registers choose now on such a port, as [`Rules::protocol`] says of all; the words are what UINIT has
-    /// set up.
+    /// Protocol that the registers choose now on such a port, as [`Rules::protocol`] does for all; the words are the
+    /// setup by UINIT.
     #[inline(always)]
     pub(in crate::comm) fn protocol_of(
         &self,

@@ -19,7 +19,7 @@ const fn signals(full: i32) -> [Option<Range>; 7] {
     ranges
 }
 
-/// What all have in common. A conversion takes 80 ms.
+/// Common properties of all. A conversion takes 80 ms.
 const EXTENSION: Kind = Kind {
     source: "hm-motion-controller §7.2",
     place: Place::Hm,

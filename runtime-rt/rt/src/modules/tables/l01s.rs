@@ -46,7 +46,7 @@ const fn inputs(id: i16) -> [Bfm; 5] {
     ]
 }
 
-/// What all analog modules have in common. The manual does not state how long they convert.
+/// Common properties of all analog modules. The manual does not state the conversion time.
 const ANALOG: Kind = Kind {
     source: "l01s-programming §9.3",
     place: Place::L01s,

@@ -27,7 +27,7 @@ fn celsius(degrees: f64) -> Signal {
     }
 }
 
-/// What the first input holds as its present value once everything has been converted.
+/// Present value of the first input once everything has been converted.
 fn measured(module: &mut Module, signal: Signal) -> i16 {
     module.connect(0, signal).unwrap();
     module.pass(7_000_000);

@@ -8,7 +8,7 @@ use crate::plant::axis::{Axis, Back, Drive};
 use rungc_syntax::DeviceClass;
 use rungc_tables::Spanned;
 
-/// How many cycles of an encoder a pulse may make at most.
+/// Most cycles of an encoder per pulse.
 const CYCLES_PER_PULSE: f64 = 10.0;
 
 impl Reader<'_> {
@@ -73,7 +73,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What drives an axis, and the name of the output.
+    /// Drive of an axis, and the name of the output.
     fn drive(&mut self, at: usize, raw: &RawAxis) -> Option<(Drive, String)> {
         let of_motor = [&raw.reverse].into_iter().flatten().map(Spanned::span);
         let of_motor = of_motor.chain(raw.speed.as_ref().map(Spanned::span));

@@ -49,12 +49,12 @@ impl Description {
         self.terminals.iter().map(|t| (t.class, t.number))
     }
 
-    /// Whether the machine drives this device.
+    /// Returns true if the machine drives this device.
     pub fn drives(&self, class: DeviceClass, number: u32) -> bool {
         class == DeviceClass::X && self.terminals().any(|t| t == (class, number))
     }
 
-    /// Whether a PLC of this model has the terminals that the file names.
+    /// Checks that a PLC of this model has the terminals that the file names.
     pub fn check(&self, model: &Model) -> Result<(), LoadError> {
         let has = |t: &Terminal| {
             let mut ranges = model.ranges_of(t.class);

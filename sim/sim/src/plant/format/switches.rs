@@ -6,7 +6,7 @@ use super::values::TOO_OFTEN;
 use crate::plant::marks::{Marks, Switch};
 use rungc_tables::Spanned;
 
-/// How lengths of an axis are given.
+/// Scale of an axis's lengths.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
     pub(super) per_unit: f64,

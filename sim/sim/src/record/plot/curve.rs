@@ -2,13 +2,13 @@
 
 use super::Shape;
 
-/// How many columns a diagram has: two a pixel of its width.
+/// Number of columns of a diagram: two a pixel of its width.
 const COLUMNS: f64 = 1600.0;
 
 /// A moment in milliseconds, or a value that the horizontal axis shows, and the value there.
 pub(super) type Point = (f64, f64);
 
-/// What a column keeps of the points that fall into it.
+/// Points of a column that are stored.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Column {
     first: Point,
@@ -23,7 +23,7 @@ pub(super) struct Curve {
     kept: Kept,
 }
 
-/// What is kept of a curve.
+/// Stored points of a curve.
 #[derive(Clone, PartialEq, Debug)]
 enum Kept {
     /// Over time: the columns that hold points, by their numbers.

@@ -35,7 +35,7 @@ const GRID: &str = "#dddddd";
 const LANE_INK: &str = "#0072b2";
 const LANE_FILL: &str = "#d6e6f2";
 
-/// What the picture is drawn on: its horizontal scale, and the elements so far.
+/// Drawing area: its horizontal scale, and the elements so far.
 struct Canvas {
     /// Left edge of the panels.
     left: f64,
@@ -50,7 +50,7 @@ struct Scale {
     greatest: f64,
     /// Until when values are held that do not change any more.
     holds_to: Option<f64>,
-    /// What is marked, with the labels.
+    /// Marked values, with their labels.
     marks: Vec<(f64, String)>,
 }
 
@@ -117,7 +117,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Where a value is; the border is a little farther out.
+    /// Height of a value; the border is a little farther out.
     fn y(&self, value: f64) -> f64 {
         let part = (value - self.least) / (self.greatest - self.least);
         self.top + MARGIN + (self.height - 2.0 * MARGIN) * (1.0 - part)
@@ -314,7 +314,7 @@ impl Canvas {
         );
     }
 
-    /// Where the points of a curve are, without those that change nothing.
+    /// Positions of a curve's points, without those that change nothing.
     fn places(&self, curve: &Curve, frame: Frame) -> Vec<[f64; 2]> {
         let mut places: Vec<[f64; 2]> = Vec::new();
         let mut put = |place: [f64; 2]| {
@@ -360,7 +360,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept.map(|(&point, _)| point).collect()
 }
 
-/// How far a point is from the way between two others.
+/// Distance of a point from the line between two others.
 fn distance([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     let (dx, dy) = (bx - ax, by - ay);
     let square = dx * dx + dy * dy;

@@ -10,7 +10,7 @@ mod ticks;
 
 use curve::Curve;
 
-/// How a curve goes from point to point.
+/// Interpolation of a curve between its points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shape {
     /// Straight from one to the next.
@@ -26,17 +26,17 @@ pub struct CurveId(usize);
 /// A part of the diagram, with a separate scale.
 #[derive(Clone, PartialEq, Debug)]
 struct Panel {
-    /// What its scale shows, with the unit.
+    /// Title of its scale, with the unit.
     title: String,
     /// Its height in pixels.
     height: f64,
-    /// Whether its scale shows 0 in any case.
+    /// True if its scale always includes 0.
     with_zero: bool,
     /// Its curves: the name of each and which one it is.
     curves: Vec<(String, CurveId)>,
 }
 
-/// What the horizontal axis shows.
+/// Quantity on the horizontal axis.
 #[derive(Clone, PartialEq, Debug)]
 enum Across {
     /// Time, in milliseconds: all of it, and that of the last point.
@@ -83,7 +83,7 @@ impl Plot {
         };
     }
 
-    /// Where the value on the horizontal axis is from now; one that is not a number stays where it was.
+    /// Sets the present value of the horizontal axis; a value that is not a number leaves it unchanged.
     pub fn place(&mut self, value: f64) {
         if let Across::Value { at, range, .. } = &mut self.across
             && value.is_finite()
@@ -94,7 +94,7 @@ impl Plot {
         }
     }
 
-    /// Whether there is nothing to draw.
+    /// Returns true if there is nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.curves.is_empty()
     }

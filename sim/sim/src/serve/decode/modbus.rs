@@ -66,7 +66,7 @@ impl Decoder {
     ) -> Decoded {
         let mut probe = Probe::new(self.type_code);
         let mut bytes = [0; modbus::LONGEST_ASCII];
-        // What is wrong with a request its answer says.
+        // Errors of a request are in its answer.
         let _ = answer(&mut probe, &mut Frame::new(&mut bytes));
         let about = about(&probe);
         if !about.is_empty() {
@@ -217,7 +217,7 @@ fn answered(function: u8, data: &[u8], request: Option<&[u8]>) -> (String, Optio
     (what, None)
 }
 
-/// What an exception means (Modbus application protocol 1.1b3 §7).
+/// Meaning of an exception (Modbus application protocol 1.1b3 §7).
 fn exception(code: u8) -> &'static str {
     match code {
         1 => "illegal function",

@@ -21,9 +21,9 @@ pub struct Frames {
 /// A frame, and when its last character was there.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Whole {
-    /// Which way it went.
+    /// Direction.
     pub direction: Direction,
-    /// When, in microseconds since the run began, wrapping.
+    /// Time in microseconds since the run began, wrapping.
     pub at_us: u32,
     /// Its characters.
     pub bytes: Vec<u8>,
@@ -70,7 +70,7 @@ impl Frames {
         }
     }
 
-    /// What is there, whether or not it is over.
+    /// Returns the characters so far, complete or not.
     pub fn take(&mut self) -> Option<Whole> {
         let bytes = std::mem::take(&mut self.characters);
         let direction = if self.incoming {
@@ -86,7 +86,7 @@ impl Frames {
         })
     }
 
-    /// Whether a request is whole, in a protocol that says so.
+    /// Classification of a request, in a protocol whose frames show their end.
     fn cut(&self, protocol: Protocol) -> Option<Cut> {
         let cut = match protocol {
             Protocol::ProgrammingPort => fx_port::cut,

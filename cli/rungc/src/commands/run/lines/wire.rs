@@ -12,16 +12,16 @@ use std::sync::mpsc::{self, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a thread waits for characters before it asks again.
+/// Time-out of a thread waiting for characters.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// How long the run waits for a line to take characters; what does not fit by then waits for the next scan.
+/// Time that the run waits for a line to accept characters; the rest waits for the next scan.
 const WRITE_WAIT: Duration = Duration::from_millis(1);
 
 /// The first and the longest pause before another attempt to open what has vanished.
 const PAUSES: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(5)];
 
-/// How long an attempt to connect may take.
+/// Timeout of an attempt to connect.
 const CONNECT_WAIT: Duration = Duration::from_secs(3);
 
 /// Before the program has set up the line.
@@ -41,7 +41,7 @@ pub enum Wire {
     Can(Interface),
 }
 
-/// What a thread has noticed.
+/// Event reported by a thread.
 pub enum Event {
     /// The end is open.
     Up(Wire),
@@ -53,15 +53,15 @@ pub enum Event {
 
 /// Characters that came together.
 pub struct Chunk {
-    /// When the last of them was in.
+    /// Time of the last of them.
     pub at: Instant,
     /// The characters.
     pub bytes: Vec<u8>,
 }
 
-/// Where a thread finds its end.
+/// Source of a thread's connections.
 enum Source {
-    /// What can be opened again.
+    /// An end that can be opened again.
     Known(LineEnd),
     /// Clients of a socket; the latest is the other end.
     Clients(TcpListener),
@@ -101,7 +101,7 @@ pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
 /// The run no longer wants to know.
 struct Over;
 
-/// Why a thread no longer listens to a wire.
+/// Reason for which a thread stops reading a wire.
 enum End {
     /// It has vanished.
     Failed(io::Error),
@@ -340,7 +340,7 @@ impl Wire {
     }
 }
 
-/// Whether nothing is wrong but that nothing has happened in time.
+/// Returns true if the error is only a time-out.
 pub fn is_patience(error: &io::Error) -> bool {
     matches!(
         error.kind(),
