@@ -51,6 +51,16 @@ pub trait Line {
     /// # Errors
     /// As [`Line::send`].
     fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// The time on the clock that limits how long answers are waited for.
+    fn now(&self) -> Instant {
+        Instant::now()
+    }
+
+    /// How long an answer is waited for that usually comes within this time.
+    fn patience(&self, usual: Duration) -> Duration {
+        usual
+    }
 }
 
 /// The commands, by their codes (AN3155, table "USART bootloader commands").
@@ -343,10 +353,10 @@ impl<L: Line> Loader<L> {
 
     fn exactly(&mut self, command: Command, bytes: &mut [u8], patience: Duration) -> Answer<()> {
         let mut filled = 0;
-        let deadline = Instant::now() + patience;
+        let deadline = self.line.now() + self.line.patience(patience);
         while filled < bytes.len() {
             filled += self.line.receive(&mut bytes[filled..])?;
-            if filled < bytes.len() && Instant::now() > deadline {
+            if filled < bytes.len() && self.line.now() > deadline {
                 return Err(LoaderError::Unanswered(command));
             }
         }
@@ -355,12 +365,12 @@ impl<L: Line> Loader<L> {
 
     /// Lets the boot loader measure the bit rate after a reset; one that has measured it answers NACK.
     fn synchronise(&mut self, patience: Duration) -> Answer<()> {
-        let deadline = Instant::now() + patience;
-        while Instant::now() < deadline {
+        let deadline = self.line.now() + patience;
+        while self.line.now() < deadline {
             self.line.may_continue()?;
             self.line.send(&[SYNC])?;
-            let wait = Instant::now() + ANSWER / 3;
-            while Instant::now() < wait {
+            let wait = self.line.now() + ANSWER / 3;
+            while self.line.now() < wait {
                 let mut byte = [0];
                 if self.line.receive(&mut byte)? == 1 && matches!(byte[0], ACK | NACK) {
                     return self.silence();
@@ -378,8 +388,8 @@ impl<L: Line> Loader<L> {
         self.silence()?;
         for _ in 0..4 {
             self.line.send(&[FILLER])?;
-            let wait = Instant::now() + SILENCE;
-            while Instant::now() < wait {
+            let wait = self.line.now() + SILENCE;
+            while self.line.now() < wait {
                 let mut byte = [0];
                 if self.line.receive(&mut byte)? == 1 && byte[0] == NACK {
                     return Ok(());
@@ -391,12 +401,12 @@ impl<L: Line> Loader<L> {
 
     /// Reads away what comes until nothing does.
     fn silence(&mut self) -> Answer<()> {
-        let mut quiet_since = Instant::now();
+        let mut quiet_since = self.line.now();
         let deadline = quiet_since + RESET;
-        while quiet_since.elapsed() < SILENCE && Instant::now() < deadline {
+        while self.line.now() < (quiet_since + SILENCE).min(deadline) {
             let mut bytes = [0; BLOCK];
             if self.line.receive(&mut bytes)? > 0 {
-                quiet_since = Instant::now();
+                quiet_since = self.line.now();
             }
         }
         Ok(())

@@ -1,11 +1,14 @@
 //! `rungc flash`, against a boot loader at the other end of a pseudo-terminal, which stm32flash finds to be one, too.
 
+mod bench;
+#[path = "../../../../firmware/tests/it/flash/part.rs"]
 mod part;
 mod volume;
 
 use crate::common::{folder, rungc, text, write_executable};
 use crate::tools::tools;
-use part::{Bench, Fault, Part};
+use bench::Bench;
+use part::{Fault, Part};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -221,14 +224,10 @@ fn a_line_on_which_nothing_answers_is_reported() {
     insta::assert_snapshot!(text(&output.stderr).replace(&*port, "PORT"));
 }
 
+/// Where an answer is missing, time has to pass: firmware/tests/it/flash.rs.
 #[test]
-fn disturbances_are_overcome() {
-    for fault in [
-        Fault::RejectWrite(3),
-        Fault::LoseByte(2),
-        Fault::LoseAnswer(4),
-        Fault::RejectErase(1),
-    ] {
+fn rejections_are_overcome() {
+    for fault in [Fault::RejectWrite(3), Fault::RejectErase(1)] {
         let mut part = Part::f103vc();
         part.faults.push(fault);
         let rig = Rig::new(part);

@@ -11,8 +11,14 @@ use std::time::Duration;
 /// Time-out of the line for the longest message.
 const SENDING: Duration = Duration::from_secs(5);
 
+/// Names how many times as long as usual an answer is waited for: on a machine that has no time for the other end.
+const PATIENCE: &str = "RUNGC_PATIENCE";
+
 /// An open line.
-pub struct Port(Wire);
+pub struct Port {
+    wire: Wire,
+    patience: u8,
+}
 
 impl Port {
     /// Opens a line with the format of the boot loader: AN3155 §1, 8 data bits, even parity, 1 stop bit.
@@ -32,7 +38,11 @@ impl Port {
                 "rungc: {end} cannot be set to {baud} bit/s, 8 data bits, even parity: {error}"
             ));
         }
-        Ok(Port(wire))
+        let patience = std::env::var(PATIENCE).ok();
+        Ok(Port {
+            wire,
+            patience: patience.and_then(|times| times.parse().ok()).unwrap_or(1),
+        })
     }
 }
 
@@ -45,10 +55,14 @@ impl Line for Port {
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.0.send(bytes, SENDING)
+        self.wire.send(bytes, SENDING)
     }
 
     fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.0.receive(buffer)
+        self.wire.receive(buffer)
+    }
+
+    fn patience(&self, usual: Duration) -> Duration {
+        usual * u32::from(self.patience)
     }
 }

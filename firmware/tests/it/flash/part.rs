@@ -1,11 +1,7 @@
-//! A microcontroller in its boot loader, as AN3155 describes it, at the other end of a pseudo-terminal.
+//! A microcontroller in its boot loader, as AN3155 describes it, at the other end of a line.
+#![allow(dead_code, reason = "not every test needs all of it")]
 
-use serial2::SerialPort;
-use std::io::ErrorKind;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
-use std::thread::{self, JoinHandle};
-use std::time::Duration;
 
 const ACK: u8 = 0x79;
 const NACK: u8 = 0x1F;
@@ -18,6 +14,8 @@ pub enum Fault {
     RejectWrite(usize),
     /// A byte of the data of this write is lost.
     LoseByte(usize),
+    /// A byte of this write, and of every later one, is lost.
+    LoseBytes(usize),
     /// The write is done, but its answer is lost.
     LoseAnswer(usize),
     /// The write, and every later one, is rejected.
@@ -28,6 +26,8 @@ pub enum Fault {
     RejectErase(usize),
     /// The line is cut at this write.
     Cut(usize),
+    /// There is no boot loader.
+    Silent,
 }
 
 /// The part.
@@ -124,85 +124,36 @@ impl Part {
     }
 }
 
-/// The part at the end of a line.
-pub struct Bench {
-    /// The path by which its line is opened.
-    pub port: String,
-    part: Arc<Mutex<Part>>,
-    is_over: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
-    _clients: SerialPort,
-}
-
 /// The line is cut, or the test is over.
-struct Over;
+pub struct Over;
 
-impl Bench {
-    pub fn new(part: Part) -> Self {
-        let (ours, mut clients) = SerialPort::pair().unwrap();
-        let mut settings = clients.get_configuration().unwrap();
-        settings.set_raw();
-        clients.set_configuration(&settings).unwrap();
-        let path = rustix::termios::ttyname(&clients, Vec::new()).unwrap();
-        let part = Arc::new(Mutex::new(part));
-        let is_over = Arc::new(AtomicBool::new(false));
-        let mut line = Line {
-            port: ours,
-            part: Arc::clone(&part),
-            is_over: Arc::clone(&is_over),
-        };
-        line.port
-            .set_read_timeout(Duration::from_millis(50))
-            .unwrap();
-        let thread = thread::spawn(move || while line.command().is_ok() {});
-        Bench {
-            port: path.to_string_lossy().into_owned(),
-            part,
-            is_over,
-            thread: Some(thread),
-            _clients: clients,
-        }
-    }
+/// The part's end of a line.
+pub trait Wire {
+    /// The next byte, once it is there.
+    fn byte(&mut self) -> Result<u8, Over>;
 
-    pub fn part(&self) -> MutexGuard<'_, Part> {
-        self.part.lock().unwrap()
-    }
+    /// Sends bytes.
+    fn answer(&mut self, bytes: &[u8]) -> Result<(), Over>;
 }
 
-impl Drop for Bench {
-    fn drop(&mut self) {
-        self.is_over.store(true, Ordering::Relaxed);
-        let ended = self.thread.take().map(JoinHandle::join);
-        assert!(
-            !matches!(ended, Some(Err(_))),
-            "the boot loader has panicked"
-        );
+/// The boot loader of a part.
+pub struct BootLoader<W> {
+    pub wire: W,
+    pub part: Arc<Mutex<Part>>,
+}
+
+impl<W: Wire> BootLoader<W> {
+    /// Answers commands until the line is cut or the test is over.
+    pub fn run(mut self) {
+        while self.command().is_ok() {}
     }
-}
 
-struct Line {
-    port: SerialPort,
-    part: Arc<Mutex<Part>>,
-    is_over: Arc<AtomicBool>,
-}
-
-impl Line {
     fn part(&self) -> MutexGuard<'_, Part> {
         self.part.lock().unwrap()
     }
 
     fn byte(&mut self) -> Result<u8, Over> {
-        let mut byte = [0];
-        loop {
-            if self.is_over.load(Ordering::Relaxed) {
-                return Err(Over);
-            }
-            match self.port.read(&mut byte) {
-                Ok(1) => return Ok(byte[0]),
-                Err(error) if error.kind() == ErrorKind::TimedOut => {}
-                _ => return Err(Over),
-            }
-        }
+        self.wire.byte()
     }
 
     fn bytes(&mut self, count: usize) -> Result<Vec<u8>, Over> {
@@ -210,7 +161,7 @@ impl Line {
     }
 
     fn answer(&mut self, bytes: &[u8]) -> Result<(), Over> {
-        self.port.write_all(bytes).map_err(|_| Over)
+        self.wire.answer(bytes)
     }
 
     fn acknowledge(&mut self, is_good: bool) -> Result<bool, Over> {
@@ -221,6 +172,9 @@ impl Line {
     /// Takes a command: its code and the complement.
     fn command(&mut self) -> Result<(), Over> {
         let code = self.byte()?;
+        if self.part().faults.contains(&Fault::Silent) {
+            return Ok(());
+        }
         if !self.part().is_synchronised {
             self.part().is_synchronised = code == 0x7F;
             return match code {
@@ -319,7 +273,8 @@ impl Line {
         }
         let last = self.byte()?;
         let count = usize::from(last) + 1;
-        if has(Fault::LoseByte(number)) {
+        let loses = |fault: &Fault| matches!(*fault, Fault::LoseBytes(n) if n <= number);
+        if has(Fault::LoseByte(number)) || faults.iter().any(loses) {
             self.byte()?;
         }
         let mut bytes = self.bytes(count)?;
