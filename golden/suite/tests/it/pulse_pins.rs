@@ -7,6 +7,7 @@ use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::{Class, Hal, Plc, Program};
+use rungc_sim::engines::host_runtime;
 use std::process::Command;
 
 /// A move with ramps on Y000, and a signal of a fixed width on Y001.
@@ -121,11 +122,12 @@ fn compiled(module: &Module) -> String {
         std::fs::write(path, file.contents).expect("writing");
     }
     std::fs::write(path.join("firmware.c"), FIRMWARE).expect("writing");
-    let build = "make -s CFLAGS='-std=c99 -O1 -Wall -Wextra -Wconversion -Werror' && \
-                 cc -std=c99 -Wall -Wextra -Werror -o firmware firmware.c libpins.a rungc-rt/target/release/librungc_rt.a";
+    let runtime = host_runtime().expect("the runtime is built");
+    let build = "make -s RUNGC_RT=$RUNTIME CFLAGS='-std=c99 -O1 -Wall -Wextra -Wconversion -Werror' && \
+                 cc -std=c99 -Wall -Wextra -Werror -o firmware firmware.c libpins.a $RUNTIME";
     let built = Command::new("sh")
         .args(["-c", build])
-        .env("CARGO_NET_OFFLINE", "true")
+        .env("RUNTIME", runtime)
         .current_dir(path)
         .output()
         .expect("a shell");

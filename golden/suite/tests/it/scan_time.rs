@@ -7,6 +7,7 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt, PulseOutput, Setup, Timebase};
 use rungc_rt::{Class, Hal, Plc};
+use rungc_sim::engines::host_runtime;
 use std::fmt::Write;
 use std::process::Command;
 
@@ -195,12 +196,14 @@ fn emitted_c_begins_them_at_the_same_times() {
     let defines = format!(
         "-DPOLL={POLL_US}u -DPERIOD={PERIOD_US}u -DSLOW_FROM={from}u -DSLOW_TO={to}u -DFREE={FREE_US}u -DEND={END_US}u"
     );
+    let runtime = host_runtime().expect("the runtime is built");
     let build = format!(
-        "make -s CFLAGS='{flags}' && cc {flags} {defines} -o firmware firmware.c libbench.a rungc-rt/target/release/librungc_rt.a && ./firmware"
+        "make -s RUNGC_RT=$RUNTIME CFLAGS='{flags}' && \
+         cc {flags} {defines} -o firmware firmware.c libbench.a $RUNTIME && ./firmware"
     );
     let done = Command::new("sh")
         .args(["-c", &build])
-        .env("CARGO_NET_OFFLINE", "true")
+        .env("RUNTIME", runtime)
         .current_dir(folder.path())
         .output()
         .expect("a shell");

@@ -3,6 +3,7 @@
 use super::{Engine, Interpreter, Process};
 use rungc_ir::Module;
 use rungc_runtime_sources::cache;
+use rungc_runtime_sources::library::{self, Optimise, Recipe};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -126,15 +127,47 @@ fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> 
 /// Flags with which emitted C must compile without a warning.
 const C_FLAGS: &str = "-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
 
-/// Writes the C files of a batch and lets `make` build it, with these flags in addition to the standard ones.
+/// The runtime as a static library, from the cache. `None` where that does not work: then `make` builds it and says
+/// why it fails.
+pub(super) fn runtime(
+    cargo: &Command,
+    target: Option<&str>,
+    optimise: Optimise,
+) -> Option<PathBuf> {
+    let mut variables = cargo.get_envs();
+    let rustc = variables.find_map(|(name, value)| value.filter(|_| name == "RUSTC"));
+    let usual = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let recipe = Recipe {
+        cargo,
+        rustc: rustc.unwrap_or(&usual),
+        target,
+        optimise,
+        std: false,
+        cargo_args: &[],
+    };
+    library::build(&cache::folder().ok()?, &recipe, || {}).ok()
+}
+
+/// The runtime for this machine as a static library, from the cache; `None` where it cannot be built or kept.
+pub fn host_runtime() -> Option<PathBuf> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    runtime(&Command::new(cargo), None, Optimise::Speed)
+}
+
+/// Writes the C files of a batch and lets `make` build it, with these flags in addition to the standard ones, and link
+/// this runtime.
 pub(super) fn make_batch(
     make: &mut Command,
     flags: &str,
+    runtime: Option<&Path>,
     modules: &[Module],
     folder: &Path,
 ) -> Result<PathBuf, BuildError> {
     for file in rungc_codegen_c::batch(modules) {
         write(&folder.join(&file.path), &file.contents)?;
+    }
+    if let Some(runtime) = runtime {
+        make.arg(format!("RUNGC_RT={}", runtime.display()));
     }
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     run(make
@@ -145,7 +178,14 @@ pub(super) fn make_batch(
 }
 
 fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
-    make_batch(&mut Command::new("make"), "", modules, folder)
+    let runtime = host_runtime();
+    make_batch(
+        &mut Command::new("make"),
+        "",
+        runtime.as_deref(),
+        modules,
+        folder,
+    )
 }
 
 /// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`.
@@ -185,6 +225,7 @@ pub fn build_c_with<'m>(
     let command = make_batch(
         &mut make,
         &flags,
+        host_runtime().as_deref(),
         modules,
         &folder.join(EngineKind::C.name()),
     )?;

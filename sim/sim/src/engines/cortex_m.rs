@@ -7,7 +7,7 @@ use super::build::{self, BuildError, io_error, make_batch, run, write};
 use super::{Engine, EngineKind, Interpreter, Process};
 use rungc_firmware::target;
 use rungc_ir::Module;
-use rungc_runtime_sources::library;
+use rungc_runtime_sources::library::{self, Optimise};
 use std::ffi::OsStr;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -196,9 +196,11 @@ fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, 
     make.arg(format!("CC={GCC}"))
         .arg(format!("TARGET={}", board.target))
         .arg(format!("LDFLAGS={}", LINK.join(" ")));
-    make_with(&mut make, &find_cargo(board.target)?);
+    let cargo = find_cargo(board.target)?;
+    make_with(&mut make, &cargo);
+    let runtime = build::runtime(&cargo, Some(board.target), Optimise::Size);
     let flags = format!("{} {}", board.flags(), board.optimisation);
-    make_batch(&mut make, &flags, modules, folder)
+    make_batch(&mut make, &flags, runtime.as_deref(), modules, folder)
 }
 
 fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
