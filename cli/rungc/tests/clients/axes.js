@@ -3,7 +3,7 @@ const { look, open } = require("./browser.js");
 
 open(async (page) => {
   const press = (name) => page.getByRole("button", { name, exact: true }).click();
-  const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 60_000 });
+  const settle = (test, argument) => page.waitForFunction(test, argument, { timeout: 300_000 });
   // A pause after scan `after`: the page may still show an earlier one when a run has just been continued.
   const pause = (after) => settle((after) => {
     const scan = Number(document.getElementById("clock").textContent.match(/scan (\d+)/)?.[1]);

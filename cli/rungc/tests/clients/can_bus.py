@@ -12,7 +12,7 @@ with can.Bus(interface="slcan", channel=sys.argv[1], bitrate=500_000, sleep_afte
 
     def answered(sent, wanted):
         """Whether the frame that is wanted comes while this one is sent again and again."""
-        end = time.monotonic() + 20
+        end = time.monotonic() + 300
         while time.monotonic() < end:
             bus.send(sent)
             begin = time.monotonic()

@@ -16,7 +16,7 @@ def values(reply):
 
 def soon(read, wanted):
     """The program needs a scan to see what was written."""
-    for _ in range(500):
+    for _ in range(30_000):
         if read() == wanted:
             return
         time.sleep(0.01)
@@ -24,7 +24,7 @@ def soon(read, wanted):
 
 
 def connect(port):
-    client = ModbusTcpClient("127.0.0.1", port=int(port), timeout=30)
+    client = ModbusTcpClient("127.0.0.1", port=int(port), timeout=300)
     assert client.connect(), port
     return client
 

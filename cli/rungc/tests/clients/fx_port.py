@@ -50,7 +50,7 @@ def complete(answer):
     return len(answer) == 1
 
 
-def ask(request, wait=4.0):
+def ask(request, wait=300.0):
     """Sends bytes and returns the whole answer, or what came of it."""
     line.send(request)
     answer = b""
@@ -98,7 +98,7 @@ def little(value, size=2):
 
 
 def soon(look, wanted):
-    for _ in range(400):
+    for _ in range(30_000):
         if look() == wanted:
             return
         time.sleep(0.01)
@@ -156,7 +156,11 @@ for count in (1, 2, 3):
     force(FORCE_M + 2, True)
     soon(lambda: words(read(C_VALUE, 2)), [count])
     force(FORCE_M + 2, False)
-    time.sleep(0.05)
+    # A scan takes notice.
+    assert write(D, little(count) + little(count)) == b""
+    soon(lambda: words(read(D + 4, 2)), [2 * count])
+assert write(D, little(5) + little(7)) == b""
+soon(lambda: words(read(D, 6)), [5, 7, 12])
 assert bit(COUNTER, 0) == 1
 assert int.from_bytes(read(C200_VALUE, 4), "little") == 3
 assert write(C200_VALUE, little(70000, 4)) == b""
@@ -205,7 +209,7 @@ for n in range(1, len(frame(b"0100002"))):
     ask(frame(b"0100002")[:n], 0.0)
     answer = ask(ENQ)
     while answer[-1:] != ACK:
-        more = line.receive(2.0)
+        more = line.receive(300.0)
         assert more, (n, answer)
         answer += more
 assert read(D, 64) == before

@@ -5,14 +5,14 @@
 const assert = require("node:assert");
 const { FXPLCClient, TransportTCP, NumberType } = require("node-fxplc");
 
-const transport = new TransportTCP({ host: "127.0.0.1", port: Number(process.argv[2]), timeout: 10000, flushDelay: 0 });
-const plc = new FXPLCClient(transport, { timeoutMs: 10000 });
+const transport = new TransportTCP({ host: "127.0.0.1", port: Number(process.argv[2]), timeout: 300000, flushDelay: 0 });
+const plc = new FXPLCClient(transport, { timeoutMs: 300000 });
 // Refusals are reported twice, as an event too.
 plc.on("error", () => {});
 
 const soon = async (read, wanted) => {
   let value;
-  for (let tries = 0; tries < 200; tries++) {
+  for (let tries = 0; tries < 30000; tries++) {
     value = await read();
     if (value === wanted) return;
   }

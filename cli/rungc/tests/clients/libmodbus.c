@@ -21,7 +21,7 @@ static void fail(const char *what) {
 static int again;
 #define ASK(call) \
     for (again = 0; (call) < 0; again++) { \
-        if (errno != ETIMEDOUT || again == 5) fail(#call); \
+        if (errno != ETIMEDOUT || again == 100) fail(#call); \
         modbus_flush(plc); \
     }
 
@@ -38,7 +38,7 @@ int main(int argc, char **argv) {
 
     const uint16_t terms[] = {30000, 7};
     ASK(modbus_write_registers(plc, 0, 2, terms));
-    for (int tries = 0; tries < 50; tries++) {
+    for (int tries = 0; tries < 30000; tries++) {
         ASK(modbus_read_registers(plc, 0, 3, words));
         if (words[2] == 30007) break;
         usleep(10000);
@@ -51,7 +51,7 @@ int main(int argc, char **argv) {
     MUST(words[0] == 0xbeef);
 
     ASK(modbus_write_bit(plc, 0, 1));
-    for (int tries = 0; tries < 50; tries++) {
+    for (int tries = 0; tries < 30000; tries++) {
         ASK(modbus_read_bits(plc, 0xfc00, 1, bits));
         if (bits[0]) break;
         usleep(10000);

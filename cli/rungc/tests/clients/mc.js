@@ -32,7 +32,7 @@ const write = (names, values) =>
   new Promise((resolve, reject) => plc.writeItems(names, values, (bad) => (bad && frame === "1E" ? reject(names) : resolve())));
 const soon = async (name, wanted) => {
   let value;
-  for (let tries = 0; tries < 100; tries++) {
+  for (let tries = 0; tries < 30000; tries++) {
     value = (await read())[name];
     if (value === wanted) return;
   }

@@ -15,7 +15,7 @@ plc.connect("127.0.0.1", int(sys.argv[1]))
 
 def soon(read, wanted):
     """The program needs a scan to see what was written."""
-    for _ in range(200):
+    for _ in range(30_000):
         if read() == wanted:
             return
         time.sleep(0.01)

@@ -11,7 +11,7 @@ import minimalmodbus
 
 def again(action):
     """A loaded machine may deliver a request with a pause in it, which cuts the frame."""
-    for _ in range(5):
+    for _ in range(100):
         try:
             return action()
         except minimalmodbus.NoResponseError:
@@ -20,7 +20,7 @@ def again(action):
 
 
 def soon(read, wanted):
-    for _ in range(50):
+    for _ in range(30_000):
         if again(read) == wanted:
             return
         time.sleep(0.01)

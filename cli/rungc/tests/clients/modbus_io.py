@@ -65,7 +65,7 @@ modbus-tcp = 0
 %s
 unit = 7
 every = "5ms"
-timeout = "300ms"
+timeout = "1s"
 fault = "M100"
 X000-X007 = "read inputs 0"
 X020-X037 = "read input-registers 5"
@@ -122,12 +122,12 @@ said = []
 while not (said and "Modbus TCP at" in said[-1]):
     said.append(run.stderr.readline())
     assert said[-1], said
-plc = ModbusTcpClient("127.0.0.1", port=int(said[-1].rsplit(":", 1)[1]), timeout=20)
+plc = ModbusTcpClient("127.0.0.1", port=int(said[-1].rsplit(":", 1)[1]), timeout=300)
 assert plc.connect()
 threading.Thread(target=lambda: said.extend(run.stderr), daemon=True).start()
 
 
-def soon(look, wanted, seconds=20):
+def soon(look, wanted, seconds=300):
     until = time.monotonic() + seconds
     while time.monotonic() < until:
         if look() == wanted:
@@ -188,13 +188,13 @@ try:
     # The end of a run leaves the outputs off.
     plc.close()
     run.send_signal(signal.SIGINT)
-    assert run.wait(20) == int(code)
+    assert run.wait(300) == int(code)
     assert server.coils() == [0] * 8
     assert server.registers() == [500, 0]
     server.kill()
 finally:
     run.kill()
-lost = [text for text in said if "io valves: " in text and "connected" not in text]
-back = [text for text in said if "io valves: connected to" in text]
-assert len(lost) == 5 and len(back) == 5, said
-print("lost and reached again, five times")
+# On a busy machine also where the station was only late.
+changes = ["connected to" in text for text in said if "io valves: " in text]
+assert len(changes) >= 10 and changes == [False, True] * (len(changes) // 2), said
+print("lost and reached again, each time")

@@ -10,7 +10,7 @@ from pymodbus import FramerType
 from pymodbus.client import ModbusSerialClient
 
 # A loaded machine may deliver a request with a pause in it, which cuts the frame: pymodbus asks again.
-client = ModbusSerialClient(sys.argv[1], framer=FramerType.RTU, baudrate=9600, timeout=2, retries=5)
+client = ModbusSerialClient(sys.argv[1], framer=FramerType.RTU, baudrate=9600, timeout=2, retries=100)
 assert client.connect()
 
 
@@ -25,7 +25,7 @@ def refused(reply, code):
 
 def soon(read, wanted):
     """The program needs a scan to see what was written."""
-    for _ in range(50):
+    for _ in range(30_000):
         if read() == wanted:
             return
         time.sleep(0.01)

@@ -52,7 +52,7 @@ class Server:
         self.do(self.server.async_setValues(1, function, address, values))
 
 
-def soon(look, wanted, seconds=20):
+def soon(look, wanted, seconds=300):
     until = time.monotonic() + seconds
     while time.monotonic() < until:
         if look() == wanted:
@@ -61,7 +61,7 @@ def soon(look, wanted, seconds=20):
     raise AssertionError(f"{look()} is not {wanted}")
 
 
-plc = ModbusTcpClient("127.0.0.1", port=port, timeout=20)
+plc = ModbusTcpClient("127.0.0.1", port=port, timeout=300)
 soon(plc.connect, True)
 
 

@@ -74,7 +74,7 @@ async def serve():
 
 slave, ready = {}, threading.Event()
 threading.Thread(target=lambda: asyncio.run(serve()), daemon=True).start()
-assert ready.wait(20)
+assert ready.wait(300)
 
 
 def slave_has(address, values=None):
@@ -84,10 +84,10 @@ def slave_has(address, values=None):
         action = server.async_getValues(station, 3, address, 2)
     else:
         action = server.async_setValues(station, 16, address, values)
-    return asyncio.run_coroutine_threadsafe(action, slave["loop"]).result(20)
+    return asyncio.run_coroutine_threadsafe(action, slave["loop"]).result(300)
 
 
-plc = ModbusTcpClient("127.0.0.1", port=port, timeout=20)
+plc = ModbusTcpClient("127.0.0.1", port=port, timeout=300)
 assert plc.connect()
 
 
@@ -99,7 +99,7 @@ def words(number, count):
     return plc.read_holding_registers(d0 + number, count=count).registers
 
 
-def soon(look, wanted, seconds=20):
+def soon(look, wanted, seconds=300):
     until = time.monotonic() + seconds
     while time.monotonic() < until:
         if look() == wanted:
@@ -129,8 +129,8 @@ for number, (name, what, code) in enumerate(FAULTS):
     if what is not late:
         assert words(10, 4) == before, name
     if d8063 is not None:
-        noted, = plc.read_holding_registers(d8063, count=1).registers
-        assert noted == code, (name, noted)
+        # An answer that is late since the machine is busy is asked for again.
+        soon(lambda: plc.read_holding_registers(d8063, count=1).registers, [code])
     fault = None
     soon(lambda: words(10, 4), values)
     drive(0, False)

@@ -8,7 +8,7 @@ import time
 
 from pymodbus.client import ModbusTcpClient
 
-client = ModbusTcpClient("127.0.0.1", port=int(sys.argv[1]), timeout=20)
+client = ModbusTcpClient("127.0.0.1", port=int(sys.argv[1]), timeout=300)
 assert client.connect()
 
 
@@ -23,7 +23,7 @@ def refused(reply, code):
 
 def soon(read, wanted):
     """The program needs a scan to see what was written."""
-    for _ in range(200):
+    for _ in range(30_000):
         if read() == wanted:
             return
         time.sleep(0.01)
@@ -55,7 +55,7 @@ refused(client.write_registers(0x203F, [1, 2]), 2)
 refused(client.readwrite_registers(read_address=0, read_count=1, write_address=0, values=[1]), 1)
 
 # Many clients, and one that says half a request.
-others = [ModbusTcpClient("127.0.0.1", port=int(sys.argv[1]), timeout=20) for _ in range(10)]
+others = [ModbusTcpClient("127.0.0.1", port=int(sys.argv[1]), timeout=300) for _ in range(10)]
 for other in others:
     assert other.connect()
     other.socket.send(bytes([0, 1, 0, 0, 0]))

@@ -9,7 +9,7 @@ const os = require("node:os");
 const path = require("node:path");
 const RED = require("node-red");
 
-const PATIENCE_MS = 50000;
+const PATIENCE_MS = 300_000;
 const tab = { id: "tab", type: "tab", label: "PLC" };
 // Nodes without a place would be taken for settings of others.
 const place = { z: "tab", x: 1, y: 1 };

@@ -3,9 +3,9 @@ const { look, open } = require("./browser.js");
 
 open(async (page) => {
   const clock = () => page.locator("#clock").innerText();
-  await page.waitForFunction(() => document.getElementById("mode").textContent === "RUN", undefined, { timeout: 60_000 });
+  await page.waitForFunction(() => document.getElementById("mode").textContent === "RUN", undefined, { timeout: 300_000 });
   const before = await clock();
-  await page.waitForFunction((before) => document.getElementById("clock").textContent !== before, before, { timeout: 60_000 });
+  await page.waitForFunction((before) => document.getElementById("clock").textContent !== before, before, { timeout: 300_000 });
   return {
     buttons: await page.locator("button:visible").evaluateAll((all) => all.map((one) => one.textContent)),
     inputs: await page.locator("input:visible, select:visible").count(),

@@ -12,7 +12,7 @@ from umodbus.client import tcp
 from umodbus.exceptions import IllegalDataAddressError
 
 conf.SIGNED_VALUES = True
-line = socket.create_connection(("127.0.0.1", int(sys.argv[1])), timeout=20)
+line = socket.create_connection(("127.0.0.1", int(sys.argv[1])), timeout=300)
 
 
 def ask(message):
@@ -20,7 +20,7 @@ def ask(message):
 
 
 def soon(message, wanted):
-    for _ in range(200):
+    for _ in range(30_000):
         value = ask(message())
         if value == wanted:
             return

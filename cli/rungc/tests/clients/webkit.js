@@ -61,7 +61,7 @@ async function use(port) {
   const server = spawn("xvfb-run", ["-a", "WebKitWebDriver", `--port=${port}`], { stdio: ["ignore", "inherit", "inherit"], detached: true });
   try {
     for (let tries = 0; !(await listens(port)); tries++) {
-      if (tries > 600) throw new Error("WebKitWebDriver does not listen");
+      if (tries > 6000) throw new Error("WebKitWebDriver does not listen");
       await pause(100);
     }
     await use(port);

@@ -2,14 +2,13 @@
 //! it is not, the tests say so, unless `RUNGC_REQUIRE_PEERS` is set.
 
 use crate::common;
-use crate::common::mosquitto::{self, Ends, broker, is_there, open_to_all, soon};
-use crate::common::{folder, free_port};
+use crate::common::mosquitto::{self, Ends, broker, is_there, open_to_all};
+use crate::common::{folder, free_port, soon};
 use crate::connected::Form;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::Duration;
 
 const PROGRAM: &str = "\
 LD X000
@@ -102,7 +101,12 @@ fn works(folder: &Path, port: u16, recipe: i16) {
         publish(port, "plant/start", wrong);
     }
     publish(port, "plant/recipe", "70000");
-    thread::sleep(Duration::from_millis(100));
+    // What comes after them has arrived, so they have, too.
+    for recipe in [recipe + 100, recipe] {
+        publish(port, "plant/recipe", &format!("{{\"D10\": {recipe}}}"));
+        let state = format!("{{\"D20\":{recipe},\"D21\":0}}");
+        shows(port, "plant/state", &state);
+    }
     shows(port, "plant/motor", "1");
     publish(port, "plant/start", "false");
     shows(port, "plant/motor", "0");

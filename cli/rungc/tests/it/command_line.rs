@@ -1,11 +1,13 @@
 //! The command line as its user sees it: what is printed where, what is written, and the exit code.
 
 use crate::common;
-use crate::common::{MOTOR, code, folder, rungc, shown, text};
+use crate::common::{MOTOR, code, folder, rungc, shown, soon, text};
 use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread;
 
 /// Three errors and a double coil.
 const BAD: &str = "LD X000\nOUT Y000\nLD X009\nMOVE D0 D1\nADD D0 K1\nOUT Y000\nEND\n";
@@ -427,12 +429,52 @@ fn a_program_may_be_called_main() {
     assert!(path.join("out/main.c").is_file() && path.join("out/plc_main.c").is_file());
 }
 
+/// Runs an executable until what it has shown and what it has reported fit, and asks it to end; its exit code, and what
+/// it has reported.
+#[cfg(unix)]
+fn until_terminated(
+    program: &Path,
+    input: Stdio,
+    fits: impl Fn(&str, &str) -> bool,
+) -> (Option<i32>, String) {
+    let mut child = Command::new(program)
+        .stdin(input)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let printed: [Arc<Mutex<Vec<u8>>>; 2] = Default::default();
+    let listen = |mut pipe: Box<dyn Read + Send>, printed: &Arc<Mutex<Vec<u8>>>| {
+        let printed = Arc::clone(printed);
+        thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            while let Ok(count @ 1..) = pipe.read(&mut bytes) {
+                printed.lock().unwrap().extend(&bytes[..count]);
+            }
+        })
+    };
+    let listening = [
+        listen(Box::new(child.stdout.take().unwrap()), &printed[0]),
+        listen(Box::new(child.stderr.take().unwrap()), &printed[1]),
+    ];
+    let shown = |n: usize| text(&printed[n].lock().unwrap());
+    soon("it shows what it should", || fits(&shown(0), &shown(1)));
+    let pid = child.id().to_string();
+    let ended = Command::new("kill").args(["-TERM", &pid]).status();
+    assert!(ended.unwrap().success());
+    let code = child.wait().unwrap().code();
+    for listener in listening {
+        listener.join().unwrap();
+    }
+    (code, shown(1))
+}
+
 /// A flood of commands starves neither the scan nor the signals nor the reports of errors.
 #[test]
 #[cfg(unix)]
 fn an_executable_goes_on_under_a_flood_of_commands() {
-    for tool in ["cc", "make", "sh", "yes", "timeout"] {
-        if Command::new(tool).arg("--version").output().is_err() && tool != "sh" {
+    for tool in ["cc", "make", "yes"] {
+        if Command::new(tool).arg("--version").output().is_err() {
             println!("skipped: there is no {tool}");
             return;
         }
@@ -442,27 +484,26 @@ fn an_executable_goes_on_under_a_flood_of_commands() {
     let path = folder.path();
     let args = ["build", "flood.il", "--emit", "bin", "-o", "flood"];
     assert_eq!(code(path, &args), 0);
-    let script = "yes X0=1 | timeout --preserve-status -s TERM -k 8 3 ./flood";
-    let done = Command::new("sh")
-        .args(["-c", script])
-        .current_dir(path)
-        .output()
+    let mut flood = Command::new("yes")
+        .arg("X0=1")
+        .stdout(Stdio::piped())
+        .spawn()
         .unwrap();
-    assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
-    let outputs = text(&done.stdout);
-    assert!(outputs.contains("Y000"), "it scans: {outputs}");
-    let errors = text(&done.stderr);
-    let line = errors
-        .lines()
-        .any(|line| line.contains("step 1: DIV D0 D1 D2: error 6706"));
-    assert!(line, "it reports the error: {errors}");
+    let commands = flood.stdout.take().unwrap();
+    let (code, errors) =
+        until_terminated(&path.join("flood"), commands.into(), |outputs, errors| {
+            outputs.contains("Y000") && errors.contains("step 1: DIV D0 D1 D2: error 6706")
+        });
+    assert_eq!(code, Some(0), "it ends by itself: {errors}");
+    flood.kill().unwrap();
+    flood.wait().unwrap();
 }
 
 /// Five loops of 32767 rounds, one in the other: the watchdog ends the scan, and the executable says so.
 #[test]
 #[cfg(unix)]
 fn an_executable_stops_a_scan_that_does_not_end() {
-    for tool in ["cc", "make", "timeout"] {
+    for tool in ["cc", "make"] {
         if Command::new(tool).arg("--version").output().is_err() {
             println!("skipped: there is no {tool}");
             return;
@@ -474,14 +515,9 @@ fn an_executable_stops_a_scan_that_does_not_end() {
     let path = folder.path();
     let args = ["build", "nest.il", "--emit", "bin", "-o", "nest"];
     assert_eq!(code(path, &args), 0);
-    let done = Command::new("timeout")
-        .args(["--preserve-status", "-s", "TERM", "-k", "8", "2", "./nest"])
-        .current_dir(path)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
-    let errors = text(&done.stderr);
+    let is_reported = |_: &str, errors: &str| errors.ends_with('\n');
+    let (code, errors) = until_terminated(&path.join("nest"), Stdio::null(), is_reported);
+    assert_eq!(code, Some(0), "it ends by itself: {errors}");
     let (head, line) = errors.split_once(", ").unwrap_or_default();
     assert!(
         head.starts_with("nest: at ") && head.ends_with(" ms"),
@@ -496,7 +532,7 @@ fn an_executable_stops_a_scan_that_does_not_end() {
 #[test]
 #[cfg(unix)]
 fn an_executable_names_what_an_error_is_about() {
-    for tool in ["cc", "make", "timeout"] {
+    for tool in ["cc", "make"] {
         if Command::new(tool).arg("--version").output().is_err() {
             println!("skipped: there is no {tool}");
             return;
@@ -507,13 +543,8 @@ fn an_executable_names_what_an_error_is_about() {
     let path = folder.path();
     let args = ["build", "reach.il", "--emit", "bin", "-o", "reach"];
     assert_eq!(code(path, &args), 0);
-    let done = Command::new("timeout")
-        .args(["--preserve-status", "-s", "TERM", "-k", "8", "1", "./reach"])
-        .current_dir(path)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    let errors = text(&done.stderr);
+    let is_reported = |_: &str, errors: &str| errors.ends_with('\n');
+    let (_, errors) = until_terminated(&path.join("reach"), Stdio::null(), is_reported);
     let line = "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist";
     assert_eq!(errors, format!("reach: at 0 ms, {line}\n"));
     let run = text(&rungc(path, &["run", "reach.il", "--for", "20ms"]).stderr);

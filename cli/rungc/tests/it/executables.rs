@@ -1,7 +1,7 @@
 //! Serial ports of executables: `NAME --serial COM1=pty`, in C, and `--serial COM1=/dev/pts/1`, in Rust, with mbpoll as
 //! their master; and their servers over TCP.
 
-use crate::common::{built_in_rust, folder, rungc, text};
+use crate::common::{HANG, built_in_rust, folder, rungc, soon, text};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
@@ -67,28 +67,22 @@ fn answers(path: &str) {
             "-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-o", "3", "-r", "1", "-1", "-t",
             "4",
         ];
-        let mut last = None;
-        for _ in 0..10 {
-            let output = Command::new("mbpoll")
-                .args(line)
-                .args(args)
-                .output()
-                .unwrap();
-            if output.status.success() {
-                return text(&output.stdout).to_string();
-            }
-            last = Some(output);
-        }
-        panic!(
-            "{}",
-            last.map_or(String::new(), |o| text(&o.stderr).to_string())
-        );
+        let mut shown = String::new();
+        soon("mbpoll has an answer", || {
+            let output = Command::new("mbpoll").args(line).args(args).output();
+            let output = output.unwrap();
+            shown = text(&output.stdout);
+            output.status.success()
+        });
+        shown
     };
     poll(&[path, "20", "22"]);
-    std::thread::sleep(std::time::Duration::from_millis(200));
-    let shown = poll(&["-c", "3", path]);
+    let mut shown = String::new();
+    soon("the next scan adds them", || {
+        shown = poll(&["-c", "3", path]);
+        shown.contains("[3]: \t42")
+    });
     assert!(shown.contains("[1]: \t20"), "{shown}");
-    assert!(shown.contains("[3]: \t42"), "{shown}");
 }
 
 fn built(folder: &Path, args: &[&str]) {
@@ -160,9 +154,6 @@ fn an_executable_in_rust_answers_on_a_terminal() {
     assert!(text(&output.stderr).contains("the program has no port COM7"));
 }
 
-/// Time-out of a program on a loaded machine.
-const PATIENCE: Duration = Duration::from_secs(30);
-
 /// A program whose messages are read, and which takes commands.
 struct Host {
     child: Child,
@@ -188,7 +179,7 @@ impl Host {
 
     /// Rest of a message after these words, once it comes.
     fn says(&self, words: &str) -> String {
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + HANG;
         loop {
             let left = end.saturating_duration_since(Instant::now());
             let line = self.lines.recv_timeout(left);
@@ -210,7 +201,7 @@ impl Drop for Host {
 /// Sends a request, and returns an answer of this length.
 fn ask(address: &str, request: &[u8], length: usize) -> Vec<u8> {
     let mut stream = TcpStream::connect(address).unwrap();
-    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    stream.set_read_timeout(Some(HANG)).unwrap();
     stream.write_all(request).unwrap();
     let mut answer = vec![0; length];
     stream.read_exact(&mut answer).unwrap();
@@ -235,7 +226,7 @@ fn serves(program: &Path) {
     // No request at all: the connection is closed.
     let mut stream = TcpStream::connect(&modbus).unwrap();
     stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
-    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    stream.set_read_timeout(Some(HANG)).unwrap();
     assert!(!matches!(stream.read(&mut [0; 8]), Ok(1..)));
     host.child
         .stdin
@@ -265,7 +256,7 @@ fn answers_a_programmer_until_interrupted(program: &Path, line: &str, client: Op
     let mut port = serial2::SerialPort::open(client, 9600).unwrap();
     port.set_read_timeout(Duration::from_secs(4)).unwrap();
     let mut answer = [0];
-    let end = Instant::now() + PATIENCE;
+    let end = Instant::now() + HANG;
     while port
         .write_all(b"\x05")
         .and_then(|()| port.read_exact(&mut answer))
@@ -408,12 +399,10 @@ const WRONG: [&str; 12] = [
 
 /// Waits until a file holds a value.
 fn shows(folder: &Path, name: &str, value: &str) {
-    let until = Instant::now() + Duration::from_secs(60);
-    let shown = || std::fs::read_to_string(folder.join(name)).unwrap_or_default();
-    while shown().trim() != value {
-        assert!(Instant::now() < until, "{name} is {}, not {value}", shown());
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    soon(&format!("{name} is {value}"), || {
+        let shown = std::fs::read_to_string(folder.join(name));
+        shown.is_ok_and(|shown| shown.trim() == value)
+    });
 }
 
 /// Messages of a program about invalid descriptions.
@@ -457,12 +446,9 @@ fn connects(folder: &Path, program: &Path) {
         shows(folder, "lost", "0");
         std::fs::rename(&plant, folder.join("away")).unwrap();
         shows(folder, "lost", "1");
-        let scans = std::fs::read_to_string(folder.join("scans")).unwrap();
-        std::thread::sleep(Duration::from_millis(200));
-        assert_ne!(
-            std::fs::read_to_string(folder.join("scans")).unwrap(),
-            scans
-        );
+        let scans = || std::fs::read_to_string(folder.join("scans")).unwrap();
+        let before = scans();
+        soon("scans continue", || scans() != before);
         std::fs::rename(folder.join("away"), &plant).unwrap();
     }
     shows(folder, "lost", "0");

@@ -1,12 +1,11 @@
 //! Libraries and images for another machine: what is built runs under QEMU, and what is missing is said.
 
-use crate::common::{MOTOR, cache, code, folder, rungc, shown, text};
+use crate::common::{HANG, MOTOR, cache, code, folder, rungc, shown, soon, text};
 use crate::tools::{cargo, leave_out, no_rust, tools, with_cargo, with_library};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
 
 fn repository() -> PathBuf {
     PathBuf::from(env!("RUNGC_ROOT"))
@@ -196,7 +195,7 @@ fn images_in_rust_do_not_see_each_other() {
     let moved = described.replace("origin = 0x2000_0000", "origin = 0x2000_1000");
     assert_ne!(described, moved);
     let folder = folder(&[
-        ("motor.il", MOTOR.as_bytes()),
+        ("timer.il", b"LD X000\nOUT T0 K3\nLD T0\nOUT Y000\nEND\n"),
         ("lamp.il", b"LD X000\nOUT Y001\nEND\n"),
         ("board.toml", described.as_bytes()),
         ("moved.toml", moved.as_bytes()),
@@ -210,11 +209,11 @@ fn images_in_rust_do_not_see_each_other() {
         quiet(&built.unwrap());
         std::fs::read(folder.path().join(output)).unwrap()
     };
-    let motor = build("motor.il", "board.toml", "a.elf");
+    let timer = build("timer.il", "board.toml", "a.elf");
     let lamp = build("lamp.il", "board.toml", "b.elf");
     let lamp_moved = build("lamp.il", "moved.toml", "c.elf");
-    assert!(motor != lamp && lamp != lamp_moved);
-    assert!(motor == build("motor.il", "board.toml", "d.elf"));
+    assert!(timer != lamp && lamp != lamp_moved);
+    assert!(timer == build("timer.il", "board.toml", "d.elf"));
     assert!(lamp == build("lamp.il", "board.toml", "e.elf"));
 }
 
@@ -398,7 +397,7 @@ fn first_line(program: &Path, input: &str) -> String {
         let read = BufReader::new(output).read_line(&mut line);
         sender.send(read.map(|_| line)).unwrap_or_default();
     });
-    let line = receiver.recv_timeout(Duration::from_secs(60));
+    let line = receiver.recv_timeout(HANG);
     running.kill().unwrap();
     running.wait().unwrap();
     line.expect("a line within a minute").unwrap()
@@ -449,10 +448,7 @@ fn switches_a_lamp(program: &Path, folder: &Path) {
         .spawn()
         .unwrap();
     let lamp = || std::fs::read_to_string(folder.join("lamp")).unwrap_or_default();
-    let until = Instant::now() + Duration::from_secs(60);
-    while lamp().trim() != "1" && Instant::now() < until {
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    soon("the lamp is on", || lamp().trim() == "1");
     running.kill().unwrap();
     running.wait().unwrap();
     assert_eq!(lamp().trim(), "1");

@@ -246,8 +246,8 @@ modbus-tcp = '0'
 #[cfg(feature = "mqtt")]
 mod brokers {
     use super::*;
-    use common::free_port;
-    use common::mosquitto::{self, broker, is_there, open_to_all, soon};
+    use common::mosquitto::{self, broker, is_there, open_to_all};
+    use common::{free_port, soon};
     use std::thread;
     use std::time::Duration;
 

@@ -1,7 +1,7 @@
 //! `rungc run --serial`: a serial port of the PLC as a pseudo-terminal, with a client of our own.
 
 use crate::common::running::Run;
-use crate::common::{folder, rungc, text};
+use crate::common::{HANG, folder, rungc, soon, text};
 use serial2::SerialPort;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -23,15 +23,16 @@ END
 /// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, which
 /// cuts the frame.
 fn ask(port: &SerialPort, request: &[u8], length: usize) -> Vec<u8> {
-    for _ in 0..5 {
+    let mut reply = vec![0; length];
+    soon(&format!("an answer to {request:02x?}"), || {
         port.write_all(request).unwrap();
-        let mut reply = vec![0; length];
-        if port.read_exact(&mut reply).is_ok() {
-            return reply;
+        let is_whole = port.read_exact(&mut reply).is_ok();
+        if !is_whole {
+            port.discard_buffers().unwrap();
         }
-        port.discard_buffers().unwrap();
-    }
-    panic!("no answer to {request:02x?}");
+        is_whole
+    });
+    reply
 }
 
 #[test]
@@ -86,20 +87,18 @@ fn ask_stream(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> 
     stream
         .set_read_timeout(Some(Duration::from_secs(4)))
         .unwrap();
-    for _ in 0..5 {
+    let mut reply = vec![0; length];
+    soon(&format!("an answer to {request:02x?}"), || {
         stream.write_all(request).unwrap();
-        let mut reply = vec![0; length];
-        if stream.read_exact(&mut reply).is_ok() {
-            return reply;
-        }
-    }
-    panic!("no answer to {request:02x?}");
+        stream.read_exact(&mut reply).is_ok()
+    });
+    reply
 }
 
 /// The next client of a socket, which has to come soon.
 fn accepted(listener: &TcpListener) -> TcpStream {
     listener.set_nonblocking(true).unwrap();
-    let limit = Instant::now() + Duration::from_secs(60);
+    let limit = Instant::now() + HANG;
     loop {
         match listener.accept() {
             Ok((stream, _)) => {
@@ -133,8 +132,9 @@ fn a_vanished_gateway_is_connected_again() {
     let mut stream = accepted(&listener);
     let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
     assert_eq!(ask_stream(&mut stream, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
-    let said = run.said();
     let name = format!("COM1: tcp:{address}");
+    run.says(&format!("{name} is back"));
+    let said = run.said();
     let about = |what: &str| {
         let what = format!("rungc: {name} {what}");
         said.iter().filter(|line| line.starts_with(&what)).count()
@@ -175,11 +175,11 @@ fn a_vanished_adapter_is_opened_again() {
         port
     };
     let mut adapter = plug();
-    let _run = Run::start(path, "h2u", &["--serial", "COM1=adapter"]);
+    let run = Run::start(path, "h2u", &["--serial", "COM1=adapter"]);
     let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
     assert_eq!(ask(&open(), &write_d0, 8), write_d0);
     unplug(&mut adapter);
-    thread::sleep(Duration::from_millis(700));
+    run.says(" is gone");
     let mut adapter = plug();
     let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
     assert_eq!(ask(&open(), &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
@@ -230,7 +230,7 @@ fn a_client_on_a_pseudo_terminal_is_a_can_bus() {
     let folder = folder(&[("p.il", BUS.as_bytes())]);
     let run = Run::new(folder.path(), "h2u", &[], &["CAN"]);
     let mut port = SerialPort::open(run.line("CAN"), 9600).unwrap();
-    port.set_read_timeout(Duration::from_secs(4)).unwrap();
+    port.set_read_timeout(HANG).unwrap();
     // Output of the PLC before it received waits in the terminal.
     for _ in 0..1000 {
         // A command of a client to an adapter is not a frame.
@@ -252,9 +252,7 @@ fn an_adapter_is_opened_at_its_rate() {
     let folder = folder(&[("p.il", b"LD M8012\nCANTX H0 H200 D0 K1\nEND\n")]);
     let _run = Run::start(folder.path(), "h2u", &["--can", &bus]);
     let mut adapter = accepted(&gateway);
-    adapter
-        .set_read_timeout(Some(Duration::from_secs(20)))
-        .unwrap();
+    adapter.set_read_timeout(Some(HANG)).unwrap();
     let mut first = [0; 18];
     adapter.read_exact(&mut first).unwrap();
     assert_eq!(text(&first), "\r\r\rC\rS5\rO\rt200100\r");

@@ -1,13 +1,12 @@
 //! `rungc serve --page`: the live page in a browser, who may ask for it, and requests that mean harm.
 
-use crate::common::{chromium, folder, rungc, text};
+use crate::common::{HANG, chromium, folder, rungc, soon, text};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, ChildStderr, Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tempfile::TempDir;
 
 const PROGRAM: &str = "\
@@ -87,8 +86,7 @@ impl Page {
 
     fn connect(&self) -> TcpStream {
         let stream = TcpStream::connect(self.parts().0).unwrap();
-        let patience = Some(Duration::from_secs(20));
-        stream.set_read_timeout(patience).unwrap();
+        stream.set_read_timeout(Some(HANG)).unwrap();
         stream
     }
 
@@ -140,14 +138,12 @@ impl Page {
 
     /// Contents of a page while the run is paused after scan `scan`.
     fn look_at(&self, scan: u64) -> Value {
-        for _ in 0..200 {
-            let seen = self.look();
-            if seen["state"]["scans"] == scan && !seen["state"]["paused"].is_null() {
-                return seen;
-            }
-            thread::sleep(Duration::from_millis(50));
-        }
-        panic!("scan {scan} does not come");
+        let mut seen = Value::Null;
+        soon(&format!("scan {scan} comes"), || {
+            seen = self.look();
+            seen["state"]["scans"] == scan && !seen["state"]["paused"].is_null()
+        });
+        seen
     }
 
     /// The header that names this page.
@@ -514,24 +510,26 @@ fn slow_clients_hold_up_neither_the_run_nor_others() {
     let mut deaf = page.connect();
     let events = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
     deaf.write_all(events.as_bytes()).unwrap();
-    let begin = Instant::now();
-    while begin.elapsed() < Duration::from_secs(12) {
+    let interval = Duration::from_millis(500);
+    slow[0].set_read_timeout(Some(interval)).unwrap();
+    let mut answer = Vec::new();
+    // Idle connections are closed after the time-out.
+    soon("a slow client is closed", || {
         for stream in &mut slow {
-            // Idle connections are closed after the time-out.
             let _ = stream.write_all(b"a");
         }
         assert_eq!(page.get("", &page.host()), 200);
-        thread::sleep(Duration::from_millis(500));
-    }
-    let mut answer = String::new();
-    slow[0].read_to_string(&mut answer).unwrap_or_default();
+        match slow[0].read_to_end(&mut answer) {
+            Err(error) => !matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut),
+            Ok(_) => true,
+        }
+    });
+    let answer = text(&answer);
     assert!(answer.is_empty() || answer.contains("408"), "{answer}");
     assert_eq!(page.command(PAUSE, JSON), 200);
     // More than there may be are sent away, and those that are there stay.
     let crowd: Vec<_> = (0..40).map(|_| page.connect()).collect();
-    thread::sleep(Duration::from_millis(200));
-    assert_eq!(page.get("", &page.host()), 503);
+    soon("more are sent away", || page.get("", &page.host()) == 503);
     drop(crowd);
-    thread::sleep(Duration::from_millis(500));
-    assert_eq!(page.get("", &page.host()), 200);
+    soon("the crowd has gone", || page.get("", &page.host()) == 200);
 }

@@ -4,7 +4,7 @@
 //! packages of the system, is set.
 
 use crate::common::running::Run;
-use crate::common::{folder, free_port, text};
+use crate::common::{folder, free_port, soon, text};
 use crate::connected::Form;
 use std::env;
 use std::path::{Path, PathBuf};
@@ -203,9 +203,7 @@ impl Remote {
             .each_ref()
             .map(|end| format!("pty,rawer,link={}", end.display()));
         let mut line = Command::new("socat").args(links).spawn().unwrap();
-        while !ends.iter().all(|end| end.exists()) {
-            std::thread::sleep(std::time::Duration::from_millis(10));
-        }
+        soon("the line is there", || ends.iter().all(|end| end.exists()));
         let output = self.with(&ends).output().unwrap();
         line.kill().unwrap();
         line.wait().unwrap();

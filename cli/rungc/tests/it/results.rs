@@ -1,7 +1,7 @@
 //! Results of tests for tools, parts of a suite, and the output of an interrupted run.
 
 use crate::common;
-use crate::common::{MOTOR, code, folder, rungc, shown, text};
+use crate::common::{MOTOR, code, folder, rungc, shown, soon, text};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -192,7 +192,6 @@ mod interrupted {
     use super::*;
     use crate::common::write_executable;
     use std::process::{Child, Command, Output, Stdio};
-    use std::time::{Duration, Instant};
 
     fn begin(command: &mut Command) -> Child {
         command
@@ -239,12 +238,13 @@ mod interrupted {
                 .current_dir(path),
         );
         let mut out = std::io::BufReader::new(child.stdout.take().unwrap());
+        let mut err = std::io::BufReader::new(child.stderr.take().unwrap());
         expect(&mut out, "1 passed, 0 failed");
         fs::write(path.join("lamp.il"), "LDI X000\nOUT Y000\nEND\n").unwrap();
         expect(&mut out, "0 passed, 1 failed");
         // A mistake does not end it, and what it was read from is still watched.
         fs::write(path.join("t.plctest.toml"), test.replace("name", "nmae")).unwrap();
-        std::thread::sleep(Duration::from_millis(600));
+        expect(&mut err, "nmae");
         fs::write(path.join("lamp.il"), "LD X000\nOUT Y000\nOUT Y001\nEND\n").unwrap();
         fs::write(path.join("t.plctest.toml"), test).unwrap();
         expect(&mut out, "1 passed, 0 failed");
@@ -286,7 +286,7 @@ mod interrupted {
         let path = folder.path();
         let tools = path.join("tools");
         fs::create_dir(&tools).unwrap();
-        let slow = "#!/bin/sh\ntouch \"$BEGUN\"\nexec sleep 5\n";
+        let slow = "#!/bin/sh\ntouch \"$BEGUN\"\nexec sleep 60\n";
         write_executable(&tools.join("make"), slow.as_bytes());
         let begun = path.join("begun");
         let search = std::env::var("PATH").unwrap();
@@ -297,14 +297,7 @@ mod interrupted {
                 .env("BEGUN", &begun)
                 .current_dir(path),
         );
-        let patience = Instant::now();
-        while !begun.exists() {
-            assert!(
-                patience.elapsed() < Duration::from_secs(60),
-                "make is not called"
-            );
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        soon("make is called", || begun.exists());
         let output = interrupt(child);
         assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
         assert!(!path.join("out").exists());

@@ -1,7 +1,7 @@
 //! `rungc run` and machines, as their user sees them.
 
 use crate::common;
-use crate::common::{MOTOR, code, folder, rungc, shown, text};
+use crate::common::{HANG, MOTOR, code, folder, rungc, shown, text};
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
@@ -372,10 +372,7 @@ fn long_scans_run_quickly() {
         shown.contains("7200.000 s"),
         "the scan after it takes notice: {shown}"
     );
-    assert!(
-        begin.elapsed().as_secs() < 20,
-        "it steps through each millisecond"
-    );
+    assert!(begin.elapsed() < HANG, "it steps through each millisecond");
 }
 
 #[test]

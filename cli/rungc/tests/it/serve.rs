@@ -1,6 +1,6 @@
 //! `rungc serve`: servers of rungc.toml, the table of connections, and the log of frames.
 
-use crate::common::{folder, rungc, text};
+use crate::common::{HANG, folder, rungc, soon, text};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -70,8 +70,7 @@ impl Serving {
 
     fn connect(&self, server: usize) -> TcpStream {
         let stream = TcpStream::connect(("127.0.0.1", self.ports[server])).unwrap();
-        let patience = Some(Duration::from_secs(4));
-        stream.set_read_timeout(patience).unwrap();
+        stream.set_read_timeout(Some(HANG)).unwrap();
         stream
     }
 
@@ -108,14 +107,14 @@ impl Drop for Serving {
 /// Asks until there is an answer: on a loaded machine a request on a line may arrive with a pause in it, which cuts the
 /// frame.
 fn ask(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> {
-    for _ in 0..5 {
+    let patience = Some(Duration::from_secs(4));
+    stream.set_read_timeout(patience).unwrap();
+    let mut reply = vec![0; length];
+    soon(&format!("an answer to {request:02x?}"), || {
         stream.write_all(request).unwrap();
-        let mut reply = vec![0; length];
-        if stream.read_exact(&mut reply).is_ok() {
-            return reply;
-        }
-    }
-    panic!("no answer to {request:02x?}");
+        stream.read_exact(&mut reply).is_ok()
+    });
+    reply
 }
 
 const WRITE_D100: [u8; 12] = [0, 1, 0, 0, 0, 6, 1, 6, 0, 100, 0, 7];

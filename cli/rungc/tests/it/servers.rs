@@ -1,19 +1,16 @@
 //! `rungc run --modbus-tcp` and similar options, with clients of our own.
 
 use crate::common::running::Run;
-use crate::common::{folder, rungc, text};
+use crate::common::{HANG, folder, rungc, text};
 use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
 
 const PROGRAM: &str = "LD M8000\nADD D0 D1 D2\nLD M0\nOUT Y000\nEND\n";
 
 /// Answer of a server at this port.
 fn ask(port: u16, request: &[u8], length: usize) -> Vec<u8> {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
-    stream
-        .set_read_timeout(Some(Duration::from_secs(20)))
-        .unwrap();
+    stream.set_read_timeout(Some(HANG)).unwrap();
     stream.write_all(request).unwrap();
     let mut reply = vec![0; length];
     stream.read_exact(&mut reply).unwrap();

@@ -1,11 +1,10 @@
 //! Sessions between the vendor's editors and PLCs, which others have recorded and published (`clients/sessions/`),
 //! replayed against the programming port of a running program.
 
-use crate::common::folder;
 use crate::common::running::Run;
+use crate::common::{HANG, folder, soon};
 use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
 
 const ACK: &[u8] = &[0x06];
 const NAK: &[u8] = &[0x15];
@@ -53,12 +52,17 @@ fn replay(session: &str, model: &str, in_stop: bool) {
     let folder = folder(&[("p.il", b"LD M8000\nOUT M0\nEND\n")]);
     let run = Run::new(folder.path(), model, &["--fx"], &[]);
     let mut port = TcpStream::connect(("127.0.0.1", run.port("programming port"))).unwrap();
-    port.set_read_timeout(Some(Duration::from_secs(20)))
-        .unwrap();
+    port.set_read_timeout(Some(HANG)).unwrap();
     if in_stop {
         port.write_all(STOP).unwrap();
         assert_eq!(answer(&mut port), ACK);
-        std::thread::sleep(Duration::from_millis(100));
+        // M8000 is off from the end of the scan on.
+        soon("the PLC is in STOP", || {
+            port.write_all(b"\x02001E001\x036A").unwrap();
+            let read = answer(&mut port);
+            assert!(is_data(&read, 6), "{read:02x?}");
+            char::from(read[2]).to_digit(16).unwrap() & 1 == 0
+        });
     }
     let mut answers = 0;
     let mut asked = Vec::new();

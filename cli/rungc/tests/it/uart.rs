@@ -1,14 +1,13 @@
 //! Serial ports of images: Modbus slaves answer mbpoll through the UARTs of emulated microcontrollers, and two
 //! microcontrollers talk with each other.
 
-use crate::common::{folder, text};
+use crate::common::{HANG, folder, soon, text};
 use crate::tools;
 use crate::tools::{cargo, leave_out, no_rust, tools};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver};
-use std::time::{Duration, Instant};
 
 /// COM1 is a Modbus slave, RTU, station 1, 9600 bit/s, 8 data bits, no parity, 1 stop bit.
 const SLAVE: &str = "\
@@ -189,20 +188,16 @@ struct Running {
 }
 
 impl Running {
-    /// The rest of the first line that contains `text`, within a minute.
+    /// The rest of the first line that contains `text`.
     fn after(&self, text: &str) -> String {
-        let end = Instant::now() + Duration::from_secs(60);
         let mut printed = Vec::new();
-        while let Some(left) = end.checked_duration_since(Instant::now()) {
-            let Ok(line) = self.lines.recv_timeout(left) else {
-                break;
-            };
+        while let Ok(line) = self.lines.recv_timeout(HANG) {
             if let Some(at) = line.find(text) {
                 return line[at + text.len()..].to_string();
             }
             printed.push(line);
         }
-        panic!("`{text}` was not printed within a minute, but {printed:?}");
+        panic!("`{text}` was not printed, but {printed:?}");
     }
 }
 
@@ -220,17 +215,13 @@ fn poll(args: &[&str], wanted: &str) -> String {
         "-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-o", "2", "-1", "-t", "4",
     ];
     let mut printed = String::new();
-    for _ in 0..10 {
+    soon(&format!("mbpoll prints {wanted}"), || {
         let mut command = Command::new("mbpoll");
         let once = command.args(line).args(args).output().unwrap();
-        printed = [once.stdout, once.stderr]
-            .map(|said| text(&said).to_string())
-            .concat();
-        if printed.contains(wanted) {
-            return printed;
-        }
-    }
-    panic!("{wanted}: {printed}");
+        printed = text(&once.stdout) + &text(&once.stderr);
+        printed.contains(wanted)
+    });
+    printed
 }
 
 /// Returns true if the tools that build an image and poll it are installed.
@@ -338,10 +329,8 @@ fn they_talk(master: &str, slave: &str) {
     let line = format!("unix:{}", folder.path().join("line").display());
     let _slave = M4_IN_RUST.start(&slave, &format!("{line},server=on,wait=off"));
     // QEMU makes the socket before it runs the image.
-    let end = Instant::now() + Duration::from_secs(60);
-    while !folder.path().join("line").exists() && Instant::now() < end {
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    let socket = folder.path().join("line");
+    soon("the line is there", || socket.exists());
     let master = M3_IN_C.start(&master, &line);
     assert!(master.after("Y000").starts_with(" on"));
 }

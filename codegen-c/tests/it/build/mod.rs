@@ -8,7 +8,7 @@ use rungc_models::{Model, ModelId};
 use rungc_rt::{CmpOp, EdgeKind, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::collections::BTreeSet;
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -309,8 +309,8 @@ pub fn program_text(module: &Module) -> String {
     source[..end.expect("the functions of every program")].to_string()
 }
 
-/// Builds a program with its host's `main.c`, types these commands, and returns what it prints within four seconds.
-pub fn run_host(module: &Module, commands: &str) -> String {
+/// Builds a program with its host's `main.c`, types these commands, and waits until it has printed these texts.
+pub fn run_host(module: &Module, commands: &str, expected: &[&str]) {
     let folder = tempfile::tempdir().expect("a folder for the C files");
     for file in emit(
         module,
@@ -344,10 +344,25 @@ pub fn run_host(module: &Module, commands: &str) -> String {
     stdin
         .write_all(commands.as_bytes())
         .expect("typing commands");
-    std::thread::sleep(std::time::Duration::from_secs(4));
+    let (sender, printed) = std::sync::mpsc::channel();
+    let [out, err]: [Box<dyn std::io::Read + std::marker::Send>; 2] = [
+        Box::new(child.stdout.take().expect("its output")),
+        Box::new(child.stderr.take().expect("its errors")),
+    ];
+    for pipe in [out, err] {
+        let sender = sender.clone();
+        std::thread::spawn(move || {
+            let lines = BufReader::new(pipe).lines().map_while(Result::ok);
+            lines.for_each(|line| drop(sender.send(line)));
+        });
+    }
+    let mut transcript = String::new();
+    while !expected.iter().all(|text| transcript.contains(text)) {
+        // Bounds a hang.
+        let line = printed.recv_timeout(std::time::Duration::from_secs(300));
+        transcript += &line.unwrap_or_else(|_| panic!("nothing more is printed: {transcript}"));
+        transcript.push('\n');
+    }
     child.kill().expect("stopping the program");
-    let output = child.wait_with_output().expect("its output");
-    [output.stdout, output.stderr]
-        .map(|text| String::from_utf8_lossy(&text).into_owned())
-        .concat()
+    child.wait().expect("its end");
 }

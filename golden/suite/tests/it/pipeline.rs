@@ -29,7 +29,7 @@ const SCANS: u32 = 20;
 const REPAIRS: u32 = 6;
 
 /// Time limit for one program: far longer than any needs.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 fn setting(name: &str, default: u64) -> u64 {
     let text = std::env::var(format!("RUNGC_RANDOM_{name}"));

@@ -186,7 +186,7 @@ fn follow(module: &Module, seed: u64, scans: u64, exact: &mut Exactness) -> Resu
         system: &system,
         machine: Machine::new(module),
         unroller: Unroller::new(&system, true),
-        solver: Solver::new(Instant::now() + Duration::from_secs(20)),
+        solver: Solver::new(Instant::now() + Duration::from_secs(300)),
     };
     let mut rng = Rng::new(seed ^ 0x7E57);
     let (mut now_ms, mut elapsed) = (0, 0);

@@ -342,7 +342,7 @@ mod files {
         assert_eq!(kept.state(), Kept::with_state(3).state());
         // Between scans another thread writes.
         let kept = Kept::with_state(4);
-        let until = std::time::Instant::now() + std::time::Duration::from_secs(30);
+        let until = std::time::Instant::now() + std::time::Duration::from_secs(300);
         let mut now_ms = 1000;
         while !file.poll(&kept, now_ms, 1000).unwrap() {
             assert!(std::time::Instant::now() < until, "it is saved");

@@ -141,7 +141,7 @@ fn while_served<R: Send>(
 fn connect(address: SocketAddr) -> TcpStream {
     let stream = TcpStream::connect(address).unwrap();
     stream
-        .set_read_timeout(Some(Duration::from_secs(20)))
+        .set_read_timeout(Some(Duration::from_secs(300)))
         .unwrap();
     stream
 }
@@ -200,7 +200,7 @@ fn a_client_that_does_not_read_is_cut_off() {
     let cut_off = while_served(&mut server, &mut plc, || {
         let mut stream = connect(address);
         stream
-            .set_write_timeout(Some(Duration::from_secs(20)))
+            .set_write_timeout(Some(Duration::from_secs(300)))
             .unwrap();
         // 260 bytes come back for each 12; buffers of the system take some megabytes.
         (0..1_000_000).any(|_| stream.write_all(&read_125).is_err())

@@ -1,6 +1,6 @@
 //! A program in real time, as each host runs it: executables in C and in Rust, and `rungc serve`.
 
-use super::{built_in_rust, rungc, text};
+use super::{HANG, built_in_rust, rungc, text};
 use rungc_runtime_sources::cache::Slot;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -9,10 +9,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::OnceLock;
 use std::sync::mpsc::{self, Receiver};
 use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
-
-/// Time-out of any operation on a loaded machine.
-pub const PATIENCE: Duration = Duration::from_secs(60);
+use std::time::Instant;
 
 /// Shows in Y000 to Y003 how often it was started, in D200, which is latched. While X000 is on, D210 (latched) counts
 /// scans, Y010 changes after ten scans, and Y011 after 500 ms. Y012 is on while latched devices are not saved, Y013
@@ -178,12 +175,12 @@ pub struct Running {
 impl Running {
     /// The next change of a terminal: when it was seen, which one, and whether it is on.
     pub fn next(&mut self) -> Option<(Instant, String, bool)> {
-        self.shown.recv_timeout(PATIENCE).ok()
+        self.shown.recv_timeout(HANG).ok()
     }
 
     /// Waits until a terminal is on or off.
     pub fn shows(&mut self, terminal: &str, on: bool) {
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + HANG;
         while let Some((at, shown, state)) = self.next() {
             assert!(at < until, "{terminal} never turns");
             if shown == terminal && state == on {

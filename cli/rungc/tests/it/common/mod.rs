@@ -12,16 +12,42 @@ pub mod running;
 
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_runtime_sources::library;
-use std::fs;
+use std::fs::{self, File};
 use std::io::Write as _;
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// A port of this machine that is free, or was a moment ago.
+/// Bounds a hang: events are waited for as long as the machine takes.
+pub const HANG: Duration = Duration::from_secs(300);
+
+/// Waits until something is so.
+#[track_caller]
+pub fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
+    let until = Instant::now() + HANG;
+    while !is_so() {
+        assert!(Instant::now() < until, "{what}");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// A port that no other test uses as long as this process lives. The system gives none of these to who asks for any.
 pub fn free_port() -> u16 {
-    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-    listener.local_addr().unwrap().port()
+    let locks = std::env::temp_dir().join("rungc-ports");
+    fs::create_dir_all(&locks).unwrap();
+    let is_free = |port: &u16| {
+        let lock = File::create(locks.join(port.to_string())).unwrap();
+        let free = lock.try_lock().is_ok() && TcpListener::bind(("127.0.0.1", *port)).is_ok();
+        if free {
+            // Locked until the process ends.
+            std::mem::forget(lock);
+        }
+        free
+    };
+    (21_000..29_000).find(is_free).expect("a port is free")
 }
 
 /// A start-stop circuit with a timer and a counted edge.

@@ -1,13 +1,11 @@
 //! The broker mosquitto and its clients, which `.ci/run` installs; where they are not, the tests say so and do not run,
 //! unless `RUNGC_REQUIRE_PEERS` is set.
 
-use super::text;
+use super::{soon, text};
 use std::env;
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
 
 /// A process that ends with the test.
 pub struct Ends(pub Child);
@@ -51,15 +49,6 @@ pub fn are_there(programs: &[&str]) -> bool {
     );
     eprintln!("skipped: there is no {missing} (see .ci/run)");
     false
-}
-
-/// Waits until something is so.
-pub fn soon(what: &str, mut is_so: impl FnMut() -> bool) {
-    let until = Instant::now() + Duration::from_secs(90);
-    while !is_so() {
-        assert!(Instant::now() < until, "{what}");
-        thread::sleep(Duration::from_millis(20));
-    }
 }
 
 /// The configuration of a broker without users.

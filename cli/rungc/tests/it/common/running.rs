@@ -1,23 +1,22 @@
 //! A program that runs with servers and serial lines open.
 
-use std::io::{BufRead, BufReader};
+use super::HANG;
+use std::cell::RefCell;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
-use std::time::Duration;
-
-/// Time-out for a run to open its ports.
-const PATIENCE: Duration = Duration::from_secs(30);
-
-/// Time-out of the first scans, which set up the lines.
-const FIRST_SCANS: Duration = Duration::from_millis(500);
 
 /// A run, which ends with the test.
 pub struct Run {
     child: Child,
     /// Reports, line by line.
     said: Receiver<String>,
+    /// Reports so far.
+    heard: RefCell<Vec<String>>,
+    /// Rows of its table, of which there is one every 50 ms.
+    rows: Receiver<String>,
     /// Open ends, such as `COM1` or `Modbus TCP`, and their addresses.
     open: Vec<(String, String)>,
 }
@@ -44,39 +43,54 @@ impl Run {
     /// Waits until it has opened this many servers and lines.
     pub fn opens(&mut self, count: usize) {
         while self.open.len() < count {
-            let line = self.said.recv_timeout(PATIENCE);
-            let line = line.expect("the run opens everything");
+            let line = self.next_line();
             let told = line.strip_prefix("rungc: ");
             if let Some((what, place)) = told.and_then(|told| told.split_once(" at ")) {
                 self.open.push((what.to_owned(), place.to_owned()));
             }
         }
-        if self.open.iter().any(|(what, _)| what.starts_with("COM")) {
-            thread::sleep(FIRST_SCANS);
+        // The first scans set up the lines.
+        self.goes_on();
+    }
+
+    /// Waits for scans.
+    pub fn goes_on(&self) {
+        while self.rows.try_recv().is_ok() {}
+        for _ in 0..2 {
+            self.rows.recv_timeout(HANG).expect("the run goes on");
         }
+    }
+
+    /// The next line that it reports.
+    fn next_line(&self) -> String {
+        let line = self.said.recv_timeout(HANG);
+        let line = line.unwrap_or_else(|_| panic!("no more is reported: {:?}", self.heard));
+        self.heard.borrow_mut().push(line.clone());
+        line
+    }
+
+    /// Waits until it reports something that contains this text.
+    pub fn says(&self, text: &str) {
+        while !self.next_line().contains(text) {}
     }
 
     /// Runs `p.il` of this folder with more options, and waits for nothing.
     pub fn start(folder: &Path, model: &str, args: &[&str]) -> Run {
         let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-            .args(["run", "p.il", "--model", model])
+            .args(["run", "p.il", "--model", model, "--watch", "M8012"])
             .args(args)
             .current_dir(folder)
-            .stdout(Stdio::null())
+            .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let errors = child.stderr.take().unwrap();
-        let (sender, said) = mpsc::channel();
-        thread::spawn(move || {
-            // Continues even without a listener, so that the run can keep writing.
-            for line in BufReader::new(errors).lines().map_while(Result::ok) {
-                let _ = sender.send(line);
-            }
-        });
+        let said = lines(child.stderr.take().unwrap());
+        let rows = lines(child.stdout.take().unwrap());
         Run {
             child,
             said,
+            heard: RefCell::default(),
+            rows,
             open: Vec::new(),
         }
     }
@@ -97,10 +111,22 @@ impl Run {
         self.place(port)
     }
 
-    /// Reports since the last call.
+    /// Reports so far.
     pub fn said(&self) -> Vec<String> {
-        self.said.try_iter().collect()
+        self.heard.borrow_mut().extend(self.said.try_iter());
+        self.heard.borrow().clone()
     }
+}
+
+/// Lines as they come, whether or not anybody listens.
+fn lines(pipe: impl Read + Send + 'static) -> Receiver<String> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        for line in BufReader::new(pipe).lines().map_while(Result::ok) {
+            let _ = sender.send(line);
+        }
+    });
+    receiver
 }
 
 impl Drop for Run {
