@@ -35,7 +35,7 @@ typedef struct {
     void (*tick)(uint32_t now_ms); /* NULL if it does not follow the time */
     void (*take_interrupts)(void); /* NULL if it has no interrupts */
     rungc_map (*map)(void);
-    uint32_t (*constant_scan_us)(void); /* NULL if it never asks for scans of constant length */
+    uint32_t (*constant_scan_us)(void); /* NULL if it never requests scans of constant length */
 } program;
 
 #define CASE(n)                                                                                                        \

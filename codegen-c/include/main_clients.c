@@ -1,4 +1,4 @@
-/* A server that the program asks: its requests are `count` ones after each other. */
+/* A server that the program sends requests to: `count` ones after each other. */
 typedef struct {
     const char *const host, *const port;
     const uint8_t part; /* the last one of its address */
@@ -100,7 +100,7 @@ static bool receive_answers(PROGRAM_plc *plc, tcp_client_link *link, uint32_t no
     return count > 0;
 }
 
-/* Takes the answers of a server, and asks it what is next. */
+/* Takes the answers of a server, and sends it the next request. */
 static void ask(PROGRAM_plc *plc, tcp_client_link *link, uint32_t now_us)
 {
     static rungc_reply request;
@@ -129,7 +129,7 @@ static void ask(PROGRAM_plc *plc, tcp_client_link *link, uint32_t now_us)
     }
 }
 
-/* Takes the answers that have come since the last scan, and asks what is next. */
+/* Takes the answers received since the last scan, and sends the next requests. */
 static void poll_clients(PROGRAM_plc *plc, uint32_t now_us)
 {
     for (size_t i = 0; i < sizeof client_links / sizeof client_links[0]; i++) {

@@ -8,14 +8,14 @@ typedef struct {
     int client_end;     /* of a pseudo-terminal: open, so that clients can come and go */
     const char *path;
     rungc_line_format format;
-    uint32_t character_us; /* how long a character takes */
-    uint32_t received_us;  /* when the last character was in */
-    uint32_t sent_us;      /* when the last character is out */
+    uint32_t character_us; /* duration of a character */
+    uint32_t received_us;  /* time of the last received character */
+    uint32_t sent_us;      /* end of the last sent character */
     uint8_t received[1024];
     size_t next, count; /* the next of them, and how many there are */
     uint8_t to_send[600];
     size_t waiting;
-    uint32_t tried_us; /* when it was last tried to open the line again */
+    uint32_t tried_us; /* last attempt to reopen the line */
 } serial_line;
 
 static serial_line serial_lines[] = {
@@ -237,7 +237,7 @@ static bool connect_line(uint8_t port, const char *path)
     return true;
 }
 
-/* Connects a serial port as `COM1=/dev/ttyUSB0` or `COM1=pty` says. */
+/* Connects a serial port by `COM1=/dev/ttyUSB0` or `COM1=pty`. */
 static bool open_line(const char *what)
 {
     char *end = NULL;

@@ -25,7 +25,7 @@ typedef struct {
 typedef struct {
     int file; /* -1: none */
     tcp_client *client;
-    uint32_t heard; /* the poll in which something came last */
+    uint32_t heard; /* the poll of the last input */
     rungc_connection said;
     uint8_t to_send[2 * RUNGC_LONGEST_REPLY];
     size_t waiting;
@@ -273,7 +273,7 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
     return send_answers(connection) && open;
 }
 
-/* Carries out and answers what clients have asked since the last scan. */
+/* Carries out and answers the requests of clients since the last scan. */
 static void poll_servers(PROGRAM_plc *plc)
 {
     polls++;

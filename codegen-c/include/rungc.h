@@ -16,7 +16,7 @@
 typedef struct plc_sys {
     uint32_t now_ms;  /* time since power-on, wrapping; constant within a scan */
     uint32_t dt_ms;   /* from the start of the previous scan to the start of this one */
-    uint32_t scan_us; /* how long the last scan took */
+    uint32_t scan_us; /* duration of the last scan */
     bool first_scan;  /* first scan since RUN began */
     bool running;     /* RUN, not STOP */
     uint16_t scan;    /* another odd number in each scan, wrapping */
@@ -33,7 +33,7 @@ enum {
 typedef struct plc_error {
     uint16_t code;      /* the PLC's code of the last operation error, e.g. 6706; 0 if there was none */
     uint16_t step;      /* step of the instruction that it happened to */
-    uint16_t stop;      /* what put the PLC in STOP */
+    uint16_t stop;      /* reason for STOP */
     uint16_t stop_step; /* step of the loop or the jump that the watchdog found too long */
 } plc_error;
 
@@ -43,7 +43,7 @@ typedef void plc_on_error(const void *plc, uint16_t code, uint16_t step);
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
     int16_t value;   /* current value */
-    int16_t preset;  /* preset it runs to, where that is kept */
+    int16_t preset;  /* preset it runs to, if stored */
     uint16_t coil;   /* 0 if its coil was off when last executed, else the scan of that where it matters, else 1 */
     uint8_t part_ms; /* time since the last whole unit */
     bool done;       /* contact */
@@ -52,14 +52,14 @@ typedef struct plc_timer {
 /* A 16-bit up counter: .done is its contact. */
 typedef struct plc_counter16 {
     int16_t value; /* current value */
-    bool coil;     /* whether its coil was on when last executed */
+    bool coil;     /* state of its coil at the last execution */
     bool done;     /* contact */
 } plc_counter16;
 
 /* A 32-bit up/down counter: .done is its contact. */
 typedef struct plc_counter32 {
     int32_t value; /* current value */
-    bool coil;     /* whether its coil was on when last executed */
+    bool coil;     /* state of its coil at the last execution */
     bool done;     /* contact */
 } plc_counter32;
 

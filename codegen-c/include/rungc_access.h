@@ -36,12 +36,12 @@ enum {
 /* Devices that are side by side in a program's struct. */
 typedef struct plc_area {
     uint8_t device;   /* their plc_class */
-    uint8_t kind;     /* what each is: PLC_AREA_... */
+    uint8_t kind;     /* type of each: PLC_AREA_... */
     uint16_t first;   /* first number */
-    uint16_t count;   /* how many */
+    uint16_t count;   /* number of devices */
     uint16_t columns; /* numbers from a device to the next one in memory */
-    uint16_t kept;    /* how many of the columns are stored: the first ones */
-    uint32_t offset;  /* where they begin in the struct, in bytes */
+    uint16_t kept;    /* number of stored columns: the first ones */
+    uint32_t offset;  /* offset in the struct, in bytes */
 } plc_area;
 
 /* The area that holds a device; NULL if none does. */

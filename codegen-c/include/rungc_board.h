@@ -12,7 +12,7 @@
 /* A change of an input. */
 typedef struct rungc_edge {
     uint16_t input; /* the input X */
-    bool on;        /* whether it turned on */
+    bool on;        /* true for a rising edge */
 } rungc_edge;
 
 /* Capacity of a queue of edges, plus one. */
@@ -23,12 +23,12 @@ typedef struct rungc_edge {
 /* A queue of edges between one interrupt and NAME_poll, on one core. All zero is an empty one. */
 typedef struct rungc_edges {
     volatile uint16_t slots[RUNGC_EDGES]; /* an input's number, and in the lowest bit whether it turned on */
-    volatile uint16_t first;              /* where the oldest edge is; the main loop's */
-    volatile uint16_t end;                /* where the next one goes; the interrupt's */
-    volatile uint16_t lost;               /* how many found no room, wrapping; the interrupt's */
+    volatile uint16_t first;              /* index of the oldest edge; written by the main loop */
+    volatile uint16_t end;                /* index for the next one; written by the interrupt */
+    volatile uint16_t lost;               /* edges lost, wrapping; written by the interrupt */
 } rungc_edges;
 
-/* Notes an edge, in the interrupt; of an input below 32768. One that finds no room is lost, and false says so. */
+/* Notes an edge, in the interrupt; of an input below 32768. Returns false if the queue is full and the edge is lost. */
 static inline bool rungc_note_edge(rungc_edges *edges, uint16_t input, bool on)
 {
     const uint16_t end = edges->end;
@@ -66,8 +66,8 @@ static inline bool rungc_take_edge(rungc_edges *edges, rungc_edge *edge)
    must take each character within a second. */
 typedef struct rungc_characters {
     volatile uint32_t slots[RUNGC_CHARACTERS]; /* from the lowest bit: 8 of value, 3 of fault, 21 of time */
-    volatile uint16_t first;                   /* where the oldest character is; the main loop's */
-    volatile uint16_t end;                     /* where the next one goes; the interrupt's */
+    volatile uint16_t first;                   /* index of the oldest character; written by the main loop */
+    volatile uint16_t end;                     /* index for the next one; written by the interrupt */
     volatile bool lost;                        /* a character found no room, and none came after it; the interrupt's */
 } rungc_characters;
 
@@ -112,9 +112,9 @@ static inline bool rungc_take_character(rungc_characters *characters, uint32_t n
 typedef struct rungc_count {
     uint16_t input;   /* the input X; of an encoder that of phase A */
     uint16_t phase_b; /* of an encoder: the input X of phase B; of pulses: as `input` */
-    uint32_t from;    /* of an encoder: what the timer showed when last asked. Its two lowest bits are the phases: 0 both off, 1 A on,
+    uint32_t from;    /* of an encoder: the timer at the last call. Its two lowest bits are the phases: 0 both off, 1 A on,
                          2 both on, 3 B on */
-    int32_t count;    /* how many since then; of an encoder those in which B leads are negative */
+    int32_t count;    /* number since then; of an encoder those in which B leads are negative */
 } rungc_count;
 
 /* A board. What it lacks is NULL; only `now_us` has to be there. `hal.context` is handed to each function. */
@@ -129,7 +129,7 @@ typedef struct rungc_board {
     /* Edges: an interrupt notes each in a queue, see rungc_note_edge. Gives the oldest one that was not taken yet; false if there is none. */
     bool (*next_edge)(void *context, rungc_edge *edge);
 
-    /* Counters, for rates at which an interrupt for each edge is too slow. Gives what this one has counted since last asked, which may
+    /* Counters, for rates at which an interrupt for each edge is too slow. Gives the counts of this one since the last call, which may
        be nothing; false after the last one, they are numbered from 0. The program gets it as that many edges, so its comparisons act
        at the count. */
     bool (*counted)(void *context, unsigned counter, rungc_count *count);
@@ -146,9 +146,9 @@ typedef struct rungc_board {
 
     /* Private. */
     uint32_t now_ms;      /* the program's time */
-    uint32_t millisecond; /* when this millisecond began */
-    uint32_t next_scan;   /* when the next scan begins */
-    uint32_t scan_us;     /* how long the last one took */
+    uint32_t millisecond; /* start of this millisecond */
+    uint32_t next_scan;   /* start of the next scan */
+    uint32_t scan_us;     /* duration of the last one */
     bool began;           /* NAME_poll was called */
 } rungc_board;
 

@@ -27,7 +27,7 @@ typedef struct rungc_flash {
 typedef struct rungc_retained_run {
     uint8_t device; /* their plc_class */
     uint16_t first; /* first number */
-    uint16_t count; /* how many */
+    uint16_t count; /* number of devices */
 } rungc_retained_run;
 
 /* Data that a program retains over power-off. */
@@ -35,8 +35,8 @@ typedef struct rungc_retained {
     const char *program; /* its name and model: records of another program are not loaded */
     const rungc_retained_run *runs;
     size_t run_count;
-    bool contacts;       /* whether contacts of timers and counters are kept with their values */
-    uint16_t key_number; /* models with a latch key: the register D that has to hold it, or nothing is kept; else 0 */
+    bool contacts;       /* true if contacts of timers and counters are retained with their values */
+    uint16_t key_number; /* models with a latch key: the register D that has to hold it, or nothing is retained; else 0 */
     int16_t key;
     bool (*read)(const void *plc, plc_class device, uint32_t number, int32_t *value);
     bool (*write)(void *plc, plc_class device, uint32_t number, int32_t value);
@@ -47,7 +47,7 @@ typedef enum rungc_loaded {
     RUNGC_LOADED_NOTHING, /* nothing was saved yet */
     RUNGC_LOADED_FOREIGN, /* the saved devices are those of another program: none was loaded */
     RUNGC_LOADED_DEVICES, /* latched devices have their values again */
-    RUNGC_LOADED_FAILED   /* what holds them cannot be read */
+    RUNGC_LOADED_FAILED   /* their memory cannot be read */
 } rungc_loaded;
 
 /* Bytes of a record in turn, and bytes of what holds one. */
@@ -66,7 +66,7 @@ typedef struct rungc_source {
 
 /* A complete record. */
 typedef struct rungc_record {
-    uint32_t at;       /* where it begins */
+    uint32_t at;       /* its offset */
     uint32_t length;   /* in bytes */
     uint32_t sequence; /* its number */
     uint16_t runs;
@@ -403,10 +403,10 @@ typedef struct rungc_slots {
     /* Private. */
     rungc_record newest; /* length 0: there is none */
     unsigned newest_slot;
-    bool has_next; /* whether the next record goes to next_slot at next_at; the slot is erased from there on */
+    bool has_next; /* true if the next record goes to next_slot at next_at; the slot is erased from there on */
     unsigned next_slot;
     uint32_t next_at;
-    bool has_saved; /* whether `saved` is the checksum of what was saved or loaded last */
+    bool has_saved; /* true if `saved` is the checksum of the last saved or loaded record */
     uint32_t saved;
     uint32_t looked_ms;
 } rungc_slots;

@@ -27,12 +27,12 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
 #define RUNGC_MEMORY_SIZE 912
 
 /**
- * Most characters of an answer.
+ * Maximum number of characters of an answer.
  */
 #define RUNGC_LONGEST_ANSWER 260
 
 /**
- * Most characters of a request of any service.
+ * Maximum number of characters of a request of any service.
  */
 #define RUNGC_LONGEST_REQUEST 3605
 
@@ -620,7 +620,7 @@ typedef struct rungc_client_row {
      */
     uint32_t number;
     /**
-     * The unit that is asked, 1 for most servers.
+     * The addressed unit, 1 for most servers.
      */
     uint8_t unit;
     /**
@@ -1296,7 +1296,7 @@ typedef struct rungc_axis {
      */
     uint16_t owner;
     /**
-     * A train was sent to its end, and no instruction has asked yet.
+     * A train was sent to its end, and no instruction has queried it yet.
      */
     bool ended;
     /**

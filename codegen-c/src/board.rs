@@ -1,5 +1,5 @@
-//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and
-//! where it is asked for.
+//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and on
+//! request.
 
 use crate::host::terminals;
 use crate::include;

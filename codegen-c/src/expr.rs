@@ -390,7 +390,7 @@ impl Writer<'_, '_> {
         }
         let mut written: SmallVec<[Operand; 8]> = SmallVec::new();
         for e in operands {
-            // The same question need not be asked twice.
+            // The same question need not be checked twice.
             let same = |other: &Operand| other.calls && logic::same(self.module, other.e, e);
             if written.iter().any(same) {
                 continue;

@@ -1,9 +1,9 @@
 //! C99 from rungc's IR.
 //!
 //! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all
-//! programs share, only if the program calls the runtime, the runtime's sources, and if it takes events or it is asked
-//! for, the wiring between it and a board. [`Part`] and [`together`] do the same for several programs of one firmware;
-//! [`batch`] makes one executable of many programs, for tests.
+//! programs share, only if the program calls the runtime, the runtime's sources, and if it takes events or it is
+//! requested, the wiring between it and a board. [`Part`] and [`together`] do the same for several programs of one
+//! firmware; [`batch`] makes one executable of many programs, for tests.
 //!
 //! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is
 //! done here is to print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit`

@@ -375,7 +375,7 @@ const CONNECTIONS: &str = "    for row in servers.table() {
     }
 ";
 
-/// Servers are asked between two scans.
+/// Servers are polled between two scans.
 const ASK: &str = "        clients.poll(&mut plc, |_| {});\n";
 
 /// Report of the clients' traffic, at the end.

@@ -160,7 +160,7 @@ fn instruction(step: u16) -> (&'static str, &'static [Indexed]) {
 ON_ERROR;
 /// The lines of standard input, as they come.
 fn commands() -> Receiver<String> {
-    // A flood of lines waits until the scans have looked at them.
+    // Excess lines wait until the scans have processed them.
     let (sender, receiver) = mpsc::sync_channel(COMMANDS_PER_SCAN);
     std::thread::spawn(move || {
         let mut input = io::stdin().lock();
@@ -177,7 +177,7 @@ fn commands() -> Receiver<String> {
     receiver
 }
 
-/// Does what `X12=1` says; `None` if it says nothing of the kind, or the PLC has no such input.
+/// Sets an input by `X12=1`; `None` if it is not of this form, or the PLC has no such input.
 fn set_input(plc: &mut TYPE, hal: &mut VirtualHal, line: &str) -> Option<()> {
     let (name, value) = line.trim().split_once('=')?;
     let number = name.trim().strip_prefix(['X', 'x'])?;

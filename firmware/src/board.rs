@@ -168,7 +168,7 @@ pub enum BoardError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: std::io::Error,
     },
     /// Neither a known board has this name nor a file.

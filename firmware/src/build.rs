@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs};
 
-/// Reason for which nothing was built.
+/// Reason why nothing was built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// A compiler or a library for the target is missing.
@@ -33,7 +33,7 @@ pub enum BuildError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: std::io::Error,
     },
 }

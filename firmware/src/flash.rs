@@ -30,7 +30,7 @@ pub struct Payload {
     pub is_elf: bool,
 }
 
-/// Reason for which a file is not an image.
+/// Reason why a file is not an image.
 #[derive(Debug, thiserror::Error)]
 pub enum PayloadError {
     /// It begins as an ELF file does, and is not one for a 32-bit machine.

@@ -98,7 +98,7 @@ pub struct Stack {
     pub scan: Option<u32>,
     /// Bytes that the whole image takes, with its interrupts; `None` where there is no bound or no image.
     pub image: Option<u32>,
-    /// Method of the analysis, or the reason for which it failed.
+    /// Method of the analysis, or the reason why it failed.
     pub how: String,
 }
 

@@ -4,7 +4,7 @@
 
 #define CLOCK_HZ /* HZ */u
 #define BITS_PER_SECOND 9600u
-#define SHOWN_MS 2000u /* how long an output is on */
+#define SHOWN_MS 2000u /* on-time of an output */
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 #define SYSTICK_CTRL REGISTER(0xE000E010u)

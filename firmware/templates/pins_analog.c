@@ -2,7 +2,7 @@
 static const struct {
     const char *name;
     uint32_t at;
-    uint32_t start, word, ready; /* what starts the converter, or 0 */
+    uint32_t start, word, ready; /* start of the converter, or 0 */
 } analog[] = {
 /* ROWS */};
 

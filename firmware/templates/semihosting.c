@@ -1,4 +1,4 @@
-/* Semihosting: a debugger or a simulator does what the core asks for. Without one it is left out. */
+/* Semihosting: a debugger or a simulator carries out the requests of the core. Without one it is left out. */
 static void semihosting(uint32_t operation, uint32_t argument)
 {
     register uint32_t r0 __asm__("r0") = operation;

@@ -5,7 +5,7 @@ typedef struct {
         struct {
             uint8_t bytes[SEND];
             volatile uint16_t first; /* the next one to be sent; changes where no interrupt comes, as the next two do */
-            volatile uint16_t end;   /* where the next one goes */
+            volatile uint16_t end;   /* index for the next one */
         } out;
     };
     volatile bool sends;
@@ -16,7 +16,7 @@ typedef struct {
 typedef struct {
     uint8_t port;           /* its number in the PLC's manual */
     uint32_t at;            /* the first register of its UART */
-    uint32_t clock_hz;      /* what its bit rate is divided from */
+    uint32_t clock_hz;      /* clock that is divided for its bit rate */
     void (*drive)(bool on); /* switches the driver of an RS-485 line, or NULL */
     queues *waiting;
 } uart;
@@ -109,7 +109,7 @@ static void set_line(void *context, uint8_t port, const rungc_line_format *forma
 
 static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received *received)
 {
-    const uint32_t begin_us = board.millisecond - board.now_ms * 1000u; /* when the program's time began */
+    const uint32_t begin_us = board.millisecond - board.now_ms * 1000u; /* origin of the program's time */
     const uart *const u = uart_of(port);
 
     (void)context;

@@ -11,7 +11,7 @@ static bool has_sent(const uart *u)
     return (REGISTER(u->at + STATE) & 1u << 3) == 0u; /* BUSY */
 }
 
-/* The interrupt comes when there is room; none says that the last bit is out: the tick looks. */
+/* The interrupt comes when there is room; none signals the end of the last bit: the tick checks it. */
 static void expect(const uart *u, bool room, bool end)
 {
     (void)end;

@@ -19,7 +19,7 @@ impl Uart {
         read(self.at + STATE) & 1 << 3 == 0 // BUSY
     }
 
-    /// The interrupt comes when there is room; none says that the last bit is out: the tick looks.
+    /// The interrupt comes when there is room; none signals the end of the last bit: the tick checks it.
     fn expect(&self, room: bool, _end: bool) {
         write(self.at + MASK, 1 << 4 | u32::from(room) << 5); // RXIM, TXIM
     }

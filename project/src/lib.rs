@@ -158,7 +158,7 @@ pub struct Range {
     pub span: Span,
 }
 
-/// Reason for which a file could not be read.
+/// Reason why a file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The system says so.
@@ -166,7 +166,7 @@ pub enum Error {
     Io {
         /// The file.
         path: PathBuf,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: io::Error,
     },
     /// The file has mistakes.

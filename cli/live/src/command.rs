@@ -102,7 +102,7 @@ impl Command {
         }
     }
 
-    /// Reads a command; the error says what is wrong with it.
+    /// Reads a command; the error describes the problem.
     pub(crate) fn read(json: &[u8]) -> Result<Command, String> {
         serde_json::from_slice(json).map_err(|error| error.to_string())
     }

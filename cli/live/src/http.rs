@@ -9,7 +9,7 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 /// Maximum length of a request's head and body, in bytes.
 const HEAD: usize = 8 * 1024;
 const BODY: usize = 4 * 1024;
-/// Most headers of a request.
+/// Maximum number of headers of a request.
 const HEADERS: usize = 64;
 
 /// Headers of every response: nothing from elsewhere is loaded, and no other page may load or frame it.

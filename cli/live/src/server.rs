@@ -16,7 +16,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Most open connections at a time.
+/// Maximum number of simultaneous connections.
 const CONNECTIONS: usize = 32;
 /// Interval of comments to a page if nothing has changed, by which a lost connection is detected.
 const HEARTBEAT: Duration = Duration::from_secs(5);

@@ -16,7 +16,7 @@ use rungc_rt::comm::{CharFault, Received};
 use rungc_rt::modules::{KINDS, Quantity, Signal};
 use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, pass_pulses, word};
 
-/// Answers requests until they end. `read` waits for bytes and says how many came, 0 at the end; `write` takes all bytes.
+/// Answers requests until they end. `read` waits for bytes and returns their number, 0 at the end; `write` takes all bytes.
 pub fn serve(read: &mut dyn FnMut(&mut [u8]) -> usize, write: &mut dyn FnMut(&[u8])) {
     let mut port = Port::new(read, write);
     let mut next = session(&mut port, &mut []);
@@ -40,7 +40,7 @@ enum Next {
     Join(usize),
 }
 
-/// Runs a program in a PLC beside those of the case; returns the case that is asked for next, `None` at the end.
+/// Runs a program in a PLC beside those of the case; returns the case that is requested next, `None` at the end.
 fn run(port: &mut Port, plcs: &mut [Option<Plc>], number: usize) -> Option<Next> {
     let mut next = None;
     let found = cases::run(number, &mut |program| {
@@ -68,7 +68,7 @@ fn run(port: &mut Port, plcs: &mut [Option<Plc>], number: usize) -> Option<Next>
     next
 }
 
-/// Answers requests to the programs of a case, or without any; returns what is asked for next, `None` at the end.
+/// Answers requests to the programs of a case, or without any; returns the next request, `None` at the end.
 fn session(port: &mut Port, plcs: &mut [Option<Plc>]) -> Option<Next> {
     let mut current = 0;
     loop {

@@ -55,7 +55,7 @@ pub struct NamedPin {
     pub terminal: String,
     /// Its name in the data sheet.
     pub pin: String,
-    /// Reason for which it may be another one.
+    /// Reason why it may be another one.
     pub uncertain: Option<String>,
 }
 

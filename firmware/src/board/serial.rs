@@ -10,7 +10,7 @@ const DEFAULT_RECEIVE: u16 = 64;
 /// Characters that wait to be sent by default: no frame of Modbus RTU is longer.
 const DEFAULT_SEND: u16 = 256;
 
-/// Most interrupts that a core has.
+/// Maximum number of interrupts that a core has.
 const INTERRUPTS: u32 = 480;
 
 /// A serial port of the PLC, and the UART that it is.

@@ -32,7 +32,7 @@ pub const INFO: &str = "INFO_UF2.TXT";
 /// Name of an RP2040's boot drive, as set by its boot ROM.
 pub const RP2040_BOARD: &str = "RPI-RP2";
 
-/// Reason for which a file is not UF2.
+/// Reason why a file is not UF2.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Uf2Error {
     /// A block is cut off, or does not begin or end as one does.

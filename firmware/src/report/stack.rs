@@ -7,7 +7,7 @@ use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Reason for which there is no bound.
+/// Reason why there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Unbounded {
     /// These functions call each other in a ring.

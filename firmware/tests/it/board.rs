@@ -68,7 +68,7 @@ fn serial_ports_are_uarts() {
     assert!(com0.always);
 }
 
-/// Each mistake in a description of serial ports is said with its place.
+/// Each mistake in a description of serial ports is reported with its place.
 #[test]
 fn mistakes_in_serial_ports_are_named() {
     let line = "port = \"COM1\"\nuart = \"cmsdk\"\nat = 0\ninterrupts = [0]\n";
@@ -119,7 +119,7 @@ fn mistakes_in_serial_ports_are_named() {
     assert!(error.contains("use only one of them"), "{error}");
 }
 
-/// Each mistake is said with its place.
+/// Each mistake is reported with its place.
 #[test]
 fn mistakes_are_named() {
     for (from, to, said) in [

@@ -40,7 +40,7 @@ const NAMES: [&[&str]; 7] = [
     &["note", "ノート", "注解", "注释"],
 ];
 
-/// Most rows above the row of headers.
+/// Maximum number of rows above the row of headers.
 const HEAD_ROWS: usize = 12;
 
 /// Layout of a text as a table.

@@ -35,7 +35,7 @@ impl Lesson {
     }
 }
 
-/// Reason for which nothing can be learned from a project and a list.
+/// Reason why nothing can be learned from a project and a list.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Mismatch {
     /// The project is not one of GX Developer or GX Works2.

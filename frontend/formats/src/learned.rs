@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LearnedCodes(BTreeMap<Vec<u8>, SmolStr>);
 
-/// Reason for which a code cannot be learned.
+/// Reason why a code cannot be learned.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LearnError {
     /// It is not the code of an instruction.

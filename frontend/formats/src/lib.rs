@@ -77,7 +77,7 @@ impl ReadOptions {
 /// Files over this size are rejected, in bytes: a list of a million steps takes a tenth of it.
 pub const MAX_SIZE: u64 = 128 << 20;
 
-/// Reason for which nothing could be read.
+/// Reason why nothing could be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file or folder cannot be opened or read.
@@ -85,7 +85,7 @@ pub enum ReadError {
     Io {
         /// Its path.
         path: String,
-        /// Error of the system.
+        /// The underlying I/O error.
         source: std::io::Error,
     },
     /// The file is larger than any program.
@@ -292,7 +292,7 @@ fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
 }
 
 /// All that a source gives; `None` if that is more than a program can be. A pipe or a device has no size that could be
-/// asked for before, and may never end.
+/// queried before, and may never end.
 fn limited(source: impl io::Read) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     source.take(MAX_SIZE + 1).read_to_end(&mut bytes)?;

@@ -54,7 +54,7 @@ fn is_left_out(folder: &DirEntry) -> bool {
     name.starts_with('.') || name == "target"
 }
 
-/// The beginning of a file; nothing if it cannot be read, which is said where it is read whole.
+/// The beginning of a file; nothing if it cannot be read, which is reported where it is read whole.
 fn head(path: &Path) -> Option<Vec<u8>> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));

@@ -14,9 +14,9 @@ pub enum DeviceClass {
     M,
     /// Step (state) relay.
     S,
-    /// Timer: its contact where a bit is asked for, its current value where a word is.
+    /// Timer: its contact where a bit is expected, its current value where a word is.
     T,
-    /// Counter: its contact where a bit is asked for, its current value where a word is (32 bits from C200).
+    /// Counter: its contact where a bit is expected, its current value where a word is (32 bits from C200).
     C,
     /// Data register; from 8000 special registers.
     D,

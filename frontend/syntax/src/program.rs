@@ -35,7 +35,7 @@ pub struct Program {
 /// PLC parameters of a project, as set in the editors.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Parameters {
-    /// Devices that keep their values over power-off, of those for which this can be chosen; `None` if nothing is said.
+    /// Devices that keep their values over power-off, of those for which this can be chosen; `None` if none is stated.
     pub latched: Option<Vec<DeviceRun>>,
     /// Memory capacity in steps: what program, comments and file registers share.
     pub capacity: Option<u32>,
@@ -43,9 +43,9 @@ pub struct Parameters {
     pub comment_blocks: u32,
     /// Blocks of 500 steps of that memory that hold file registers, 500 registers each.
     pub file_register_blocks: u32,
-    /// Program files that the PLC runs, in order; empty if nothing is said.
+    /// Program files that the PLC runs, in order; empty if none is stated.
     pub programs: Vec<String>,
-    /// Special modules that are fitted to it; empty if nothing is said.
+    /// Special modules that are fitted to it; empty if none is stated.
     pub modules: Vec<FittedModule>,
     /// Requests of the PLC to servers over TCP; empty if none are stated.
     pub requests: Vec<NetworkRequest>,
@@ -85,7 +85,7 @@ pub struct FittedModule {
 pub struct NetworkRequest {
     /// The server.
     pub server: SocketAddr,
-    /// The unit that is asked.
+    /// The addressed unit.
     pub unit: u8,
     /// The function.
     pub function: u8,

@@ -36,7 +36,7 @@ pub struct Timed {
     pub code: Code,
     /// Its compiler.
     pub compiler: String,
-    /// Outcome, or the reason for which there is none.
+    /// Outcome, or the reason why there is none.
     pub result: std::result::Result<Outcome, String>,
 }
 

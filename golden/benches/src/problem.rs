@@ -1,8 +1,8 @@
-//! Reasons for which something could not be measured.
+//! Reasons why something could not be measured.
 
 use std::path::PathBuf;
 
-/// Reason for which something could not be measured.
+/// Reason why something could not be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// A program that is needed is not there.
@@ -29,7 +29,7 @@ pub enum Problem {
     Wrong(String),
 }
 
-/// A measurement, or the reason for which there is none.
+/// A measurement, or the reason why there is none.
 pub type Result<T> = std::result::Result<T, Problem>;
 
 impl Problem {

@@ -105,7 +105,7 @@ pub enum Keep {
     Latched,
     /// Special relays and registers: their power-on values come back at power-on only.
     Special,
-    /// Special registers that are kept over power-off, and that no program clears.
+    /// Special registers that are retained over power-off, and that no program clears.
     Record,
 }
 

@@ -83,7 +83,7 @@ pub struct Machine<'m> {
     pub(crate) errors: Vec<OperationError>,
     /// By step and code: the index of the error in `errors`.
     pub(crate) errors_by_site: BTreeMap<(u32, u16), usize>,
-    /// Operands of the call being executed; kept to save the allocation.
+    /// Operands of the call being executed; reused to save the allocation.
     pub(crate) operands: Vec<Operand>,
     pub(crate) states: Vec<State>,
     /// Of the module's pulse outputs, in their order.
@@ -240,7 +240,7 @@ impl<'m> Machine<'m> {
         }
     }
 
-    /// Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it.
+    /// Brings the serial ports up to date, and changes over to RUN or STOP if a partner has requested it.
     fn advance_ports(&mut self, hal: &mut dyn Hal, now_us: u32) {
         if !self.module.has_ports() {
             return;

@@ -32,7 +32,7 @@ pub enum Behaviour {
         devices: Vec<DeviceRun>,
         /// True if modules, pulse outputs or serial ports can be used differently, too.
         hardware: bool,
-        /// Steps of instructions that are taken to use all special devices, as nothing says which ones they use, and
+        /// Steps of instructions that are assumed to use all special devices, as nothing says which ones they use, and
         /// that read what can differ or are not the same. Others read and write less, so that more devices may be the
         /// same. First those that only the old module has, then those of the new one, both in order.
         vague: [Vec<u32>; 2],

@@ -78,7 +78,7 @@ fn resets(class: DeviceClass) -> u32 {
     }
 }
 
-/// Most devices of a class that are reset one by one.
+/// Maximum number of devices of a class that are reset one by one.
 fn resets_singly(class: DeviceClass) -> u32 {
     match resets(class) {
         u32::MAX => BITS,
@@ -167,7 +167,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Executes the statements of `make` if both runs of devices exist; else the instruction faults.
+    /// Emits the statements of `make`, executed if both runs of devices exist; else the instruction faults.
     fn with_blocks(&mut self, runs: [(Device, u32); 2], make: impl FnOnce(&mut Self)) {
         let exist = runs
             .iter()

@@ -122,7 +122,7 @@ impl Lowerer<'_> {
         inner.into_iter().filter_map(Item::into_stmt).collect()
     }
 
-    /// Executes the statements of `make` if `cond` is on.
+    /// Emits the statements of `make`, executed if `cond` is on.
     pub(super) fn when(&mut self, cond: ExprId, make: impl FnOnce(&mut Self)) {
         match self.known_bit(cond) {
             Some(true) => make(self),

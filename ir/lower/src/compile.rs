@@ -88,7 +88,7 @@ pub fn model(program: &Program, options: &CompileOptions) -> &'static Model {
     model_of(program, options).0
 }
 
-/// The model that a program is for, and what is to be said of its choice.
+/// The model that a program is for, and the diagnostics of its choice.
 fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Diagnostics) {
     let mut out = Diagnostics::new();
     let (id, cpu) = match (options.model, program.cpu.as_deref()) {

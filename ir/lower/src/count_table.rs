@@ -12,7 +12,7 @@ use rungc_rt::{CmpOp, Register};
 use rungc_syntax::DeviceClass::Y;
 use rungc_syntax::OperandKind;
 
-/// Most rows of a table.
+/// Maximum number of rows of a table.
 const MOST_ROWS: u32 = 128;
 
 /// Bits of a pattern.

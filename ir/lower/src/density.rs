@@ -7,7 +7,7 @@ use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt, 
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, OperandKind};
 
-/// Numerator of pulses per minute for a time in milliseconds, displayed times ten.
+/// Ten minutes in milliseconds: pulses per minute are displayed times ten.
 const TEN_MINUTES: i32 = 600_000;
 
 /// State of an SPD.

@@ -12,7 +12,7 @@ use rungc_syntax::DeviceClass::D;
 /// The first X and Y of the extension modules of HM.
 const FIRST_TERMINAL: u32 = 0o20;
 
-/// Most X, Y and registers of the extension modules of HM.
+/// Maximum number of X, Y and registers of the extension modules of HM.
 const MOST_TERMINALS: u32 = 128;
 const MOST_WORDS: u32 = 384;
 

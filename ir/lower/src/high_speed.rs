@@ -123,7 +123,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Executes the statements of `make` if one more comparison may be driven; else the instruction faults.
+    /// Emits the statements of `make`, executed if one more comparison may be driven; else the instruction faults.
     pub(super) fn one_more(&mut self, make: impl FnOnce(&mut Self)) {
         let Some((driven, most)) = self.high_speed.limit else {
             return make(self);

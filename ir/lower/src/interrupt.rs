@@ -89,7 +89,7 @@ pub(super) struct Interrupts {
     flags: Vec<(Source, FlagId)>,
     /// Routines that may be left in the middle.
     pub(super) sections: Vec<Section>,
-    /// Registers of edges, and what they said when they were last read.
+    /// Registers of edges, and their values when last read.
     pub(super) captures: Vec<(&'static Capture, CellId)>,
     /// A table of counts, and which of its rows waits.
     pub(super) rows: Option<(&'static CountRows, CellId)>,

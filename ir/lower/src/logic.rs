@@ -118,7 +118,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Executes the statements of `make` while the current instruction is driven.
+    /// Emits the statements of `make`, executed while the current instruction is driven.
     pub(super) fn driven(&mut self, make: impl FnOnce(&mut Self)) {
         let drive = self.drive_of_form();
         self.when(drive, make);

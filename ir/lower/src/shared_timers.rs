@@ -8,7 +8,7 @@ use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};
 use std::collections::BTreeSet;
 
-/// Most executions in a scan: none, one, or more.
+/// Maximum number of executions in a scan: none, one, or more.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Times {
     Never,
@@ -76,7 +76,7 @@ fn mark_body(body: &mut [Stmt], is_shared: &impl Fn(u32) -> bool) {
     }
 }
 
-/// Most executions of each function in a scan. Interrupts come as often as they are requested.
+/// Maximum number of executions of each function in a scan. Interrupts come as often as they are requested.
 fn function_times(module: &Module) -> Vec<Times> {
     let by_host: Vec<Times> = module
         .functions

@@ -107,7 +107,7 @@ impl Lowerer<'_> {
                 .any(|&flag| self.specials.has(flag))
     }
 
-    /// Executes the statements of `make` where `cond` holds; elsewhere the instruction faults with `code`.
+    /// Emits the statements of `make`, executed where `cond` holds; elsewhere the instruction faults with `code`.
     pub(super) fn checked(&mut self, cond: ExprId, code: u16, make: impl FnOnce(&mut Self)) {
         let then = self.body(make);
         let step = self.step();

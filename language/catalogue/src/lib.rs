@@ -188,7 +188,7 @@ impl Param {
         self.classes_without(model.missing(), model.id)
     }
 
-    /// As [`Param::classes_on`] for who asks often; `missing` is [`Model::missing`].
+    /// As [`Param::classes_on`] for callers that ask often; `missing` is [`Model::missing`].
     pub fn classes_without(&self, missing: Classes, model: ModelId) -> Classes {
         let classes = self.classes.without(missing);
         match self.only_on {
@@ -482,7 +482,7 @@ pub struct Inst {
     pub drive: Drive,
     /// Special relays and registers that it reads or writes.
     pub flags: &'static [&'static str],
-    /// Most uses in a program; `None`: any number of times.
+    /// Maximum number of uses in a program; `None`: any number of times.
     pub max_uses: Option<u32>,
     /// The PLC's error codes that it can raise in a run.
     pub errors: &'static [u16],

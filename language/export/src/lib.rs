@@ -88,7 +88,7 @@ pub fn to_plcopen(
     text
 }
 
-/// Most differences in the list read back that are shown one by one.
+/// Maximum number of differences in the list read back that are shown one by one.
 const SHOWN: usize = 5;
 
 /// Says where a project reads back as another list, and as which.

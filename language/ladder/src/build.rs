@@ -169,7 +169,7 @@ fn end_of_list(instrs: &[Class], start: InstrIndex) -> InstrIndex {
     at
 }
 
-/// Most levels of nested branches in a picture. The deepest real programs need about ten.
+/// Maximum nesting of branches in a picture. The deepest real programs need about ten.
 const DEEPEST: usize = 100;
 const TOO_DEEP: Undrawable = "its branches are nested more than 100 deep";
 

@@ -20,7 +20,7 @@ pub struct HighSpeed {
     pub held_by_reset: bool,
     /// Relays that change what reset inputs do.
     pub reset_relays: Option<ResetRelays>,
-    /// Most comparisons at the count at a time, tables among them; `None`: any number.
+    /// Maximum number of comparisons at the count at a time, tables among them; `None`: any number.
     pub most_comparisons: Option<u32>,
     /// A comparison acts when the count crosses the value in either direction, also where the program changes one of
     /// them, and not only at a count that equals it: the zones in which such comparisons run.

@@ -198,7 +198,8 @@ pub struct Model {
     /// Devices of which the project's parameters choose the latched ones: class, first and last number. What `ranges`
     /// says of them is the factory setting.
     pub latch_choices: &'static [(DeviceClass, u32, u32)],
-    /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
+    /// Latched devices are retained over power-off only while this special register holds this value (HM); `None`:
+    /// always.
     pub latch_key: Option<(Register, i16)>,
     /// True if latched timers and counters retain their contacts over power-off, not only their values.
     pub keeps_contacts: bool,
@@ -231,9 +232,9 @@ pub struct Model {
     pub steps_per_operand: Option<(u8, u8)>,
     /// True if its clock shows and accepts years of two digits.
     pub two_digit_years: bool,
-    /// Most levels of FOR.
+    /// Maximum nesting of FOR.
     pub max_for: u32,
-    /// Most levels of CALL.
+    /// Maximum nesting of CALL.
     pub max_call: u32,
     /// Serial ports.
     pub ports: Ports,

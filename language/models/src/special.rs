@@ -60,7 +60,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Reason for which the device is inert on a PLC with special modules at these places; `None` if it works.
+    /// Reason why the device is inert on a PLC with special modules at these places; `None` if it works.
     pub fn inert(self, places: &[Place]) -> Option<Reason> {
         match self {
             Status::Inert(reason) => Some(reason),
@@ -70,7 +70,7 @@ impl Status {
     }
 }
 
-/// Reason for which a special device is inert, and the effect on a program that relies on it.
+/// Reason why a special device is inert, and the effect on a program that relies on it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Reason {
     /// The reason, as the end of a sentence.
@@ -258,7 +258,7 @@ const fn because(missed: Missed, text: &'static str) -> Reason {
     Reason { text, missed }
 }
 
-// Reasons for which devices are inert.
+// Reasons why devices are inert.
 pub(crate) const POWER: Reason = because(
     Missed::Never,
     "of supply and battery, only a failure and the voltage are watched",

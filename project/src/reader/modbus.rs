@@ -14,7 +14,7 @@ const ROW: &[&str] = &[
     "port", "host", "station", "read", "write", "address", "count", "buffer", "trigger",
 ];
 
-/// The unit of a server that is asked if the row does not say.
+/// The unit of a server that is addressed by default.
 const USUAL_UNIT: u32 = 1;
 
 impl Reader {

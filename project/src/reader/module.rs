@@ -16,7 +16,7 @@ const DELAY: &str = "answers-after";
 /// The longest time that can be given there, in milliseconds.
 const LONGEST_MS: u32 = 60_000;
 
-/// Most modules of a PLC.
+/// Maximum number of modules of a PLC.
 const MOST: usize = 8;
 
 impl Reader {

@@ -9,7 +9,7 @@ use toml::de::DeTable;
 /// The table of which each entry is a property.
 pub(super) const PROPERTY: &str = "property";
 
-/// The keys that say what a property asks, each with those that may stand beside it.
+/// The keys that define the kind of a property, each with those that may stand beside it.
 const KINDS: [(&str, &[&str]); 5] = [
     ("never", &[]),
     ("always", &[]),

@@ -1,4 +1,4 @@
-//! `[io]`: what is said about connections that cannot be made.
+//! `[io]`: messages about connections that cannot be made.
 
 use crate::common::{mistakes, parse};
 use rungc_models::{Model, ModelId};

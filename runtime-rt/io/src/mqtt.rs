@@ -144,7 +144,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     Ok(Box::new(broker))
 }
 
-/// Reason for which there is no connection; `accepted`: whether there was one.
+/// Reason why there is no connection; `accepted`: whether there was one.
 #[cfg(not(feature = "tls"))]
 fn explained(error: &ConnectionError, _: &Connection, _accepted: bool) -> String {
     error.to_string()

@@ -61,7 +61,7 @@ fn private_key(path: &str) -> Result<PrivateKeyDer<'static>, String> {
     PrivateKeyDer::from_pem_slice(&read(path)?).map_err(none)
 }
 
-/// Reason for which there is no connection, and a remedy. `accepted`: whether the broker had accepted it before.
+/// Reason why there is no connection, and a remedy. `accepted`: whether the broker had accepted it before.
 pub fn explained(error: &ConnectionError, connection: &Connection, accepted: bool) -> String {
     let option = |key: &str| connection.options.get(key).map(String::as_str);
     let (Some(ca), false) = (option("ca"), accepted) else {

@@ -22,7 +22,7 @@ pub struct Axis {
     pub counter: u16,
     /// Private memory of the instruction that sends; 0: none.
     pub owner: u16,
-    /// A train was sent to its end, and no instruction has asked yet.
+    /// A train was sent to its end, and no instruction has queried it yet.
     pub ended: bool,
     /// A train was sent to its end, and pulses have not been counted since.
     pub completed: bool,

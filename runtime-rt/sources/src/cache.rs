@@ -15,7 +15,7 @@ pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
 /// File by which a folder is locked.
 const LOCK: &str = ".lock";
 
-/// Most folders of one kind that are used at the same time.
+/// Maximum number of folders of one kind that are used at the same time.
 const SLOTS: usize = 64;
 
 /// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches`

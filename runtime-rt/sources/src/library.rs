@@ -46,7 +46,7 @@ impl Optimise {
     }
 }
 
-/// Reason for which there is no library.
+/// Reason why there is no library.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// Cargo cannot be started.
@@ -54,7 +54,7 @@ pub enum Error {
     Cargo {
         /// The called program.
         cargo: OsString,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: io::Error,
     },
     /// Cargo failed.
@@ -68,7 +68,7 @@ pub enum Error {
     Io {
         /// The folder.
         path: PathBuf,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: io::Error,
     },
 }

@@ -7,7 +7,7 @@ use rungc_rt::io::{Connection, End, Io, Row};
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-/// Most PLCs that share a connection.
+/// Maximum number of PLCs that share a connection.
 const SHARE: usize = 100;
 
 /// Devices that a connection reads at most, if a PLC has fewer: a broker keeps a limited number of messages for each

@@ -13,8 +13,8 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::thread;
 
-/// Most readings in flight. Their answers have to fit into a pipe, since this end writes while the child waits for it
-/// to read: 32 · 64 · 8 bytes.
+/// Maximum number of readings in flight. Their answers have to fit into a pipe, since this end writes while the child
+/// waits for it to read: 32 · 64 · 8 bytes.
 const ON_THEIR_WAY: usize = 32;
 
 /// Stands for whether a PLC is in RUN, as device 0 of a class.

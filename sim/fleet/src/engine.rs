@@ -70,7 +70,7 @@ impl At {
     }
 }
 
-/// Reason for which PLCs do not run, or no longer.
+/// Reason why PLCs do not run, or no longer.
 #[derive(Debug, thiserror::Error)]
 pub enum Trouble {
     /// A file could not be written, or a process not be started.
@@ -78,7 +78,7 @@ pub enum Trouble {
     Io {
         /// The file, or the command.
         what: String,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: std::io::Error,
     },
     /// The C compiler rejected what was emitted.

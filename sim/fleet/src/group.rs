@@ -18,7 +18,7 @@ pub struct Group<'m> {
     served: Option<Served>,
     /// Until when settings have been made.
     set_until_ms: Option<u64>,
-    /// A client has asked for STOP, which the engine does not have.
+    /// A client has requested STOP, which the engine does not have.
     refused_stop: bool,
 }
 
@@ -70,7 +70,7 @@ impl<'m> Group<'m> {
         self.served.as_ref().map(|served| served.requests)
     }
 
-    /// Sets what is due, carries out what clients have asked, and begins a scan. `now_ms`: milliseconds since power-on;
+    /// Sets what is due, carries out the requests of clients, and begins a scan. `now_ms`: milliseconds since power-on;
     /// `scan_us`: how long the last scan took. Returns what there is to report.
     pub fn begin_scan(&mut self, now_ms: u64, scan_us: u32) -> Option<String> {
         let engine = self.engine.as_mut();

@@ -36,7 +36,7 @@ struct Reached<'a> {
     /// Those of the port.
     plcs: Range<u32>,
     type_code: u16,
-    /// RUN or STOP was asked for: of which PLC.
+    /// RUN or STOP was requested: of which PLC.
     request: Option<(u32, bool)>,
 }
 
@@ -83,8 +83,8 @@ impl Served {
         self.doors.iter().map(|door| door.server.address())
     }
 
-    /// Carries out and answers what has been asked since the last scan. Calls `switch` for PLCs that are asked to
-    /// change between RUN and STOP.
+    /// Carries out and answers the requests since the last scan. Calls `switch` for PLCs that are requested to change
+    /// between RUN and STOP.
     pub fn poll(&mut self, engine: &mut dyn Engine, switch: &mut dyn FnMut(u32, bool)) {
         let (count, next) = (self.doors.len(), self.next);
         let turn = |n: usize| (n + count - next) % count < ASKED_AT_ONCE;

@@ -27,7 +27,7 @@ impl Problem {
     }
 }
 
-/// Reason for which a file could not be loaded.
+/// Reason why a file could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// It could not be read.
@@ -35,7 +35,7 @@ pub enum LoadError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: std::io::Error,
     },
     /// Mistakes in it, one a line.

@@ -2,7 +2,7 @@
 //!
 //! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`,
 //! `none` (no such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or
-//! a value was asked for.
+//! a value was requested.
 
 use crate::target::Channel;
 use rungc_rt::comm::Received;
@@ -60,7 +60,7 @@ pub enum Request {
         from_us: u32,
         /// Time to reach.
         until_us: u32,
-        /// Most pulses that an output sends, up to `i32::MAX`.
+        /// Maximum number of pulses that an output sends, up to `i32::MAX`.
         most: u32,
     },
     /// Asks for the frequency at which an output sends pulses, in millihertz.
@@ -118,7 +118,7 @@ pub enum Answer {
     Ok,
     /// There is no such device, module or channel.
     Missing,
-    /// The value asked for.
+    /// The requested value.
     Value(i64),
 }
 

@@ -40,7 +40,7 @@ const UNITS: [(&str, Quantity); 3] = [
 ];
 
 impl Channel {
-    /// Reads a name, if it begins like that of a channel; the error says what is wrong with it.
+    /// Reads a name, if it begins like that of a channel; the error describes the problem.
     fn parse(name: &str) -> Option<Result<Channel, String>> {
         let (unit, channel) = name.split_once(':')?;
         let unit = self::unit(unit)?;
@@ -147,7 +147,7 @@ const WORDS: [DeviceClass; 5] = [
 ];
 
 impl Target {
-    /// Reads a name; the error says what is wrong with it.
+    /// Reads a name; the error describes the problem.
     pub fn parse(name: &str) -> Result<Target, String> {
         if let Some(channel) = Channel::parse(name) {
             return channel.map(Target::Channel);

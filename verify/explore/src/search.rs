@@ -22,7 +22,7 @@ const PARTS: usize = 8;
 const PART_SCANS: u32 = 256;
 /// Number of moments stored.
 const KEPT: usize = 400;
-/// Most new moments of a part of a round.
+/// Maximum number of new moments of a part of a round.
 const BROUGHT: usize = 24;
 /// As many scans does one count as that does not end: it repeats millions of steps.
 const ENDLESS: u64 = 2_000;
@@ -78,7 +78,7 @@ struct Brought<'t> {
     scans: u64,
     /// Scans, those that do not end as many.
     spent: u64,
-    /// Reason for which the search cannot continue.
+    /// Reason why the search cannot continue.
     failed: Option<String>,
 }
 

@@ -5,7 +5,7 @@ use crate::task::{Found, Input, Step, Task, What};
 use crate::trains::{MOST_A_MS, are_possible, cost, left_off};
 use std::collections::BTreeMap;
 
-/// Most scans executed to shrink a run.
+/// Maximum number of scans executed to shrink a run.
 const BUDGET: u64 = 400_000;
 /// A scan time that people expect, in milliseconds.
 const USUAL_MS: u32 = 10;

@@ -11,7 +11,7 @@ use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc};
 use rungc_syntax::DeviceClass;
 
-/// Most scans of a step.
+/// Maximum number of scans of a step.
 const LONGEST: u32 = 2_000;
 
 /// One step in this many begins with power off and on.

@@ -64,8 +64,8 @@ pub struct Items {
     model: &'static Model,
 }
 
-/// Reason for which a search has no sweeps, as the end of "the program …"; `None` if it has. It depends only on the
-/// program and the task, so that a search is the same wherever it takes place.
+/// Reason why a search has no sweeps, as the end of "the program …"; `None` if it has. It depends only on the program
+/// and the task, so that a search is the same wherever it takes place.
 pub fn refusal(task: &Task) -> Option<&'static str> {
     let of_inputs = task.inputs.iter().find_map(|input| match input.target {
         Target::Bit(class, n) | Target::Word(class, n) => {

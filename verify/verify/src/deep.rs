@@ -118,7 +118,7 @@ const RUNS: usize = 24;
 const PHASE: usize = 8;
 /// Time limit of one proof.
 const PROOF: Duration = Duration::from_millis(1500);
-/// Most scans that induction assumes.
+/// Maximum number of scans that induction assumes.
 const INDUCTION: usize = 3;
 /// Number of successive changes that make an output one that oscillates.
 const CHANGES: usize = 6;

@@ -35,7 +35,7 @@ pub enum Verdict {
     Undecided(Why),
 }
 
-/// Reason for which a property is not decided.
+/// Reason why a property is not decided.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Why {
     /// The time was up after this many scans without what is searched for.
@@ -104,7 +104,7 @@ pub struct Decision {
     pub latches: usize,
 }
 
-/// Most scans that induction assumes.
+/// Maximum number of scans that induction assumes.
 pub(crate) const INDUCTION: usize = 12;
 
 /// System of the parts that a property depends on, and the program's logic that it was cut out of.

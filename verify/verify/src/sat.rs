@@ -55,7 +55,7 @@ trait Engine: Sized {
     fn core(&mut self) -> Vec<SatLit>;
 }
 
-/// A solver, and the clauses of the nodes of one graph that were asked for.
+/// A solver, and the clauses of the nodes of one graph that were requested.
 pub struct Solver {
     engine: Chosen,
     /// The variable of each node.

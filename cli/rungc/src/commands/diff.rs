@@ -197,11 +197,11 @@ fn list(runs: &[&DeviceRun]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Most instructions named as limiting the comparison.
+/// Maximum number of instructions named as limiting the comparison.
 const MOST_NAMED: usize = 12;
 
 impl Compared<'_> {
-    /// The instructions that are taken to use all special devices, where that matters: whether each is in the new
+    /// The instructions that are assumed to use all special devices, where that matters: whether each is in the new
     /// program, its mnemonic and its step.
     fn vague(&self) -> Vec<(bool, &str, u32)> {
         let Some(Behaviour::CanDiffer { vague, .. }) = &self.behaviour else {

@@ -35,7 +35,7 @@ struct Searched<'a> {
     read: &'a Read,
     module: &'a Module,
     task: &'a Task<'a>,
-    /// The properties as they were asked for.
+    /// The properties as requested.
     asked: &'a [Asked],
 }
 
@@ -148,7 +148,7 @@ impl Searched<'_> {
         given.unwrap_or_else(all)
     }
 
-    /// Writes the files that were asked for.
+    /// Writes the requested files.
     fn write(&self, shown: &[Shown], cx: Context) -> std::result::Result<(), Failure> {
         if let Some(path) = &self.args.write_test {
             match shown.is_empty() {

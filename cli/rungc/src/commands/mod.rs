@@ -52,7 +52,7 @@ pub enum Outcome {
     Undecided,
     /// Errors in the program or a failed test: exit code 1.
     Failed,
-    /// One of several programs could not be worked on, which has been said: exit code 2.
+    /// One of several programs could not be worked on, which has been reported: exit code 2.
     Unusable,
     /// The user ended it with Ctrl-C: exit code 130.
     Interrupted,
@@ -68,14 +68,14 @@ impl Outcome {
     }
 }
 
-/// Reason for which a command could not do its work.
+/// Reason why a command could not do its work.
 #[derive(Debug)]
 pub enum Failure {
-    /// Reason for which a command cannot run: exit code 2.
+    /// Reason why a command cannot run: exit code 2.
     Because(String),
     /// The same, where the report already says it.
     Reported,
-    /// Whoever reads the output, such as `head`, has heard enough: no failure at all.
+    /// The reader of the output, such as `head`, has closed it: no failure at all.
     BrokenPipe,
 }
 
@@ -200,7 +200,7 @@ pub fn say(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// Prints a report, or writes it to the file that was asked for; `summary` says what is in it.
+/// Prints a report, or writes it to the requested file; `summary` says what is in it.
 pub fn put(
     path: Option<&Path>,
     text: &str,

@@ -48,7 +48,7 @@ impl Outside {
     }
 }
 
-/// A property as it was asked for.
+/// A property as requested.
 pub struct Asked {
     /// As it is written: `never Y000 & Y001`.
     pub text: String,
@@ -56,7 +56,7 @@ pub struct Asked {
     pub property: Property,
 }
 
-/// Reads what is asked of a program.
+/// Reader of the properties of a program.
 pub struct Reader<'a> {
     pub args: &'a Properties,
     pub subject: &'a Subject,

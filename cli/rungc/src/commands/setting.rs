@@ -45,7 +45,7 @@ pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
     parse(text).map_err(|why| Failure::Because(format!("--set {text}: {why}")))
 }
 
-/// Reads `X000=1@200ms`; the error says what is wrong with it.
+/// Reads `X000=1@200ms`; the error describes the problem.
 pub fn parse(text: &str) -> std::result::Result<Setting, String> {
     let (name, rest) = text
         .split_once('=')

@@ -247,7 +247,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
         let found = rungc_frontend::programs(file, usize::MAX);
         let mut found = found.map_err(|error| Failure::Because(error.to_string()))?;
         if found.is_empty() {
-            // That the folder is empty is said where it is read.
+            // An empty folder is reported where it is read.
             found.push(file.clone());
         } else {
             many = true;

@@ -183,8 +183,8 @@ fn unread(args: &VerifyArgs, failure: Failure, reporter: Reporter, cx: Context) 
     Err(failure)
 }
 
-/// Prints the verdicts, or writes them to the file that was asked for: the document for tools, what people read as
-/// `text`, or annotations and then that.
+/// Prints the verdicts, or writes them to the requested file: the document for tools, what people read as `text`, or
+/// annotations and then that.
 fn deliver(
     args: &VerifyArgs,
     reporter: Reporter,

@@ -136,7 +136,7 @@ struct Sheet<'a> {
     ladder: &'a Ladder,
     /// The networks that are chosen.
     networks: &'a [(usize, &'a Network)],
-    /// The chart, if it is asked for.
+    /// The chart, if requested.
     chart: Option<&'a Chart>,
 }
 
@@ -178,7 +178,7 @@ pub(super) fn title(subject: &Subject, read: &Read) -> String {
     })
 }
 
-/// The places of what a check reports under the codes that were asked for.
+/// The places of what a check reports under the requested codes.
 fn reported(args: &ViewArgs, subject: &Subject, read: &Read) -> Vec<Span> {
     if args.around.is_empty() {
         return Vec::new();

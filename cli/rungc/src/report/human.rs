@@ -15,7 +15,7 @@ use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// Most places that are drawn in addition to the main one.
+/// Maximum number of places that are drawn in addition to the main one.
 const MAX_PLACES: usize = 6;
 
 /// Text between the marked lines in the drawn source: an empty line, which the library draws as a gap.
@@ -57,7 +57,7 @@ struct Mark<'a> {
     color: Color,
 }
 
-/// A part of a line, with what is said of places in it.
+/// A part of a line, with the messages about places in it.
 struct Row<'a> {
     /// The text in the margin: the number of the line, or the step.
     number: String,

@@ -24,11 +24,11 @@ pub struct Case {
     pub class: String,
     /// Duration.
     pub time: Duration,
-    /// Reason for which it did not pass.
+    /// Reason why it did not pass.
     pub problem: Option<Problem>,
 }
 
-/// Reason for which a case did not pass.
+/// Reason why a case did not pass.
 pub struct Problem {
     /// True if there is no verdict, as opposed to a bad one.
     pub is_error: bool,

@@ -36,7 +36,7 @@ pub struct Findings<'a> {
     pub ports: Vec<Setup>,
     /// Resources on a machine, if requested.
     pub takes: Option<Takes>,
-    /// The network that each diagnostic is about, drawn, if that was asked for; empty if it is about none.
+    /// The network that each diagnostic is about, drawn, if requested; empty if it is about none.
     pub drawn: Vec<String>,
 }
 

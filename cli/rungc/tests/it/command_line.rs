@@ -642,7 +642,7 @@ fn colours_when_asked_for() {
     assert!(text(&output.stderr).contains("\u{1b}["));
 }
 
-/// `check --fix` does what is certain and nothing else, keeps the file's form, and says what it did.
+/// `check --fix` does what is certain and nothing else, keeps the file's form, and reports its changes.
 #[test]
 fn certain_fixes_are_applied() {
     let list = "\u{FEFF}; cam\u{e9}ra\r\nLD X0\r\nMOV 0x1F D0\r\nLDN X1\r\nOUTY0\r\nLD X2 OUT Y1\r\nLD X3\r\nINC D1\r\nMOV M0 D2\r\nMOV X\r\n";

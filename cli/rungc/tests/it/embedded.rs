@@ -1,5 +1,5 @@
-//! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test says
-//! what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+//! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test
+//! reports what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 use crate::tools::{cargo, leave_out, no_rust, tools};
 use rungc_sim::engines::cortex_m::make_with;

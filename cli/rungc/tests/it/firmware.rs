@@ -1,4 +1,4 @@
-//! Libraries and images for another machine: what is built runs under QEMU, and what is missing is said.
+//! Libraries and images for another machine: what is built runs under QEMU, and missing tools are reported.
 
 use crate::common::{HANG, MOTOR, cache, code, folder, rungc, shown, soon, text};
 use crate::tools::{cargo, leave_out, no_rust, tools, with_cargo, with_library};

@@ -305,7 +305,7 @@ fn stm32flash_finds_the_same() {
     }
 }
 
-/// A folder in which programs are looked for, with a probe-rs that writes down what it is asked for.
+/// A folder in which programs are looked for, with a probe-rs that records its arguments.
 fn with_probe_rs(folder: &Path, exit: i32) {
     let script = format!(
         "#!/bin/sh\necho \"$@\" >>'{}/asked'\nexit {exit}\n",

@@ -112,7 +112,7 @@ engine = 'ENGINE'
 /// Divides by zero in each PLC later than in the one before it: only PLCs 5 to 24 have come to it at the end.
 const DIVIDES: &str = "LD X000\nDIV D0 D1 D2\nLD X000\nINC D5\nEND\n";
 
-/// The same, and the runtime library is asked for the root of a negative number; then the program stops itself.
+/// The same, and the runtime library is called for the root of a negative number; then the program stops itself.
 const ROOTS: &str = "\
 LD X000
 DIV D0 D1 D2

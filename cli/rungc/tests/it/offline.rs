@@ -89,7 +89,7 @@ fn emitted_crates_share_a_runtime() {
     };
     assert!(check("heating"));
     assert!(!check("motor"), "it is compiled");
-    // Another version, or something else, is not overwritten unless that is asked for.
+    // Another version, or something else, is not overwritten unless requested.
     let source = path.join("rt/src/lib.rs");
     std::fs::write(&source, "// Changed.").unwrap();
     std::fs::remove_dir_all(path.join("plc")).unwrap();

@@ -1,4 +1,4 @@
-//! `convert --to plcopen`: what is written, what is said of it, and what it reads back to.
+//! `convert --to plcopen`: the output, the messages about it, and the list it reads back to.
 
 use crate::common::{MOTOR, code, folder, rungc, shown, text};
 use std::fs;

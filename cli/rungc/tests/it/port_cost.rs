@@ -1,5 +1,5 @@
 //! Instructions of a Cortex-M4 in the longest call that brings a program's serial ports up to date, as stated on the
-//! book's page on boards. Without the tools the test says what is missing and that it did not run; with
+//! book's page on boards. Without the tools the test reports what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 use crate::common::{folder, text};

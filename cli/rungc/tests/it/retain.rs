@@ -391,7 +391,7 @@ int fsync(int file)
 }
 ";
 
-/// A disk that takes 12 s to save holds up no scan; after 10 s, the program hears of it.
+/// A disk that takes 12 s to save holds up no scan; after 10 s, the program is notified.
 #[test]
 fn a_slow_disk_does_not_hold_up_scans() {
     each(|host, folder| {
@@ -429,7 +429,7 @@ fn a_slow_disk_does_not_hold_up_scans() {
     });
 }
 
-/// A disk that is full, and one that vanishes: scans continue, the program hears of it, and what was saved remains.
+/// A disk that is full, and one that vanishes: scans continue, the program is notified, and what was saved remains.
 #[test]
 fn a_disk_that_takes_nothing_does_not_stop_scans() {
     each(|host, folder| {

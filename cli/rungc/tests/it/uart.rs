@@ -129,7 +129,7 @@ impl Machine {
         Some(folder.join(image))
     }
 
-    /// Builds an image; what was said of it.
+    /// Builds an image; the messages about it.
     fn build(&self, folder: &Path, what: &[&str], image: &str) -> Option<String> {
         let Some(cargo) = cargo(self.target) else {
             leave_out(&no_rust(self.target));

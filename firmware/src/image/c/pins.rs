@@ -86,7 +86,7 @@ fn polled(uart: Uart) -> Polled {
     }
 }
 
-/// Reason for which a board has no such image.
+/// Reason why a board has no such image.
 #[derive(Debug, thiserror::Error)]
 pub enum NoPins {
     /// It has no serial port.

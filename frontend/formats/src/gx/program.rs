@@ -563,7 +563,7 @@ impl<'l> Reader<'l> {
 
 /// One error for all labels that operands name.
 fn labels_error((span, names): (Span, Vec<String>)) -> Diagnostic {
-    /// Most labels that a message names.
+    /// Maximum number of labels that a message names.
     const NAMED: usize = 8;
     let mut list: Vec<_> = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect();
     if names.len() > NAMED {

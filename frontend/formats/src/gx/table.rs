@@ -15,7 +15,7 @@ fn rows() -> impl Iterator<Item = &'static str> {
 /// Evidence for the meaning of a code.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Evidence {
-    /// Real projects hold it, and their lists, sources or comments say what it is.
+    /// Real projects hold it, and their lists, sources or comments identify it.
     Seen,
     /// A published table, made with the vendor's own converter, has it.
     Published,

@@ -11,7 +11,7 @@ use rungc_syntax::{
 };
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-/// Most steps that are read: the largest program memory of the family has 64,000.
+/// Maximum number of steps that are read: the largest program memory of the family has 64,000.
 const MOST_STEPS: usize = 0xFFFF;
 /// Erased memory.
 const ERASED: u16 = 0xFFFF;

@@ -20,7 +20,7 @@ pub(super) enum Step {
 /// An error: the place, the code, the message.
 pub(super) type Fault = (Span, &'static Code, &'static str);
 
-/// Most levels of nested branches.
+/// Maximum nesting of branches.
 const DEEPEST: usize = 100;
 
 /// The list of a drawing. A network with a mistake is left out.

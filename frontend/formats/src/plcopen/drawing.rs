@@ -104,7 +104,7 @@ fn ends_a_way(node: Node) -> bool {
         )
 }
 
-/// Reason for which a way cannot be followed; `None` if it has been reported.
+/// Reason why a way cannot be followed; `None` if it has been reported.
 pub(super) type Failure = Option<Fault>;
 
 impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {

@@ -7,7 +7,7 @@ use super::{Fault, Reader, functions};
 use roxmltree::Node;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-/// Most levels of nested parentheses.
+/// Maximum nesting of parentheses.
 const DEEPEST: usize = 50;
 
 /// Reads a condition.

@@ -13,7 +13,7 @@ use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use source::Line;
 use std::collections::BTreeMap;
 
-/// Most levels of nested parentheses.
+/// Maximum nesting of parentheses.
 const DEEPEST: usize = 50;
 
 /// Prefix of a variable that stores a result for branches of the same network.

@@ -134,7 +134,7 @@ pub(super) struct Found {
     pub kind: Kind,
 }
 
-/// Reason for which a variable has no device.
+/// Reason why a variable has no device.
 #[derive(Debug)]
 pub(super) enum Missing {
     /// No device is named, and none is free.

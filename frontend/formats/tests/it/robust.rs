@@ -339,7 +339,7 @@ fn share_sectors(file: &mut [u8], name: &str) {
     }
 }
 
-/// Reading stops at the limit, since an endless source has no size that could be asked for.
+/// Reading stops at the limit, since an endless source has no size that could be queried.
 #[test]
 fn an_endless_source_is_refused() {
     let endless = std::io::repeat(b'\n');

@@ -1,4 +1,4 @@
-//! Projects of GX Works2: which of its parts a program is read from, and what is said about the others.
+//! Projects of GX Works2: which of its parts a program is read from, and the diagnostics of the others.
 
 use crate::fixture;
 use crate::fixture::{

@@ -17,7 +17,7 @@ const LIMITED: u32 = 200;
 const LIMITED_COUNT: u32 = 40;
 /// Outputs of loops.
 const OUTPUTS: u32 = 300;
-/// Most loops that a program has.
+/// Maximum number of loops that a program has.
 pub const LOOPS: u32 = 200;
 /// Words of the other instructions.
 pub const REGISTERS: u32 = OUTPUTS + LOOPS;

@@ -1,6 +1,7 @@
 //! Bytes and instructions on a microcontroller do not get worse than `figures.toml` says. They do not depend on the
 //! machine, and on the compiler only as far as it does not treat code written by hand likewise. Without the tools a
-//! test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+//! test reports what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a
+//! failure.
 
 use rungc_benches::embedded;
 use rungc_benches::figures::{self, Figures, Program, Record, STEPS};

@@ -1,4 +1,4 @@
-//! Pulse outputs do not get slower on a microcontroller. Without the tools the test says what is missing and that it
+//! Pulse outputs do not get slower on a microcontroller. Without the tools the test reports what is missing and that it
 //! did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
 use rungc_benches::problem::Problem;

@@ -1,8 +1,8 @@
 //! Every conformance case on microcontrollers that QEMU simulates, with the same results as on the host, to the last
 //! bit. Where the environment names the run ([`rungc_golden::part`]), an eighth of them.
 //!
-//! Without the tools a test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI,
-//! that is a failure.
+//! Without the tools a test reports what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in
+//! CI, that is a failure.
 
 use crate::suite::Conformance;
 use rungc_golden::part::Part;

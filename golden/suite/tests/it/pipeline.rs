@@ -130,7 +130,7 @@ fn octal(rng: &mut Rng, device: DeviceClass) -> String {
     }
 }
 
-/// An operand without regard to what is asked for.
+/// An operand without regard to the requirements.
 fn anything(rng: &mut Rng) -> String {
     let n = number(rng);
     let letter = rng

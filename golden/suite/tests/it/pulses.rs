@@ -1,4 +1,4 @@
-//! Pulse outputs: random moves, changes and stops end with exactly the pulses that were asked for, and no faster than
+//! Pulse outputs: random moves, changes and stops end with exactly the pulses that were requested, and no faster than
 //! their ramps allow.
 
 use rungc_golden::module;

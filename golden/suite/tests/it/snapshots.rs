@@ -106,7 +106,7 @@ fn cutter() {
     check("cutter", ModelId::H2u);
 }
 
-/// An input is taken notice of between two scans.
+/// A program reacts to an input between two scans.
 #[test]
 fn labels() {
     check("labels", ModelId::Fx3u);

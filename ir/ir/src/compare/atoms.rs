@@ -67,7 +67,7 @@ pub(super) struct Atom {
     pub writes: Uses,
     /// The function that it calls, by its position.
     pub calls: Option<usize>,
-    /// Its step, if it is taken to use all special devices.
+    /// Its step, if it is assumed to use all special devices.
     pub vague: Option<u32>,
     /// True if it controls what is executed next to it, or uses anything at all, so that nothing moves across it.
     pub fixed: bool,
@@ -122,7 +122,7 @@ struct Reader<'a> {
     around: Vec<(u32, bool)>,
     /// The labels before the statement at hand.
     passed: FxHashSet<u32>,
-    /// The step of the statement at hand, if it is taken to use all special devices.
+    /// The step of the statement at hand, if it is assumed to use all special devices.
     vague: Option<u32>,
 }
 

@@ -9,9 +9,9 @@ use typed_index_collections::TiVec;
 
 /// Expressions deeper than this are not put into others.
 const MAX_DEPTH: u8 = 24;
-/// Most assignments that are deferred at a time.
+/// Maximum number of assignments that are deferred at a time.
 const MAX_PENDING: usize = 16;
-/// Most values that are remembered at a time.
+/// Maximum number of values that are remembered at a time.
 const MAX_AVAILABLE: usize = 8;
 
 /// Numbers of uses and assignments of temporaries, counted over the module; more than one is many.

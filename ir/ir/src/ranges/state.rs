@@ -11,11 +11,11 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// A set of tracked words.
 pub(super) type Mask = u128;
 
-/// Most words that are tracked.
+/// Maximum number of words that are tracked.
 const MOST_WORDS: usize = Mask::BITS as usize;
-/// Most temporaries that are remembered at a time.
+/// Maximum number of temporaries that are remembered at a time.
 const MOST_TEMPS: usize = 32;
-/// Most rounds that look for the words from which those found are made.
+/// Maximum number of rounds that look for the words from which those found are made.
 const MOST_ROUNDS: usize = 6;
 
 /// The words that are tracked: index registers that no host writes, and the registers that they get their values from.

@@ -18,7 +18,7 @@ const WIDENED: usize = 6;
 const WIDENED_WHOLLY: usize = 16;
 /// Number of sweeps that narrow the results.
 const NARROWED: usize = 4;
-/// Most statements, over all iterations of a loop, for which they are executed one by one.
+/// Maximum number of statements, over all iterations of a loop, for which they are executed one by one.
 const UNROLLED: usize = 20_000;
 
 /// Knowledge at the beginning and end of functions, and between scans.

@@ -1,5 +1,5 @@
-//! Programs with one mistake each, as people make them: one mistake is one error, at its place, and the help says what
-//! to write.
+//! Programs with one mistake each, as people make them: one mistake is one error, at its place, and the help states
+//! what to write.
 
 use crate::rendered::{findings, shown};
 use rungc_lower::compile::CompileOptions;
@@ -131,7 +131,7 @@ fn classes_that_the_model_does_not_have() {
     insta::assert_snapshot!(pages(ModelId::Fx2n, &programs));
 }
 
-/// Blocks and branches that do not close: the help says what to add or take away.
+/// Blocks and branches that do not close: the help states what to add or take away.
 const LOGIC: &[&str] = &[
     "LD X0\nMPP\nOUT Y0\nEND\n",
     "LD X0\nMPS\nAND X1\nOUT Y0\nEND\n",

@@ -8,9 +8,9 @@ use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Diagnostic, Diagnostics, Fix, codes};
 
-/// Most blocks that may wait to be joined.
+/// Maximum number of blocks that may wait to be joined.
 const MAX_BLOCKS: usize = 8;
-/// Most results that MPS can store.
+/// Maximum number of results that MPS can store.
 const MAX_BRANCHES: usize = 11;
 
 /// A block of contacts.

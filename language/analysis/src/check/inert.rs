@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 const MAX_RUN: u32 = 32;
 /// More devices than this that are inert for one reason share a diagnostic.
 const MAX_SINGLE: usize = 3;
-/// Most devices that a message names.
+/// Maximum number of devices that a message names.
 const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.

@@ -6,7 +6,7 @@ use rungc_catalogue::{Basic, Drive, Forms, Found, Inst};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes};
 
-/// Most unknown mnemonics that get a suggestion; searching one costs as much as resolving hundreds of good
+/// Maximum number of unknown mnemonics that get a suggestion; searching one costs as much as resolving hundreds of good
 /// instructions.
 const MAX_SUGGESTIONS: u32 = 200;
 

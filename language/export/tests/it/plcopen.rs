@@ -33,7 +33,7 @@ fn read(name: &str, text: &str) -> Program {
     read.program
 }
 
-/// A program as a project that follows the schema, and what is said of it.
+/// A program as a project that follows the schema, and the messages about it.
 fn written(program: &Program, model: ModelId, body: Body) -> (String, Diagnostics) {
     let mut diagnostics = Diagnostics::new();
     let project = to_plcopen(program, Model::get(model), body, &mut diagnostics);

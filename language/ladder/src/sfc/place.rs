@@ -17,7 +17,7 @@ const SPINE: usize = 4;
 const ROOM: usize = 40;
 /// Columns of a line of text on narrower pages, one after another.
 const NARROW: [usize; 3] = [28, 20, 14];
-/// Most levels of nested divergences; beyond, arrows lead on to flows further below.
+/// Maximum nesting of divergences; beyond, arrows lead on to flows further below.
 const DEEPEST: usize = 100;
 
 /// A part of a chart. Columns and lines count from 0.

@@ -59,10 +59,10 @@ pub(super) const REGISTERS: [Register; 6] = {
     [D_LENGTH, a, b, c, d, D_TIME_OUT]
 };
 
-/// Most bytes of data.
+/// Maximum number of bytes of data.
 pub const MOST: usize = 8;
 
-/// Most characters of a frame.
+/// Maximum number of characters of a frame.
 const LONGEST: usize = 1 + 8 + 1 + 2 * MOST + 1;
 
 impl CanFrame {

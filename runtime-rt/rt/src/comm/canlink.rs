@@ -221,7 +221,7 @@ impl<'a> Network<'a> {
 
     /// A heartbeat has come.
     fn hear(&mut self, station: u8, runs: bool, now_ms: u32) {
-        // 0 is a station that has not been heard.
+        // 0 is a station without a frame so far.
         self.set_number(HEARD_MS + 4 * usize::from(station), now_ms | 1);
         if station == self.byte(MASTER) {
             self.set_byte(STOPPED, u8::from(!runs));

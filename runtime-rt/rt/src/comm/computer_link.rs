@@ -32,22 +32,23 @@ const NAK: u8 = 0x15;
 
 /// Characters from ENQ to the wait digit.
 const HEAD: usize = 8;
-/// Most characters of a request: 254 of a loop-back test, sum and terminator included, fewer than 64 words.
+/// Maximum number of characters of a request: 254 of a loop-back test, sum and terminator included, fewer than 64
+/// words.
 pub const LONGEST: usize = HEAD + NAME + 2 + 8 * MOST_WORDS as usize + 4;
 
-/// Most points of BW.
+/// Maximum number of points of BW.
 const MOST_BITS_WRITTEN: u32 = 160;
-/// Most words of WR and WW.
+/// Maximum number of words of WR and WW.
 const MOST_WORDS: u32 = 64;
-/// Most words of 16 bit devices that WR reads.
+/// Maximum number of words of 16 bit devices that WR reads.
 const MOST_WORDS_OF_BITS_READ: u32 = 32;
-/// Most words of 16 bit devices that WW writes.
+/// Maximum number of words of 16 bit devices that WW writes.
 const MOST_WORDS_OF_BITS: u32 = 10;
-/// Most points of BT.
+/// Maximum number of points of BT.
 const MOST_BITS_TESTED: u32 = 20;
-/// Most words of WT.
+/// Maximum number of words of WT.
 const MOST_WORDS_TESTED: u32 = 10;
-/// Most characters of TT.
+/// Maximum number of characters of TT.
 const MOST_LOOPED: u32 = 254;
 
 /// Relay that GW sets in all PLCs on the line.

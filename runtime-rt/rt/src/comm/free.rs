@@ -75,7 +75,7 @@ pub struct Free {
     pub owner: u32,
     /// Characters are being received, or may come.
     listens: bool,
-    /// All of them have been received, and the program has not taken notice yet.
+    /// All of them have been received, and the program has not reacted yet.
     complete: bool,
     /// An answer is expected, and nothing of it has come.
     awaits: bool,

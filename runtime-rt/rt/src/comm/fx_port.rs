@@ -34,9 +34,9 @@ const ACK: u8 = 0x06;
 /// Rejected.
 const NAK: u8 = 0x15;
 
-/// Most bytes that the commands `0` and `1` move.
+/// Maximum number of bytes that the commands `0` and `1` move.
 const MOST_BASIC: u32 = 0x40;
-/// Most bytes that the commands `E00` and `E10` move; more than any published tool asks for.
+/// Maximum number of bytes that the commands `E00` and `E10` move; more than any published tool asks for.
 const MOST_EXTENDED: u32 = 0xfe;
 
 /// First address of program memory: its parameters.
@@ -46,7 +46,7 @@ const PROGRAM: u32 = 0x805c;
 /// The word of `END`.
 const END: u16 = 0x000f;
 
-/// Most characters of a request: `E10` with all its bytes.
+/// Maximum number of characters of a request: `E10` with all its bytes.
 pub const LONGEST: usize = 1 + 9 + 2 * MOST_EXTENDED as usize + 3;
 
 /// Type and version of the PLC.

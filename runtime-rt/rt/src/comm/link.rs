@@ -56,13 +56,13 @@ pub enum Role {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Link {
-    /// Something has been sent or heard.
+    /// Something has been sent or received.
     begun: bool,
     /// An answer is waited for.
     waiting: bool,
     /// The request has left the port, and its time-out runs.
     sent: bool,
-    /// This station has been asked.
+    /// This station has been polled.
     asked: bool,
     /// The station whose turn it is.
     station: u8,
@@ -148,7 +148,7 @@ impl Link {
     /// be sent now, if one is.
     ///
     /// # Errors
-    /// The partner has not been heard in time.
+    /// The partner has not sent a frame in time.
     pub fn poll(
         &mut self,
         role: Role,

@@ -23,7 +23,7 @@ pub trait Map {
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
     /// Resets a timer or counter: value 0, contact off.
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;
-    /// True if the PLC is in RUN.
+    /// Returns true if the PLC is in RUN.
     fn running(&self) -> bool;
     /// Asks for RUN or STOP; the PLC changes over before its next scan.
     fn request_running(&mut self, running: bool);
@@ -61,7 +61,7 @@ pub struct Served<'a, P: ?Sized = dyn Plc + 'a> {
     plc: &'a mut P,
     type_code: u16,
     request: Option<bool>,
-    /// Class, first device and place of the devices that were asked for last: most frames are about a run of them.
+    /// Class, first device and place of the devices that were requested last: most frames are about a run of them.
     last: Cell<(Class, u32, StoredRun)>,
 }
 
@@ -76,7 +76,7 @@ impl<'a, P: Plc + ?Sized> Served<'a, P> {
         }
     }
 
-    /// RUN or STOP, if a frame has asked for it.
+    /// RUN or STOP, if a frame has requested it.
     pub fn take_request(&mut self) -> Option<bool> {
         self.request.take()
     }

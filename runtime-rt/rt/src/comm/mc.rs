@@ -13,7 +13,7 @@ mod tests;
 
 use super::{Cut, Frame, LineFault, Map};
 
-/// Most bytes of a request: 7168 bits or 960 words, with their frame.
+/// Maximum number of bytes of a request: 7168 bits or 960 words, with their frame.
 pub const LONGEST: usize = 21 + 7168 / 2;
 
 /// First byte of a request in frame 3E; the second one is 0.

@@ -125,11 +125,11 @@ pub enum LineFault {
     Station = 0,
     /// The frame is too short or too long (63x1).
     Length,
-    /// A device that is not there, or another address than asked for (63x2).
+    /// A device that is not there, or another address than requested (63x2).
     Address,
     /// The sum is wrong (63x3, 6303, 6203).
     Sum,
-    /// A function or command that is not known, or another one than asked for (63x4, 6305, 6205).
+    /// A function or command that is not known, or another one than requested (63x4, 6305, 6205).
     Command,
     /// No answer in time (63x5, 6306).
     TimeOut,

@@ -25,7 +25,7 @@ pub struct Status {
     pub sending: bool,
     /// RUN and STOP by computer link.
     pub remote: Remote,
-    /// The bit rate that a partner has asked for instead of the protocol's own, in hundreds of bits per second; 0: none
+    /// The bit rate that a partner has requested instead of the protocol's own, in hundreds of bits per second; 0: none
     /// has.
     pub rate: u16,
     /// Setup by UINIT: protocol and station, format, first register of the work area.

@@ -28,7 +28,7 @@ pub(super) struct Session<'a, P: ?Sized = dyn Plc + 'a, H: ?Sized = dyn Hal + 'a
     /// Its protocol side.
     pub(super) own: S,
     pub(super) now_us: u32,
-    /// RUN or STOP, if a frame has asked for it.
+    /// RUN or STOP, if a frame has requested it.
     pub(super) request: Option<bool>,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
 
 /// Brings all ports to `now_us`, microseconds since power-on, wrapping: when a scan begins, when it ends, and at ticks.
 /// Takes the characters that have come, answers, sends, and shows in special devices what has happened. Returns RUN or
-/// STOP if a partner has asked for it.
+/// STOP if a partner has requested it.
 pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool> {
     let mut request = None;
     let mut index = 0;

@@ -47,7 +47,7 @@ pub(super) trait PortProtocol {
         false
     }
 
-    /// Bit rate that a partner has asked for, in hundreds of bits per second; 0 if none has.
+    /// Bit rate that a partner has requested, in hundreds of bits per second; 0 if none has.
     fn requested_rate(&self) -> u16 {
         0
     }

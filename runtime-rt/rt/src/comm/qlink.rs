@@ -27,7 +27,7 @@ const ILLEGAL_VALUE: u8 = 3;
 const NO_BLOCK: u16 = 0xffff;
 /// Blocks that are kept.
 const BLOCKS: usize = 2;
-/// Most devices of a block: 240 bytes of addresses.
+/// Maximum number of devices of a block: 240 bytes of addresses.
 const MOST: usize = 120;
 /// Bytes that a block takes: its number plus 1, numbers of bits and of registers, addresses.
 const BLOCK: usize = 4 + 2 * MOST;
@@ -35,7 +35,7 @@ const BLOCK: usize = 4 + 2 * MOST;
 const OLDER: usize = BLOCKS * BLOCK;
 const _: () = assert!(OLDER < SIZE);
 
-/// Most bytes of data in an answer.
+/// Maximum number of bytes of data in an answer.
 const MOST_DATA: usize = 240;
 
 /// Returns true if a frame of Modbus RTU is one of QLink.

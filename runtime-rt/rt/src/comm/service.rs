@@ -5,7 +5,7 @@ use super::modbus::tcp;
 use super::{Cut, Frame, LineFault, Map, Memory, Ports, fx_port, mc};
 use core::net::{Ipv4Addr, SocketAddr};
 
-/// Most characters of a request of any service.
+/// Maximum number of characters of a request of any service.
 pub const LONGEST_REQUEST: usize = 3605;
 
 /// More characters than an answer of any service has.

@@ -68,7 +68,7 @@ impl Slave {
         matches!(self.family, Ports::Inovance)
     }
 
-    /// Most devices of a QLink block (h1u-h2u-programming §5.7.3).
+    /// Maximum number of devices of a QLink block (h1u-h2u-programming §5.7.3).
     pub(super) fn qlink_devices(&self) -> u16 {
         if self.type_code / 1000 == H1U {
             50

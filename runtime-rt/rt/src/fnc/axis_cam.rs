@@ -74,8 +74,8 @@ mod at {
 const BY_INPUT: i16 = 1;
 const BY_PHASE: i16 = 2;
 
-/// Most cycles that may end in one scan; the distance of a master that has moved on further is made up in the next
-/// scans.
+/// Maximum number of cycles that may end in one scan; the distance of a master that has moved on further is made up in
+/// the next scans.
 const MOST_CYCLES: u32 = 16;
 
 /// CAM D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, and engages and

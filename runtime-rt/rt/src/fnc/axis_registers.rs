@@ -317,7 +317,7 @@ impl Registers {
         }
     }
 
-    /// Takes the axis and sends a train, in reverse if it is asked for and there is an output for the direction.
+    /// Takes the axis and sends a train, in reverse if it is requested and there is an output for the direction.
     pub fn start(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
         self.take(cx)?;
         self.send(cx, train, reverse)

@@ -11,7 +11,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::{Class, State, Sys};
 
-/// Most registers of a CANPUT.
+/// Maximum number of registers of a CANPUT.
 const MOST: i32 = 64;
 
 /// A station, operand `i`.

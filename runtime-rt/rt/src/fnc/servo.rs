@@ -20,7 +20,7 @@ const OF_SUM: i32 = 3;
 const STAGE: usize = 1;
 /// It waits for the amplifier to be ready.
 const WAITS: i32 = 0;
-/// It has asked for two bits.
+/// It has requested two bits.
 const ASKS: i32 = 1;
 /// It has read all.
 const DONE: i32 = 2;

@@ -30,7 +30,7 @@ pub type GiveRow<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
 pub enum Trouble {
     /// The other end cannot be reached any more; it is opened again.
     Lost(String),
-    /// It answers, but not with what was asked for.
+    /// It answers, but not with the requested data.
     Refused(String),
 }
 

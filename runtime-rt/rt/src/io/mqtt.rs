@@ -128,7 +128,7 @@ pub(super) fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
 }
 
 impl Broker {
-    /// Says who this is, and waits until the broker accepts it and has taken the subscriptions.
+    /// Introduces itself, and waits until the broker accepts it and has taken the subscriptions.
     fn greet(&mut self, connection: &Connection) -> Result<(), String> {
         let option = |key: &str| connection.options.get(key);
         let usual = || format!("rungc-{}-{}", connection.name, std::process::id());
@@ -290,7 +290,7 @@ impl Broker {
     }
 }
 
-/// The topic and the payload of a PUBLISH; one of a higher QoS, which was not asked for, has a number between them.
+/// The topic and the payload of a PUBLISH; one of a higher QoS, which was not requested, has a number between them.
 fn published(head: u8, content: &[u8]) -> Option<(&str, &[u8])> {
     let (length, rest) = content.split_first_chunk::<2>()?;
     let (topic, rest) = rest.split_at_checked(u16::from_be_bytes(*length).into())?;
@@ -314,7 +314,7 @@ impl Driver for Broker {
 
     fn end(&mut self) {
         if let Some(topic) = self.status.clone() {
-            // The broker hears of it, or has gone.
+            // The broker receives it, or has gone.
             let _ = self.publish(topic, OFFLINE.to_string());
         }
         let _ = self.send(&packet(DISCONNECT, &[]));

@@ -301,7 +301,7 @@ pub struct Kind {
     pub bfms: &'static [Bfm],
     /// Conversion time of a channel, in microseconds, unless the program chooses it.
     pub conversion_us: u32,
-    /// Most samples of a mean.
+    /// Maximum number of samples of a mean.
     pub most_samples: i16,
     /// Samples of a mean if the program asks for fewer than 1 or more than that.
     pub usual_samples: i16,

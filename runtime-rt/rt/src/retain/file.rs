@@ -103,7 +103,7 @@ impl RetainFile {
         Ok((file, loaded))
     }
 
-    /// Opens a file as a host does, which has others say what came of it: `tell` takes what the user may want to know.
+    /// Opens a file as a host does, which passes the messages for the user to `tell`.
     ///
     /// # Errors
     /// Why the file cannot be used. One that holds the latched devices of another program is left as it is.

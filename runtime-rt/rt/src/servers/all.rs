@@ -51,7 +51,7 @@ impl Servers {
         Ok(address)
     }
 
-    /// Carries out and answers what clients have asked since the last call; returns RUN or STOP if one has asked for
+    /// Carries out and answers the requests of clients since the last call; returns RUN or STOP if one has requested
     /// it.
     pub fn poll(&mut self, plc: &mut dyn Plc) -> Option<bool> {
         let mut request = None;

@@ -28,7 +28,7 @@ pub struct Clients {
     clients: Vec<Asking>,
 }
 
-/// A server that is asked.
+/// A server that receives requests.
 #[derive(Debug)]
 struct Asking {
     address: SocketAddr,
@@ -79,7 +79,7 @@ impl Clients {
         }
     }
 
-    /// The servers that are asked.
+    /// The servers that receive requests.
     pub fn servers(&self) -> impl Iterator<Item = SocketAddr> {
         self.clients.iter().map(|asking| asking.address)
     }

@@ -3,7 +3,7 @@
 //!
 //! A [`Dialogue`] is what one connection has said so far and is answered; it knows no network. A [`Server`] has the
 //! connections of one address, [`Servers`] are those of a program, and [`Clients`] ask other servers. They work only
-//! when they are asked to, between two scans, so a frame's writes reach the program together.
+//! when polled, between two scans, so a frame's writes reach the program together.
 //!
 //! None of these protocols knows a password: whoever reaches the address reads and writes every device. Hence servers
 //! bind to the loopback address by default.

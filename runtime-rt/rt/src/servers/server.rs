@@ -17,7 +17,7 @@ const AT_ONCE: usize = 4096;
 /// Bytes that wait for a client that does not read; then its connection is closed.
 const UNREAD: usize = 1 << 16;
 
-/// A server that is asked between scans, and never waits.
+/// A server that is polled between scans, and never waits.
 #[derive(Debug)]
 pub struct Server {
     listener: TcpListener,
@@ -73,7 +73,7 @@ impl Server {
     /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the
     /// address of each client.
     pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, Exchange)> {
-        // A listener that fails (too many open files) is asked again after the next scan.
+        // A listener that fails (too many open files) is polled again after the next scan.
         while let Ok((stream, peer)) = self.listener.accept() {
             self.accept(stream, peer);
         }

@@ -38,7 +38,7 @@ impl EngineKind {
     }
 }
 
-/// Reason for which an executable could not be built.
+/// Reason why an executable could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// A file could not be written, or a tool not be started.
@@ -46,7 +46,7 @@ pub enum BuildError {
     Io {
         /// The file or the tool.
         what: String,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: io::Error,
     },
     /// A tool rejected the emitted code, which is an error of the compiler.

@@ -27,8 +27,8 @@ struct Station<'m> {
     program: usize,
     machine: Machine<'m>,
     hal: VirtualHal,
-    /// The machine at power-on, once its program was asked for again: to come back to that takes a tenth of the time
-    /// of making it.
+    /// The machine at power-on, once its program was requested again: to come back to that takes a tenth of the time of
+    /// making it.
     fresh: Option<Box<Saved>>,
 }
 

@@ -19,8 +19,8 @@ pub trait Engine {
     /// Its name on the command line: `interp`, `c`, `rust`.
     fn name(&self) -> &str;
 
-    /// Does or answers what is asked. Requests that ask for no value may be answered [`Answer::Ok`] before they are
-    /// carried out; what went wrong is then the answer to the next one that does.
+    /// Executes a request. Requests that ask for no value may be answered [`Answer::Ok`] before they are carried out;
+    /// what went wrong is then the answer to the next one that does.
     fn ask(&mut self, request: Request) -> Result<Answer, EngineError>;
 
     /// The answers to many requests that ask for values.
@@ -40,7 +40,7 @@ pub enum EngineError {
     Start {
         /// Its path.
         command: String,
-        /// Error of the system.
+        /// The underlying I/O error.
         error: std::io::Error,
     },
     /// The executable ended before it answered.
@@ -49,7 +49,7 @@ pub enum EngineError {
     /// The executable did not answer in time.
     #[error("no answer to `{0}`: a scan does not end")]
     Silent(Request),
-    /// The executable said something else.
+    /// Unexpected output of the executable.
     #[error("unexpected answer to `{0}`: `{1}`")]
     Garbled(Request, String),
     /// A client connects to what the case does not serve.

@@ -1,4 +1,4 @@
-//! Executables that are asked over pipes, in bytes.
+//! Executables that are controlled over pipes, in bytes.
 
 use std::ffi::OsStr;
 use std::io::{self, BufReader, BufWriter};

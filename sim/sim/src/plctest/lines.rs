@@ -51,7 +51,7 @@ impl Lines {
         !self.cut.contains(&port)
     }
 
-    /// The ports that hear what is said at a port: itself, or all on its line.
+    /// The ports that receive the output of a port: itself, or all on its line.
     fn hearers(&self, port: SerialPort) -> Vec<SerialPort> {
         let line = self.wires.iter().find(|line| line.contains(&port));
         match line {

@@ -5,7 +5,7 @@ use crate::target::Target;
 use std::fmt;
 use std::time::Duration;
 
-/// Reason for which a case failed.
+/// Reason why a case failed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Failure {
     /// Its program does not compile: line and message of each error.

@@ -169,7 +169,7 @@ pub(super) struct Running<'e> {
     inputs: BTreeMap<(usize, u32), bool>,
     /// The PLC of the case, and the others.
     pub(super) plcs: Vec<PlcInfo>,
-    /// The PLC that the engine was asked last.
+    /// The PLC selected last.
     current: usize,
     /// The names of the others.
     names: Vec<String>,
@@ -536,7 +536,7 @@ impl Running<'_> {
             .is_some_and(|plc| plc.sends_pulses)
     }
 
-    /// An input terminal of the PLC that is asked is on or off from now.
+    /// An input terminal of the selected PLC is on or off from now.
     pub(super) fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
         let before = self.inputs.insert((self.current, number), on);
         let before = before.unwrap_or(false);

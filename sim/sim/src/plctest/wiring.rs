@@ -150,7 +150,7 @@ impl Running<'_> {
         at.iter().map(request).collect()
     }
 
-    /// The values that are asked for.
+    /// The requested values.
     fn values(&mut self, requests: &[Request]) -> Result<Vec<i32>, Failure> {
         let answers = self.engine.ask_all(requests);
         let answers = answers.map_err(|error| self.failed(&error))?;

@@ -7,7 +7,7 @@ use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, Plc, VirtualHal};
 use std::fmt;
 
-/// Most characters of a text that are read.
+/// Maximum number of characters of a text that are read.
 pub const TEXT_LENGTH: usize = 64;
 
 /// A PLC between two scans, with what is around it.

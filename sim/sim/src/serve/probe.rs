@@ -13,13 +13,13 @@ pub type Devices = BTreeSet<(Class, u32)>;
 /// Devices that a text names before it breaks off.
 const MOST_RUNS: usize = 8;
 
-/// A PLC that has all devices, and notes which of them are asked for.
+/// A PLC that has all devices, and notes which of them are requested.
 #[derive(Debug, Default)]
 pub struct Probe {
     read: RefCell<Devices>,
     /// Devices that are written.
     pub written: Devices,
-    /// RUN or STOP, if it is asked for.
+    /// RUN or STOP, if requested.
     pub request: Option<bool>,
     type_code: u16,
 }

@@ -21,7 +21,7 @@ const SPECIAL: [(DeviceClass, u32, u32); 3] = [
 /// Name of operands in buffer memory.
 const BUFFER: &str = "buffer memory of special modules";
 
-/// Most words of a FROM that are known to be those of the module.
+/// Maximum number of words of a FROM that are known to be those of the module.
 const MOVED: i32 = 256;
 
 /// Devices written by an operation error.

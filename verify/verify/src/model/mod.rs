@@ -115,7 +115,7 @@ pub enum Digit {
     Ones,
 }
 
-/// Something that is not modelled exactly, so that any value is taken to be possible.
+/// Something that is not modelled exactly, so that any value is assumed to be possible.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Gap {
     /// Step of the network in which it is, if it is in one.
@@ -152,7 +152,7 @@ impl Default for World {
     }
 }
 
-/// Most statements of a scan, loops unrolled, before the rest of it counts as not modelled.
+/// Maximum number of statements of a scan, loops unrolled, before the rest of it counts as not modelled.
 const STATEMENTS: u32 = 400_000;
 
 /// Largest size of a scan's logic before the rest of it counts as not modelled: far larger than any solver handles.

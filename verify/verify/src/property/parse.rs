@@ -118,7 +118,7 @@ struct Reader<'n> {
     names: &'n dyn Fn(&str) -> Vec<Target>,
 }
 
-/// Most levels of nested parentheses and inversions.
+/// Maximum nesting of parentheses and inversions.
 const DEPTH: usize = 200;
 
 impl Reader<'_> {

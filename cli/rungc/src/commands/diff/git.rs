@@ -1,5 +1,5 @@
 //! Being called by Git, as the diff driver of a path: `path old-file old-hex old-mode new-file new-hex new-mode`, and
-//! for a path that was renamed the new path and what is said of it (gitattributes(5), gitdiffcore(7)).
+//! for a path that was renamed the new path and the messages about it (gitattributes(5), gitdiffcore(7)).
 
 use super::{Side, report, say, tell};
 use crate::args::DiffArgs;

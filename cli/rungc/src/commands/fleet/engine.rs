@@ -19,7 +19,7 @@ const WORTH_LIBRARY: u32 = 64;
 pub struct Chosen<'m> {
     /// Emitted C; `None`: interpreters.
     pub engine: Option<Box<dyn Engine + 'm>>,
-    /// Reason for which it is nothing faster; `None` if there is none to report.
+    /// Reason why it is nothing faster; `None` if there is none to report.
     pub why: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Operation errors in the summary, and reasons for which PLCs stopped.
+//! Operation errors in the summary, and reasons why PLCs stopped.
 
 use crate::commands::counted;
 use rungc_fleet::Failed;
@@ -18,7 +18,7 @@ pub struct About<'m> {
     pub module: &'m Module,
     /// The number of its first PLC.
     pub first: u32,
-    /// Reason for which its engine is nothing faster.
+    /// Reason why its engine is nothing faster.
     pub why: Option<String>,
 }
 

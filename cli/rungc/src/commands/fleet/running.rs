@@ -1,4 +1,4 @@
-//! The cycle of a fleet, and what is said of it at the end.
+//! The cycle of a fleet, and its summary at the end.
 
 use super::failures::{self, About};
 use super::memory;

@@ -154,7 +154,7 @@ impl Client {
         }))
     }
 
-    /// Reads away what still comes, for as long as an answer may take: a late answer must not be taken for that to
+    /// Reads away what still comes, for as long as an answer may take: a late answer must not be mistaken for that to
     /// another request.
     fn read_away(&mut self) -> Result<(), Failure> {
         let deadline = Instant::now() + self.timeout;

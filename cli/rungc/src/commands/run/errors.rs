@@ -1,4 +1,4 @@
-//! Errors as the PLC would show them while a program runs: the operation errors, and the reason for which it stopped.
+//! Errors as the PLC would show them while a program runs: the operation errors, and the reason why it stopped.
 
 use crate::commands::tell;
 use rungc_interp::OperationError;

@@ -1,4 +1,4 @@
-//! Going back in a run: moments to which it can return, from which it is executed again to the scan that is asked for.
+//! Going back in a run: moments to which it can return, from which it is executed again to the requested scan.
 //!
 //! What comes from outside between two scans, such as a device that the page sets or a frame, is not repeated: the
 //! scan after it begins with a separate moment.
@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::slice::Iter;
 
-/// Most scans executed again, if there was no input from outside.
+/// Maximum number of scans executed again, if there was no input from outside.
 const EVERY: u64 = 100;
 /// Number of stored moments, of about 0.2 MB each.
 const MOMENTS: usize = 128;

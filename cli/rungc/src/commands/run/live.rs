@@ -319,7 +319,7 @@ impl Live {
         }
     }
 
-    /// The run goes back to an earlier moment, and comes from there to the scan that is asked for.
+    /// The run goes back to an earlier moment, and comes from there to the requested scan.
     pub fn begin_again(&mut self, control: Control) {
         self.scene.set_edges(&control.edges);
         self.control = control;
@@ -338,8 +338,7 @@ impl Live {
         self.shown = None;
     }
 
-    /// Carries out a command. By how many scans it asks the run to go back, if it does; an error says what is wrong
-    /// with it.
+    /// Carries out a command. By how many scans it asks the run to go back, if it does; an error describes the problem.
     fn carry_out(
         &mut self,
         command: &Command,

@@ -31,7 +31,7 @@ impl Mode {
         mode
     }
 
-    /// RUN (true) or STOP, if a signal has asked for it since the last call.
+    /// RUN (true) or STOP, if a signal has requested it since the last call.
     pub fn asked(&self) -> Option<bool> {
         match self.0.swap(NOTHING, Ordering::Relaxed) {
             STOP => Some(false),

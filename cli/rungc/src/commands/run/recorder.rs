@@ -17,7 +17,7 @@ use std::mem;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Most steps of a test that people read.
+/// Maximum number of steps of a test that people read.
 const MOST_STEPS: usize = 10_000;
 
 /// A test that is being written.

@@ -116,7 +116,7 @@ impl Servers {
         Ok(Servers { servers, type_code })
     }
 
-    /// Carries out and answers what clients have asked since the last scan; `at_us` is the time since the run began, in
+    /// Carries out and answers the requests of clients since the last scan; `at_us` is the time since the run began, in
     /// microseconds. Whether there was anything.
     pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) -> bool {
         if self.servers.is_empty() {

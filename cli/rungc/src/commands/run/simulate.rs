@@ -211,7 +211,7 @@ impl Run<'_> {
         Plotting::begin(path, seen, what, duration).map(Some)
     }
 
-    /// True if there may be input from outside before each scan, other than by clients of servers.
+    /// Returns true if there may be input from outside before each scan, other than by clients of servers.
     fn comes_from_outside(&self) -> bool {
         let lines = self.args.serve.lines(self.module.model);
         !(self.connections.is_empty() && self.module.requests.is_empty() && lines.is_empty())
@@ -326,7 +326,7 @@ impl<'a> Simulation<'a> {
         Ok(self.outcome())
     }
 
-    /// Goes to RUN or STOP if a signal has asked for it.
+    /// Goes to RUN or STOP if a signal has requested it.
     fn turn_switch(&mut self) {
         if let Some(running) = self.mode.asked() {
             self.machine.set_running(running);
@@ -357,7 +357,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Carries out and answers what clients of servers have asked.
+    /// Carries out and answers the requests of clients of servers.
     fn answer_clients(&mut self) {
         let at_us = 1000 * self.now_ms;
         let servers = &mut self.servers;

@@ -18,7 +18,7 @@ pub const STANDARD_ERROR: &str = "-";
 pub struct Watch {
     traffic: Traffic,
     log: Log,
-    /// The last frames, for who hears them.
+    /// The last frames, until they are retrieved.
     heard: Option<Vec<String>>,
 }
 
@@ -78,12 +78,12 @@ impl Watch {
         })
     }
 
-    /// Frames are kept from now on until they are [heard](Self::heard).
+    /// Stores frames from now on until they are [retrieved](Self::heard).
     pub fn hear(&mut self) {
         self.heard = Some(Vec::new());
     }
 
-    /// The frames since this was last asked, decoded and as bytes.
+    /// The frames since the last call, decoded and as bytes.
     pub fn heard(&mut self) -> Vec<String> {
         self.heard.as_mut().map(std::mem::take).unwrap_or_default()
     }

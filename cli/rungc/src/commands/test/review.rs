@@ -72,7 +72,7 @@ fn forget(trace: &Trace) {
     let _ = fs::remove_file(trace.pending());
 }
 
-/// Shows how a trace differs and asks what to do. What is not understood is asked again; the end of the input leaves
+/// Shows how a trace differs and asks what to do. An unknown answer is asked for again; the end of the input leaves
 /// all that follows.
 fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Wish, Failure> {
     say(&format!("{}\n", outcome.describe(suite)))?;

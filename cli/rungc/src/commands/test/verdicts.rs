@@ -16,7 +16,7 @@ use walkdir::WalkDir;
 
 /// Verdicts of earlier runs, and where those of this one go.
 pub struct Verdicts {
-    /// The cases that passed on all engines that are asked for.
+    /// The cases that passed on all engines that are requested.
     pub known: BTreeSet<Id>,
     /// By file and engine: where they are kept, and a hash of all that they depend on.
     places: BTreeMap<(usize, &'static str), (PathBuf, String)>,

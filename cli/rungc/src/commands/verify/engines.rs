@@ -48,7 +48,7 @@ pub fn replay(
         });
         let mut engine = match (built, choice) {
             (Ok(engine), _) => engine,
-            // This engine was not asked for by name, and its compiler is not there.
+            // This engine was not requested by name, and its compiler is not there.
             (Err(error), None) if lacks_tool(kind, &error) => {
                 let name = kind.name();
                 cx.note(&format!(

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-/// Writes the question, if that was asked for.
+/// Writes the question, if requested.
 ///
 /// # Errors
 ///
@@ -57,7 +57,7 @@ pub fn can_prove(args: &VerifyArgs) -> std::result::Result<(), Failure> {
     }
 }
 
-/// Writes proofs into a folder, if that was asked for; `None`: nothing was proved.
+/// Writes proofs into a folder, if requested; `None`: nothing was proved.
 ///
 /// # Errors
 ///

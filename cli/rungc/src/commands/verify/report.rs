@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// A property and what was found of it.
 pub struct Result<'a> {
-    /// The property as it was asked for.
+    /// The property as requested.
     pub asked: &'a str,
     pub property: &'a Property,
     pub decision: &'a Decision,
@@ -115,7 +115,7 @@ impl Result<'_> {
     }
 }
 
-/// Reason for which a property is not decided, in words.
+/// Reason why a property is not decided, in words.
 pub fn reason(why: &Why) -> String {
     match why {
         Why::Time { scans } => format!(

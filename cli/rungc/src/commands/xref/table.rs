@@ -104,7 +104,7 @@ struct Record<'a> {
 }
 
 impl Table {
-    /// The cross reference of a program, of the devices that are asked for.
+    /// The cross reference of a program, of the requested devices.
     pub fn new(resolved: &Resolved, ladder: &Ladder, args: &XrefArgs) -> Table {
         let xref = CrossReference::new(resolved);
         let line = |i: usize| Line::new(resolved, ladder, &xref.uses[i]);

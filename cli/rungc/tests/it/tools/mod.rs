@@ -1,4 +1,4 @@
-//! Tools for another machine that tests need. Without them a test says what is missing and that it did not run; with
+//! Tools for another machine that tests need. Without them a test reports what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 #![cfg_attr(
     not(all(unix, feature = "mqtt")),

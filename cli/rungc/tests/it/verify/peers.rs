@@ -180,7 +180,7 @@ fn a_checker_follows_every_step_of_a_proof() {
     let with_drat = [&PROVED[..], &["--drat"]].concat();
     let program = kept_apart()[2].clone();
     let folder = folder(&[("program.il", program.as_bytes())]);
-    // Without a solver on the path, no proof is written, and that is said.
+    // Without a solver on the path, no proof is written, and this is reported.
     let alone = Command::new(env!("CARGO_BIN_EXE_rungc"))
         .args(&with_drat)
         .current_dir(folder.path())

@@ -122,7 +122,7 @@ struct Works<'o> {
 type Source<'w> = (&'w Part, Pou);
 
 impl<'o> Works<'o> {
-    /// Takes the parts that say what the program is; says why not, if these are more than a project has.
+    /// Takes the parts that define the program; reports why not, if these are more than a project has.
     fn open(inner: &Container, rows: &[Row], options: &'o ReadOptions) -> Result<Self, String> {
         let parts = |ending: &str| -> Result<Vec<Part>, String> {
             let wanted = || rows.iter().filter(|row| ends_with(&row.name, ending));
@@ -442,9 +442,9 @@ impl<'o> Works<'o> {
     }
 }
 
-/// Most devices that a message names.
+/// Maximum number of devices that a message names.
 const SHOWN: usize = 5;
-/// Most POUs that a message names.
+/// Maximum number of POUs that a message names.
 const NAMED: usize = 20;
 /// More parts of one kind than any project for an FX-family PLC has.
 const MAX_PARTS: usize = 1000;

@@ -1,4 +1,4 @@
-//! The parts of a GX Works2 project that say what its program is.
+//! The parts of a GX Works2 project that define its program.
 
 use crate::gx::fields::Fields;
 

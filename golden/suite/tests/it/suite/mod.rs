@@ -86,7 +86,7 @@ fn take(part: &Part, files: &mut Vec<TestFile>) {
     );
 }
 
-/// Reasons for which cases are disputed, by file and name.
+/// Reasons why cases are disputed, by file and name.
 type Reasons = BTreeMap<(String, String), String>;
 
 fn disputed() -> Reasons {

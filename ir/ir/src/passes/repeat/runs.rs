@@ -15,7 +15,7 @@ const LEAST_ITERATIONS: usize = 4;
 /// Fewest operations that a loop has to save: below, a program is easier to read with each device by its name.
 const LEAST_SAVED: u64 = 200;
 
-/// Most statements of an iteration.
+/// Maximum number of statements of an iteration.
 const LONGEST_ITERATION: usize = 100;
 
 /// From which statement of a body to which each temporary is used.
@@ -57,7 +57,7 @@ fn each_temp(module: &Module, stmt: &Stmt, note: &mut impl FnMut(TempId)) {
 pub(super) struct Network {
     /// Its position.
     at: usize,
-    /// Most statements of a loop from here on.
+    /// Maximum number of statements of a loop from here on.
     alike: usize,
 }
 
@@ -215,7 +215,7 @@ impl<'b> Runs<'b> {
     }
 }
 
-/// Most iterations for which the advancing devices exist.
+/// Maximum number of iterations for which the advancing devices exist.
 fn most_iterations(module: &Module, named: &[Named]) -> usize {
     let most = |named: &Named| {
         let last = match named.kind {

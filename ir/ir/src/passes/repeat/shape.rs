@@ -9,7 +9,7 @@ use rungc_syntax::DeviceClass;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 
-/// Most operations in a statement of an iteration.
+/// Maximum number of operations in a statement of an iteration.
 const LARGEST_STATEMENT: u64 = 500;
 
 /// Shape of statements that differ in their devices only.

@@ -18,7 +18,7 @@ pub(super) enum Verdict {
 }
 
 /// The nesting table (h1u-h2u-programming §8.8). Its left half is lost in the manual; the remarks below it and the list
-/// of errors (§8.7) say what stood there.
+/// of errors (§8.7) state its contents.
 pub(super) fn inside(outer: Kind, inner: Kind) -> Verdict {
     use Kind::{For, Interrupt, Mc, Stl, Sub};
     match (outer, inner) {

@@ -1,11 +1,11 @@
 //! HM as the master of a computer link: tasks in registers, worked off in turn (hm-motion-controller §6.3.2).
 //!
-//! A work area of 20 registers says what there is to do: kinds of tasks with the first register of their blocks, how
-//! many blocks there are, and how many bytes of data each has. A block is a station number and the data; the slave's
+//! A work area of 20 registers describes the tasks: kinds of tasks with the first register of their blocks, how many
+//! blocks there are, and how many bytes of data each has. A block is a station number and the data; the slave's
 //! register that is read or written has the number of the master's. Tasks of level 0 get two frames of three, those of
 //! level 1 the third; within a level, reads come first.
 //!
-//! The manual does not say where the second block of a kind begins; it is taken to follow the first: `1 + bytes / 2`
+//! The manual does not say where the second block of a kind begins; it is assumed to follow the first: `1 + bytes / 2`
 //! registers on.
 
 use super::{ACK, Dialect, ENQ, ETX, NAK, STX, Settings, end, head};
@@ -18,7 +18,7 @@ pub const TIME_OUT_US: u32 = 300_000;
 /// Longest answer: 64 registers.
 pub const LONGEST: usize = 5 + 4 * MOST as usize + 3;
 
-/// Most registers of a frame.
+/// Maximum number of registers of a frame.
 const MOST: u32 = 64;
 /// Registers that computer link reaches.
 const REGISTERS: u32 = 8000;

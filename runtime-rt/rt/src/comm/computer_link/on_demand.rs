@@ -7,7 +7,7 @@ use crate::special::{Register, Relay};
 
 /// Registers from this one on are not sent.
 const END_OF_REGISTERS: u32 = 8000;
-/// Most registers of one transmission.
+/// Maximum number of registers of one transmission.
 const MOST: u32 = 64;
 
 /// The devices that a port has for it.

@@ -31,7 +31,7 @@ const M_MORE_FAULTS: u32 = 8310;
 /// Transfer in progress.
 const M_ACTIVE: u32 = 8191;
 
-/// A station has not answered, or the master is not heard; the codes are FX's.
+/// A station has not answered, or the master is not received; the codes are FX's.
 const CODE_TIME_OUT: u16 = 0x01;
 /// A slave misses the master.
 const CODE_NO_MASTER: u16 = 0x11;

@@ -6,7 +6,7 @@ use crate::comm::{Cut, Frame, LineFault, hex_byte};
 const STX: u8 = 0x02;
 /// End of text; two digits of the sum follow.
 const ETX: u8 = 0x03;
-/// Most characters of a frame: the block of an enhanced N:N link.
+/// Maximum number of characters of a frame: the block of an enhanced N:N link.
 const LONGEST: usize = 1 + 4 + 4 * 36 + 3;
 
 /// Decides whether the characters received so far form a frame.

@@ -102,7 +102,7 @@ pub(super) fn visit(
     writes: bool,
     mut show: impl FnMut(u16, Place) -> Option<()>,
 ) -> Option<()> {
-    // Most ranges lie in one area: the last one is asked first.
+    // Most ranges lie in one area: the last one is tried first.
     let mut area = areas.first()?;
     for index in 0..count {
         let address = first.checked_add(index)?;

@@ -19,7 +19,7 @@ const ANSWER_US: u32 = 1_000_000;
 const OPEN_US: u32 = 3_000_000;
 const PAUSE_US: u32 = 1_000_000;
 
-/// Most characters of an answer.
+/// Maximum number of characters of an answer.
 pub const LONGEST_ANSWER: usize = 260;
 
 const _: () = assert!(LONGEST_ANSWER == tcp::LONGEST);
@@ -35,7 +35,7 @@ pub struct ClientRow {
     pub trigger: Class,
     /// The number of that device.
     pub number: u32,
-    /// The unit that is asked, 1 for most servers.
+    /// The addressed unit, 1 for most servers.
     pub unit: u8,
     /// The function: 01 to 06, 0F, 10.
     pub function: u8,

@@ -24,9 +24,9 @@ const MASK_REGISTER: u8 = 0x16;
 
 /// The sub-function of 08 after which a slave only listens; it is not answered.
 const LISTEN_ONLY: u16 = 4;
-/// Most bytes of a log of events.
+/// Maximum number of bytes of a log of events.
 const LONGEST_LOG: usize = 64;
-/// Most bytes that follow the state of a slave.
+/// Maximum number of bytes that follow the state of a slave.
 const LONGEST_IDENTITY: usize = 249;
 
 /// Offset of the data of an answer, after station and function.

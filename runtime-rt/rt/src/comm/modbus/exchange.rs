@@ -189,7 +189,7 @@ impl Exchange {
         self.phase = Phase::Waiting;
     }
 
-    /// A frame has come; `Err` says what is wrong with it. An unrequested one is dropped.
+    /// A frame has come; `Err` describes the problem. An unrequested one is dropped.
     pub fn receive(
         &mut self,
         framing: Framing,

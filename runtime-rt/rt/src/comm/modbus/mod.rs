@@ -87,7 +87,7 @@ mod function {
 /// Value that 05 sends to switch on.
 const COIL_ON: u16 = 0xff00;
 
-/// Reason for which a slave rejects a request.
+/// Reason why a slave rejects a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Exception {
     /// 01: a function that it does not know.

@@ -170,7 +170,7 @@ fn control_waits_for_the_first_sample() {
     at(&mut module, 200, 30);
     assert_eq!(read(&module, 156), 0);
     at(&mut module, 200, 5000);
-    // A start at 0 would have taken the first sample for a jump to 20 °C.
+    // A start at 0 would have mistaken the first sample for a jump to 20 °C.
     assert_eq!((read(&module, 156), read(&module, 110)), (2, 100));
 }
 

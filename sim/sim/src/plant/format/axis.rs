@@ -8,7 +8,7 @@ use crate::plant::axis::{Axis, Back, Drive};
 use rungc_syntax::DeviceClass;
 use rungc_tables::Spanned;
 
-/// Most cycles of an encoder per pulse.
+/// Maximum number of cycles of an encoder per pulse.
 const CYCLES_PER_PULSE: f64 = 10.0;
 
 impl Reader<'_> {

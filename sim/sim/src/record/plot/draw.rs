@@ -424,7 +424,7 @@ fn shortened(name: &str) -> String {
     name.chars().take_while(fits).chain(['…']).collect()
 }
 
-/// About how wide a text is: what is not Latin is taken for wide.
+/// About how wide a text is: non-Latin characters count as wide.
 fn width(content: &str) -> f64 {
     content.chars().map(char_width).sum()
 }

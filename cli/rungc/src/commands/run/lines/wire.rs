@@ -72,7 +72,7 @@ enum Source {
 /// Opens an end, and keeps it open. Returns what it is called and what happens to it.
 ///
 /// # Errors
-/// What the system says of an end of this machine. Another machine that does not answer is asked again.
+/// What the system says of an end of this machine. Another machine that does not answer is tried again.
 pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
     let (name, source, wire) = match end {
         LineEnd::Path(_) | LineEnd::CanInterface(_) => {
@@ -101,7 +101,7 @@ pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
 /// The run no longer wants to know.
 struct Over;
 
-/// Reason for which a thread stops reading a wire.
+/// Reason why a thread stops reading a wire.
 enum End {
     /// It has vanished.
     Failed(io::Error),
@@ -138,7 +138,7 @@ impl Source {
                 }
                 Err(error) => error,
             };
-            // That it is still not there has been said.
+            // The missing end has been reported.
             if !reported && events.send(Event::Down(error)).is_err() {
                 return;
             }
@@ -153,8 +153,7 @@ impl Source {
         }
     }
 
-    /// A client that has connected: the latest is the other end, because the one before it may be dead without having
-    /// said so.
+    /// A client that has connected: the latest is the other end, because the one before it may be dead without notice.
     fn newcomer(&self) -> Option<Wire> {
         match self {
             Source::Clients(listener) => listener
