@@ -186,6 +186,21 @@ fn a_compiled_program_has_the_protocols_that_the_check_names() {
     }
 }
 
+/// A port whose registers are set to very many values takes no longer than one that may speak anything.
+#[test]
+fn very_many_values_are_as_good_as_any() {
+    let values = (0..2000).map(|value| format!("MOV K{value} D8126\nMOV K{value} D8120\n"));
+    let text = format!("LD X0\n{}END\n", values.collect::<String>());
+    let program = read_text("program", &text).program;
+    let options = CompileOptions {
+        model: Some(ModelId::H2u),
+        ..CompileOptions::default()
+    };
+    let module = compile(&program, &options).module.expect("it compiles");
+    let protocols = module.port_protocols.iter();
+    assert!(protocols.clone().any(|of| of.contains(Protocol::NnSlave)));
+}
+
 /// Requests of L01S need a port whose station is 255. RD3A and WR3A name the port in the register before their data
 /// (l01s-programming, RD3A, WR3A); ADPRW uses the one in D8397.
 #[test]

@@ -9,6 +9,9 @@ use rungc_syntax::Device;
 /// Station numbers to try: that of a slave, and that of a master on L01S.
 const STATIONS: [u16; 2] = [1, 255];
 
+/// A port with more states than this is taken for one whose registers may have any value.
+const MOST_STATES: usize = 4096;
+
 /// Possible values of the devices that choose the protocols of ports.
 pub struct Choices<'a> {
     facts: Facts,
@@ -35,7 +38,7 @@ impl<'a> Choices<'a> {
         chosen.collect()
     }
 
-    /// All states of the devices that choose; `None` if a register may have any value.
+    /// All states of the devices that choose; `None` if a register may have any value, or very many.
     fn states(&self, wiring: &PortWiring) -> Option<Vec<Memory>> {
         let mut states = [false, true]
             .map(|running| self.facts.cleared(running))
@@ -43,6 +46,10 @@ impl<'a> Choices<'a> {
         for register in [wiring.protocol, wiring.format].into_iter().flatten() {
             let values = self.facts.values(register);
             let values = values.filter(|_| !(self.outside)(d(register)))?;
+            let values = Vec::from_iter(values);
+            if states.len() * values.len() > MOST_STATES {
+                return None;
+            }
             states = each(&states, &values, |memory, value| {
                 memory.set_register(register, value)
             });
@@ -64,13 +71,13 @@ impl<'a> Choices<'a> {
 
     /// The first words that UINIT may have for a port, and 0 of a port without UINIT.
     fn uinits(&self, wiring: &PortWiring) -> Vec<u16> {
-        let all = || (0..8).flat_map(|protocol| [protocol << 8, protocol << 8 | 1]);
         if wiring.choice != Choice::Uinit {
             return vec![0];
         }
         let uinits = self.facts.uinit.get(&wiring.number).into_iter().flatten();
         let words: Option<Vec<u16>> = uinits.map(|uinit| uinit.protocol).collect();
-        let words = words.unwrap_or_else(|| all().collect());
+        let any = || (0..8).flat_map(|protocol| [protocol << 8, protocol << 8 | 1]);
+        let words = words.unwrap_or_else(|| any().collect());
         std::iter::once(0).chain(words).collect()
     }
 }

@@ -214,7 +214,7 @@ impl Facts {
     }
 
     /// All values that a register has at some time; `None` if it may have any.
-    pub(super) fn values(&self, register: Register) -> Option<Vec<u16>> {
+    pub(super) fn values(&self, register: Register) -> Option<BTreeSet<u16>> {
         let device = d(register);
         let written = self.writes(device).iter().map(|write| write.value);
         let values = std::iter::once(Some(self.at_power_on(device))).chain(written);
