@@ -57,7 +57,7 @@ pub trait Line {
         Instant::now()
     }
 
-    /// How long an answer is waited for that usually comes within this time.
+    /// Time-out of an answer that usually comes within this time.
     fn patience(&self, usual: Duration) -> Duration {
         usual
     }

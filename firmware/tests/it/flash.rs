@@ -12,7 +12,7 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What is on the line.
+/// Bytes on the line.
 #[derive(Default)]
 struct State {
     to_part: VecDeque<u8>,

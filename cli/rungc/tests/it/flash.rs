@@ -224,7 +224,7 @@ fn a_line_on_which_nothing_answers_is_reported() {
     insta::assert_snapshot!(text(&output.stderr).replace(&*port, "PORT"));
 }
 
-/// Where an answer is missing, time has to pass: firmware/tests/it/flash.rs.
+/// Faults that the writer overcomes; missing answers take time and are tested in firmware/tests/it/flash.rs.
 #[test]
 fn rejections_are_overcome() {
     for fault in [Fault::RejectWrite(3), Fault::RejectErase(1)] {

@@ -50,7 +50,7 @@ X010 = 'read none'
 struct Serving {
     child: Child,
     folder: TempDir,
-    /// What it has reported.
+    /// Its reports so far.
     said: Arc<Mutex<String>>,
     reader: Option<JoinHandle<()>>,
 }

@@ -264,7 +264,7 @@ proptest! {
     }
 }
 
-/// What this thread has worked: time of the processor, to which other programs do not add.
+/// Processor time of this thread, to which other programs do not add.
 #[cfg(unix)]
 fn worked() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);

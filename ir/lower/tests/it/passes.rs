@@ -347,7 +347,7 @@ fn rows_go_on_over_the_border_of_latched_relays() {
     );
 }
 
-/// What this thread has worked: time of the processor, to which other programs do not add.
+/// Processor time of this thread, to which other programs do not add.
 #[cfg(unix)]
 fn worked() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
