@@ -317,7 +317,7 @@ fn headers(module: &Module, servers: bool, retain: bool) -> String {
     let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
     let usual = HEADERS.iter().chain(of_lines);
     let all = usual.chain(of_servers).chain(of_clients).chain(of_retain);
-    let all = BTreeSet::from_iter(all);
+    let all: BTreeSet<_> = all.collect();
     let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
     lines.collect()
 }

@@ -209,7 +209,7 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
         .chain(of_retain)
         .chain(of_clock)
         .chain(OUTSIDE_USES.iter().chain([&MUTEX]).filter(|_| io));
-    let mut all = BTreeSet::from_iter(all.map(|name| (*name).to_string()));
+    let mut all: BTreeSet<_> = all.map(|name| (*name).to_string()).collect();
     all.insert(format!("{crate_name}::{}", generator.type_name));
     if module.may_fail() {
         all.extend(ERROR_USES.map(String::from));

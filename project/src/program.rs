@@ -41,7 +41,7 @@ impl Project {
         for run in &self.latched {
             self.can_latch(run, model)?;
         }
-        let named = BTreeSet::from_iter(self.latched.iter().map(|run| run.class));
+        let named: BTreeSet<_> = self.latched.iter().map(|run| run.class).collect();
         let parameters = program.parameters.get_or_insert_default();
         let others = parameters.latched.take().unwrap_or_else(|| usual(model));
         let others = others.into_iter().filter(|run| !named.contains(&run.class));

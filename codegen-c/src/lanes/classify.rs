@@ -112,7 +112,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             });
             uses.push(found);
         }
-        let all = BTreeSet::from_iter(uses.iter().flatten().copied());
+        let all: BTreeSet<_> = uses.iter().flatten().copied().collect();
         for temp in all {
             let first = uses.iter().position(|uses| uses.contains(&temp));
             let last = uses.iter().rposition(|uses| uses.contains(&temp));

@@ -30,7 +30,7 @@ pub struct Terminal {
 
 /// The terminals of the program with their pins: inputs and outputs. If pins are short, each side has half of them.
 pub fn pins(package: &Package, pins: &[u8]) -> [Vec<Terminal>; 2] {
-    let numbers = |class| BTreeSet::from_iter(terminals(package.module, class));
+    let numbers = |class| terminals(package.module, class).collect::<BTreeSet<_>>();
     let (mut inputs, outputs) = (numbers(DeviceClass::X), numbers(DeviceClass::Y));
     inputs.extend(rungc_emit::events::inputs(package.module));
     let half = pins.len() / 2;

@@ -141,7 +141,7 @@ impl Functions {
             .flat_map(|f: &Function| &f.frame.constants);
         let stored = words.map(|(_, word)| word).chain(constants.copied());
         let stored = stored.filter(|word| word & 1 == 1 && by_address.contains_key(&(word & !1)));
-        let stored = BTreeSet::from_iter(stored.map(|word| word & !1));
+        let stored: BTreeSet<_> = stored.map(|word| word & !1).collect();
         Functions { by_address, stored }
     }
 

@@ -8,11 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Elements that only one of them has are left out first, so that long sequences with little in common take no longer
 /// than others.
 pub fn common<T: Ord>(old: &[T], new: &[T]) -> Vec<(usize, usize)> {
-    let in_old = BTreeSet::from_iter(old);
-    // The first of equal ones counts.
-    let from_the_end = new.iter().enumerate().rev();
-    let shared = from_the_end.filter(|(_, element)| in_old.contains(element));
-    let numbers: BTreeMap<&T, usize> = shared.map(|(number, element)| (element, number)).collect();
+    let in_old: BTreeSet<_> = old.iter().collect();
+    let mut numbers: BTreeMap<&T, usize> = BTreeMap::new();
+    for (number, element) in new.iter().enumerate() {
+        if in_old.contains(element) {
+            numbers.entry(element).or_insert(number);
+        }
+    }
     let shared = |all: &[T]| -> Vec<(usize, usize)> {
         let numbered = all.iter().enumerate();
         numbered

@@ -20,7 +20,7 @@ pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
 
 /// The input terminals whose edges mean something, each once.
 pub fn inputs(module: &Module) -> BTreeSet<u32> {
-    BTreeSet::from_iter(edges(module).map(|(_, input, _)| input))
+    edges(module).map(|(_, input, _)| input).collect()
 }
 
 /// The cells that follow the time.

@@ -314,5 +314,7 @@ fn timers(resolved: &Resolved) -> BTreeMap<Device, u64> {
         entry.and_modify(|preset| *preset = None).or_insert(preset);
     }
     let found = found.into_iter();
-    BTreeMap::from_iter(found.filter_map(|(timer, preset)| Some((timer, preset?))))
+    found
+        .filter_map(|(timer, preset)| Some((timer, preset?)))
+        .collect()
 }

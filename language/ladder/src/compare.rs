@@ -235,7 +235,8 @@ fn moved(
     }
     let rest = new.iter().enumerate();
     let rest = rest.filter(|(at, _)| !in_order.1.contains(at));
-    BTreeSet::from_iter(rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at))))
+    rest.filter_map(|(at, text)| Some((waiting.get_mut(&**text)?.pop()?, at)))
+        .collect()
 }
 
 /// Sorts changes as a reader of the new program meets them; what was removed comes after what was before it.
@@ -333,7 +334,7 @@ fn comments(programs: [&Program; 2]) -> Vec<Differing<Device>> {
     let devices = programs
         .iter()
         .flat_map(|program| program.comments.keys().copied());
-    let differing = BTreeSet::from_iter(devices).into_iter().map(|key| {
+    let differing = devices.collect::<BTreeSet<_>>().into_iter().map(|key| {
         let [old, new] = programs.map(|program| program.comments.get(&key).cloned());
         Differing { key, old, new }
     });

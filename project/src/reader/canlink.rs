@@ -117,7 +117,7 @@ impl Reader {
         }
         let together = |entry: &&Entry| matches!(entry.when, When::Together(_));
         let groups: Vec<_> = entries.iter().filter(together).collect();
-        let triggers = BTreeSet::from_iter(groups.iter().map(|entry| entry.when));
+        let triggers: BTreeSet<_> = groups.iter().map(|entry| entry.when).collect();
         let [most_triggers, most_entries] = MOST_TOGETHER;
         let of = |when: &When| groups.iter().filter(|entry| entry.when == *when).count();
         let message = match groups.first() {

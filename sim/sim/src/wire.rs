@@ -79,7 +79,7 @@ impl Signal {
 /// The changes of all signals, in order.
 pub fn changes(signals: &[Signal]) -> Vec<Change> {
     let mut changes: Vec<Change> = signals.iter().flat_map(|signal| signal.changes()).collect();
-    changes.sort_by(Ord::cmp);
+    changes.sort();
     changes
 }
 

@@ -94,7 +94,7 @@ impl<'a> Findings<'a> {
         let more = Findings::new(self.path, program, more, reporting);
         self.diagnostics.extend(more.diagnostics);
         self.diagnostics
-            .sort_by(|a, b| a.span.start.cmp(&b.span.start));
+            .sort_by_key(|diagnostic| diagnostic.span.start);
     }
 
     /// Of a file that could not be read at all, and why.

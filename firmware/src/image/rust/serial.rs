@@ -71,10 +71,12 @@ fn handler(serial: &Serial) -> String {
 /// The vectors of the devices' interrupts.
 pub(super) fn vectors(image: &Image) -> String {
     let ports = image.serial().into_iter();
-    let handlers = BTreeMap::from_iter(ports.flat_map(|serial| {
-        let numbers = serial.interrupts.iter();
-        numbers.map(move |number| (*number, handler(serial)))
-    }));
+    let handlers: BTreeMap<_, _> = ports
+        .flat_map(|serial| {
+            let numbers = serial.interrupts.iter();
+            numbers.map(move |number| (*number, handler(serial)))
+        })
+        .collect();
     let mut text = String::new();
     let mut next = 0;
     for (number, handler) in handlers {

@@ -181,9 +181,9 @@ impl<'a> Circuit<'a> {
     /// Every wire comes from the left rail and leads somewhere.
     fn check_ends(&self) -> Result<(), Fault> {
         let fed = self.edges.iter().map(|edge| edge.to);
-        let feeds = BTreeSet::from_iter(fed.chain([self.drawn.rail]));
+        let feeds: BTreeSet<_> = fed.chain([self.drawn.rail]).collect();
         let taken = self.edges.iter().map(|edge| edge.from);
-        let takes = BTreeSet::from_iter(taken.chain(self.outputs.keys().copied()));
+        let takes: BTreeSet<_> = taken.chain(self.outputs.keys().copied()).collect();
         let wire = |span, why| Err((span, &codes::LADDER_WIRE, why));
         for edge in &self.edges {
             if !feeds.contains(&edge.from) {

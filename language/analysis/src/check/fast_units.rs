@@ -11,7 +11,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         return;
     };
     let outputs = outputs(code).into_values().map(|at| (at, of.output));
-    let inputs = BTreeMap::from_iter(measured(code).map(|(i, input)| (input.number, i)));
+    let inputs: BTreeMap<_, _> = measured(code).map(|(i, input)| (input.number, i)).collect();
     let inputs = inputs.into_values().map(|at| (at, of.density));
     let others = others.iter().map(|other| (other.at, of.edge));
     let counters = counters.iter().map(|c| (c.coil, of.counter(c.kind)));

@@ -70,7 +70,9 @@ impl Setup {
 pub fn setups(resolved: &Resolved) -> Vec<Setup> {
     let code = Code::new(resolved);
     let facts = facts::Facts::new(&code);
-    let used = BTreeSet::from_iter((0..code.len).flat_map(|i| port_of(&code, i, &facts)));
+    let used: BTreeSet<_> = (0..code.len)
+        .flat_map(|i| port_of(&code, i, &facts))
+        .collect();
     let wirings = code.model().ports.all().iter();
     let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
     let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));

@@ -111,7 +111,7 @@ fn flow_branches(
     initial: Device,
 ) -> (usize, usize) {
     let (mut count, mut last) = (0, 0);
-    let mut seen = BTreeSet::from_iter([initial]);
+    let mut seen = BTreeSet::from([initial]);
     let mut open = vec![initial];
     while let Some(state) = open.pop() {
         let Some(to) = leads.get(&state) else {

@@ -509,7 +509,7 @@ impl Placer<'_> {
     /// The points to which one leads without passing any that is placed, or where branches around it meet, by how far
     /// they are.
     fn distances(&self, start: Point) -> BTreeMap<Point, usize> {
-        let stops = BTreeSet::from_iter(self.stops.iter().copied());
+        let stops: BTreeSet<_> = self.stops.iter().copied().collect();
         let mut found = BTreeMap::new();
         let mut open = VecDeque::from([(start, 0)]);
         while let Some((point, distance)) = open.pop_front() {

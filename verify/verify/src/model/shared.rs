@@ -152,7 +152,9 @@ impl Encoder<'_> {
             });
         }
         slots.push(Key::Outer);
-        BTreeSet::from_iter(slots).into_iter().collect()
+        slots.sort();
+        slots.dedup();
+        slots
     }
 
     /// Returns true if the program is executed beside another.

@@ -102,7 +102,7 @@ pub fn names(paths: &[PathBuf]) -> std::result::Result<Vec<PathBuf>, Failure> {
             names.push(path.clone())
         }
     }
-    names.sort_by(Ord::cmp);
+    names.sort();
     names.dedup();
     Ok(names)
 }

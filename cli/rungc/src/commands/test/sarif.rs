@@ -12,7 +12,7 @@ use std::path::Path;
 pub fn sarif(results: &Results) -> io::Result<String> {
     let failed = || results.report.failures();
     let kinds = failed().filter_map(|o| o.failure.as_ref()).map(kind);
-    let used = BTreeSet::from_iter(kinds);
+    let used: BTreeSet<_> = kinds.collect();
     let rules = used.into_iter().map(rule).collect();
     let items = failed().map(|outcome| item(results, outcome)).collect();
     sarif::log(rules, items, Vec::new())

@@ -72,7 +72,7 @@ impl Verdicts {
             let of_file = of_file.filter(|o| o.id.file == *file && o.engine == *engine);
             let passed = of_file.filter(|o| o.failure.is_none());
             let names = passed.map(|o| suite.files()[*file].cases[o.id.case].name.clone());
-            let mut names = BTreeSet::from_iter(names);
+            let mut names: BTreeSet<_> = names.collect();
             // A part of the cases may have run.
             names.extend(read(place, key));
             let names: Vec<String> = names.into_iter().collect();
@@ -88,7 +88,7 @@ fn read(place: &Path, key: &str) -> BTreeSet<String> {
     };
     let mut lines = text.lines();
     match lines.next() {
-        Some(first) if first == key => BTreeSet::from_iter(lines.map(str::to_string)),
+        Some(first) if first == key => lines.map(str::to_string).collect(),
         _ => BTreeSet::new(),
     }
 }

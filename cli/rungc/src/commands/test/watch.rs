@@ -57,7 +57,7 @@ fn all_inputs(args: &TestArgs, chosen: &Chosen, files: &[TestFile]) -> BTreeSet<
     let of_files = files.iter().flat_map(|file| file.inputs.iter().cloned());
     let settings = chosen.project.iter().map(|project| project.path.clone());
     let named = chosen.paths.iter().chain(&args.machine).cloned();
-    BTreeSet::from_iter(of_files.chain(settings).chain(named))
+    of_files.chain(settings).chain(named).collect()
 }
 
 /// The state of these files, of the files in program folders, and of all test files that there are now.

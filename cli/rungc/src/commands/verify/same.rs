@@ -255,16 +255,13 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
         for line in supposed {
             let _ = writeln!(text, "  - {line}");
         }
-        let calls: Vec<&str> = compared
+        let calls: BTreeSet<&str> = compared
             .functions
             .iter()
             .map(|gap| gap.what.as_str())
             .collect();
         if !calls.is_empty() {
-            let list = BTreeSet::from_iter(calls)
-                .into_iter()
-                .collect::<Vec<_>>()
-                .join(", ");
+            let list = Vec::from_iter(calls).join(", ");
             let _ = writeln!(
                 text,
                 "  - from the same values this makes the same in both programs: {list}"

@@ -45,7 +45,7 @@ impl<'b> Container<'b> {
             .map(|entry| (entry.name().len(), entry.path().to_owned()))
             .collect();
         drop(entries);
-        names.sort_by(Ord::cmp);
+        names.sort();
         let path = |(_, path): (usize, PathBuf)| self.stream(path.to_str()?);
         names.into_iter().filter_map(path).collect()
     }

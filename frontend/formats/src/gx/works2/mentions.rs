@@ -9,10 +9,12 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) fn of_text(text: &str, labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
     let code = without_comments(text);
     let words = code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c.is_ascii());
-    BTreeSet::from_iter(words.filter_map(|word| {
-        let label = labels.get(&word.to_lowercase()).copied();
-        label.or_else(|| device(word))
-    }))
+    words
+        .filter_map(|word| {
+            let label = labels.get(&word.to_lowercase()).copied();
+            label.or_else(|| device(word))
+        })
+        .collect()
 }
 
 /// The devices that the tokens of a ladder name, by themselves or through labels in ASCII.
@@ -26,7 +28,7 @@ pub(super) fn of_ladder(code: &[u8], labels: &BTreeMap<String, Device>) -> BTree
         _ => None,
     };
     let devices = program::bodies(code).filter_map(operand);
-    BTreeSet::from_iter(devices.filter(is_stored))
+    devices.filter(is_stored).collect()
 }
 
 /// Returns true if a device stores a value; pointers and nesting levels are renumbered by the compiler.

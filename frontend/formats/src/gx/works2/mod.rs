@@ -361,10 +361,9 @@ impl<'o> Works<'o> {
         }
         let labels = self.labels.iter();
         let labels = labels.flat_map(|part| objects::labels(&part.bytes));
-        let labels =
-            BTreeMap::from_iter(labels.filter_map(|(name, device)| {
-                Some((name.to_lowercase(), mentions::device(&device)?))
-            }));
+        let labels: BTreeMap<_, _> = labels
+            .filter_map(|(name, device)| Some((name.to_lowercase(), mentions::device(&device)?)))
+            .collect();
         let has = mentions::of_ladder(code, &BTreeMap::new());
         let missing: Vec<_> = sources
             .iter()
@@ -392,7 +391,7 @@ impl<'o> Works<'o> {
     fn name_unused(&self, found: &mut Diagnostics) {
         let tasks = self.tasks.iter().filter_map(|part| Task::read(&part.bytes));
         let run = tasks.flat_map(|task| task.pous);
-        let run = BTreeSet::from_iter(run.map(|pou| pou.to_lowercase()));
+        let run: BTreeSet<_> = run.map(|pou| pou.to_lowercase()).collect();
         let is_run = |part: &&Part| run.contains(&part.stem().to_lowercase());
         let others: Vec<&Part> = self.sources.iter().filter(|part| !is_run(part)).collect();
         let named = self.named(&others);
@@ -413,7 +412,7 @@ impl<'o> Works<'o> {
 
     /// Names of these POUs that occur in the text or the labels of another POU.
     fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
-        let names = BTreeSet::from_iter(pous.iter().map(|part| part.stem()));
+        let names: BTreeSet<_> = pous.iter().map(|part| part.stem()).collect();
         let mut named = BTreeSet::new();
         for part in self.sources.iter().chain(&self.labels) {
             // Texts in UTF-16 begin at even and at odd offsets.
