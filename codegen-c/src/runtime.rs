@@ -18,7 +18,7 @@ struct Site {
 }
 
 impl Writer<'_, '_> {
-    /// Writes a [`Stmt::Call`](rungc_ir::node::Stmt::Call).
+    /// Writes a [`Action::Call`](rungc_ir::node::Action::Call).
     pub fn runtime_call(&mut self, code: &mut Code, call: &Call) {
         let _ = write!(code.text(), "rungc_{}", call.function.name());
         code.open("(&map");
@@ -42,7 +42,7 @@ impl Writer<'_, '_> {
         code.close(");");
     }
 
-    /// Writes a [`Stmt::Fetch`](rungc_ir::node::Stmt::Fetch), without what it assigns.
+    /// Writes a [`Action::Fetch`](rungc_ir::node::Action::Fetch), without what it assigns.
     pub fn fetch(&mut self, code: &mut Code, fetch: &Fetch) {
         self.operand_call(code, "fetch", (fetch.wide, fetch.step), &fetch.from);
         let cell = &self.module.cells[fetch.value].name;
@@ -50,7 +50,7 @@ impl Writer<'_, '_> {
         code.close(");");
     }
 
-    /// Writes a [`Stmt::Send`](rungc_ir::node::Stmt::Send).
+    /// Writes a [`Action::Send`](rungc_ir::node::Action::Send).
     pub fn send(&mut self, code: &mut Code, send: &Send) {
         self.operand_call(code, "send", (send.wide, send.step), &send.to);
         code.comma();

@@ -6,7 +6,7 @@ use crate::page::Page;
 use crate::writer::{Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
-use rungc_ir::node::{Edge, ExprId, LabelId, SetEntry, Stmt, TableId, TempId};
+use rungc_ir::node::{Action, Edge, ExprId, LabelId, SetEntry, Stmt, TableId, TempId};
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
@@ -99,71 +99,16 @@ impl Writer<'_, '_> {
 
     /// The last line of a statement; those before it are written.
     fn code(&mut self, page: &mut Page, stmt: &Stmt) -> Code {
-        let module = self.module;
         let mut code = Code::new();
         match stmt {
-            Stmt::Let(temp, value) => self.let_temp(&mut code, *temp, *value),
-            Stmt::Edge(edge) => self.edge(&mut code, edge),
-            Stmt::SetFlag(flag, on) => self.set(&mut code, &module.flags[*flag].name, *on),
-            Stmt::SetCell(cell, value) => self.set(&mut code, &module.cells[*cell].name, *value),
-            Stmt::SetEntry(SetEntry {
-                table,
-                index,
-                value,
-            }) => {
-                self.set_entry(&mut code, *table, *index, *value);
-            }
-            Stmt::Write(access, value) => self.write(&mut code, access, *value),
-            Stmt::Timer(coil) => self.timer(&mut code, coil),
-            Stmt::TimerAt(coil) | Stmt::Counter16At(coil) => self.indexed_coil(&mut code, coil),
-            Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(&mut code, *number, *kind),
-            Stmt::Counter16(coil) => {
-                let arguments = [coil.drive, coil.preset];
-                self.counter(&mut code, "plc_count16", coil.number, &arguments);
-            }
-            Stmt::Counter32(coil) => {
-                let arguments = [coil.drive, coil.down, coil.preset];
-                self.counter(&mut code, "plc_count32", coil.number, &arguments);
-            }
-            Stmt::Count(count) => {
-                let arguments = [count.down, count.preset];
-                self.counter(&mut code, "plc_count32_once", count.number, &arguments);
-            }
-            Stmt::Reset(place) => self.reset(&mut code, place),
-            Stmt::Block(block) => self.block(&mut code, *block),
+            Stmt::Do(action) => self.action(page, &mut code, action),
             Stmt::CallSub(function) => {
-                function_name(code.text(), module, *function as usize);
+                function_name(code.text(), self.module, *function as usize);
                 code.push_str("(plc);");
             }
             Stmt::Return => code.push_str(self.leave()),
             Stmt::Goto(label) => self.goto(&mut code, *label),
-            Stmt::Call(call) => self.runtime_call(&mut code, call),
-            Stmt::Fetch(fetch) => {
-                if self.plan.temp(fetch.there).used > 0 {
-                    code.push_str(&self.assigned_temp(fetch.there));
-                }
-                self.fetch(&mut code, fetch);
-            }
-            Stmt::Send(send) => self.send(&mut code, send),
-            Stmt::Fault { code: fault, step } => {
-                let _ = write!(code.text(), "{}_fault", module.name);
-                code.open("(plc");
-                code.argument(fault);
-                code.argument(*step as u16);
-                code.close(");");
-            }
             Stmt::Watch { steps, at } => self.watch(page, *steps, *at),
-            Stmt::Stop => {
-                page.line("plc->error.stop = PLC_STOP_M8037;");
-                let _ = write!(code.text(), "{}_set_running", module.name);
-                code.open("(plc");
-                code.argument("false");
-                code.close(");");
-            }
-            Stmt::Clear { latched } => {
-                let what = if *latched { "latched" } else { "general" };
-                let _ = write!(code.text(), "{}_clear_{what}(plc);", module.name);
-            }
             // Written as nodes.
             Stmt::Network(_)
             | Stmt::If(_)
@@ -172,5 +117,67 @@ impl Writer<'_, '_> {
             | Stmt::Parts(_) => {}
         }
         code
+    }
+
+    /// The last line of an action; those before it are written.
+    fn action(&mut self, page: &mut Page, code: &mut Code, action: &Action) {
+        let module = self.module;
+        match action {
+            Action::Let(temp, value) => self.let_temp(code, *temp, *value),
+            Action::Edge(edge) => self.edge(code, edge),
+            Action::SetFlag(flag, on) => self.set(code, &module.flags[*flag].name, *on),
+            Action::SetCell(cell, value) => self.set(code, &module.cells[*cell].name, *value),
+            Action::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
+                self.set_entry(code, *table, *index, *value);
+            }
+            Action::Write(access, value) => self.write(code, access, *value),
+            Action::Timer(coil) => self.timer(code, coil),
+            Action::TimerAt(coil) | Action::Counter16At(coil) => self.indexed_coil(code, coil),
+            Action::TimerGoesOn { number, kind } => self.timer_goes_on(code, *number, *kind),
+            Action::Counter16(coil) => {
+                let arguments = [coil.drive, coil.preset];
+                self.counter(code, "plc_count16", coil.number, &arguments);
+            }
+            Action::Counter32(coil) => {
+                let arguments = [coil.drive, coil.down, coil.preset];
+                self.counter(code, "plc_count32", coil.number, &arguments);
+            }
+            Action::Count(count) => {
+                let arguments = [count.down, count.preset];
+                self.counter(code, "plc_count32_once", count.number, &arguments);
+            }
+            Action::Reset(place) => self.reset(code, place),
+            Action::Block(block) => self.block(code, *block),
+            Action::Call(call) => self.runtime_call(code, call),
+            Action::Fetch(fetch) => {
+                if self.plan.temp(fetch.there).used > 0 {
+                    code.push_str(&self.assigned_temp(fetch.there));
+                }
+                self.fetch(code, fetch);
+            }
+            Action::Send(send) => self.send(code, send),
+            Action::Fault { code: fault, step } => {
+                let _ = write!(code.text(), "{}_fault", module.name);
+                code.open("(plc");
+                code.argument(fault);
+                code.argument(*step as u16);
+                code.close(");");
+            }
+            Action::Stop => {
+                page.line("plc->error.stop = PLC_STOP_M8037;");
+                let _ = write!(code.text(), "{}_set_running", module.name);
+                code.open("(plc");
+                code.argument("false");
+                code.close(");");
+            }
+            Action::Clear { latched } => {
+                let what = if *latched { "latched" } else { "general" };
+                let _ = write!(code.text(), "{}_clear_{what}(plc);", module.name);
+            }
+        }
     }
 }

@@ -15,7 +15,7 @@ use rungc_emit::storage::Storage;
 use rungc_emit::temps::Home;
 use rungc_emit::timers::Coils;
 use rungc_ir::Module;
-use rungc_ir::node::{Edge, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
+use rungc_ir::node::{Action, Edge, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -172,7 +172,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 continue;
             }
             // An edge within an expression would be a call whose result `&` joins, for which compilers warn.
-            if let (Node::Stmt(Stmt::Edge(edge)), Some(next)) = (node, nodes.get(i))
+            if let (Node::Stmt(Stmt::Do(Action::Edge(edge))), Some(next)) = (node, nodes.get(i))
                 && let Some(Asker::Whole(asker)) =
                     asker(self.module, self.plan, self.fields, edge, next)
             {

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::storage::{Field, Kind};
 use rungc_ir::node::{
-    Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
+    Action, Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
 };
 use rungc_ir::reach;
 use rungc_ir::walk::has_many_timers;
@@ -184,8 +184,9 @@ impl Generator<'_> {
         let (mut timers, mut counters) = (false, false);
         for function in &self.module.functions {
             rungc_ir::walk::statements(&function.body, &mut |stmt| {
-                timers |= matches!(stmt, Stmt::TimerAt(coil) if self.is_indexed(coil.place));
-                counters |= matches!(stmt, Stmt::Counter16At(coil) if self.is_indexed(coil.place));
+                timers |=
+                    matches!(stmt, Stmt::Do(Action::TimerAt(coil)) if self.is_indexed(coil.place));
+                counters |= matches!(stmt, Stmt::Do(Action::Counter16At(coil)) if self.is_indexed(coil.place));
             });
         }
         if timers {

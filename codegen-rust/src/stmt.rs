@@ -10,7 +10,7 @@ use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
-use rungc_ir::node::{Block, Edge, Expr, ExprId, LabelId, Place, SetEntry, Stmt};
+use rungc_ir::node::{Action, Block, Edge, Expr, ExprId, LabelId, Place, SetEntry, Stmt};
 use rungc_rt::EdgeKind;
 use rungc_syntax::text::one_line;
 use std::rc::Rc;
@@ -28,7 +28,7 @@ impl Generator<'_> {
             }
             self.named.clear();
             body.code(self.name_parts(&node.roots()));
-            if let (Node::Stmt(Stmt::Edge(edge)), Some(next)) = (node, next)
+            if let (Node::Stmt(Stmt::Do(Action::Edge(edge))), Some(next)) = (node, next)
                 && let Some(Asker::Whole(asker) | Asker::Operand(asker)) =
                     asker(self.module, &plan, &self.storage, edge, next)
             {
@@ -86,20 +86,39 @@ impl Generator<'_> {
 
     fn statement(&mut self, stmt: &Stmt) -> TokenStream {
         match stmt {
-            Stmt::Let(temp, value) => self.assign_temp(*temp, *value),
-            Stmt::Edge(edge) => {
+            Stmt::Do(action) => self.action(action),
+            Stmt::CallSub(root) => self.call_sub(*root as usize),
+            Stmt::Return => self.return_statement(),
+            Stmt::Goto(label) => {
+                let state = self.label_state(*label);
+                quote!(return Some(#state);)
+            }
+            Stmt::Watch { steps, at } => self.watch(*steps, *at),
+            // Written as nodes.
+            Stmt::Network(_)
+            | Stmt::If(_)
+            | Stmt::For { .. }
+            | Stmt::Repeat(_)
+            | Stmt::Parts(_) => TokenStream::new(),
+        }
+    }
+
+    fn action(&mut self, action: &Action) -> TokenStream {
+        match action {
+            Action::Let(temp, value) => self.assign_temp(*temp, *value),
+            Action::Edge(edge) => {
                 let changed = self.edge(edge);
                 self.bind(edge.out, changed)
             }
-            Stmt::SetFlag(flag, value) => {
+            Action::SetFlag(flag, value) => {
                 let (flag, value) = (self.flag(*flag), self.expr(*value));
                 quote!(plc.#flag = #value;)
             }
-            Stmt::SetCell(cell, value) => {
+            Action::SetCell(cell, value) => {
                 let (cell, value) = (self.cell(*cell), self.expr(*value));
                 quote!(plc.#cell = #value;)
             }
-            Stmt::SetEntry(SetEntry {
+            Action::SetEntry(SetEntry {
                 table,
                 index,
                 value,
@@ -108,39 +127,26 @@ impl Generator<'_> {
                 let value = self.expr(*value);
                 quote!(plc.#table[#index as usize] = #value;)
             }
-            Stmt::Write(access, value) => self.write(*access, *value),
-            Stmt::Timer(coil) => self.timer(coil),
-            Stmt::TimerAt(coil) => self.indexed_coil(OUT_TIMER, coil),
-            Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(*number, *kind),
-            Stmt::Counter16(coil) => self.counter16(coil),
-            Stmt::Counter16At(coil) => self.indexed_coil(OUT_COUNTER, coil),
-            Stmt::Counter32(coil) => self.counter32(coil),
-            Stmt::Count(count) => self.count(count),
-            Stmt::Reset(place) => self.reset(*place),
-            Stmt::Block(block) => self.block(block),
-            Stmt::CallSub(root) => self.call_sub(*root as usize),
-            Stmt::Return => self.return_statement(),
-            Stmt::Goto(label) => {
-                let state = self.label_state(*label);
-                quote!(return Some(#state);)
-            }
-            Stmt::Call(call) => self.call(call),
-            Stmt::Fetch(fetch) => self.fetch(fetch),
-            Stmt::Send(send) => self.send(send),
-            Stmt::Fault { code, step } => self.fault(*code, *step),
-            Stmt::Watch { steps, at } => self.watch(*steps, *at),
-            Stmt::Stop => {
+            Action::Write(access, value) => self.write(*access, *value),
+            Action::Timer(coil) => self.timer(coil),
+            Action::TimerAt(coil) => self.indexed_coil(OUT_TIMER, coil),
+            Action::TimerGoesOn { number, kind } => self.timer_goes_on(*number, *kind),
+            Action::Counter16(coil) => self.counter16(coil),
+            Action::Counter16At(coil) => self.indexed_coil(OUT_COUNTER, coil),
+            Action::Counter32(coil) => self.counter32(coil),
+            Action::Count(count) => self.count(count),
+            Action::Reset(place) => self.reset(*place),
+            Action::Block(block) => self.block(block),
+            Action::Call(call) => self.call(call),
+            Action::Fetch(fetch) => self.fetch(fetch),
+            Action::Send(send) => self.send(send),
+            Action::Fault { code, step } => self.fault(*code, *step),
+            Action::Stop => {
                 let (program, stop) = (self.rt("Program"), self.rt("Stop"));
                 quote!(plc.error.stop = #stop::Program; #program::set_running(plc, false);)
             }
-            Stmt::Clear { latched: false } => quote!(plc.clear_general();),
-            Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
-            // Written as nodes.
-            Stmt::Network(_)
-            | Stmt::If(_)
-            | Stmt::For { .. }
-            | Stmt::Repeat(_)
-            | Stmt::Parts(_) => TokenStream::new(),
+            Action::Clear { latched: false } => quote!(plc.clear_general();),
+            Action::Clear { latched: true } => quote!(plc.clear_latched();),
         }
     }
 

@@ -6,7 +6,7 @@ use rungc_emit::plan::{Flow, Node, Plan};
 use rungc_emit::storage::Storage;
 use rungc_emit::temps::Home;
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
+use rungc_ir::node::{AccessKind, Action, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_ir::walk::{assigned, operands};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -167,7 +167,9 @@ impl<'a, 'm> Classes<'a, 'm> {
     fn slices_in_loop(&self, node: &Node) -> bool {
         let coil = matches!(
             node,
-            Node::Stmt(Stmt::Timer(_) | Stmt::Counter16(_) | Stmt::Counter32(_) | Stmt::Reset(_))
+            Node::Stmt(Stmt::Do(
+                Action::Timer(_) | Action::Counter16(_) | Action::Counter32(_) | Action::Reset(_)
+            ))
         );
         !coil
             && self.slices(node)
@@ -177,47 +179,33 @@ impl<'a, 'm> Classes<'a, 'm> {
                 .all(|node| self.slices_in_loop(node))
     }
 
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "what is not known to run on whole lanes runs on each lane"
+    )]
     fn slices_stmt(&self, stmt: &Stmt) -> bool {
-        match stmt {
-            Stmt::Network(_) => true,
-            Stmt::Let(temp, value) => self.in_lanes(*temp) && self.slices_expr(*value),
-            Stmt::Edge(edge) => self.in_lanes(edge.out) && self.slices_expr(edge.input),
-            Stmt::SetFlag(_, value) => self.slices_expr(*value),
-            Stmt::Write(access, value) => {
+        let Stmt::Do(action) = stmt else {
+            return matches!(stmt, Stmt::Network(_));
+        };
+        match action {
+            Action::Let(temp, value) => self.in_lanes(*temp) && self.slices_expr(*value),
+            Action::Edge(edge) => self.in_lanes(edge.out) && self.slices_expr(edge.input),
+            Action::SetFlag(_, value) => self.slices_expr(*value),
+            Action::Write(access, value) => {
                 access.kind == AccessKind::Bit
                     && !matches!(access.place.class, DeviceClass::T | DeviceClass::C)
                     && self.has_lanes(access.place)
                     && self.slices_expr(*value)
             }
-            Stmt::Timer(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
-            Stmt::Counter16(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
-            Stmt::Counter32(coil) => {
+            Action::Timer(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
+            Action::Counter16(coil) => self.slices_expr(coil.drive) && self.is_single(coil.preset),
+            Action::Counter32(coil) => {
                 self.slices_expr(coil.drive)
                     && self.slices_expr(coil.down)
                     && self.is_single(coil.preset)
             }
-            Stmt::Reset(place) => place.index.is_none(),
-            Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Block(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16At(_)
-            | Stmt::Count(_)
-            | Stmt::If(_)
-            | Stmt::For { .. }
-            | Stmt::Repeat(_)
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => false,
+            Action::Reset(place) => place.index.is_none(),
+            _ => false,
         }
     }
 

@@ -4,7 +4,7 @@ use crate::fields::{PrintField, PrintStorage};
 use rungc_emit::plan::{Node, Plan};
 use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::Module;
-use rungc_ir::node::{Edge, EdgeId, Expr, ExprId, FlagId, Place, Stmt};
+use rungc_ir::node::{Action, Edge, EdgeId, Expr, ExprId, FlagId, Place, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::operands;
 use rungc_models::runs::FIRST_SPECIAL;
@@ -81,13 +81,15 @@ impl Meeting<'_, '_> {
         // The effect of a coil and RST on a timer or counter is known where its own coil is printed.
         let coil = matches!(
             stmt,
-            Stmt::Timer(_)
-                | Stmt::TimerAt(_)
-                | Stmt::TimerGoesOn { .. }
-                | Stmt::Counter16(_)
-                | Stmt::Counter32(_)
-                | Stmt::Counter16At(_)
-                | Stmt::Reset(_)
+            Stmt::Do(
+                Action::Timer(_)
+                    | Action::TimerAt(_)
+                    | Action::TimerGoesOn { .. }
+                    | Action::Counter16(_)
+                    | Action::Counter32(_)
+                    | Action::Counter16At(_)
+                    | Action::Reset(_)
+            )
         );
         let mut found = Vec::new();
         of_stmt(module.model, stmt, &mut |used| found.push(used));
@@ -98,12 +100,14 @@ impl Meeting<'_, '_> {
             self.device(class, number, true);
         };
         match *stmt {
-            Stmt::Timer(coil) => fixed(DeviceClass::T, coil.number),
-            Stmt::TimerGoesOn { number, .. } => fixed(DeviceClass::T, number),
-            Stmt::Counter16(coil) => fixed(DeviceClass::C, coil.number),
-            Stmt::Counter32(coil) => fixed(DeviceClass::C, coil.number),
-            Stmt::Edge(Edge { memory, index, .. }) => self.edges(memory, index.is_some()),
-            Stmt::SetFlag(flag, _) => {
+            Stmt::Do(Action::Timer(coil)) => fixed(DeviceClass::T, coil.number),
+            Stmt::Do(Action::TimerGoesOn { number, .. }) => fixed(DeviceClass::T, number),
+            Stmt::Do(Action::Counter16(coil)) => fixed(DeviceClass::C, coil.number),
+            Stmt::Do(Action::Counter32(coil)) => fixed(DeviceClass::C, coil.number),
+            Stmt::Do(Action::Edge(Edge { memory, index, .. })) => {
+                self.edges(memory, index.is_some())
+            }
+            Stmt::Do(Action::SetFlag(flag, _)) => {
                 self.met.flags.insert(flag);
             }
             Stmt::CallSub(root) => {
@@ -117,29 +121,17 @@ impl Meeting<'_, '_> {
                     .for_each(|f| self.function(f));
             }
             // The special devices that show an error, and all that is cleared.
-            Stmt::Fault { .. } => self.all(FIRST_SPECIAL),
-            Stmt::Clear { .. } => self.all(0),
+            Stmt::Do(Action::Fault { .. }) => self.all(FIRST_SPECIAL),
+            Stmt::Do(Action::Clear { .. }) => self.all(0),
             Stmt::Network(_)
-            | Stmt::Let(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Block(_)
-            | Stmt::TimerAt(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
+            | Stmt::Do(_)
             | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
             | Stmt::Return
             | Stmt::Parts(_)
             | Stmt::Goto(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Watch { .. }
-            | Stmt::Stop => {}
+            | Stmt::Watch { .. } => {}
         }
     }
 

@@ -17,7 +17,7 @@ pub use text::{header, source};
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk::{calls_runtime, statements};
 
 /// Number of instances in a `plc_lanes` of `rungc_lanes.h`.
@@ -43,7 +43,7 @@ pub fn refusal(module: &Module) -> Option<&'static str> {
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             calls |= calls_runtime(stmt);
-            stops |= matches!(stmt, Stmt::Stop);
+            stops |= matches!(stmt, Stmt::Do(Action::Stop));
         });
     }
     let commanded = cycle::run_command(module, &Storage::new(module)).is_some();

@@ -13,7 +13,8 @@ use rungc_emit::plan::{Node, Stations};
 use rungc_emit::temps::Home;
 use rungc_emit::{parts, stations};
 use rungc_ir::node::{
-    Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Place, Stmt, SysValue, TempId, TimerCoil, Ty,
+    Action, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Place, Stmt, SysValue, TempId,
+    TimerCoil, Ty,
 };
 use rungc_ir::walk::assigned;
 use rungc_rt::EdgeKind;
@@ -287,32 +288,37 @@ impl<'a, 'm> Slicer<'a, 'm> {
     }
 
     /// Writes a statement that [`Classes`] lets run on whole lanes.
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "others do not run on whole lanes"
+    )]
     fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
         let mask = self.mask.clone();
-        if let Stmt::Let(temp, value) = *stmt {
-            if self.classes.plan.temp(temp).used > 0 {
+        let Stmt::Do(action) = stmt else {
+            return;
+        };
+        match action {
+            &Action::Let(temp, value) if self.classes.plan.temp(temp).used > 0 => {
                 let value = self.bits(page, value, mask.as_deref());
                 self.let_temp(page, temp, &value);
             }
-        } else if let Stmt::Edge(edge) = stmt {
-            self.edge(page, edge);
-        } else if let Stmt::SetFlag(flag, value) = *stmt {
-            let value = self.bits(page, value, mask.as_deref());
-            let flag = format!("all->{}", self.classes.module.flags[flag].name);
-            self.put(page, &flag, &value);
-        } else if let Stmt::Write(access, value) = *stmt {
-            if let Some(target) = self.place(&access.place) {
+            Action::Edge(edge) => self.edge(page, edge),
+            &Action::SetFlag(flag, value) => {
                 let value = self.bits(page, value, mask.as_deref());
-                self.put(page, &target, &value);
+                let flag = format!("all->{}", self.classes.module.flags[flag].name);
+                self.put(page, &flag, &value);
             }
-        } else if let Stmt::Timer(coil) = stmt {
-            self.timer(page, coil);
-        } else if let Stmt::Counter16(coil) = stmt {
-            self.counter16(page, coil);
-        } else if let Stmt::Counter32(coil) = stmt {
-            self.counter32(page, coil);
-        } else if let Stmt::Reset(place) = stmt {
-            self.reset(page, place);
+            &Action::Write(access, value) => {
+                if let Some(target) = self.place(&access.place) {
+                    let value = self.bits(page, value, mask.as_deref());
+                    self.put(page, &target, &value);
+                }
+            }
+            Action::Timer(coil) => self.timer(page, coil),
+            Action::Counter16(coil) => self.counter16(page, coil),
+            Action::Counter32(coil) => self.counter32(page, coil),
+            Action::Reset(place) => self.reset(page, place),
+            _ => {}
         }
     }
 

@@ -11,7 +11,7 @@ use crate::expr::Around;
 use crate::fields::{PrintField, PrintStorage};
 use crate::writer::Writer;
 use rungc_emit::plan::Node;
-use rungc_ir::node::{Expr, Stmt, TimerCoil};
+use rungc_ir::node::{Action, Expr, Stmt, TimerCoil};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
 use rungc_syntax::DeviceClass;
@@ -61,7 +61,7 @@ pub(super) fn waiting(classes: &Classes, writer: &mut Writer) -> BTreeMap<u32, W
 fn always(classes: &Classes, nodes: &[Node], found: &mut BTreeMap<u32, TimerCoil>) {
     for (node, sliced) in nodes.iter().zip(classes.of_nodes(nodes)) {
         match node {
-            Node::Stmt(Stmt::Timer(coil)) if sliced => {
+            Node::Stmt(Stmt::Do(Action::Timer(coil))) if sliced => {
                 found.insert(coil.number, *coil);
             }
             Node::Outlined(function) if sliced => {
@@ -86,11 +86,11 @@ fn seen(classes: &Classes) -> Option<BTreeSet<u32>> {
     let mut clears = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            if let Stmt::Timer(coil) = stmt {
+            if let Stmt::Do(Action::Timer(coil)) = stmt {
                 if !coils.insert(coil.number) {
                     seen.insert(coil.number);
                 }
-            } else if matches!(stmt, Stmt::Clear { .. }) {
+            } else if matches!(stmt, Stmt::Do(Action::Clear { .. })) {
                 clears = true;
             } else {
                 of_stmt(module.model, stmt, &mut |used| footprints.push(used));

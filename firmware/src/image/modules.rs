@@ -3,7 +3,7 @@
 use super::Image;
 use crate::board::AnalogPin;
 use rungc_ir::Module;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk;
 use rungc_rt::RtFn;
 use rungc_rt::modules::Kind;
@@ -29,8 +29,8 @@ fn asks_hardware(module: &Module) -> bool {
     for function in &module.functions {
         walk::statements(&function.body, &mut |stmt| {
             asks |= match stmt {
-                Stmt::Call(call) => call.function.needs().hal,
-                Stmt::Fetch(_) | Stmt::Send(_) => true,
+                Stmt::Do(Action::Call(call)) => call.function.needs().hal,
+                Stmt::Do(Action::Fetch(_) | Action::Send(_)) => true,
                 _ => false,
             };
         });
@@ -43,7 +43,8 @@ fn puts_out(module: &Module) -> bool {
     let mut does = false;
     for function in &module.functions {
         walk::statements(&function.body, &mut |stmt| {
-            does |= matches!(stmt, Stmt::Call(call) if call.function == RtFn::Wr3aBoard);
+            does |=
+                matches!(stmt, Stmt::Do(Action::Call(call)) if call.function == RtFn::Wr3aBoard);
         });
     }
     does

@@ -51,6 +51,10 @@ fn result(op: BinOp, (a0, a1): Bounds, (b0, b1): Bounds) -> Option<Bounds> {
 }
 
 /// Bounds of an integer expression, looking at most `depth` operators deep.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "others have the bounds of their types"
+)]
 pub fn of(module: &Module, e: ExprId, depth: u32) -> Bounds {
     let of_type = if module.ty(e) == Ty::I16 { I16 } else { I32 };
     match *module.expr(e) {
@@ -79,25 +83,6 @@ pub fn of(module: &Module, e: ExprId, depth: u32) -> Bounds {
             let bounds = result(op, a, b).filter(|&bounds| fits(bounds));
             bounds.unwrap_or(I32)
         }
-        Expr::Bit(_)
-        | Expr::F32(_)
-        | Expr::Temp(_)
-        | Expr::Sys(_)
-        | Expr::Flag(_)
-        | Expr::Cell(_)
-        | Expr::Entry(..)
-        | Expr::Stride(..)
-        | Expr::Not(_)
-        | Expr::And(..)
-        | Expr::Or(..)
-        | Expr::Cmp(..)
-        | Expr::Bin(..)
-        | Expr::Un(..)
-        | Expr::Float(..)
-        | Expr::Complement(_)
-        | Expr::Neg(_)
-        | Expr::Narrow(_)
-        | Expr::HighWord(_)
-        | Expr::InRange { .. } => of_type,
+        _ => of_type,
     }
 }

@@ -1,6 +1,8 @@
 //! Comments on emitted code.
 
-use rungc_ir::node::{Access, Count, Counter16Coil, Counter32Coil, Network, Stmt, TimerCoil};
+use rungc_ir::node::{
+    Access, Action, Count, Counter16Coil, Counter32Coil, Network, Stmt, TimerCoil,
+};
 use rungc_syntax::DeviceClass;
 
 /// The heading of a network. `clean` makes a user's text safe in a comment.
@@ -21,39 +23,24 @@ pub const PARTS: &str = "The jumps here do not nest, so the stretches between la
 pub const ONE_PART: &str = "A jump back repeats it.";
 
 /// The device that a statement writes, if it is known: its comment is beside the statement.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "others write no device that is known"
+)]
 pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
-    match stmt {
-        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
+    let Stmt::Do(action) = stmt else {
+        return None;
+    };
+    match action {
+        Action::Timer(TimerCoil { number, .. }) | Action::TimerGoesOn { number, .. } => {
             Some((DeviceClass::T, *number))
         }
-        Stmt::Counter16(Counter16Coil { number, .. })
-        | Stmt::Counter32(Counter32Coil { number, .. })
-        | Stmt::Count(Count { number, .. }) => Some((DeviceClass::C, *number)),
-        Stmt::Write(Access { place, .. }, _) | Stmt::Reset(place) => {
+        Action::Counter16(Counter16Coil { number, .. })
+        | Action::Counter32(Counter32Coil { number, .. })
+        | Action::Count(Count { number, .. }) => Some((DeviceClass::C, *number)),
+        Action::Write(Access { place, .. }, _) | Action::Reset(place) => {
             place.index.is_none().then_some((place.class, place.number))
         }
-        Stmt::Network(_)
-        | Stmt::Block(_)
-        | Stmt::Let(..)
-        | Stmt::Edge(_)
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::TimerAt(_)
-        | Stmt::Counter16At(_)
-        | Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Call(_)
-        | Stmt::Fetch(_)
-        | Stmt::Send(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => None,
+        _ => None,
     }
 }

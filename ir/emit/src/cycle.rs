@@ -3,7 +3,7 @@
 use crate::plan::{Plan, statements};
 use crate::storage::Storage;
 use rungc_ir::Module;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_models::Model;
 use rungc_models::special::{ConstantScan, RunCommand, SpecialDevice};
 use rungc_rt::RtFn;
@@ -17,11 +17,11 @@ use rungc_syntax::DeviceClass;
 /// Services that the statements of a program request.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 pub struct Asked {
-    /// Clears the general devices ([`Stmt::Clear`]).
+    /// Clears the general devices ([`Action::Clear`]).
     pub clears_general: bool,
     /// Clears the latched devices.
     pub clears_latched: bool,
-    /// Reports operation errors that it finds itself ([`Stmt::Fault`]).
+    /// Reports operation errors that it finds itself ([`Action::Fault`]).
     pub faults: bool,
 }
 
@@ -31,9 +31,9 @@ impl Asked {
         let mut asked = Asked::default();
         for function in &plan.functions {
             statements(&function.body, &mut |stmt| {
-                asked.clears_general |= matches!(stmt, Stmt::Clear { latched: false });
-                asked.clears_latched |= matches!(stmt, Stmt::Clear { latched: true });
-                asked.faults |= matches!(stmt, Stmt::Fault { .. });
+                asked.clears_general |= matches!(stmt, Stmt::Do(Action::Clear { latched: false }));
+                asked.clears_latched |= matches!(stmt, Stmt::Do(Action::Clear { latched: true }));
+                asked.faults |= matches!(stmt, Stmt::Do(Action::Fault { .. }));
             });
         }
         asked
@@ -84,7 +84,8 @@ fn calls_any(module: &Module, functions: &[RtFn]) -> bool {
     let mut calls = false;
     for function in &module.functions {
         rungc_ir::walk::statements(&function.body, &mut |stmt| {
-            calls |= matches!(stmt, Stmt::Call(call) if functions.contains(&call.function));
+            calls |=
+                matches!(stmt, Stmt::Do(Action::Call(call)) if functions.contains(&call.function));
         });
     }
     calls

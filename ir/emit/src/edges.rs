@@ -6,7 +6,7 @@ use crate::storage::Storage;
 use crate::temps::Home;
 use rungc_ir::Module;
 use rungc_ir::node::{
-    AccessKind, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Stmt, TempId, TimerCoil,
+    AccessKind, Action, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Stmt, TempId, TimerCoil,
 };
 
 /// User of an edge.
@@ -35,16 +35,16 @@ pub fn asker(
         Node::If { cond: value, .. } => {
             whole(is_it, *value).or_else(|| operand(module, *value, edge.out))
         }
-        Node::Stmt(Stmt::Write(access, value)) if access.kind == AccessKind::Bit => {
+        Node::Stmt(Stmt::Do(Action::Write(access, value))) if access.kind == AccessKind::Bit => {
             let (class, number) = access.device()?;
             storage.find(class, number)?;
             whole(is_it, *value).or_else(|| operand(module, *value, edge.out))
         }
-        Node::Stmt(
-            Stmt::Timer(TimerCoil { drive, .. })
-            | Stmt::Counter16(Counter16Coil { drive, .. })
-            | Stmt::Counter32(Counter32Coil { drive, .. }),
-        ) => whole(is_it, *drive),
+        Node::Stmt(Stmt::Do(
+            Action::Timer(TimerCoil { drive, .. })
+            | Action::Counter16(Counter16Coil { drive, .. })
+            | Action::Counter32(Counter32Coil { drive, .. }),
+        )) => whole(is_it, *drive),
         Node::Stmt(_)
         | Node::For { .. }
         | Node::Repeat(_)

@@ -1,7 +1,7 @@
 //! Events outside the scan, and the parts of the program that react to them.
 
 use rungc_ir::Module;
-use rungc_ir::node::{Cell, FunctionKind, Stmt};
+use rungc_ir::node::{Action, Cell, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::EdgeKind;
 use std::collections::BTreeSet;
@@ -41,7 +41,7 @@ pub fn set_outside(module: &Module) -> BTreeSet<usize> {
     let mut found: BTreeSet<usize> = BTreeSet::new();
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {
-            if let Stmt::SetFlag(flag, _) = stmt {
+            if let Stmt::Do(Action::SetFlag(flag, _)) = stmt {
                 found.insert(usize::from(*flag));
             }
         });
@@ -60,7 +60,7 @@ pub fn edges_only_note(module: &Module) -> bool {
     let mut only = true;
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {
-            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If(_));
+            only &= matches!(stmt, Stmt::Do(Action::SetFlag(..)) | Stmt::If(_));
         });
     }
     only

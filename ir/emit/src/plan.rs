@@ -419,29 +419,7 @@ impl<'m> Builder<'m> {
                 leaves.labels.insert(*label);
                 Node::Stmt(stmt)
             }
-            Stmt::Network(_)
-            | Stmt::Let(..)
-            | Stmt::Edge(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Block(_)
-            | Stmt::CallSub(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => Node::Stmt(stmt),
+            Stmt::Network(_) | Stmt::Do(_) | Stmt::CallSub(_) => Node::Stmt(stmt),
         };
         Item {
             node,

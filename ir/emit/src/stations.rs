@@ -4,7 +4,7 @@ use crate::measure;
 use crate::plan::{Node, Stations};
 use crate::storage::{Kind, Storage};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, ExprId, Stmt};
+use rungc_ir::node::{AccessKind, Action, ExprId, Stmt};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeSet, HashSet};
 
@@ -36,7 +36,7 @@ pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BT
 fn collect(nodes: &[Node], roots: &mut Vec<ExprId>, written: &mut HashSet<Device>) {
     for node in nodes {
         roots.extend(node.roots());
-        if let Node::Stmt(Stmt::Write(access, _)) = node
+        if let Node::Stmt(Stmt::Do(Action::Write(access, _))) = node
             && access.kind == AccessKind::Bit
         {
             written.insert((access.place.class, access.place.number));

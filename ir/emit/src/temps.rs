@@ -3,7 +3,7 @@
 use crate::measure::{self, Sizes};
 use crate::plan::{Function, Node};
 use rungc_ir::Module;
-use rungc_ir::node::{Edge, Expr, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{Action, Edge, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::{assigned, for_exprs};
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
@@ -150,7 +150,7 @@ impl Scopes<'_> {
 
     /// The name without numbers of the temporary to which a statement gives its value.
     fn prefix(&self, stmt: &Stmt, temp: TempId) -> &'static str {
-        if let Stmt::Edge(Edge { kind, input, .. }) = stmt {
+        if let Stmt::Do(Action::Edge(Edge { kind, input, .. })) = stmt {
             return match kind {
                 EdgeKind::Rising => "rising",
                 EdgeKind::Falling if *self.module.expr(*input) == Expr::Bit(false) => "taken",
@@ -158,7 +158,7 @@ impl Scopes<'_> {
             };
         }
         match self.module.temps.get(temp) {
-            _ if matches!(stmt, Stmt::Fetch(_)) => "fetched",
+            _ if matches!(stmt, Stmt::Do(Action::Fetch(_))) => "fetched",
             Some(Ty::F32) => "real",
             Some(Ty::I16 | Ty::I32) => "value",
             Some(Ty::Bit) | None => "step",

@@ -3,7 +3,7 @@
 use crate::plan::{Node, Plan};
 use crate::storage::Storage;
 use rungc_ir::Module;
-use rungc_ir::node::{Expr, ExprId, IndexedCoil, Stmt, TimerCoil};
+use rungc_ir::node::{Action, Expr, ExprId, IndexedCoil, Stmt, TimerCoil};
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
@@ -54,10 +54,10 @@ impl Coils {
     fn count(&mut self, module: &Module, storage: &Storage, nodes: &[Node], iterations: u32) {
         for node in nodes {
             match node {
-                Node::Stmt(Stmt::Timer(TimerCoil { number, preset, .. })) => {
+                Node::Stmt(Stmt::Do(Action::Timer(TimerCoil { number, preset, .. }))) => {
                     *self.coils.entry(*number).or_default() += weight(module, *preset);
                 }
-                Node::Stmt(Stmt::TimerAt(IndexedCoil { place, preset, .. })) => {
+                Node::Stmt(Stmt::Do(Action::TimerAt(IndexedCoil { place, preset, .. }))) => {
                     match place.index.map(|index| module.expr(index)) {
                         Some(&Expr::Stride(_, by)) => {
                             for n in 0..iterations {

@@ -3,8 +3,9 @@
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, Block, Branch, Call, Count, Counter32Coil, Edge, EdgeId, ExprId,
-    Fetch, IndexedCoil, LabelId, Part, Place, Repeat, Send, SetEntry, Stmt, TempId, TimerCoil,
+    Access, AccessKind, Action, Arg, Block, Branch, Call, Count, Counter32Coil, Edge, EdgeId,
+    ExprId, Fetch, IndexedCoil, LabelId, Part, Place, Repeat, Send, SetEntry, Stmt, TempId,
+    TimerCoil,
 };
 use rungc_models::runs::rt_class;
 use rungc_rt::{
@@ -71,40 +72,7 @@ impl<'m> Machine<'m> {
     fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
         match stmt {
             Stmt::Network(_) => {}
-            &Stmt::Let(temp, value) => self.temps[temp] = self.eval(value),
-            Stmt::Edge(edge) => self.edge(edge),
-            &Stmt::SetFlag(flag, value) => self.flags[flag] = self.on(value),
-            &Stmt::SetCell(cell, value) => self.cells[cell] = int(self.eval(value)),
-            &Stmt::SetEntry(SetEntry {
-                table,
-                index,
-                value,
-            }) => {
-                let index = int(self.eval(index));
-                self.tables[table][index as usize] = int(self.eval(value));
-            }
-            &Stmt::Write(access, value) => self.write(access, value),
-            Stmt::Timer(coil) => self.timer(coil),
-            Stmt::TimerAt(coil) => self.timer_at(coil),
-            &Stmt::TimerGoesOn { number, kind } => {
-                if let Some(timer) = self.devices.timer(number) {
-                    timer.go_on(kind, &self.sys);
-                }
-            }
-            Stmt::Counter16(coil) => self.counter16(coil.number, coil.drive, coil.preset),
-            Stmt::Counter16At(coil) => {
-                if let Some((_, number)) = self.device(coil.place) {
-                    self.counter16(number, coil.drive, coil.preset);
-                }
-            }
-            Stmt::Counter32(coil) => self.counter32(coil),
-            Stmt::Count(count) => self.count(count),
-            &Stmt::Reset(place) => {
-                if let Some((class, number)) = self.device(place) {
-                    let _ = self.reset(class, number);
-                }
-            }
-            Stmt::Block(block) => self.block(block),
+            Stmt::Do(action) => self.action(action, hal),
             Stmt::If(Branch {
                 cond,
                 then,
@@ -127,22 +95,62 @@ impl<'m> Machine<'m> {
             Stmt::Return => return Flow::Return,
             Stmt::Parts(parts) => return self.run_parts(parts, hal),
             Stmt::Goto(label) => return Flow::Goto(*label),
-            Stmt::Call(call) => self.call(call, hal),
-            Stmt::Fetch(fetch) => self.fetch(fetch, hal),
-            Stmt::Send(send) => self.send(send, hal),
-            Stmt::Fault { code, step } => report(self, Fault(*code), *step),
             Stmt::Watch { steps, at } => {
                 if self.out_of_time(*steps, *at) {
                     return Flow::Return;
                 }
             }
-            Stmt::Stop => {
+        }
+        Flow::Next
+    }
+
+    /// Executes an action. Anything longer than a line is in a separate method.
+    fn action(&mut self, action: &'m Action, hal: &mut dyn Hal) {
+        match action {
+            &Action::Let(temp, value) => self.temps[temp] = self.eval(value),
+            Action::Edge(edge) => self.edge(edge),
+            &Action::SetFlag(flag, value) => self.flags[flag] = self.on(value),
+            &Action::SetCell(cell, value) => self.cells[cell] = int(self.eval(value)),
+            &Action::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
+                let index = int(self.eval(index));
+                self.tables[table][index as usize] = int(self.eval(value));
+            }
+            &Action::Write(access, value) => self.write(access, value),
+            Action::Timer(coil) => self.timer(coil),
+            Action::TimerAt(coil) => self.timer_at(coil),
+            &Action::TimerGoesOn { number, kind } => {
+                if let Some(timer) = self.devices.timer(number) {
+                    timer.go_on(kind, &self.sys);
+                }
+            }
+            Action::Counter16(coil) => self.counter16(coil.number, coil.drive, coil.preset),
+            Action::Counter16At(coil) => {
+                if let Some((_, number)) = self.device(coil.place) {
+                    self.counter16(number, coil.drive, coil.preset);
+                }
+            }
+            Action::Counter32(coil) => self.counter32(coil),
+            Action::Count(count) => self.count(count),
+            &Action::Reset(place) => {
+                if let Some((class, number)) = self.device(place) {
+                    let _ = self.reset(class, number);
+                }
+            }
+            Action::Block(block) => self.block(block),
+            Action::Call(call) => self.call(call, hal),
+            Action::Fetch(fetch) => self.fetch(fetch, hal),
+            Action::Send(send) => self.send(send, hal),
+            Action::Fault { code, step } => report(self, Fault(*code), *step),
+            Action::Stop => {
                 self.last_error.stop = Stop::Program;
                 rungc_rt::Program::set_running(self, false);
             }
-            Stmt::Clear { latched } => self.devices.clear(*latched),
+            Action::Clear { latched } => self.devices.clear(*latched),
         }
-        Flow::Next
     }
 
     /// Copies or fills a run of devices.

@@ -239,7 +239,7 @@ mod tests {
     use crate::Machine;
     use crate::devices::Devices;
     use rungc_ir::Module;
-    use rungc_ir::node::{Access, Expr, ExprId, Place, Stmt};
+    use rungc_ir::node::{Access, Action, Expr, ExprId, Place, Stmt};
     use rungc_models::{Model, ModelId};
     use rungc_rt::{Class, NoHal, Plc, Program};
     use rungc_syntax::DeviceClass;
@@ -263,7 +263,10 @@ mod tests {
 
     /// The main program writes the value to Y`number`.
     fn out(module: &mut Module, number: u32, value: ExprId) {
-        let coil = Stmt::Write(Access::bit(place(DeviceClass::Y, number)), value);
+        let coil = Stmt::Do(Action::Write(
+            Access::bit(place(DeviceClass::Y, number)),
+            value,
+        ));
         module.functions[1].body.push(coil);
     }
 

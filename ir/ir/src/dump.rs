@@ -5,9 +5,9 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Access, AccessKind, Arg, BinOp, Block, Body, Branch, Call, CellId, Count, Counter16Coil,
-    Counter32Coil, Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module,
-    Part, Place, Repeat, Send, SetEntry, Stmt, SysValue, TableId, TimerCoil,
+    Access, AccessKind, Action, Arg, BinOp, Block, Body, Branch, Call, CellId, Count,
+    Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind,
+    IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry, Stmt, SysValue, TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use std::fmt::Write as _;
@@ -106,27 +106,7 @@ impl Out<'_> {
     fn stmt(&mut self, stmt: &Stmt) {
         let line = match stmt {
             Stmt::Network(n) => self.network(*n),
-            Stmt::Let(temp, value) => format!("t{} = {}", temp.0, self.expr(*value)),
-            Stmt::Edge(edge) => self.edge(edge),
-            Stmt::SetFlag(flag, value) => self.assignment(self.flag(*flag), *value),
-            Stmt::SetCell(cell, value) => self.assignment(self.cell(*cell), *value),
-            Stmt::SetEntry(SetEntry {
-                table,
-                index,
-                value,
-            }) => self.assignment(self.entry(*table, *index), *value),
-            Stmt::Write(access, value) => self.assignment(self.access(access), *value),
-            Stmt::Timer(coil) => self.timer(coil),
-            Stmt::TimerAt(coil) => self.coil_at("timer", coil),
-            Stmt::TimerGoesOn { number, kind } => {
-                format!("timer T{number} {} continues", timer_text(kind))
-            }
-            Stmt::Counter16(coil) => self.counter16(coil),
-            Stmt::Counter16At(coil) => self.coil_at("counter", coil),
-            Stmt::Counter32(coil) => self.counter32(coil),
-            Stmt::Count(count) => self.count(count),
-            Stmt::Reset(place) => format!("reset {}", self.place(place)),
-            Stmt::Block(block) => self.run(block),
+            Stmt::Do(action) => self.action(action),
             Stmt::If(Branch {
                 cond,
                 then,
@@ -140,16 +120,42 @@ impl Out<'_> {
             Stmt::Return => "return".into(),
             Stmt::Parts(parts) => return self.parts(parts),
             Stmt::Goto(label) => format!("goto L{}", label.0),
-            Stmt::Call(call) => self.call(call),
-            Stmt::Fetch(fetch) => self.fetch(fetch),
-            Stmt::Send(send) => self.send(send),
-            Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
             Stmt::Watch { steps, at } => format!("watch {steps} steps at {at}"),
-            Stmt::Stop => "stop".into(),
-            Stmt::Clear { latched: true } => "clear latched".into(),
-            Stmt::Clear { latched: false } => "clear general".into(),
         };
         self.line(&line);
+    }
+
+    fn action(&self, action: &Action) -> String {
+        match action {
+            Action::Let(temp, value) => format!("t{} = {}", temp.0, self.expr(*value)),
+            Action::Edge(edge) => self.edge(edge),
+            Action::SetFlag(flag, value) => self.assignment(self.flag(*flag), *value),
+            Action::SetCell(cell, value) => self.assignment(self.cell(*cell), *value),
+            Action::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => self.assignment(self.entry(*table, *index), *value),
+            Action::Write(access, value) => self.assignment(self.access(access), *value),
+            Action::Timer(coil) => self.timer(coil),
+            Action::TimerAt(coil) => self.coil_at("timer", coil),
+            Action::TimerGoesOn { number, kind } => {
+                format!("timer T{number} {} continues", timer_text(kind))
+            }
+            Action::Counter16(coil) => self.counter16(coil),
+            Action::Counter16At(coil) => self.coil_at("counter", coil),
+            Action::Counter32(coil) => self.counter32(coil),
+            Action::Count(count) => self.count(count),
+            Action::Reset(place) => format!("reset {}", self.place(place)),
+            Action::Block(block) => self.run(block),
+            Action::Call(call) => self.call(call),
+            Action::Fetch(fetch) => self.fetch(fetch),
+            Action::Send(send) => self.send(send),
+            Action::Fault { code, step } => format!("fault {code} at step {step}"),
+            Action::Stop => "stop".into(),
+            Action::Clear { latched: true } => "clear latched".into(),
+            Action::Clear { latched: false } => "clear general".into(),
+        }
     }
 
     fn branches(&mut self, cond: ExprId, then: &Body, otherwise: &Body) {

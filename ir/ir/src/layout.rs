@@ -27,7 +27,7 @@ pub struct Area {
 }
 
 impl Area {
-    /// Returns true if M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); devices that
+    /// Returns true if M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Action::Clear`]); devices that
     /// M8031 clears are also cleared in STOP. Inputs and special devices are never cleared (h1u-h2u-programming §8.9).
     /// Cleared timers and counters forget their coil, too.
     pub fn is_cleared(&self, latched: bool) -> bool {

@@ -13,8 +13,8 @@
 //! # Devices
 //!
 //! What a program reads and writes of its devices is one notion, an [`Access`]: a [`Place`], with or without an index,
-//! and what of it, from a bit to several bit devices as a number. [`Expr::Read`] has the access's type, [`Stmt::Write`]
-//! takes a value of it. Coils of timers and counters, [`Stmt::Reset`], and calls of the runtime access devices, too;
+//! and what of it, from a bit to several bit devices as a number. [`Expr::Read`] has the access's type, [`Action::Write`]
+//! takes a value of it. Coils of timers and counters, [`Action::Reset`], and calls of the runtime access devices, too;
 //! [`crate::reach`] says for all of them which ones.
 //!
 //! # Order
@@ -27,12 +27,12 @@
 //! since they have no effects, a backend may leave one out.
 //!
 //! What would be undefined is kept out by the program itself: a divisor is tested before the division, an index by
-//! [`Expr::InRange`] before the access. Faults are [`Stmt::Fault`] or come from the runtime; they never leave a
+//! [`Expr::InRange`] before the access. Faults are [`Action::Fault`] or come from the runtime; they never leave a
 //! function.
 //!
 //! # Temporaries
 //!
-//! A value that is needed later as it is now is a temporary: [`Stmt::Let`], [`Stmt::Edge`] or [`Stmt::Fetch`] assigns
+//! A value that is needed later as it is now is a temporary: [`Action::Let`], [`Action::Edge`] or [`Action::Fetch`] assigns
 //! it, [`Expr::Temp`] reads it. It lives in one function, is assigned on every path before it is read, and holds the
 //! last value that was assigned. Where it is kept, as a local, in a field, or nowhere because its only use can stand in
 //! its place, is up to a backend.
@@ -40,7 +40,7 @@
 //! # What lasts
 //!
 //! Devices last from scan to scan, as [`crate::layout`] stores them. So do edge memories, [`Flag`]s, [`Cell`]s,
-//! [`Table`]s and the runtime's private memories ([`Stmt::Call`]); what each of them is when RUN begins is beside it.
+//! [`Table`]s and the runtime's private memories ([`Action::Call`]); what each of them is when RUN begins is beside it.
 //! Nothing else lasts.
 //!
 //! # Grids

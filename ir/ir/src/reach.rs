@@ -7,8 +7,8 @@
 //! of an index is known from [`Expr::Within`].
 
 use crate::node::{
-    Access, AccessKind, Arg, Count, Counter16Coil, Counter32Coil, Expr, ExprId, Fetch, IndexedCoil,
-    Module, Place, Send, Stmt, TimerCoil,
+    Access, AccessKind, Action, Arg, Count, Counter16Coil, Counter32Coil, Expr, ExprId, Fetch,
+    IndexedCoil, Module, Place, Send, Stmt, TimerCoil,
 };
 use crate::walk::statements;
 use rungc_models::Model;
@@ -106,30 +106,37 @@ pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Footprint)) {
     }
 }
 
-/// Reports the devices that a statement itself accesses, in addition to the reads of its expressions. The runtime may
-/// write the operands passed to it.
+/// Reports the devices that a statement itself accesses, as [`of_action`] does.
 pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
-    match *stmt {
-        Stmt::Write(access, _) => of_access(model, access, true, found),
-        Stmt::TimerAt(IndexedCoil { place, .. })
-        | Stmt::Counter16At(IndexedCoil { place, .. })
-        | Stmt::Reset(place) => found(Footprint::of(place, true)),
-        Stmt::Block(block) => {
+    if let Stmt::Do(action) = stmt {
+        of_action(model, action, found);
+    }
+}
+
+/// Reports the devices that an action accesses, in addition to the reads of its expressions. The runtime may write the
+/// operands passed to it.
+pub fn of_action(model: &Model, action: &Action, found: &mut impl FnMut(Footprint)) {
+    match *action {
+        Action::Write(access, _) => of_access(model, access, true, found),
+        Action::TimerAt(IndexedCoil { place, .. })
+        | Action::Counter16At(IndexedCoil { place, .. })
+        | Action::Reset(place) => found(Footprint::of(place, true)),
+        Action::Block(block) => {
             let (to, count) = block.written();
             found(Footprint::run(to, Some(count), true));
             if let Some(from) = block.source() {
                 found(Footprint::run(from, Some(count), false));
             }
         }
-        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
+        Action::Timer(TimerCoil { number, .. }) | Action::TimerGoesOn { number, .. } => {
             found(Footprint::of(Place::fixed(DeviceClass::T, number), true));
         }
-        Stmt::Counter16(Counter16Coil { number, .. })
-        | Stmt::Counter32(Counter32Coil { number, .. })
-        | Stmt::Count(Count { number, .. }) => {
+        Action::Counter16(Counter16Coil { number, .. })
+        | Action::Counter32(Counter32Coil { number, .. })
+        | Action::Count(Count { number, .. }) => {
             found(Footprint::of(Place::fixed(DeviceClass::C, number), true));
         }
-        Stmt::Call(ref call) => {
+        Action::Call(ref call) => {
             let args = call.args.iter();
             args.for_each(|arg| of_arg(model, arg, call.wide, found));
             // These save and restore all index registers, whether the program names them or not.
@@ -139,25 +146,16 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
                 }
             }
         }
-        Stmt::Fetch(Fetch { ref from, wide, .. }) => of_arg(model, from, wide, found),
-        Stmt::Send(Send { ref to, wide, .. }) => of_arg(model, to, wide, found),
-        Stmt::Network(_)
-        | Stmt::Let(..)
-        | Stmt::Edge(_)
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => {}
+        Action::Fetch(Fetch { ref from, wide, .. }) => of_arg(model, from, wide, found),
+        Action::Send(Send { ref to, wide, .. }) => of_arg(model, to, wide, found),
+        Action::Let(..)
+        | Action::Edge(_)
+        | Action::SetFlag(..)
+        | Action::SetCell(..)
+        | Action::SetEntry(_)
+        | Action::Fault { .. }
+        | Action::Stop
+        | Action::Clear { .. } => {}
     }
 }
 

@@ -1,11 +1,11 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Arg, BinOp, Block, Body, Branch, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId,
+    Action, Arg, BinOp, Block, Body, Branch, Expr, ExprId, FunctionKind, IndexedCoil, LabelId,
     Module, Place, SetEntry, Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
-use crate::walk::{callees, for_exprs, operands};
+use crate::walk::{assigned, callees, for_exprs, operands};
 use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 use typed_index_collections::TiVec;
@@ -174,10 +174,10 @@ impl Checker<'_> {
         }
         self.typed(stmt)?;
         match stmt {
-            Stmt::Let(temp, _)
-            | Stmt::Edge(Edge { out: temp, .. })
-            | Stmt::Fetch(Fetch { there: temp, .. }) => {
-                self.assign(*temp);
+            Stmt::Do(_) => {
+                if let Some(temp) = assigned(stmt) {
+                    self.assign(temp);
+                }
                 Ok(true)
             }
             Stmt::If(Branch {
@@ -215,27 +215,7 @@ impl Checker<'_> {
                 Err(format!("{label:?} is not around the jump to it"))
             }
             Stmt::Goto(_) | Stmt::Return => Ok(false),
-            Stmt::Network(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Block(_)
-            | Stmt::CallSub(_)
-            | Stmt::Call(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => Ok(true),
+            Stmt::Network(_) | Stmt::CallSub(_) | Stmt::Watch { .. } => Ok(true),
         }
     }
 
@@ -396,54 +376,63 @@ impl Checker<'_> {
         let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp) == Some(&ty);
         match *stmt {
             Stmt::Network(n) => (n as usize) < module.networks.len(),
-            Stmt::Let(temp, value) => temp_is(temp, module.ty(value)),
-            Stmt::Edge(edge) => {
+            Stmt::Do(ref action) => self.is_well_typed_action(action),
+            Stmt::If(Branch { cond, .. }) => is(cond, Ty::Bit),
+            Stmt::For { count, .. } => is(count, Ty::I16),
+            Stmt::Repeat(ref repeat) => repeat.count > 1 && temp_is(repeat.iteration, Ty::I32),
+            Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Watch { .. } => true,
+        }
+    }
+
+    fn is_well_typed_action(&self, action: &Action) -> bool {
+        let module = self.module;
+        let is = |id: ExprId, ty: Ty| module.ty(id) == ty;
+        let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp) == Some(&ty);
+        match *action {
+            Action::Let(temp, value) => temp_is(temp, module.ty(value)),
+            Action::Edge(edge) => {
                 let mut memories = self.in_iterations(edge.memory.0, edge.index);
                 let exist = memories.all(|memory| memory < module.edges);
                 exist && is(edge.input, Ty::Bit) && temp_is(edge.out, Ty::Bit)
             }
-            Stmt::Write(access, value) => access.is_well_formed() && is(value, access.ty()),
-            Stmt::Timer(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
-            Stmt::TimerAt(coil) => self.leads_to_one_kind(coil.place) && self.indexed_coil(&coil),
-            Stmt::Counter16(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
-            Stmt::Counter16At(coil) => self.indexed_coil(&coil),
-            Stmt::Counter32(coil) => {
+            Action::Write(access, value) => access.is_well_formed() && is(value, access.ty()),
+            Action::Timer(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
+            Action::TimerAt(coil) => self.leads_to_one_kind(coil.place) && self.indexed_coil(&coil),
+            Action::Counter16(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
+            Action::Counter16At(coil) => self.indexed_coil(&coil),
+            Action::Counter32(coil) => {
                 is(coil.drive, Ty::Bit) && is(coil.down, Ty::Bit) && is(coil.preset, Ty::I32)
             }
-            Stmt::Count(count) => is(count.down, Ty::Bit) && is(count.preset, Ty::I32),
-            Stmt::If(Branch { cond, .. }) => is(cond, Ty::Bit),
-            Stmt::For { count, .. } => is(count, Ty::I16),
-            Stmt::Repeat(ref repeat) => repeat.count > 1 && temp_is(repeat.iteration, Ty::I32),
-            Stmt::Call(ref call) => {
+            Action::Count(count) => is(count.down, Ty::Bit) && is(count.preset, Ty::I32),
+            Action::Call(ref call) => {
                 call.slot <= module.states
                     && call.drive.is_none_or(|drive| is(drive, Ty::Bit))
                     && call.args.iter().all(|arg| self.arg(arg))
             }
-            Stmt::Fetch(fetch) => {
+            Action::Fetch(fetch) => {
                 let cell = module.cells.get(fetch.value);
                 cell.is_some() && temp_is(fetch.there, Ty::Bit) && self.arg(&fetch.from)
             }
-            Stmt::Send(send) => {
+            Action::Send(send) => {
                 is(send.value, if send.wide { Ty::I32 } else { Ty::I16 }) && self.arg(&send.to)
             }
-            Stmt::SetCell(cell, value) => module.cells.get(cell).is_some() && is(value, Ty::I32),
-            Stmt::SetEntry(SetEntry {
+            Action::SetCell(cell, value) => module.cells.get(cell).is_some() && is(value, Ty::I32),
+            Action::SetEntry(SetEntry {
                 table,
                 index,
                 value,
             }) => module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32),
-            Stmt::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
-            Stmt::Block(ref block) => self.block(block),
-            Stmt::Reset(_)
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => true,
+            Action::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
+            Action::Block(ref block) => self.block(block),
+            Action::Reset(_)
+            | Action::TimerGoesOn { .. }
+            | Action::Fault { .. }
+            | Action::Stop
+            | Action::Clear { .. } => true,
         }
     }
 

@@ -1,9 +1,9 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
 use crate::node::{
-    Access, Arg, Block, Body, Branch, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr,
-    ExprId, Fetch, FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry, Stmt,
-    TempId, TimerCoil,
+    Access, Action, Arg, Block, Body, Branch, Call, Count, Counter16Coil, Counter32Coil, Edge,
+    Expr, ExprId, Fetch, FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry,
+    Stmt, TempId, TimerCoil,
 };
 
 /// The expressions that an expression evaluates.
@@ -54,86 +54,139 @@ macro_rules! operand_slots {
 operand_slots!(operand_slots, as_ref);
 operand_slots!(operand_slots_mut, as_mut, mut);
 
+/// A part of an action; references to it are shared or mutable.
+enum ActionPart<Value, Named, Result> {
+    /// An expression that it evaluates, except for the index of a place.
+    Value(Value),
+    /// A place that it names.
+    Place(Named),
+    /// The temporary that it gives a value.
+    Result(Result),
+}
+
+/// A function that calls `f` with the parts of an action in the order of evaluation, to look at them or to replace
+/// them.
+macro_rules! action_parts {
+    ($name:ident, $of_arg:ident, $iter:ident $(, $mutable:tt)?) => {
+        fn $of_arg<'a>(
+            arg: &'a $($mutable)? Arg,
+            f: &mut dyn FnMut(
+                ActionPart<&'a $($mutable)? ExprId, &'a $($mutable)? Place, &'a $($mutable)? TempId>,
+            ),
+        ) {
+            match arg {
+                Arg::Const { index, .. } | Arg::Buffer { index, .. } => {
+                    index.$iter().for_each(|index| f(ActionPart::Value(index)));
+                }
+                Arg::Device { place, .. } | Arg::Nibbles { place, .. } | Arg::WordBit { place, .. } => {
+                    f(ActionPart::Place(place));
+                }
+                Arg::Float(_) | Arg::Text(_) => {}
+            }
+        }
+
+        fn $name<'a>(
+            action: &'a $($mutable)? Action,
+            f: &mut dyn FnMut(
+                ActionPart<&'a $($mutable)? ExprId, &'a $($mutable)? Place, &'a $($mutable)? TempId>,
+            ),
+        ) {
+            use ActionPart::{Place, Result, Value};
+            match action {
+                Action::Let(out, value) => {
+                    f(Value(value));
+                    f(Result(out));
+                }
+                Action::Edge(Edge { index, input, out, .. }) => {
+                    index.$iter().for_each(|index| f(Value(index)));
+                    f(Value(input));
+                    f(Result(out));
+                }
+                Action::SetFlag(_, value) | Action::SetCell(_, value) => f(Value(value)),
+                Action::SetEntry(SetEntry { index, value, .. }) => {
+                    f(Value(index));
+                    f(Value(value));
+                }
+                Action::Write(access, value) => {
+                    f(Place(&$($mutable)? access.place));
+                    f(Value(value));
+                }
+                Action::Block(Block::Copy { from, to, .. }) => {
+                    f(Place(from));
+                    f(Place(to));
+                }
+                Action::Block(Block::Fill { to, value, .. }) => {
+                    f(Place(to));
+                    f(Value(value));
+                }
+                Action::Timer(TimerCoil { drive, preset, .. })
+                | Action::Counter16(Counter16Coil { drive, preset, .. }) => {
+                    f(Value(drive));
+                    f(Value(preset));
+                }
+                Action::TimerAt(IndexedCoil { place, drive, preset })
+                | Action::Counter16At(IndexedCoil { place, drive, preset }) => {
+                    f(Place(place));
+                    f(Value(drive));
+                    f(Value(preset));
+                }
+                Action::Counter32(Counter32Coil { drive, down, preset, .. }) => {
+                    f(Value(drive));
+                    f(Value(down));
+                    f(Value(preset));
+                }
+                Action::Count(Count { down, preset, .. }) => {
+                    f(Value(down));
+                    f(Value(preset));
+                }
+                Action::Reset(place) => f(Place(place)),
+                Action::Call(Call { args, drive, .. }) => {
+                    for arg in args {
+                        $of_arg(arg, f);
+                    }
+                    drive.$iter().for_each(|drive| f(Value(drive)));
+                }
+                Action::Fetch(Fetch { from, there, .. }) => {
+                    $of_arg(from, f);
+                    f(Result(there));
+                }
+                Action::Send(Send { to, value, .. }) => {
+                    $of_arg(to, f);
+                    f(Value(value));
+                }
+                Action::TimerGoesOn { .. } | Action::Fault { .. } | Action::Stop | Action::Clear { .. } => {}
+            }
+        }
+    };
+}
+
+action_parts!(action_parts, arg_parts, iter);
+action_parts!(action_parts_mut, arg_parts_mut, iter_mut, mut);
+
 /// A function over the expressions that a statement evaluates, to look at them or to replace them.
 macro_rules! for_exprs {
-    ($(#[$doc:meta])* $name:ident, $index_of:ident, $iter:ident $(, $mutable:tt)?) => {
-        fn $index_of(arg: &$($mutable)? Arg) -> Option<&$($mutable)? ExprId> {
-            let index = match arg {
-                Arg::Const { index, .. } | Arg::Buffer { index, .. } => index,
-                Arg::Device { place, .. }
-                | Arg::Nibbles { place, .. }
-                | Arg::WordBit { place, .. } => &$($mutable)? place.index,
-                Arg::Float(_) | Arg::Text(_) => return None,
-            };
-            index.$iter().next()
+    ($(#[$doc:meta])* $name:ident, $of_action:ident, $parts:ident, $iter:ident $(, $mutable:tt)?) => {
+        pub(crate) fn $of_action(action: &$($mutable)? Action, f: &mut impl FnMut(&$($mutable)? ExprId)) {
+            $parts(action, &mut |part| match part {
+                ActionPart::Value(value) => f(value),
+                ActionPart::Place(place) => place.index.$iter().for_each(&mut *f),
+                ActionPart::Result(_) => {}
+            });
         }
 
         $(#[$doc])*
         pub fn $name(stmt: &$($mutable)? Stmt, f: &mut impl FnMut(&$($mutable)? ExprId)) {
             match stmt {
-                Stmt::Write(access, value) => {
-                    access.place.index.$iter().for_each(&mut *f);
-                    f(value);
-                }
-                Stmt::Let(_, value) | Stmt::SetFlag(_, value) | Stmt::SetCell(_, value) => f(value),
-                Stmt::SetEntry(SetEntry { index, value, .. }) => {
-                    f(index);
-                    f(value);
-                }
-                Stmt::Count(Count { down, preset, .. }) => {
-                    f(down);
-                    f(preset);
-                }
-                Stmt::Edge(Edge { index, input, .. }) => {
-                    index.$iter().for_each(&mut *f);
-                    f(input);
-                }
-                Stmt::Timer(TimerCoil { drive, preset, .. }) | Stmt::Counter16(Counter16Coil { drive, preset, .. }) => {
-                    f(drive);
-                    f(preset);
-                }
-                Stmt::TimerAt(IndexedCoil { place, drive, preset })
-                | Stmt::Counter16At(IndexedCoil { place, drive, preset }) => {
-                    place.index.$iter().for_each(&mut *f);
-                    f(drive);
-                    f(preset);
-                }
-                Stmt::Counter32(Counter32Coil { drive, down, preset, .. }) => {
-                    f(drive);
-                    f(down);
-                    f(preset);
-                }
-                Stmt::Reset(place) => place.index.$iter().for_each(f),
-                Stmt::Block(Block::Fill { value, .. }) => f(value),
+                Stmt::Do(action) => $of_action(action, f),
                 Stmt::If(Branch { cond, .. }) => f(cond),
                 Stmt::For { count, .. } => f(count),
-                Stmt::Call(Call { args, drive, .. }) => {
-                    for arg in args {
-                        if let Some(index) = $index_of(arg) {
-                            f(index);
-                        }
-                    }
-                    drive.$iter().for_each(f);
-                }
-                Stmt::Fetch(Fetch { from, .. }) => $index_of(from).into_iter().for_each(f),
-                Stmt::Send(Send { to, value, .. }) => {
-                    if let Some(index) = $index_of(to) {
-                        f(index);
-                    }
-                    f(value);
-                }
                 Stmt::Network(_)
-                | Stmt::Block(Block::Copy { .. })
                 | Stmt::Repeat(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
-                | Stmt::TimerGoesOn { .. }
                 | Stmt::Parts(_)
                 | Stmt::Goto(_)
-                | Stmt::Fault { .. }
-                | Stmt::Watch { .. }
-                | Stmt::Stop
-                | Stmt::Clear { .. } => {}
+                | Stmt::Watch { .. } => {}
             }
         }
     };
@@ -141,128 +194,58 @@ macro_rules! for_exprs {
 
 for_exprs! {
     /// Calls `f` with the expressions that a statement itself evaluates, without those of the bodies inside it.
-    for_exprs, index_of, iter
+    for_exprs, action_exprs, action_parts, iter
 }
 for_exprs! {
     /// Calls `f` with the expressions that a statement itself evaluates, to replace them.
-    for_exprs_mut, index_of_mut, iter_mut, mut
+    for_exprs_mut, action_exprs_mut, action_parts_mut, iter_mut, mut
 }
 
 /// Calls `f` with the places that a statement itself names, in addition to those in its expressions, to replace them.
 pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
-    let of_arg = |arg: &mut Arg, f: &mut dyn FnMut(&mut Place)| match arg {
-        Arg::Device { place, .. } | Arg::Nibbles { place, .. } | Arg::WordBit { place, .. } => {
-            f(place);
-        }
-        Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
-    };
-    match stmt {
-        Stmt::Write(Access { place, .. }, _)
-        | Stmt::TimerAt(IndexedCoil { place, .. })
-        | Stmt::Counter16At(IndexedCoil { place, .. })
-        | Stmt::Reset(place) => f(place),
-        Stmt::Call(Call { args, .. }) => args.iter_mut().for_each(|arg| of_arg(arg, f)),
-        Stmt::Fetch(Fetch { from: arg, .. }) | Stmt::Send(Send { to: arg, .. }) => of_arg(arg, f),
-        Stmt::Network(_)
-        | Stmt::Let(..)
-        | Stmt::Edge(_)
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::Timer(_)
-        | Stmt::TimerGoesOn { .. }
-        | Stmt::Counter16(_)
-        | Stmt::Counter32(_)
-        | Stmt::Count(_)
-        | Stmt::Block(_)
-        | Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => {}
+    if let Stmt::Do(action) = stmt {
+        action_parts_mut(action, &mut |part| {
+            if let ActionPart::Place(place) = part {
+                f(place);
+            }
+        });
     }
 }
 
 /// The temporary that a statement gives a value.
 pub fn assigned(stmt: &Stmt) -> Option<TempId> {
-    match stmt {
-        Stmt::Let(temp, _)
-        | Stmt::Edge(Edge { out: temp, .. })
-        | Stmt::Fetch(Fetch { there: temp, .. }) => Some(*temp),
-        Stmt::Network(_)
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::Write(..)
-        | Stmt::Timer(_)
-        | Stmt::TimerAt(_)
-        | Stmt::TimerGoesOn { .. }
-        | Stmt::Counter16(_)
-        | Stmt::Counter16At(_)
-        | Stmt::Counter32(_)
-        | Stmt::Count(_)
-        | Stmt::Reset(_)
-        | Stmt::Block(_)
-        | Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Call(_)
-        | Stmt::Send(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => None,
+    let mut temp = None;
+    if let Stmt::Do(action) = stmt {
+        action_parts(action, &mut |part| {
+            if let ActionPart::Result(out) = part {
+                temp = Some(*out);
+            }
+        });
     }
+    temp
 }
 
 /// Returns true if a statement itself calls the runtime.
 pub fn calls_runtime(stmt: &Stmt) -> bool {
-    matches!(stmt, Stmt::Call(_) | Stmt::Fetch(_) | Stmt::Send(_))
+    matches!(
+        stmt,
+        Stmt::Do(Action::Call(_) | Action::Fetch(_) | Action::Send(_))
+    )
 }
 
 /// The step at which a statement reports a fault, if it can.
 pub fn fault_step(stmt: &Stmt) -> Option<u32> {
-    match *stmt {
-        Stmt::Call(Call { step, .. })
-        | Stmt::Fetch(Fetch { step, .. })
-        | Stmt::Send(Send { step, .. })
-        | Stmt::Fault { step, .. }
-        | Stmt::Watch { at: step, .. } => Some(step),
-        Stmt::Network(_)
-        | Stmt::Let(..)
-        | Stmt::Edge(_)
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::Write(..)
-        | Stmt::Timer(_)
-        | Stmt::TimerAt(_)
-        | Stmt::TimerGoesOn { .. }
-        | Stmt::Counter16(_)
-        | Stmt::Counter16At(_)
-        | Stmt::Counter32(_)
-        | Stmt::Count(_)
-        | Stmt::Reset(_)
-        | Stmt::Block(_)
-        | Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Stop
-        | Stmt::Clear { .. } => None,
+    if let Stmt::Do(
+        Action::Call(Call { step, .. })
+        | Action::Fetch(Fetch { step, .. })
+        | Action::Send(Send { step, .. })
+        | Action::Fault { step, .. },
+    )
+    | Stmt::Watch { at: step, .. } = *stmt
+    {
+        Some(step)
+    } else {
+        None
     }
 }
 
@@ -278,31 +261,11 @@ macro_rules! bodies {
                 }
                 Stmt::Parts(parts) => ([None, None], parts),
                 Stmt::Network(_)
-                | Stmt::Let(..)
-                | Stmt::Edge(_)
-                | Stmt::SetFlag(..)
-                | Stmt::SetCell(..)
-                | Stmt::SetEntry(_)
-                | Stmt::Write(..)
-                | Stmt::Timer(_)
-                | Stmt::TimerAt(_)
-                | Stmt::TimerGoesOn { .. }
-                | Stmt::Counter16(_)
-                | Stmt::Counter16At(_)
-                | Stmt::Counter32(_)
-                | Stmt::Count(_)
-                | Stmt::Reset(_)
-                | Stmt::Block(_)
+                | Stmt::Do(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::Goto(_)
-                | Stmt::Call(_)
-                | Stmt::Fetch(_)
-                | Stmt::Send(_)
-                | Stmt::Fault { .. }
-                | Stmt::Watch { .. }
-                | Stmt::Stop
-                | Stmt::Clear { .. } => ([None, None], &$($mutable)? []),
+                | Stmt::Watch { .. } => ([None, None], &$($mutable)? []),
             };
             let parts = parts.$iter().map(|part| &$($mutable)? part.body);
             own.into_iter().flatten().chain(parts)
@@ -338,7 +301,7 @@ pub fn has_many_timers(module: &Module) -> bool {
     let mut coils = 0;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            coils += usize::from(matches!(stmt, Stmt::Timer(_)));
+            coils += usize::from(matches!(stmt, Stmt::Do(Action::Timer(_))));
         });
     }
     coils > MANY_TIMERS

@@ -5,7 +5,7 @@
 //! calls.
 
 use crate::node::{
-    Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
+    Action, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt,
 };
 use crate::walk::{for_exprs, operands, statements};
 use std::collections::BTreeMap;
@@ -201,7 +201,7 @@ impl<'m> Finder<'m> {
                 let iteration = self.body(body);
                 cost.plus(iteration.times(u64::from(*count)))
             }
-            Stmt::Block(block) => {
+            Stmt::Do(Action::Block(block)) => {
                 let (_, count) = block.written();
                 cost.plus(Cost {
                     steps: 0,
@@ -218,29 +218,7 @@ impl<'m> Finder<'m> {
                 }
             }
             Stmt::Parts(parts) => cost.plus(self.parts(parts)),
-            Stmt::Let(..)
-            | Stmt::Edge(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Return
-            | Stmt::Goto(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => cost,
+            Stmt::Do(_) | Stmt::Return | Stmt::Goto(_) | Stmt::Watch { .. } => cost,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::interrupt::{Request, What};
 use super::parts::Item;
-use rungc_ir::node::{Access, CellId, Expr, Stmt};
+use rungc_ir::node::{Access, Action, CellId, Expr, Stmt};
 use rungc_models::interrupts::{Advanced, Gate};
 use rungc_rt::{CmpOp, Relay};
 
@@ -86,7 +86,7 @@ impl Lowerer<'_> {
 
     fn emit_place(&mut self, at: CellId, place: u32) {
         let place = self.add(Expr::I32((place - FIRST_PLACE) as i32));
-        self.emit(Stmt::SetCell(at, place));
+        self.emit(Action::SetCell(at, place));
     }
 
     /// The current routine starts with jumps to the places where it continues, the last one first, so that they nest.
@@ -133,7 +133,7 @@ impl Lowerer<'_> {
             this.write_relay(interrupt.again, off);
             this.write_relay(active, on);
             let begin = this.add(Expr::I32(0));
-            this.emit(Stmt::SetCell(at, begin));
+            this.emit(Action::SetCell(at, begin));
             this.emit(Stmt::CallSub(function));
         });
         let again = relay(self, interrupt.again);

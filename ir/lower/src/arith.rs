@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::operand::{Guards, Target};
 use rungc_catalogue::ArithOp;
-use rungc_ir::node::{BinOp, Branch, Expr, ExprId, Stmt};
+use rungc_ir::node::{Action, BinOp, Branch, Expr, ExprId, Stmt};
 use rungc_rt::CmpOp;
 use rungc_rt::special::{
     D_RING_COUNTER, M_BORROW, M_CARRY, M_LARGE_QUOTIENT, M_ZERO, M_ZERO_PRODUCT, Relay,
@@ -353,7 +353,7 @@ impl Lowerer<'_> {
                     this.divide_by_zero(a, quotient_target, remainder_target, wide);
                 } else {
                     let step = this.step();
-                    this.emit(Stmt::Fault {
+                    this.emit(Action::Fault {
                         code: DIVISION,
                         step,
                     });

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, Expr, Stmt, SysValue};
+use rungc_ir::node::{Access, Action, Expr, SysValue};
 use rungc_syntax::DeviceClass::D;
 use rungc_syntax::OperandKind;
 
@@ -50,7 +50,7 @@ impl Lowerer<'_> {
         self.when(first, |this| {
             for (register, value) in defaults {
                 let value = this.add(Expr::I16(value));
-                this.emit(Stmt::Write(Access::word(register), value));
+                this.emit(Action::Write(Access::word(register), value));
             }
         });
     }

@@ -4,7 +4,7 @@
 use super::Lowerer;
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, BinOp, Block, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Access, Action, BinOp, Block, Expr, ExprId, Place, Stmt};
 use rungc_models::runs::is_special;
 use rungc_rt::RtFn;
 use rungc_rt::special::{M_BMOV_REVERSE, M_MEAN_SUM};
@@ -198,17 +198,17 @@ impl Lowerer<'_> {
     /// Writes word number `k` from a register on.
     fn put_word(&mut self, register: Device, k: u32, value: ExprId) {
         let (class, number) = self.model.canonical(register.class, register.number + k);
-        self.emit(Stmt::Write(Access::word(fixed(class, number)), value));
+        self.emit(Action::Write(Access::word(fixed(class, number)), value));
     }
 
     fn copy_run(&mut self, from: Device, to: Device, count: u32) {
         let [from, to] = [from, to].map(|first| fixed(first.class, first.number));
-        self.emit(Stmt::Block(Block::Copy { from, to, count }));
+        self.emit(Action::Block(Block::Copy { from, to, count }));
     }
 
     fn fill_run(&mut self, to: Device, count: u32, value: ExprId) {
         let to = fixed(to.class, to.number);
-        self.emit(Stmt::Block(Block::Fill { to, count, value }));
+        self.emit(Action::Block(Block::Fill { to, count, value }));
     }
 
     /// Word number `k` from a register on.
@@ -249,7 +249,7 @@ impl Lowerer<'_> {
     /// Writes a pair and copies what is there until there are `count`.
     fn fill_pairs(&mut self, to: Device, count: u32, value: ExprId) {
         let place = fixed(to.class, to.number);
-        self.emit(Stmt::Write(Access::pair(place), value));
+        self.emit(Action::Write(Access::pair(place), value));
         let mut there = 1;
         while there < count {
             let more = there.min(count - there);
@@ -306,7 +306,7 @@ impl Lowerer<'_> {
             }
             for k in 0..count {
                 let on = this.is_int(value, k as i32, false);
-                this.emit(Stmt::Write(
+                this.emit(Action::Write(
                     Access::bit(fixed(first.class, first.number + k)),
                     on,
                 ));
@@ -325,7 +325,7 @@ impl Lowerer<'_> {
             ..fixed(first.class, first.number)
         };
         let on = self.bit_const(true);
-        self.emit(Stmt::Write(Access::bit(place), on));
+        self.emit(Action::Write(Access::bit(place), on));
     }
 
     /// Returns true if an instruction has a long run that is not copied or filled as a whole: some of its devices are
@@ -390,10 +390,10 @@ impl Lowerer<'_> {
                 let (class, number) = this.model.canonical(first.class, number);
                 let place = fixed(class, number);
                 let reset = match class {
-                    DeviceClass::T | DeviceClass::C => Stmt::Reset(place),
+                    DeviceClass::T | DeviceClass::C => Stmt::Do(Action::Reset(place)),
                     DeviceClass::Y | DeviceClass::M | DeviceClass::S | DeviceClass::X => {
                         let off = this.bit_const(false);
-                        Stmt::Write(Access::bit(place), off)
+                        Stmt::Do(Action::Write(Access::bit(place), off))
                     }
                     DeviceClass::D
                     | DeviceClass::R
@@ -404,7 +404,7 @@ impl Lowerer<'_> {
                     | DeviceClass::I
                     | DeviceClass::N => {
                         let zero = this.int(0, false);
-                        Stmt::Write(Access::word(place), zero)
+                        Stmt::Do(Action::Write(Access::word(place), zero))
                     }
                 };
                 this.emit(reset);
@@ -464,6 +464,9 @@ impl Lowerer<'_> {
         let mut exists = Guards::default();
         let state = self.bit(&OperandKind::Device(nth(from), None), &mut exists);
         let to = nth(to);
-        self.emit(Stmt::Write(Access::bit(fixed(to.class, to.number)), state));
+        self.emit(Action::Write(
+            Access::bit(fixed(to.class, to.number)),
+            state,
+        ));
     }
 }

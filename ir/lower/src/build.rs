@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::parts::Item;
-use rungc_ir::node::{Body, Branch, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{Action, Body, Branch, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::operands;
 use rungc_rt::EdgeKind;
 
@@ -75,7 +75,7 @@ impl Lowerer<'_> {
             return a;
         }
         let temp = self.temp(self.module.ty(a));
-        self.emit(Stmt::Let(temp, a));
+        self.emit(Action::Let(temp, a));
         self.add(Expr::Temp(temp))
     }
 
@@ -97,14 +97,14 @@ impl Lowerer<'_> {
         EdgeId(self.module.edges - 1)
     }
 
-    pub(super) fn emit(&mut self, stmt: Stmt) {
-        self.out.push(Item::Code(stmt));
+    pub(super) fn emit(&mut self, stmt: impl Into<Stmt>) {
+        self.out.push(Item::Code(stmt.into()));
     }
 
     /// Detects an edge here; the result.
     pub(super) fn edge(&mut self, edge: EdgeId, kind: EdgeKind, input: ExprId) -> ExprId {
         let out = self.temp(Ty::Bit);
-        self.emit(Stmt::Edge(Edge {
+        self.emit(Action::Edge(Edge {
             memory: edge,
             index: None,
             kind,

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::operand::fixed;
 use rungc_analysis::resolve::Resolution;
 use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
-use rungc_ir::node::{Arg, Branch, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{Action, Arg, Branch, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
@@ -53,7 +53,7 @@ impl Lowerer<'_> {
             let guards = this.bounds_hold();
             this.guarded_while(guards, drive, |this| {
                 let args = this.args();
-                this.emit(Stmt::Call(Call {
+                this.emit(Action::Call(Call {
                     function,
                     wide: form.wide,
                     args,
@@ -87,7 +87,7 @@ impl Lowerer<'_> {
         if let Some((runs, _)) = self.exclusive {
             let first = self.add(Expr::Sys(SysValue::FirstScan));
             let none = self.add(Expr::I32(0));
-            self.when(first, |this| this.emit(Stmt::SetCell(runs, none)));
+            self.when(first, |this| this.emit(Action::SetCell(runs, none)));
         }
     }
 
@@ -105,7 +105,7 @@ impl Lowerer<'_> {
         self.guarded_while(guards, Some(drive), |this| {
             let args = this.args();
             let step = this.step();
-            this.emit(Stmt::Call(Call {
+            this.emit(Action::Call(Call {
                 function,
                 wide,
                 args,
@@ -131,10 +131,10 @@ impl Lowerer<'_> {
         let ends = self.and(off, mine);
         self.emit(Stmt::If(Branch {
             cond: driven,
-            then: vec![Stmt::SetCell(runs, own)],
+            then: vec![Stmt::Do(Action::SetCell(runs, own))],
             otherwise: vec![Stmt::If(Branch {
                 cond: ends,
-                then: vec![Stmt::SetCell(runs, none)],
+                then: vec![Stmt::Do(Action::SetCell(runs, none))],
                 otherwise: Vec::new(),
             })],
         }));

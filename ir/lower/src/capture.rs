@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::interrupt::Request;
-use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, Stmt, SysValue};
+use rungc_ir::node::{Access, Action, BinOp, CellId, Expr, ExprId, SysValue};
 use rungc_models::interrupts::{Capture, Source};
 use rungc_rt::{CmpOp, EdgeKind};
 
@@ -39,7 +39,7 @@ impl Lowerer<'_> {
     fn read_capture(&mut self, capture: &Capture, cell: CellId) {
         let edges = self.add(Expr::Read(Access::word(capture.register)));
         let edges = self.add(Expr::Widen(edges));
-        self.emit(Stmt::SetCell(cell, edges));
+        self.emit(Action::SetCell(cell, edges));
     }
 
     /// Emits the reading of the edges' registers at the end of the first scan.

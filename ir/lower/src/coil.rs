@@ -4,7 +4,8 @@ use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Access, Branch, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Stmt, TimerCoil,
+    Access, Action, Branch, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Stmt,
+    TimerCoil,
 };
 use rungc_models::high_speed;
 use rungc_models::runs::FIRST_COUNTER32;
@@ -54,7 +55,7 @@ impl Lowerer<'_> {
         let fast = fast.filter(|fast| self.specials.has(fast.relay));
         self.with_preset(false, Guards::default(), |this, preset| {
             let Some(fast) = fast else {
-                return this.emit(Stmt::Timer(TimerCoil {
+                return this.emit(Action::Timer(TimerCoil {
                     number,
                     kind,
                     drive,
@@ -63,12 +64,12 @@ impl Lowerer<'_> {
             };
             let (drive, preset) = (this.settled(drive), this.settled(preset));
             let timer = |unit_ms| {
-                Stmt::Timer(TimerCoil {
+                Stmt::Do(Action::Timer(TimerCoil {
                     number,
                     kind: TimerKind { unit_ms, ..kind },
                     drive,
                     preset,
-                })
+                }))
             };
             let cond = this.add(Expr::Read(Access::bit(fast.relay)));
             this.emit(Stmt::If(Branch {
@@ -87,7 +88,7 @@ impl Lowerer<'_> {
         let drive = self.drive();
         if number < FIRST_COUNTER32 {
             return self.with_preset(false, Guards::default(), |this, preset| {
-                this.emit(Stmt::Counter16(Counter16Coil {
+                this.emit(Action::Counter16(Counter16Coil {
                     number,
                     drive,
                     preset,
@@ -101,7 +102,7 @@ impl Lowerer<'_> {
             self.bit_const(false)
         };
         self.with_preset(true, Guards::default(), |this, preset| {
-            this.emit(Stmt::Counter32(Counter32Coil {
+            this.emit(Action::Counter32(Counter32Coil {
                 number,
                 drive,
                 down,
@@ -131,16 +132,16 @@ impl Lowerer<'_> {
         }
         self.with_preset(false, guards, |this, preset| {
             this.emit(match timer {
-                true => Stmt::TimerAt(IndexedCoil {
+                true => Stmt::Do(Action::TimerAt(IndexedCoil {
                     place,
                     drive,
                     preset,
-                }),
-                false => Stmt::Counter16At(IndexedCoil {
+                })),
+                false => Stmt::Do(Action::Counter16At(IndexedCoil {
                     place,
                     drive,
                     preset,
-                }),
+                })),
             });
         });
     }
@@ -192,7 +193,7 @@ impl Lowerer<'_> {
             {
                 let mut guards = Guards::default();
                 let place = this.place(device, index, 1, false, &mut guards);
-                this.guarded(guards, |this| this.emit(Stmt::Reset(place)));
+                this.guarded(guards, |this| this.emit(Action::Reset(place)));
                 if index.is_none() && device.class == DeviceClass::C {
                     this.read_captures(device.number);
                 }

@@ -7,7 +7,7 @@
 use super::Lowerer;
 use super::interrupt::Request;
 use super::operand::fixed;
-use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{Access, Action, BinOp, CellId, Expr, ExprId, Place, SysValue};
 use rungc_models::interrupts::{CountRows, Source};
 use rungc_rt::{CmpOp, EdgeKind, Register};
 use rungc_syntax::DeviceClass::{C, D};
@@ -74,7 +74,7 @@ impl Lowerer<'_> {
             }
             let one = this.add(Expr::I32(1));
             let next = this.add(Expr::Bin(BinOp::Add, waits, one));
-            this.emit(Stmt::SetCell(row, next));
+            this.emit(Action::SetCell(row, next));
             let rows = this.register(table.rows);
             let most = this.add(Expr::I32(table.most as i32));
             let ended = [rows, most].map(|end| this.add(Expr::Cmp(CmpOp::Ge, waits, end)));
@@ -106,14 +106,14 @@ impl Lowerer<'_> {
 
     fn first_row_waits(&mut self, row: CellId) {
         let zero = self.add(Expr::I32(0));
-        self.emit(Stmt::SetCell(row, zero));
+        self.emit(Action::SetCell(row, zero));
     }
 
     fn show_waiting_row(&mut self, table: &CountRows, row: CellId) {
         if self.specials.has(table.row) {
             let row = self.add(Expr::Cell(row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::Write(Access::word(table.row), row));
+            self.emit(Action::Write(Access::word(table.row), row));
         }
     }
 

@@ -1,11 +1,11 @@
 //! Tables of high-speed counters: a row waits for its count, does what it says, and makes way for the next.
 
 use super::Lowerer;
-use super::high_speed::{Action, Compare, Counted};
+use super::high_speed::{Compare, Counted, Effect};
 use super::operand::{BitTarget, Guards};
 use rungc_ir::node::{
-    Access, AccessKind, BinOp, Branch, CellId, Expr, ExprId, FlagId, Place, SetEntry, Stmt, Table,
-    TableId, Ty,
+    Access, AccessKind, Action, BinOp, Branch, CellId, Expr, ExprId, FlagId, Place, SetEntry, Stmt,
+    Table, TableId, Ty,
 };
 use rungc_models::high_speed::TableMode;
 use rungc_rt::{CmpOp, Register};
@@ -104,7 +104,7 @@ impl Lowerer<'_> {
             armed: table.armed,
             values: Vec::new(),
             reached: None,
-            action: Action::Rows(table.clone()),
+            effect: Effect::Rows(table.clone()),
             at: self.at,
         };
         let then = self.body(|this| {
@@ -183,17 +183,17 @@ impl Lowerer<'_> {
         let armed = self.add(Expr::Flag(table.armed));
         let starts = self.not(armed);
         if let Some((_, Width::Mask { cell, value })) = table.target {
-            self.emit(Stmt::SetCell(cell, value));
+            self.emit(Action::SetCell(cell, value));
         }
         let Some(begins) = table.begins else {
-            self.emit(Stmt::SetCell(table.rows, rows));
+            self.emit(Action::SetCell(table.rows, rows));
             self.when(starts, |this| this.first_row(table));
             self.take_rows(table);
             return self.act(compare);
         };
         self.when(starts, |this| {
             this.one_more(|this| {
-                this.emit(Stmt::SetCell(table.rows, rows));
+                this.emit(Action::SetCell(table.rows, rows));
                 this.set_flag_to(begins, true);
             });
         });
@@ -202,7 +202,7 @@ impl Lowerer<'_> {
     /// From the first row on.
     fn first_row(&mut self, table: &Rows) {
         let zero = self.add(Expr::I32(0));
-        self.emit(Stmt::SetCell(table.row, zero));
+        self.emit(Action::SetCell(table.row, zero));
         self.set_flag_to(table.armed, true);
         self.show_row(table);
     }
@@ -214,7 +214,7 @@ impl Lowerer<'_> {
             self.set_flag_to(begins, false);
         }
         let zero = self.add(Expr::I32(0));
-        self.emit(Stmt::SetCell(table.row, zero));
+        self.emit(Action::SetCell(table.row, zero));
         if !table.mode.done_for_a_scan {
             self.show_done(table, false);
         }
@@ -259,7 +259,7 @@ impl Lowerer<'_> {
         }
         let zero = self.add(Expr::I32(0));
         let row = self.temp(Ty::I32);
-        self.emit(Stmt::Let(row, zero));
+        self.emit(Action::Let(row, zero));
         let at = self.add(Expr::Temp(row));
         let count = self.add(Expr::Cell(table.rows));
         let count = self.add(Expr::Narrow(count));
@@ -276,14 +276,14 @@ impl Lowerer<'_> {
             );
             let one = this.add(Expr::I32(1));
             let next = this.add(Expr::Bin(BinOp::Add, at, one));
-            this.emit(Stmt::Let(row, next));
+            this.emit(Action::Let(row, next));
         });
         self.emit(Stmt::For { count, body });
     }
 
     fn take_row(&mut self, table: &Rows, at: ExprId, first: Place) {
         let count = self.add(Expr::Read(Access::pair(first)));
-        self.emit(Stmt::SetEntry(SetEntry {
+        self.emit(Action::SetEntry(SetEntry {
             table: table.counts,
             index: at,
             value: count,
@@ -298,7 +298,7 @@ impl Lowerer<'_> {
         } else {
             self.add(Expr::Read(Access::pair(said)))
         };
-        self.emit(Stmt::SetEntry(SetEntry {
+        self.emit(Action::SetEntry(SetEntry {
             table: table.words,
             index: at,
             value: word,
@@ -342,12 +342,12 @@ impl Lowerer<'_> {
     fn next_row(&mut self, table: &Rows, row: ExprId, rows: ExprId) {
         let one = self.add(Expr::I32(1));
         let next = self.add(Expr::Bin(BinOp::Add, row, one));
-        self.emit(Stmt::SetCell(table.row, next));
+        self.emit(Action::SetCell(table.row, next));
         if table.mode.repeats {
             let ended = self.add(Expr::Cmp(CmpOp::Ge, row, rows));
             self.when(ended, |this| {
                 let zero = this.add(Expr::I32(0));
-                this.emit(Stmt::SetCell(table.row, zero));
+                this.emit(Action::SetCell(table.row, zero));
                 this.show_done(table, true);
             });
         }
@@ -378,7 +378,7 @@ impl Lowerer<'_> {
         if let Some(register) = table.mode.row.filter(|&row| self.specials.has(row)) {
             let row = self.add(Expr::Cell(table.row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::Write(Access::word(register), row));
+            self.emit(Action::Write(Access::word(register), row));
         }
     }
 
@@ -388,7 +388,7 @@ impl Lowerer<'_> {
             .iter()
             .any(|&word| self.specials.has(word))
         {
-            self.emit(Stmt::Write(Access::pair(register), value));
+            self.emit(Action::Write(Access::pair(register), value));
         }
     }
 
@@ -414,7 +414,7 @@ impl Lowerer<'_> {
             let state = this.add(Expr::HighWord(word));
             let zero = this.int(0, false);
             let on = this.add(Expr::Cmp(CmpOp::Ne, state, zero));
-            this.emit(Stmt::Write(Access::bit(place), on));
+            this.emit(Action::Write(Access::bit(place), on));
         });
     }
 
@@ -444,7 +444,7 @@ impl Lowerer<'_> {
         let kept = self.add(Expr::Bin(BinOp::And, before, others));
         let written = self.add(Expr::Bin(BinOp::And, word, mask));
         let value = self.add(Expr::Bin(BinOp::Or, kept, written));
-        self.emit(Stmt::Write(bits.at(place), value));
+        self.emit(Action::Write(bits.at(place), value));
     }
 }
 

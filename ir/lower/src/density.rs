@@ -3,7 +3,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
+use rungc_ir::node::{Access, Action, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, OperandKind};
 
@@ -40,7 +40,7 @@ impl Lowerer<'_> {
                 let one = this.add(Expr::I32(1));
                 let count = this.add(Expr::Cell(window.count));
                 let count = this.add(Expr::Bin(BinOp::Add, count, one));
-                this.emit(Stmt::SetCell(window.count, count));
+                this.emit(Action::SetCell(window.count, count));
             });
         });
         let drive = self.drive();
@@ -84,12 +84,12 @@ impl Lowerer<'_> {
         let now = self.add(Expr::Sys(SysValue::NowMs));
         let shown = self.shown(input, wide, &mut guards);
         let run = |this: &mut Self| {
-            this.emit(Stmt::SetCell(window.length, length));
+            this.emit(Action::SetCell(window.length, length));
             let on = this.add(Expr::Flag(window.on));
             let begins = this.not(on);
             this.when(begins, |this| {
-                this.emit(Stmt::SetCell(window.began, now));
-                this.emit(Stmt::SetCell(window.count, zero));
+                this.emit(Action::SetCell(window.began, now));
+                this.emit(Action::SetCell(window.count, zero));
                 this.set_flag_to(window.on, true);
             });
             this.end_window(window, now);
@@ -110,17 +110,17 @@ impl Lowerer<'_> {
             let (zero, one) = (this.add(Expr::I32(0)), this.add(Expr::I32(1)));
             let single = this.add(Expr::Cmp(CmpOp::Eq, windows, one));
             let count = this.add(Expr::Cell(window.count));
-            let then = vec![Stmt::SetCell(window.last, count)];
-            let otherwise = vec![Stmt::SetCell(window.last, zero)];
+            let then = vec![Stmt::Do(Action::SetCell(window.last, count))];
+            let otherwise = vec![Stmt::Do(Action::SetCell(window.last, zero))];
             this.emit(Stmt::If(Branch {
                 cond: single,
                 then,
                 otherwise,
             }));
-            this.emit(Stmt::SetCell(window.count, zero));
+            this.emit(Action::SetCell(window.count, zero));
             let time = this.add(Expr::Bin(BinOp::Mul, windows, length));
             let next = this.add(Expr::Bin(BinOp::Add, began, time));
-            this.emit(Stmt::SetCell(window.began, next));
+            this.emit(Action::SetCell(window.began, next));
         });
     }
 

@@ -5,7 +5,7 @@ use super::blocks::{bits, register};
 use super::operand::{Guards, fixed};
 use super::words::constant;
 use rungc_ir::node::{
-    Access, AccessKind, BinOp, Branch, CellId, Expr, ExprId, Place, Stmt, SysValue,
+    Access, AccessKind, Action, BinOp, Branch, CellId, Expr, ExprId, Place, Stmt, SysValue,
 };
 use rungc_rt::special::M_COMPLETE;
 use rungc_rt::{CmpOp, RtFn};
@@ -79,7 +79,7 @@ impl Lowerer<'_> {
                 let [on, off] = [2 * k, 2 * k + 1].map(|k| this.element_at(table, k, wide));
                 let inside = this.is_inside(value, on, off);
                 let place = fixed(first.class, first.number + k);
-                this.emit(Stmt::Write(Access::bit(place), inside));
+                this.emit(Action::Write(Access::bit(place), inside));
             }
         });
     }
@@ -150,12 +150,12 @@ impl Lowerer<'_> {
             this.when(was_driven, |this| {
                 let none = this.int(0, true);
                 for cell in [matrix.column, matrix.ms] {
-                    this.emit(Stmt::SetCell(cell, none));
+                    this.emit(Action::SetCell(cell, none));
                 }
                 let off = this.bit_const(false);
                 for k in 0..columns {
                     let place = fixed(outputs.class, outputs.number + k);
-                    this.emit(Stmt::Write(Access::bit(place), off));
+                    this.emit(Action::Write(Access::bit(place), off));
                 }
             });
         });
@@ -166,7 +166,7 @@ impl Lowerer<'_> {
         }));
         let driven = self.add(Expr::BitToInt(drive));
         let driven = self.add(Expr::Widen(driven));
-        self.emit(Stmt::SetCell(matrix.driven, driven));
+        self.emit(Action::SetCell(matrix.driven, driven));
     }
 
     /// Creates the memory of another MTR.
@@ -193,11 +193,11 @@ impl Lowerer<'_> {
         let passed = self.add(Expr::Sys(SysValue::SinceScanMs));
         let none = self.int(0, true);
         let started = self.not(was_driven);
-        self.when(started, |this| this.emit(Stmt::SetCell(matrix.ms, none)));
+        self.when(started, |this| this.emit(Action::SetCell(matrix.ms, none)));
         self.when(was_driven, |this| {
             let ms = this.add(Expr::Cell(matrix.ms));
             let ms = this.add(Expr::Bin(BinOp::SatAdd, ms, passed));
-            this.emit(Stmt::SetCell(matrix.ms, ms));
+            this.emit(Action::SetCell(matrix.ms, ms));
         });
         let ms = self.add(Expr::Cell(matrix.ms));
         let long = self.int(COLUMN_MS, true);
@@ -213,15 +213,19 @@ impl Lowerer<'_> {
             for k in 0..columns {
                 let here = this.is_column(matrix, k);
                 let place: Place = fixed(switches.class, switches.number + stride * k);
-                this.when(here, |this| this.emit(Stmt::Write(group.at(place), states)));
+                this.when(here, |this| {
+                    this.emit(Action::Write(group.at(place), states))
+                });
             }
             let one = this.int(1, true);
             let column = this.add(Expr::Cell(matrix.column));
             let next = this.add(Expr::Bin(BinOp::Add, column, one));
-            this.emit(Stmt::SetCell(matrix.column, next));
+            this.emit(Action::SetCell(matrix.column, next));
             let beyond = this.is_column(matrix, columns);
-            this.when(beyond, |this| this.emit(Stmt::SetCell(matrix.column, none)));
-            this.emit(Stmt::SetCell(matrix.ms, none));
+            this.when(beyond, |this| {
+                this.emit(Action::SetCell(matrix.column, none))
+            });
+            this.emit(Action::SetCell(matrix.ms, none));
         });
         let first = self.is_column(matrix, 0);
         let complete = self.and(over, first);
@@ -233,7 +237,7 @@ impl Lowerer<'_> {
         for k in 0..columns {
             let here = self.is_column(matrix, k);
             let place = fixed(outputs.class, outputs.number + k);
-            self.emit(Stmt::Write(Access::bit(place), here));
+            self.emit(Action::Write(Access::bit(place), here));
         }
     }
 

@@ -3,8 +3,8 @@
 use super::Lowerer;
 use super::operand::fixed;
 use rungc_ir::node::{
-    Access, BinOp, Body, Branch, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind,
-    Stmt, SysValue,
+    Access, Action, BinOp, Body, Branch, Cell, CellId, Expr, ExprId, Flag, FlagId, Function,
+    FunctionKind, Stmt, SysValue,
 };
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass::X;
@@ -61,14 +61,14 @@ impl Lowerer<'_> {
     pub(super) fn begin_clock(&mut self) {
         if let Some(clock) = self.edges.clock {
             let now = self.add(Expr::Sys(SysValue::NowMs));
-            self.emit(Stmt::SetCell(clock, now));
+            self.emit(Action::SetCell(clock, now));
         }
     }
 
     /// Sets or resets a flag.
     pub(super) fn set_flag_to(&mut self, flag: FlagId, on: bool) {
         let on = self.bit_const(on);
-        self.emit(Stmt::SetFlag(flag, on));
+        self.emit(Action::SetFlag(flag, on));
     }
 
     /// The state of a terminal outside the scan, where the device X may be older.
@@ -102,7 +102,7 @@ impl Lowerer<'_> {
                 let count = this.add(Expr::Read(Access::word(register)));
                 let one = this.int(1, false);
                 let count = this.add(Expr::Bin(BinOp::Add, count, one));
-                this.emit(Stmt::Write(Access::word(register), count));
+                this.emit(Action::Write(Access::word(register), count));
             });
         }
     }
@@ -117,7 +117,7 @@ impl Lowerer<'_> {
         self.when(first, |this| {
             for (input, flag) in levels {
                 let on = this.add(Expr::Read(Access::bit(fixed(X, input))));
-                this.emit(Stmt::SetFlag(flag, on));
+                this.emit(Action::SetFlag(flag, on));
             }
         });
     }
@@ -131,7 +131,7 @@ impl Lowerer<'_> {
             for on in [false, true] {
                 let state = self.bit_const(on);
                 let body = bodies.entry((input, on)).or_default();
-                body.insert(0, Stmt::SetFlag(flag, state));
+                body.insert(0, Stmt::Do(Action::SetFlag(flag, state)));
             }
         }
         for ((input, rises), then) in bodies {

@@ -3,7 +3,7 @@
 
 use super::Lowerer;
 use super::operand::fixed;
-use rungc_ir::node::{Access, Arg, Expr, Stmt, SysValue};
+use rungc_ir::node::{Access, Action, Arg, Expr, SysValue};
 use rungc_rt::RtFn;
 use rungc_rt::modules::{BOARD, Kind, Place, Role};
 use rungc_rt::special::*;
@@ -142,7 +142,7 @@ impl Lowerer<'_> {
         self.when(first, |this| {
             for (register, value) in shown {
                 let value = this.add(Expr::I16(value));
-                this.emit(Stmt::Write(Access::word(register), value));
+                this.emit(Action::Write(Access::word(register), value));
             }
         });
     }

@@ -5,7 +5,9 @@ use super::parts::{Item, Jump, structure};
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
-use rungc_ir::node::{BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Stmt, TempId};
+use rungc_ir::node::{
+    Action, BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Stmt, TempId,
+};
 use rungc_rt::CmpOp;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -415,11 +417,16 @@ impl Lowerer<'_> {
         // A scan that the watchdog cut short left calls open.
         if let Some(open) = self.flow.open_calls.filter(|_| index == 0) {
             let none = self.add(Expr::I32(0));
-            body.insert(0, Stmt::SetCell(open, none));
+            body.insert(0, Stmt::Do(Action::SetCell(open, none)));
         }
         let prologue = std::mem::take(&mut self.flow.prologue);
         if !prologue.is_empty() {
-            body.splice(0..0, prologue.into_iter().map(|(t, e)| Stmt::Let(t, e)));
+            body.splice(
+                0..0,
+                prologue
+                    .into_iter()
+                    .map(|(t, e)| Stmt::Do(Action::Let(t, e))),
+            );
         }
         body
     }
@@ -565,7 +572,7 @@ impl Lowerer<'_> {
         }
         let step = self.step();
         self.when(cond, |this| {
-            this.emit(Stmt::Fault {
+            this.emit(Action::Fault {
                 code: NO_LABEL,
                 step,
             })
@@ -598,7 +605,7 @@ impl Lowerer<'_> {
         }
         let step = self.step();
         self.when(none, |this| {
-            this.emit(Stmt::Fault {
+            this.emit(Action::Fault {
                 code: NO_LABEL,
                 step,
             })
@@ -610,10 +617,10 @@ impl Lowerer<'_> {
         let Some(&callee) = self.flow.subroutines.get(&pointer) else {
             return;
         };
-        let too_deep = Stmt::Fault {
+        let too_deep = Stmt::Do(Action::Fault {
             code: CALL_DEPTH,
             step: self.step(),
-        };
+        });
         let call = Stmt::CallSub(self.flow.regions[callee].function);
         if self.flow.recursive.contains(&(self.flow.current, callee)) {
             self.emit(too_deep);
@@ -624,7 +631,11 @@ impl Lowerer<'_> {
             let cond = self.add(Expr::Cmp(CmpOp::Lt, now, most));
             let deeper = self.add(Expr::Bin(BinOp::Add, now, one));
             let back = self.add(Expr::Bin(BinOp::Sub, now, one));
-            let then = vec![Stmt::SetCell(open, deeper), call, Stmt::SetCell(open, back)];
+            let then = vec![
+                Stmt::Do(Action::SetCell(open, deeper)),
+                call,
+                Stmt::Do(Action::SetCell(open, back)),
+            ];
             self.emit(Stmt::If(Branch {
                 cond,
                 then,

@@ -5,7 +5,7 @@ use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Lower};
 use rungc_ir::node::{
-    Access, BinOp, Branch, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue,
+    Access, Action, BinOp, Branch, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue,
 };
 use rungc_models::high_speed::{self, Counter, Kind};
 use rungc_models::interrupts::Source;
@@ -44,13 +44,13 @@ pub(super) struct Compare {
     pub(super) values: Vec<CellId>,
     /// State of the comparison: the count was not below the value; `None` if only an equal count acts.
     pub(super) reached: Option<FlagId>,
-    pub(super) action: Action,
+    pub(super) effect: Effect,
     /// Its instruction.
     pub(super) at: usize,
 }
 
-/// Action of a comparison.
-pub(super) enum Action {
+/// Effect of a comparison.
+pub(super) enum Effect {
     /// Switches a bit.
     Switch(OperandKind, bool),
     /// Resets the counter itself.
@@ -119,7 +119,7 @@ impl Lowerer<'_> {
         if let Some((driven, _)) = self.high_speed.limit {
             let first = self.add(Expr::Sys(SysValue::FirstScan));
             let none = self.add(Expr::I32(0));
-            self.when(first, |this| this.emit(Stmt::SetCell(driven, none)));
+            self.when(first, |this| this.emit(Action::SetCell(driven, none)));
         }
     }
 
@@ -136,10 +136,10 @@ impl Lowerer<'_> {
             make(this);
         });
         let step = self.step();
-        let otherwise = vec![Stmt::Fault {
+        let otherwise = vec![Stmt::Do(Action::Fault {
             code: TOO_MANY_COMPARISONS,
             step,
-        }];
+        })];
         self.emit(Stmt::If(Branch {
             cond,
             then,
@@ -151,7 +151,7 @@ impl Lowerer<'_> {
         let count = self.add(Expr::Cell(driven));
         let one = self.add(Expr::I32(1));
         let count = self.add(Expr::Bin(op, count, one));
-        self.emit(Stmt::SetCell(driven, count));
+        self.emit(Action::SetCell(driven, count));
     }
 
     /// A comparison is not driven.
@@ -172,14 +172,14 @@ impl Lowerer<'_> {
         let (counter, on, preset) = (used.counter, used.on, used.preset);
         let drive = self.drive();
         self.with_preset(true, Guards::default(), |this, value| {
-            this.emit(Stmt::SetCell(preset, value));
-            this.emit(Stmt::SetFlag(on, drive));
+            this.emit(Action::SetCell(preset, value));
+            this.emit(Action::SetFlag(on, drive));
         });
         // A written or retained value does not outlast a reset input that is on.
         if let Some(held) = self.held(counter) {
             let resets = self.and(drive, held);
             let place = counter_place(counter.number);
-            self.when(resets, |this| this.emit(Stmt::Reset(place)));
+            self.when(resets, |this| this.emit(Action::Reset(place)));
         }
     }
 
@@ -208,7 +208,7 @@ impl Lowerer<'_> {
         if let Some(mode) = table {
             return self.count_table(mode, counted);
         }
-        let action = self.action(comparison, counted, &target)?;
+        let effect = self.effect(comparison, counted, &target)?;
         let n = self.high_speed.compares.len() + 1;
         let meaning = "a comparison at the count is driven";
         let armed = self.flag(format!("compare{n}"), meaning, None);
@@ -233,13 +233,13 @@ impl Lowerer<'_> {
             armed,
             values: cells.iter().map(|&(cell, _)| cell).collect(),
             reached,
-            action,
+            effect,
             at: self.at,
         };
         let then = self.body(|this| {
             this.guarded(guards, |this| {
                 for (cell, value) in cells {
-                    this.emit(Stmt::SetCell(cell, value));
+                    this.emit(Action::SetCell(cell, value));
                 }
                 this.arm(&compare);
                 if crossing.is_some() {
@@ -301,7 +301,7 @@ impl Lowerer<'_> {
             let count = self.count_of(compare);
             let value = self.add(Expr::Cell(value));
             let now = self.add(Expr::Cmp(CmpOp::Ge, count, value));
-            self.when(begins, |this| this.emit(Stmt::SetFlag(reached, now)));
+            self.when(begins, |this| this.emit(Action::SetFlag(reached, now)));
         }
         if self.high_speed.limit.is_none() {
             return self.set_flag_to(compare.armed, true);
@@ -321,19 +321,19 @@ impl Lowerer<'_> {
         }
     }
 
-    fn action(
+    fn effect(
         &mut self,
         comparison: Comparison,
         counted: Counted,
         target: &OperandKind,
-    ) -> Option<Action> {
+    ) -> Option<Effect> {
         let device = match *target {
             OperandKind::Device(device, None) => device,
             // The index counts at the moment of the comparison.
             OperandKind::Device(device, Some(_)) if is_coil(device.class) => device,
             OperandKind::WordBit(_, _, None) if comparison != Comparison::Zone => {
                 let on = comparison == Comparison::Set;
-                return Some(Action::Switch(target.clone(), on));
+                return Some(Effect::Switch(target.clone(), on));
             }
             OperandKind::Device(..)
             | OperandKind::WordBit(..)
@@ -347,14 +347,14 @@ impl Lowerer<'_> {
         };
         let counts_itself = matches!(counted, Counted::Counter(number) if number == device.number);
         Some(match (comparison, device.class) {
-            (Comparison::Zone, _) => Action::Zone(target.clone()),
+            (Comparison::Zone, _) => Effect::Zone(target.clone()),
             (Comparison::Set, DeviceClass::I) => {
                 let pointer = device.number;
-                Action::Request(self.request_flag(Source::Comparison { pointer })?)
+                Effect::Request(self.request_flag(Source::Comparison { pointer })?)
             }
-            (Comparison::Reset, DeviceClass::C) if counts_itself => Action::Reset,
+            (Comparison::Reset, DeviceClass::C) if counts_itself => Effect::Reset,
             (_, DeviceClass::C | DeviceClass::I) => return None,
-            _ => Action::Switch(target.clone(), comparison == Comparison::Set),
+            _ => Effect::Switch(target.clone(), comparison == Comparison::Set),
         })
     }
 
@@ -453,7 +453,7 @@ impl Lowerer<'_> {
         self.when(counts, |this| {
             this.show_last_millisecond(used.counter);
             let preset = this.add(Expr::Cell(used.preset));
-            this.emit(Stmt::Count(Count {
+            this.emit(Action::Count(Count {
                 number,
                 down,
                 preset,
@@ -503,7 +503,7 @@ impl Lowerer<'_> {
                 resets = this.and(resets, acts);
             }
             this.when(resets, |this| {
-                this.emit(Stmt::Reset(place));
+                this.emit(Action::Reset(place));
                 if let Some(compares_too) = relay(this, M_COMPARE_AT_RESET) {
                     this.when(compares_too, |this| {
                         for compare in compares {
@@ -530,9 +530,9 @@ impl Lowerer<'_> {
             .iter()
             .map(|&cell| self.add(Expr::Cell(cell)))
             .collect();
-        match (&compare.action, values.as_slice()) {
-            (Action::Rows(rows), _) => self.row_at_count(rows, count),
-            (Action::Zone(target), &[low, high]) => {
+        match (&compare.effect, values.as_slice()) {
+            (Effect::Rows(rows), _) => self.row_at_count(rows, count),
+            (Effect::Zone(target), &[low, high]) => {
                 let below = self.add(Expr::Cmp(CmpOp::Lt, count, low));
                 let above = self.add(Expr::Cmp(CmpOp::Gt, count, high));
                 self.show_zone(compare.armed, target, below, above);
@@ -542,15 +542,15 @@ impl Lowerer<'_> {
                 let Some(reached) = compare.reached else {
                     let equal = self.add(Expr::Cmp(CmpOp::Eq, count, value));
                     let acts = self.and(armed, equal);
-                    return self.when(acts, |this| this.do_action(compare));
+                    return self.when(acts, |this| this.take_effect(compare));
                 };
                 let now = self.add(Expr::Cmp(CmpOp::Ge, count, value));
                 let before = self.add(Expr::Flag(reached));
                 let crossed = self.differ(before, now);
                 let acts = self.and(armed, crossed);
                 self.when(acts, |this| {
-                    this.emit(Stmt::SetFlag(reached, now));
-                    this.do_action(compare);
+                    this.emit(Action::SetFlag(reached, now));
+                    this.take_effect(compare);
                 });
             }
             _ => {}
@@ -565,25 +565,25 @@ impl Lowerer<'_> {
         self.or(first, second)
     }
 
-    fn do_action(&mut self, compare: &Compare) {
-        match &compare.action {
-            Action::Switch(target, on) => {
+    fn take_effect(&mut self, compare: &Compare) {
+        match &compare.effect {
+            Effect::Switch(target, on) => {
                 if *on && self.is_request(target) {
                     self.capture_at_comparison(compare.counted);
                 }
                 let on = self.bit_const(*on);
                 self.write_bits(target, on);
             }
-            Action::Request(flag) => {
+            Effect::Request(flag) => {
                 self.capture_at_comparison(compare.counted);
                 self.set_flag_to(*flag, true);
             }
-            Action::Reset => {
+            Effect::Reset => {
                 if let Counted::Counter(number) = compare.counted {
-                    self.emit(Stmt::Reset(counter_place(number)));
+                    self.emit(Action::Reset(counter_place(number)));
                 }
             }
-            Action::Zone(_) | Action::Rows(_) => {}
+            Effect::Zone(_) | Effect::Rows(_) => {}
         }
     }
 

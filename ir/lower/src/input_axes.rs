@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::high_speed::{Counted, counter_place};
-use rungc_ir::node::{Access, BinOp, CellId, Expr, Stmt};
+use rungc_ir::node::{Access, Action, BinOp, CellId, Expr};
 use rungc_models::high_speed::{Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::M_COUNTER_DIRECTION;
@@ -17,7 +17,7 @@ impl Lowerer<'_> {
         };
         let count = self.add(Expr::Read(Access::pair(counter_place(counter.number))));
         if self.looks_at_pair(axis.count) {
-            self.emit(Stmt::Write(Access::pair(axis.count), count));
+            self.emit(Action::Write(Access::pair(axis.count), count));
         }
         if self.looks_at_pair(axis.upper) {
             let zero = self.add(Expr::I32(0));
@@ -25,7 +25,7 @@ impl Lowerer<'_> {
             let negative = self.add(Expr::BitToInt(negative));
             let negative = self.add(Expr::Widen(negative));
             let upper = self.add(Expr::Neg(negative));
-            self.emit(Stmt::Write(Access::pair(axis.upper), upper));
+            self.emit(Action::Write(Access::pair(axis.upper), upper));
         }
     }
 
@@ -64,7 +64,7 @@ impl Lowerer<'_> {
                         }
                     }
                 };
-                this.emit(Stmt::Write(Access::word(axis.mode), mode));
+                this.emit(Action::Write(Access::word(axis.mode), mode));
             });
         }
     }
@@ -92,9 +92,9 @@ impl Lowerer<'_> {
             let recent = this.add(Expr::BitToInt(recent));
             let mask = this.add(Expr::Neg(recent));
             let pulses = this.add(Expr::Bin(BinOp::And, pulses, mask));
-            this.emit(Stmt::Write(Access::word(axis.per_ms), pulses));
-            this.emit(Stmt::SetCell(base, count));
-            this.emit(Stmt::SetCell(last, now));
+            this.emit(Action::Write(Access::word(axis.per_ms), pulses));
+            this.emit(Action::SetCell(base, count));
+            this.emit(Action::SetCell(last, now));
         });
     }
 
@@ -140,7 +140,7 @@ impl Lowerer<'_> {
     fn capture(&mut self, counter: u32, register: Register) {
         if self.looks_at_pair(register) {
             let count = self.add(Expr::Read(Access::pair(counter_place(counter))));
-            self.emit(Stmt::Write(Access::pair(register), count));
+            self.emit(Action::Write(Access::pair(register), count));
         }
     }
 

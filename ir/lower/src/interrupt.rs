@@ -4,8 +4,8 @@ use super::Lowerer;
 use super::advanced::Section;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Access, BinOp, Body, Branch, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt,
-    SysValue, Ty,
+    Access, Action, BinOp, Body, Branch, CellId, Expr, ExprId, FlagId, Function, FunctionKind,
+    Stmt, SysValue, Ty,
 };
 use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source};
 use rungc_rt::special::D_SCOPE_STATE;
@@ -245,7 +245,7 @@ impl Lowerer<'_> {
         let none = self.add(Expr::I32(0));
         self.when(first, |this| {
             for cell in cells {
-                this.emit(Stmt::SetCell(cell, none));
+                this.emit(Action::SetCell(cell, none));
             }
         });
     }
@@ -354,9 +354,9 @@ impl Lowerer<'_> {
             let is_new = self.and(asked, has_none);
             self.when(is_new, |this| {
                 let next = this.one_behind(stored.count);
-                this.emit(Stmt::SetCell(stored.count, next));
+                this.emit(Action::SetCell(stored.count, next));
                 let next = this.add(Expr::Cell(stored.count));
-                this.emit(Stmt::SetCell(place, next));
+                this.emit(Action::SetCell(place, next));
             });
         }
     }
@@ -368,25 +368,25 @@ impl Lowerer<'_> {
         let any = self.add(Expr::Cmp(CmpOp::Gt, count, zero));
         self.when(any, |this| {
             let turn = this.temp(Ty::I32);
-            this.emit(Stmt::Let(turn, zero));
+            this.emit(Action::Let(turn, zero));
             let body = this.body(|this| {
                 let one = this.add(Expr::I32(1));
                 let before = this.add(Expr::Temp(turn));
                 let next = this.add(Expr::Bin(BinOp::Add, before, one));
-                this.emit(Stmt::Let(turn, next));
+                this.emit(Action::Let(turn, next));
                 for (&(source, flag), &place) in flags.iter().zip(&stored.places) {
                     let turn = this.add(Expr::Temp(turn));
                     let at = this.add(Expr::Cell(place));
                     let is_next = this.add(Expr::Cmp(CmpOp::Eq, at, turn));
                     this.when(is_next, |this| {
-                        this.emit(Stmt::SetCell(place, zero));
+                        this.emit(Action::SetCell(place, zero));
                         this.serve_source(requests, source, flag);
                     });
                 }
             });
             let count = this.add(Expr::Narrow(count));
             this.emit(Stmt::For { count, body });
-            this.emit(Stmt::SetCell(stored.count, zero));
+            this.emit(Action::SetCell(stored.count, zero));
         });
     }
 

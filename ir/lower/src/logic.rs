@@ -4,7 +4,7 @@ use super::operand::Guards;
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Drive, Join, Lower};
-use rungc_ir::node::{Expr, ExprId, Ty};
+use rungc_ir::node::{Action, Expr, ExprId, Ty};
 use rungc_rt::{CmpOp, EdgeKind};
 
 /// The logic at hand.
@@ -251,8 +251,8 @@ impl Lowerer<'_> {
         let zero = self.add(zero);
         self.guarded_or(
             guards,
-            |this| this.emit(rungc_ir::node::Stmt::Let(temp, value)),
-            |this| this.emit(rungc_ir::node::Stmt::Let(temp, zero)),
+            |this| this.emit(Action::Let(temp, value)),
+            |this| this.emit(Action::Let(temp, zero)),
         );
         self.add(Expr::Temp(temp))
     }

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::call::extents;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, BinOp, Branch, CellId, Expr, ExprId, Fetch, Place, Send, Stmt,
+    Access, AccessKind, Action, Arg, BinOp, Branch, CellId, Expr, ExprId, Fetch, Place, Send, Stmt,
     SysValue, Ty,
 };
 use rungc_models::runs::{is_counter32, words_of_bits};
@@ -77,7 +77,7 @@ impl Lowerer<'_> {
         let then = self.body(make);
         let (code, step) = (OUT_OF_RANGE, self.step());
         let otherwise =
-            self.body(|this| this.when(drive, |this| this.emit(Stmt::Fault { code, step })));
+            self.body(|this| this.when(drive, |this| this.emit(Action::Fault { code, step })));
         self.emit(Stmt::If(Branch {
             cond,
             then,
@@ -103,7 +103,7 @@ impl Lowerer<'_> {
             let then = this.body(make);
             let step = this.step();
             let otherwise = this.body(|this| {
-                this.emit(Stmt::Fault {
+                this.emit(Action::Fault {
                     code: OUT_OF_RANGE,
                     step,
                 });
@@ -378,7 +378,7 @@ impl Lowerer<'_> {
         let value = self.fetch_cell(operand);
         let there = self.temp(Ty::Bit);
         let step = self.step();
-        self.emit(Stmt::Fetch(Fetch {
+        self.emit(Action::Fetch(Fetch {
             from,
             wide,
             value,
@@ -520,21 +520,21 @@ impl Lowerer<'_> {
     /// Writes an integer of the target's width.
     pub(super) fn store(&mut self, target: Target, value: ExprId) {
         let stmt = match target {
-            Target::Word(place) => Stmt::Write(Access::word(place), value),
-            Target::Pair(place) => Stmt::Write(Access::pair(place), value),
+            Target::Word(place) => Stmt::Do(Action::Write(Access::word(place), value)),
+            Target::Pair(place) => Stmt::Do(Action::Write(Access::pair(place), value)),
             Target::Nibbles(place, digits) => {
                 let wide = self.module.ty(value) == Ty::I32;
                 let kind = AccessKind::Nibbles { digits, wide };
-                Stmt::Write(kind.at(place), value)
+                Stmt::Do(Action::Write(kind.at(place), value))
             }
             Target::Sent(to, wide) => {
                 let step = self.step();
-                Stmt::Send(Send {
+                Stmt::Do(Action::Send(Send {
                     to,
                     wide,
                     value,
                     step,
-                })
+                }))
             }
             Target::None => return,
         };
@@ -575,20 +575,20 @@ impl Lowerer<'_> {
     /// Writes the bit `offset` bits after the target.
     pub(super) fn store_bit(&mut self, target: BitTarget, offset: u32, value: ExprId) {
         self.emit(match target {
-            BitTarget::Device(place) => Stmt::Write(
+            BitTarget::Device(place) => Stmt::Do(Action::Write(
                 Access::bit(Place {
                     number: place.number + offset,
                     ..place
                 }),
                 value,
-            ),
+            )),
             BitTarget::OfWord(place, bit) => {
                 let bit = u32::from(bit) + offset;
                 let number = place.number + bit / 16;
-                Stmt::Write(
+                Stmt::Do(Action::Write(
                     Access::word_bit(Place { number, ..place }, (bit % 16) as u8),
                     value,
-                )
+                ))
             }
         });
     }

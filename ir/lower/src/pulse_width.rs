@@ -1,7 +1,7 @@
 //! Widths and periods of pulses, as exactly as a host reports the time: to a millisecond.
 
 use super::Lowerer;
-use rungc_ir::node::{Access, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt};
+use rungc_ir::node::{Access, Action, BinOp, Branch, CellId, Expr, ExprId, FlagId, Stmt};
 use rungc_models::high_speed::Meter;
 use rungc_rt::{EdgeKind, Relay};
 
@@ -76,7 +76,7 @@ impl Lowerer<'_> {
         let units = self.add(Expr::I32(RING));
         let ring = self.add(Expr::Bin(BinOp::Mul, now, units));
         let edge = meter.registers.after(if rises { 0 } else { 2 });
-        self.emit(Stmt::Write(Access::pair(edge), ring));
+        self.emit(Action::Write(Access::pair(edge), ring));
         let known = self.add(Expr::Flag(measured.known));
         let period = match meter.period {
             Some(relay) => self.relay_or_off(relay),
@@ -89,10 +89,13 @@ impl Lowerer<'_> {
             let passed = this.add(Expr::Bin(BinOp::Sub, now, rose));
             let units = this.add(Expr::I32(WIDTH));
             let length = this.add(Expr::Bin(BinOp::Mul, passed, units));
-            this.emit(Stmt::Write(Access::pair(meter.registers.after(4)), length));
+            this.emit(Action::Write(
+                Access::pair(meter.registers.after(4)),
+                length,
+            ));
         });
         if rises {
-            self.emit(Stmt::SetCell(measured.rose, now));
+            self.emit(Action::SetCell(measured.rose, now));
             self.set_flag_to(measured.known, true);
         }
     }

@@ -5,7 +5,7 @@ use super::Lowerer;
 use super::blocks::register;
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, BinOp, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Access, Action, BinOp, Expr, ExprId, Place};
 use rungc_models::runs::is_special;
 use rungc_rt::special::{M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
@@ -74,7 +74,7 @@ impl Lowerer<'_> {
         let one = self.int(1, false);
         let held = self.add(Expr::Bin(op, held, one));
         let place = fixed(queue.class, queue.number);
-        self.emit(Stmt::Write(Access::word(place), held));
+        self.emit(Action::Write(Access::word(place), held));
     }
 
     /// SFWR: a full queue stays as it is.
@@ -100,7 +100,7 @@ impl Lowerer<'_> {
                     index: Some(index),
                     ..fixed(queue.class, queue.number + 1)
                 };
-                this.emit(Stmt::Write(Access::word(place), value));
+                this.emit(Action::Write(Access::word(place), value));
             });
         });
     }

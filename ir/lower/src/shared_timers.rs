@@ -4,7 +4,7 @@
 //! A coil that occurs once, in code that a scan passes at most once, needs no memory of the scan in which it was
 //! executed.
 
-use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
+use rungc_ir::node::{Action, FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};
 use std::collections::BTreeSet;
 
@@ -35,7 +35,7 @@ impl Times {
 
 /// Marks the coils of timers that share the time of a scan.
 pub(super) fn mark(module: &mut Module) {
-    let has_timers = |stmt: &Stmt| matches!(stmt, Stmt::Timer(_) | Stmt::TimerAt(_));
+    let has_timers = |stmt: &Stmt| matches!(stmt, Stmt::Do(Action::Timer(_) | Action::TimerAt(_)));
     let mut any = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| any |= has_timers(stmt));
@@ -47,13 +47,13 @@ pub(super) fn mark(module: &mut Module) {
     let (mut seen, mut shared, mut indexed) = (BTreeSet::new(), BTreeSet::new(), false);
     for (function, &times) in module.functions.iter().zip(&times) {
         executed(&function.body, times, &mut |stmt, times| {
-            if let Stmt::Timer(TimerCoil { number, .. }) = *stmt
+            if let Stmt::Do(Action::Timer(TimerCoil { number, .. })) = *stmt
                 && (!seen.insert(number) || times == Times::Often)
             {
                 shared.insert(number);
             }
             // It may lead to any timer.
-            indexed |= matches!(stmt, Stmt::TimerAt(_));
+            indexed |= matches!(stmt, Stmt::Do(Action::TimerAt(_)));
         });
     }
     if indexed || !shared.is_empty() {
@@ -67,7 +67,7 @@ pub(super) fn mark(module: &mut Module) {
 
 fn mark_body(body: &mut [Stmt], is_shared: &impl Fn(u32) -> bool) {
     for stmt in body {
-        if let Stmt::Timer(TimerCoil { number, kind, .. }) = stmt {
+        if let Stmt::Do(Action::Timer(TimerCoil { number, kind, .. })) = stmt {
             kind.shared = is_shared(*number);
         }
         for inner in bodies_mut(stmt) {

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::call::output_of;
 use super::operand::fixed;
 use rungc_catalogue::{Lower, Role};
-use rungc_ir::node::{Access, Arg, Call, Expr, ExprId, Function, FunctionKind, Stmt};
+use rungc_ir::node::{Access, Action, Arg, Call, Expr, ExprId, Function, FunctionKind, Stmt};
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, X, Y};
@@ -145,7 +145,7 @@ impl Lowerer<'_> {
             for kind in [EdgeKind::Rising, EdgeKind::Falling] {
                 self.on_edge(input, kind, |this| {
                     let on = this.bit_const(kind == EdgeKind::Rising);
-                    this.emit(Stmt::Write(Access::bit(fixed(X, input)), on));
+                    this.emit(Action::Write(Access::bit(fixed(X, input)), on));
                     this.emit(Stmt::CallSub(function));
                 });
             }
@@ -158,7 +158,7 @@ impl Lowerer<'_> {
         let guards = self.bounds_hold();
         self.guarded(guards, |this| {
             let (args, step) = (this.args(), this.step());
-            this.emit(Stmt::Call(Call {
+            this.emit(Action::Call(Call {
                 function: looker.function,
                 wide,
                 args,
@@ -211,7 +211,7 @@ impl Lowerer<'_> {
     }
 
     fn stop_pulses(&mut self, output: u32) {
-        self.emit(Stmt::Call(Call {
+        self.emit(Action::Call(Call {
             function: RtFn::StopPulses,
             wide: false,
             args: vec![Arg::Device {

@@ -5,7 +5,7 @@ use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
 use rungc_ir::node::{
-    Access, Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty,
+    Access, Action, Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty,
 };
 use rungc_models::special::{RunCommand, SpecialDevice};
 use rungc_rt::special::*;
@@ -91,7 +91,7 @@ impl Lowerer<'_> {
             this.begin_rows();
             this.first_captures();
             for (number, kind) in std::mem::take(&mut this.free_running) {
-                this.emit(Stmt::TimerGoesOn { number, kind });
+                this.emit(Action::TimerGoesOn { number, kind });
             }
             this.monitor(&STATES);
             this.monitor(&ALARMS);
@@ -99,7 +99,7 @@ impl Lowerer<'_> {
             for (relay, latched) in CLEAR {
                 if this.keeps(relay) {
                     let asked = this.add(Expr::Read(Access::bit(relay)));
-                    this.when(asked, |this| this.emit(Stmt::Clear { latched }));
+                    this.when(asked, |this| this.emit(Action::Clear { latched }));
                 }
             }
             this.forced_stop();
@@ -117,7 +117,7 @@ impl Lowerer<'_> {
         self.when(asked, |this| {
             let off = this.bit_const(false);
             this.write_relay(M_FORCED_STOP, off);
-            this.emit(Stmt::Stop);
+            this.emit(Action::Stop);
         });
     }
 
@@ -214,7 +214,7 @@ impl Lowerer<'_> {
             }
             for register in registers {
                 let none = this.int(0, false);
-                this.emit(Stmt::Write(Access::word(register), none));
+                this.emit(Action::Write(Access::word(register), none));
             }
         };
         let when = if self.model.errors_last_a_scan {
@@ -257,7 +257,7 @@ impl Lowerer<'_> {
         let known = self.add(Expr::Cmp(CmpOp::Gt, time, zero));
         self.when(known, |this| {
             if this.keeps(D_SCAN_TIME) {
-                this.emit(Stmt::Write(Access::word(D_SCAN_TIME), time));
+                this.emit(Action::Write(Access::word(D_SCAN_TIME), time));
             }
             if this.keeps(D_LEAST_SCAN_TIME) {
                 let least = this.add(Expr::Read(Access::word(D_LEAST_SCAN_TIME)));
@@ -265,14 +265,14 @@ impl Lowerer<'_> {
                 let less = this.add(Expr::Cmp(CmpOp::Lt, time, least));
                 let better = this.or(unset, less);
                 this.when(better, |this| {
-                    this.emit(Stmt::Write(Access::word(D_LEAST_SCAN_TIME), time));
+                    this.emit(Action::Write(Access::word(D_LEAST_SCAN_TIME), time));
                 });
             }
             if this.keeps(D_MOST_SCAN_TIME) {
                 let most = this.add(Expr::Read(Access::word(D_MOST_SCAN_TIME)));
                 let more = this.add(Expr::Cmp(CmpOp::Gt, time, most));
                 this.when(more, |this| {
-                    this.emit(Stmt::Write(Access::word(D_MOST_SCAN_TIME), time));
+                    this.emit(Action::Write(Access::word(D_MOST_SCAN_TIME), time));
                 });
             }
         });
@@ -288,18 +288,18 @@ impl Lowerer<'_> {
             let units = self.add(Expr::I32(20));
             let now = self.add(Expr::Bin(BinOp::Mul, now, units));
             let word = self.add(Expr::Narrow(now));
-            self.emit(Stmt::Write(Access::word(D_SHORT_TICK), word));
+            self.emit(Action::Write(Access::word(D_SHORT_TICK), word));
         }
         let tick = D_TICK.run();
         let [low, high] = tick.map(|register| self.keeps(register));
         let now = self.add(Expr::Sys(SysValue::NowMs));
         if low {
             let word = self.add(Expr::Narrow(now));
-            self.emit(Stmt::Write(Access::word(tick[0]), word));
+            self.emit(Action::Write(Access::word(tick[0]), word));
         }
         if high {
             let word = self.add(Expr::HighWord(now));
-            self.emit(Stmt::Write(Access::word(tick[1]), word));
+            self.emit(Action::Write(Access::word(tick[1]), word));
         }
     }
 
@@ -317,7 +317,7 @@ impl Lowerer<'_> {
             let count = this.add(Expr::Bin(BinOp::Add, count, passed));
             let mask = this.int(i32::from(i16::MAX), false);
             let count = this.add(Expr::Bin(BinOp::And, count, mask));
-            this.emit(Stmt::Write(Access::word(register), count));
+            this.emit(Action::Write(Access::word(register), count));
         });
     }
 
@@ -383,7 +383,7 @@ impl Lowerer<'_> {
         let needs = function.needs();
         let drive = needs.always.then(|| self.bit_const(true));
         self.module.states = self.module.states.saturating_add(needs.state.into());
-        self.emit(Stmt::Call(Call {
+        self.emit(Action::Call(Call {
             function,
             wide: false,
             args,
@@ -467,10 +467,10 @@ impl Lowerer<'_> {
         self.when(enabled, |this| {
             let zero = this.add(Expr::I32(0));
             let found = this.temp(Ty::I32);
-            this.emit(Stmt::Let(found, zero));
+            this.emit(Action::Let(found, zero));
             let none = this.int(0, false);
             for &register in registers.iter().flatten() {
-                this.emit(Stmt::Write(Access::word(register), none));
+                this.emit(Action::Write(Access::word(register), none));
             }
             for (first, last) in runs {
                 this.list_active(first, last, found, &registers);
@@ -528,7 +528,7 @@ impl Lowerer<'_> {
         let zero = self.add(Expr::I32(0));
         let one = self.add(Expr::I32(1));
         let offset = self.temp(Ty::I32);
-        self.emit(Stmt::Let(offset, zero));
+        self.emit(Action::Let(offset, zero));
         let index = self.add(Expr::Temp(offset));
         let count = self.int((last - first + 1) as i32, false);
         let body = self.body(|this| {
@@ -544,10 +544,10 @@ impl Lowerer<'_> {
                 this.note_active(number, found, registers);
                 let so_far = this.add(Expr::Temp(found));
                 let next = this.add(Expr::Bin(BinOp::Add, so_far, one));
-                this.emit(Stmt::Let(found, next));
+                this.emit(Action::Let(found, next));
             });
             let next = this.add(Expr::Bin(BinOp::Add, index, one));
-            this.emit(Stmt::Let(offset, next));
+            this.emit(Action::Let(offset, next));
         });
         self.emit(Stmt::For { count, body });
     }
@@ -561,7 +561,7 @@ impl Lowerer<'_> {
             let n = self.add(Expr::I32(n as i32));
             let here = self.add(Expr::Cmp(CmpOp::Eq, so_far, n));
             self.when(here, |this| {
-                this.emit(Stmt::Write(Access::word(register), number));
+                this.emit(Action::Write(Access::word(register), number));
             });
         }
     }

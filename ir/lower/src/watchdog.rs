@@ -132,31 +132,11 @@ impl Watcher<'_> {
                         0
                     }
                 }
-                stmt @ (Stmt::Let(..)
-                | Stmt::Edge(_)
-                | Stmt::SetFlag(..)
-                | Stmt::SetCell(..)
-                | Stmt::SetEntry(_)
-                | Stmt::Write(..)
-                | Stmt::Timer(_)
-                | Stmt::TimerAt(_)
-                | Stmt::TimerGoesOn { .. }
-                | Stmt::Counter16(_)
-                | Stmt::Counter16At(_)
-                | Stmt::Counter32(_)
-                | Stmt::Count(_)
-                | Stmt::Reset(_)
-                | Stmt::Block(_)
+                stmt @ (Stmt::Do(_)
                 | Stmt::Repeat(_)
                 | Stmt::Return
                 | Stmt::Goto(_)
-                | Stmt::Call(_)
-                | Stmt::Fetch(_)
-                | Stmt::Send(_)
-                | Stmt::Fault { .. }
-                | Stmt::Watch { .. }
-                | Stmt::Stop
-                | Stmt::Clear { .. }) => {
+                | Stmt::Watch { .. }) => {
                     out.push(stmt);
                     0
                 }

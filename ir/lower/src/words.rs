@@ -4,7 +4,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, BinOp, Branch, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
+use rungc_ir::node::{Access, Action, BinOp, Branch, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
 use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
@@ -114,7 +114,7 @@ impl Lowerer<'_> {
         self.emit(Stmt::If(Branch {
             cond,
             then,
-            otherwise: vec![Stmt::Fault { code, step }],
+            otherwise: vec![Stmt::Do(Action::Fault { code, step })],
         }));
     }
 
@@ -327,7 +327,7 @@ impl Lowerer<'_> {
 
     fn store_float(&mut self, target: Target, value: ExprId) {
         if let Target::Pair(place) = target {
-            self.emit(Stmt::Write(Access::float(place), value));
+            self.emit(Action::Write(Access::float(place), value));
         }
     }
 

@@ -5,7 +5,7 @@
 //! of MPS, at the coil, at the drive of an instruction.
 
 use rungc_interp::{Machine, Observer};
-use rungc_ir::node::{Expr, ExprId, Stmt, Ty};
+use rungc_ir::node::{Action, Expr, ExprId, Stmt, Ty};
 use rungc_ir::{Module, walk};
 use rungc_lower::marks::{Mark, Marks};
 use rungc_rt::{Class, Plc};
@@ -163,10 +163,10 @@ impl Observer for Watcher {
         match stmt {
             Stmt::Network(network) => self.mark(machine, *network),
             // The contact of LDP decides where its result is used.
-            Stmt::Edge(edge) if self.marks.edges.contains(&edge.memory) => {}
+            Stmt::Do(Action::Edge(edge)) if self.marks.edges.contains(&edge.memory) => {}
             _ => walk::for_exprs(stmt, &mut |&id| self.expression(machine, id)),
         }
-        if let Stmt::Timer(coil) = stmt
+        if let Stmt::Do(Action::Timer(coil)) = stmt
             && let (Some(instr), Some(true)) = (self.output, machine.bit(Class::T, coil.number))
         {
             self.seen.add(instr, EXPIRED);

@@ -3,7 +3,7 @@
 use crate::engine::Trouble;
 use rungc_codegen_c::{Members, Options, emit, lanes};
 use rungc_ir::Module;
-use rungc_ir::node::{Call, Stmt};
+use rungc_ir::node::{Action, Call, Stmt};
 use rungc_ir::walk::{calls_runtime, statements};
 use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
@@ -48,7 +48,7 @@ pub fn refusal(module: &Module) -> Option<&'static str> {
     let reaches_out = lanes::reaches_out(module);
     reaches_out.or_else(|| {
         let asks = any(module, |stmt| match stmt {
-            Stmt::Call(Call { function, .. }) => function.needs().hal,
+            Stmt::Do(Action::Call(Call { function, .. })) => function.needs().hal,
             other => calls_runtime(other),
         });
         asks.then_some("asks hardware: special modules, the clock, terminals within a scan")

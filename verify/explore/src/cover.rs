@@ -4,7 +4,7 @@ use crate::run::Runner;
 use crate::task::Task;
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, CellId, Expr, ExprId, FlagId, Stmt};
+use rungc_ir::node::{AccessKind, Action, CellId, Expr, ExprId, FlagId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_models::runs::{is_counter32, is_special};
 use rungc_rt::{Class, Plc};
@@ -312,10 +312,10 @@ fn compared(module: &Module, task: &Task) -> FxHashMap<(DeviceClass, u32), Vec<i
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             let (device, preset) = match stmt {
-                Stmt::Timer(coil) => ((DeviceClass::T, coil.number), coil.preset),
-                Stmt::Counter16(coil) => ((DeviceClass::C, coil.number), coil.preset),
-                Stmt::Counter32(coil) => ((DeviceClass::C, coil.number), coil.preset),
-                Stmt::Count(count) => ((DeviceClass::C, count.number), count.preset),
+                Stmt::Do(Action::Timer(coil)) => ((DeviceClass::T, coil.number), coil.preset),
+                Stmt::Do(Action::Counter16(coil)) => ((DeviceClass::C, coil.number), coil.preset),
+                Stmt::Do(Action::Counter32(coil)) => ((DeviceClass::C, coil.number), coil.preset),
+                Stmt::Do(Action::Count(count)) => ((DeviceClass::C, count.number), count.preset),
                 _ => return,
             };
             let numbers = cells.behind(module, preset);
@@ -347,7 +347,7 @@ impl Cells {
         let mut cells: FxHashMap<CellId, Vec<ExprId>> = FxHashMap::default();
         for function in &module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::SetCell(cell, value) = *stmt {
+                if let Stmt::Do(Action::SetCell(cell, value)) = *stmt {
                     cells.entry(cell).or_default().push(value);
                 }
             });

@@ -3,7 +3,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::node::{
-    AccessKind, Body, Branch, Expr, ExprId, Flag, FlagId, FunctionKind, Place, Stmt,
+    AccessKind, Action, Body, Branch, Expr, ExprId, Flag, FlagId, FunctionKind, Place, Stmt,
 };
 use rungc_ir::walk::bodies_mut;
 use rungc_syntax::DeviceClass;
@@ -70,7 +70,7 @@ impl Notes {
             .find(|function| function.kind == FunctionKind::Main);
         if let Some(main) = main {
             let coils = notes.coils.iter().flat_map(|(_, coils)| coils);
-            let begin = coils.map(|coil| Stmt::SetFlag(coil.executed, off));
+            let begin = coils.map(|coil| Stmt::Do(Action::SetFlag(coil.executed, off)));
             main.body.splice(0..0, begin.collect::<Vec<_>>());
         }
         module.functions = functions;
@@ -102,21 +102,24 @@ impl Noting {
                 for branch in [then, otherwise] {
                     let flag = self.flag();
                     self.notes.branches.push(flag);
-                    branch.insert(0, Stmt::SetFlag(flag, self.on));
+                    branch.insert(0, Stmt::Do(Action::SetFlag(flag, self.on)));
                 }
             }
             if let Some((output, value)) = self.coil(&body[at]).filter(|_| of_program) {
                 let (executed, on) = (self.flag(), self.flag());
                 let coil = Coil { executed, on };
                 self.coils.entry(output).or_default().push(coil);
-                let notes = [Stmt::SetFlag(executed, self.on), Stmt::SetFlag(on, value)];
+                let notes = [
+                    Stmt::Do(Action::SetFlag(executed, self.on)),
+                    Stmt::Do(Action::SetFlag(on, value)),
+                ];
                 body.splice(at..at, notes);
                 at += 2;
             }
-            if let Stmt::Fault { code, step } = body[at] {
+            if let Stmt::Do(Action::Fault { code, step }) = body[at] {
                 let flag = self.flag();
                 self.notes.faults.push((flag, (code, step)));
-                body.insert(at, Stmt::SetFlag(flag, self.on));
+                body.insert(at, Stmt::Do(Action::SetFlag(flag, self.on)));
                 at += 1;
             }
             at += 1;
@@ -125,7 +128,7 @@ impl Noting {
 
     /// The output and the value of a coil: OUT, but not SET and RST, which write constants.
     fn coil(&self, stmt: &Stmt) -> Option<(u32, ExprId)> {
-        let &Stmt::Write(access, value) = stmt else {
+        let &Stmt::Do(Action::Write(access, value)) = stmt else {
             return None;
         };
         let Place {

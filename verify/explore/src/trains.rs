@@ -6,7 +6,7 @@ use crate::task::{Step, Task};
 use fastrand::Rng;
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Expr, ExprId, FunctionKind, Stmt};
+use rungc_ir::node::{AccessKind, Action, Expr, ExprId, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_models::Model;
 use rungc_models::high_speed::Kind;
@@ -121,7 +121,7 @@ pub fn sources(module: &Module, driven: &dyn Fn((DeviceClass, u32)) -> bool) -> 
         };
         inputs.insert(input);
         statements(&function.body, &mut |stmt| {
-            if let Stmt::Count(count) = stmt {
+            if let Stmt::Do(Action::Count(count)) = stmt {
                 counted.insert((count.number, input));
             }
         });
@@ -327,7 +327,7 @@ fn goals(module: &Module) -> Vec<(u32, Goal)> {
     }
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            if let Stmt::Count(count) = stmt {
+            if let Stmt::Do(Action::Count(count)) = stmt {
                 add(count.number, count.preset);
             }
         });

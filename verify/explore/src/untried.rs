@@ -2,7 +2,7 @@
 
 use crate::task::Task;
 use crate::trains::MOST_A_MS;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
@@ -29,7 +29,7 @@ pub fn untried(task: &Task) -> Vec<String> {
     let mut others = BTreeSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            if let Stmt::Call(call) = stmt {
+            if let Stmt::Do(Action::Call(call)) = stmt {
                 others.extend(source(call.function));
             }
         });

@@ -6,7 +6,7 @@ use crate::task::{Step, Task};
 use crate::trains::Trains;
 use crate::wide::{LANES, Stride};
 use fastrand::Rng;
-use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt};
+use rungc_ir::node::{AccessKind, Action, Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc};
 use rungc_syntax::DeviceClass;
@@ -43,7 +43,7 @@ impl<'t> Choices<'t> {
         let mut timers = Vec::new();
         for function in &task.module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::Timer(coil) = stmt
+                if let Stmt::Do(Action::Timer(coil)) = stmt
                     && let Some(preset) = preset(task, coil.preset)
                 {
                     timers.push(Timer {

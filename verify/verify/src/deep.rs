@@ -13,7 +13,7 @@ use crate::replay::{Run, plain};
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
-use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_ir::node::{Action, Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
@@ -229,7 +229,7 @@ fn timers_that_are_set_up(module: &Module) -> BTreeSet<u32> {
     let mut found = BTreeSet::new();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            if let Stmt::Timer(coil) = stmt
+            if let Stmt::Do(Action::Timer(coil)) = stmt
                 && !matches!(module.expr(coil.preset), Expr::I16(_) | Expr::I32(_))
             {
                 found.insert(coil.number);

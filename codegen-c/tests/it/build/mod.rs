@@ -110,12 +110,14 @@ impl Builder {
 
     pub fn write_bit(&mut self, class: DeviceClass, number: u32, value: ExprId) {
         let place = self.place(class, number);
-        self.body.push(Stmt::Write(Access::bit(place), value));
+        self.body
+            .push(Stmt::Do(Action::Write(Access::bit(place), value)));
     }
 
     pub fn write_word(&mut self, class: DeviceClass, number: u32, value: ExprId) {
         let place = self.place(class, number);
-        self.body.push(Stmt::Write(Access::word(place), value));
+        self.body
+            .push(Stmt::Do(Action::Write(Access::word(place), value)));
     }
 
     pub fn timer(&mut self, number: u32, drive: ExprId, preset: ExprId) {
@@ -129,12 +131,12 @@ impl Builder {
             stepwise: false,
             shared: false,
         };
-        self.body.push(Stmt::Timer(TimerCoil {
+        self.body.push(Stmt::Do(Action::Timer(TimerCoil {
             number,
             kind,
             drive,
             preset,
-        }));
+        })));
     }
 
     pub fn when(&mut self, cond: ExprId, then: impl FnOnce(&mut Self)) {
@@ -155,13 +157,13 @@ impl Builder {
         );
         self.module.edges += 1;
         self.module.temps.push(Ty::Bit);
-        self.body.push(Stmt::Edge(Edge {
+        self.body.push(Stmt::Do(Action::Edge(Edge {
             memory: edge,
             index: None,
             kind: EdgeKind::Rising,
             input,
             out,
-        }));
+        })));
         let cond = self.module.add(Expr::Temp(out));
         self.when(cond, then);
     }

@@ -150,32 +150,32 @@ pub fn motor() -> Module {
     let on = b.expr(Expr::Bit(true));
     let body = vec![
         b.network(0, Some("start and stop")),
-        Stmt::Write(Access::bit(place(M, 0)), latch),
+        Stmt::Do(Action::Write(Access::bit(place(M, 0)), latch)),
         b.network(4, None),
-        Stmt::Timer(TimerCoil {
+        Stmt::Do(Action::Timer(TimerCoil {
             number: 0,
             kind: TIMER,
             drive: m0,
             preset,
-        }),
-        Stmt::Write(Access::bit(place(Y, 0)), both),
+        })),
+        Stmt::Do(Action::Write(Access::bit(place(Y, 0)), both)),
         b.network(10, None),
-        Stmt::Edge(Edge {
+        Stmt::Do(Action::Edge(Edge {
             memory: edge,
             index: None,
             kind: EdgeKind::Rising,
             input: x2,
             out: rising,
-        }),
+        })),
         Stmt::If(Branch {
             cond: is_rising,
-            then: vec![Stmt::Write(Access::word(place(D, 0)), sum)],
+            then: vec![Stmt::Do(Action::Write(Access::word(place(D, 0)), sum))],
             otherwise: Vec::new(),
         }),
         b.network(19, None),
         Stmt::If(Branch {
             cond: full,
-            then: vec![Stmt::Write(Access::bit(place(Y, 1)), on)],
+            then: vec![Stmt::Do(Action::Write(Access::bit(place(Y, 1)), on))],
             otherwise: Vec::new(),
         }),
     ];

@@ -18,7 +18,7 @@ use rungc_golden::shapes::Shapes;
 use rungc_golden::stations;
 use rungc_interp::{Machine, Observer};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Repeat, Stmt};
+use rungc_ir::node::{AccessKind, Action, Repeat, Stmt};
 use rungc_ir::walk::statements;
 use rungc_lower::compile::{Bound, CompileOptions, compile};
 use rungc_models::ModelId;
@@ -482,10 +482,12 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
                 return;
             };
             statements(body, &mut |stmt| match stmt {
-                Stmt::TimerAt(_) => timers += 1,
-                Stmt::Counter16At(_) => counters += 1,
-                Stmt::Write(access, _) if access.kind == AccessKind::Word => registers += 1,
-                Stmt::Edge(_) => edges += 1,
+                Stmt::Do(Action::TimerAt(_)) => timers += 1,
+                Stmt::Do(Action::Counter16At(_)) => counters += 1,
+                Stmt::Do(Action::Write(access, _)) if access.kind == AccessKind::Word => {
+                    registers += 1
+                }
+                Stmt::Do(Action::Edge(_)) => edges += 1,
                 _ => {}
             });
         });

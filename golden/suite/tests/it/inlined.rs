@@ -7,7 +7,7 @@
 use rungc_golden::rng::Rng;
 use rungc_interp::Machine;
 use rungc_ir::Module;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk::statements;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
@@ -118,7 +118,7 @@ fn calls(module: &Module) -> bool {
     let mut calls = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            calls |= matches!(stmt, Stmt::Call(_));
+            calls |= matches!(stmt, Stmt::Do(Action::Call(_)));
         });
     }
     calls

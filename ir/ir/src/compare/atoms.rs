@@ -1,11 +1,11 @@
 //! The statements of a module as atoms: texts, and what each reads and writes.
 
 use crate::node::{
-    Arg, Body, Branch, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId, FunctionKind,
-    Module, Send, SetEntry, Stmt, TableId, TempId,
+    Action, Arg, Body, Branch, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId,
+    FunctionKind, Module, Send, SetEntry, Stmt, TableId, TempId,
 };
-use crate::reach::{Footprint, of_expr, of_stmt};
-use crate::walk::{bodies, for_exprs_mut, operands, operands_mut};
+use crate::reach::{Footprint, of_action, of_expr};
+use crate::walk::{action_exprs_mut, bodies, operands, operands_mut};
 use rungc_rt::{Needs, Register, Relay};
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -268,8 +268,10 @@ impl<'a> Reader<'a> {
                 let left = self.contexts(0);
                 self.jump("return".to_string(), context, left);
             }
-            Stmt::Stop => self.everything("stop".to_string(), context),
-            Stmt::Clear { latched } => self.everything(format!("clear {latched}"), context),
+            Stmt::Do(Action::Stop) => self.everything("stop".to_string(), context),
+            Stmt::Do(Action::Clear { latched }) => {
+                self.everything(format!("clear {latched}"), context)
+            }
             Stmt::CallSub(function) => {
                 let kind = self.module.functions.get(*function as usize);
                 let kind = format!("function {:?}", kind.map(|function| &function.kind));
@@ -284,25 +286,7 @@ impl<'a> Reader<'a> {
                     last.calls = Some(*function as usize);
                 }
             }
-            Stmt::Let(..)
-            | Stmt::Edge(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Block(_)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. } => self.leaf(stmt, context),
+            Stmt::Do(action) => self.leaf(action, context),
         }
     }
 
@@ -437,20 +421,20 @@ impl<'a> Reader<'a> {
     }
 
     /// A statement without others in it.
-    fn leaf(&mut self, stmt: &Stmt, context: u32) {
+    fn leaf(&mut self, action: &Action, context: u32) {
         let mut reads = Uses::default();
         let mut writes = Uses::default();
         reads.names.push(context);
-        let mut plain = stmt.clone();
+        let mut plain = action.clone();
         let mut evaluated = Vec::new();
-        for_exprs_mut(&mut plain, &mut |id| {
+        action_exprs_mut(&mut plain, &mut |id| {
             evaluated.push(std::mem::replace(id, ExprId(0)));
         });
         let inner: Vec<u32> = evaluated.iter().map(|id| self.expr(*id)).collect();
         for id in evaluated {
             self.read_expr(id, &mut reads);
         }
-        of_stmt(self.module.model, stmt, &mut |used| {
+        of_action(self.module.model, action, &mut |used| {
             self.run(used, if used.writes { &mut writes } else { &mut reads });
         });
         let names = self.own(&mut plain, context, &inner, &mut reads, &mut writes);
@@ -458,10 +442,10 @@ impl<'a> Reader<'a> {
         self.push(text, reads, writes);
     }
 
-    /// Takes the numbers of temporaries, private memory and steps out of a statement; the names of what they stood for.
+    /// Takes the numbers of temporaries, private memory and steps out of an action; the names of what they stood for.
     fn own(
         &mut self,
-        plain: &mut Stmt,
+        plain: &mut Action,
         context: u32,
         inner: &[u32],
         reads: &mut Uses,
@@ -469,11 +453,11 @@ impl<'a> Reader<'a> {
     ) -> Vec<u32> {
         let about = format!("{context} {inner:?}");
         let mut names = Vec::new();
-        if let Stmt::Let(temp, _) = plain {
+        if let Action::Let(temp, _) = plain {
             let name = self.temp(std::mem::replace(temp, TempId(0)), &about);
             writes.names.push(name);
             names.push(name);
-        } else if let Stmt::Edge(Edge {
+        } else if let Action::Edge(Edge {
             memory, kind, out, ..
         }) = plain
         {
@@ -491,19 +475,19 @@ impl<'a> Reader<'a> {
             reads.names.push(memory);
             writes.names.extend([memory, out]);
             names.extend([memory, out]);
-        } else if let Stmt::SetFlag(flag, _) = plain {
+        } else if let Action::SetFlag(flag, _) = plain {
             names.push(self.flag(std::mem::replace(flag, FlagId(0))));
             writes.names.extend(&names);
-        } else if let Stmt::SetCell(cell, _) = plain {
+        } else if let Action::SetCell(cell, _) = plain {
             names.push(self.cell(std::mem::replace(cell, CellId(0))));
             writes.names.extend(&names);
-        } else if let Stmt::SetEntry(SetEntry { table, .. }) = plain {
+        } else if let Action::SetEntry(SetEntry { table, .. }) = plain {
             names.push(self.table(std::mem::replace(table, TableId(0))));
             writes.names.extend(&names);
-        } else if let Stmt::Fault { step, .. } = plain {
+        } else if let Action::Fault { step, .. } = plain {
             self.step(step);
             writes.runs.extend(ERRORS);
-        } else if let Stmt::Fetch(Fetch {
+        } else if let Action::Fetch(Fetch {
             value, there, step, ..
         }) = plain
         {
@@ -513,10 +497,10 @@ impl<'a> Reader<'a> {
             self.runtime(at, true, reads, writes);
             writes.names.extend([cell, there]);
             names.extend([cell, there]);
-        } else if let Stmt::Send(Send { step, .. }) = plain {
+        } else if let Action::Send(Send { step, .. }) = plain {
             let at = self.step(step);
             self.runtime(at, true, reads, writes);
-        } else if let Stmt::Call(call) = plain {
+        } else if let Action::Call(call) = plain {
             names.push(self.call(call, &about, reads, writes));
         }
         names

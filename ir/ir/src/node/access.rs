@@ -56,8 +56,8 @@ impl From<Register> for Place {
     }
 }
 
-/// Source of [`Expr::Read`](super::Expr::Read) and target of [`Stmt::Write`](super::Stmt::Write): a value of one type,
-/// in a device or in several.
+/// Source of [`Expr::Read`](super::Expr::Read) and target of [`Action::Write`](super::Action::Write): a value of one
+/// type, in a device or in several.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Access {
     /// The device, or the first of them.

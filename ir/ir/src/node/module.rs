@@ -1,6 +1,6 @@
 //! Modules: a program with all that belongs to it.
 
-use super::{Body, CellId, Expr, ExprId, FlagId, Stmt, TableId, TempId, Ty, type_of};
+use super::{Action, Body, CellId, Expr, ExprId, FlagId, Stmt, TableId, TempId, Ty, type_of};
 use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
@@ -74,7 +74,7 @@ pub struct Network {
 /// An instruction of the program at which a fault can occur, for hosts that report it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Origin {
-    /// Its step number, by which [`Stmt::Fault`] and others name it.
+    /// Its step number, by which [`Action::Fault`] and others name it.
     pub step: u32,
     /// As the program writes it: `MOV D0 D100Z0`.
     pub text: String,
@@ -332,7 +332,10 @@ impl Module {
     pub fn may_fail(&self) -> bool {
         self.any_statement(|stmt| {
             calls_runtime(stmt)
-                || matches!(stmt, Stmt::Watch { .. } | Stmt::Fault { .. } | Stmt::Stop)
+                || matches!(
+                    stmt,
+                    Stmt::Watch { .. } | Stmt::Do(Action::Fault { .. } | Action::Stop)
+                )
         })
     }
 

@@ -258,11 +258,10 @@ pub struct Branch {
     pub otherwise: Body,
 }
 
-/// A statement. What has three fields or more is a separate struct.
+/// A statement that is executed as a whole: control continues with the next one. What has three fields or more is a
+/// separate struct.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Stmt {
-    /// Here begins the code of a network (rung); no effect.
-    Network(u32),
+pub enum Action {
     /// Gives a temporary its value.
     Let(TempId, ExprId),
     /// Finds a change of a bit.
@@ -279,7 +278,7 @@ pub enum Stmt {
     Block(Block),
     /// OUT T: [`rungc_rt::Timer::run`].
     Timer(TimerCoil),
-    /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
+    /// OUT T with an index: as [`Action::Timer`] of the timer that the place names, of the kind that the model has it
     /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a
     /// [`Stmt::Repeat`].
     TimerAt(IndexedCoil),
@@ -292,7 +291,7 @@ pub enum Stmt {
     },
     /// OUT C0–C199: [`rungc_rt::Counter16::run`].
     Counter16(Counter16Coil),
-    /// OUT C0–C199 with an index: as [`Stmt::Counter16`] of the counter that the place names.
+    /// OUT C0–C199 with an index: as [`Action::Counter16`] of the counter that the place names.
     Counter16At(IndexedCoil),
     /// OUT C200–C234: [`rungc_rt::Counter32::run`].
     Counter32(Counter32Coil),
@@ -300,6 +299,38 @@ pub enum Stmt {
     Count(Count),
     /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
     Reset(Place),
+    /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
+    Call(Call),
+    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its
+    /// step.
+    Fetch(Fetch),
+    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with its step.
+    Send(Send),
+    /// Reports an operation error found inline.
+    Fault {
+        /// PLC's code.
+        code: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function
+    /// `End` only.
+    Stop,
+    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices:
+    /// M8031, M8032.
+    Clear {
+        /// True for the latched devices, false for the others.
+        latched: bool,
+    },
+}
+
+/// A statement: an action, or what decides which statements are executed.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Stmt {
+    /// Here begins the code of a network (rung); no effect.
+    Network(u32),
+    /// Executes an action.
+    Do(Action),
     /// Executes one branch.
     If(Branch),
     /// Executes the body `count` times (`I16`; at most 0 means once), the count being evaluated once.
@@ -322,20 +353,6 @@ pub enum Stmt {
     /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that
     /// has it.
     Goto(LabelId),
-    /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
-    Call(Call),
-    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its
-    /// step.
-    Fetch(Fetch),
-    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with its step.
-    Send(Send),
-    /// Reports an operation error found inline.
-    Fault {
-        /// PLC's code.
-        code: u16,
-        /// Step number.
-        step: u32,
-    },
     /// Takes this many steps of those that the scan may still execute
     /// ([`Module::scan_steps`](super::Module::scan_steps)). If fewer are left, the PLC stops as by its watchdog
     /// ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
@@ -346,15 +363,12 @@ pub enum Stmt {
         /// Step of the loop or the jump.
         at: u32,
     },
-    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function
-    /// `End` only.
-    Stop,
-    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices:
-    /// M8031, M8032.
-    Clear {
-        /// True for the latched devices, false for the others.
-        latched: bool,
-    },
+}
+
+impl From<Action> for Stmt {
+    fn from(action: Action) -> Self {
+        Stmt::Do(action)
+    }
 }
 
 /// A part of a body that jumps do not nest in.

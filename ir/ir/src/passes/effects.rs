@@ -2,7 +2,7 @@
 
 use super::fold::Arena;
 use crate::node::{
-    Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
+    Action, Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
 };
 use crate::walk::operands;
 use rungc_models::Model;
@@ -92,6 +92,7 @@ fn run(exprs: &TiSlice<ExprId, Expr>, place: Place, count: u32) -> (u32, u32) {
 }
 
 /// Writes of a statement with these expressions, when it is executed.
+#[expect(clippy::wildcard_enum_match_arm, reason = "others may write anything")]
 pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) -> Writes {
     let place = |place: Place, count| {
         if is_index(place.class) {
@@ -103,38 +104,28 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         }
         Writes::Run(place.class, first, last)
     };
-    match *stmt {
-        Stmt::Network(_) | Stmt::Let(..) | Stmt::Edge(_) => Writes::Nothing,
-        Stmt::Write(access, _) => place(access.place, access.extent()),
-        Stmt::TimerAt(IndexedCoil { place: at, .. })
-        | Stmt::Counter16At(IndexedCoil { place: at, .. })
-        | Stmt::Reset(at) => place(at, 1),
-        Stmt::Block(block) => {
+    let Stmt::Do(action) = stmt else {
+        return match stmt {
+            Stmt::Network(_) => Writes::Nothing,
+            _ => Writes::All,
+        };
+    };
+    match *action {
+        Action::Let(..) | Action::Edge(_) => Writes::Nothing,
+        Action::Write(access, _) => place(access.place, access.extent()),
+        Action::TimerAt(IndexedCoil { place: at, .. })
+        | Action::Counter16At(IndexedCoil { place: at, .. })
+        | Action::Reset(at) => place(at, 1),
+        Action::Block(block) => {
             let (to, count) = block.written();
             place(to, count)
         }
-        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
+        Action::Timer(TimerCoil { number, .. }) | Action::TimerGoesOn { number, .. } => {
             Writes::Run(DeviceClass::T, number, number)
         }
-        Stmt::Counter16(Counter16Coil { number, .. })
-        | Stmt::Counter32(Counter32Coil { number, .. })
-        | Stmt::Count(Count { number, .. }) => Writes::Run(DeviceClass::C, number, number),
-        Stmt::If(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::Parts(_)
-        | Stmt::Call(_)
-        | Stmt::Fetch(_)
-        | Stmt::Send(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::Clear { .. } => Writes::All,
+        Action::Counter16(Counter16Coil { number, .. })
+        | Action::Counter32(Counter32Coil { number, .. })
+        | Action::Count(Count { number, .. }) => Writes::Run(DeviceClass::C, number, number),
+        _ => Writes::All,
     }
 }

@@ -3,7 +3,9 @@
 use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
-use crate::node::{Body, Branch, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId};
+use crate::node::{
+    Action, Body, Branch, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId,
+};
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec};
@@ -113,7 +115,7 @@ impl Rewriter<'_> {
 
     fn stmt(&mut self, stmt: Stmt, out: &mut Body) {
         match stmt {
-            Stmt::Let(temp, value) => {
+            Stmt::Do(Action::Let(temp, value)) => {
                 let value = self.expr(value);
                 let now = self.temps.assign(&mut self.arena, temp, value);
                 if !now.is_empty() && !self.reads_temp(value, temp) {
@@ -153,29 +155,10 @@ impl Rewriter<'_> {
                 out.push(stmt);
             }
             mut stmt @ (Stmt::Network(_)
-            | Stmt::Edge(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Write(..)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Block(_)
+            | Stmt::Do(_)
             | Stmt::CallSub(_)
             | Stmt::Return
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. }) => {
+            | Stmt::Watch { .. }) => {
                 let writes = writes(self.arena.model, self.old, &stmt);
                 let shared = self.temps.shared_before(writes);
                 assign(shared, out);
@@ -304,7 +287,11 @@ impl Rewriter<'_> {
 }
 
 fn assign(assignments: Vec<(TempId, ExprId)>, out: &mut Body) {
-    out.extend(assignments.into_iter().map(|(t, e)| Stmt::Let(t, e)));
+    out.extend(
+        assignments
+            .into_iter()
+            .map(|(t, e)| Stmt::Do(Action::Let(t, e))),
+    );
 }
 
 /// Returns true if nothing after these statements is executed.
@@ -326,7 +313,7 @@ fn drop_overwritten(temp: TempId, out: &mut Body) {
         .take_while(|stmt| matches!(stmt, Stmt::Network(_)));
     let at = out.len() - trailing.count();
     if let Some(last) = at.checked_sub(1)
-        && matches!(out.get(last), Some(Stmt::Let(before, _)) if *before == temp)
+        && matches!(out.get(last), Some(Stmt::Do(Action::Let(before, _))) if *before == temp)
     {
         out.remove(last);
     }

@@ -2,7 +2,9 @@
 
 use super::interval::Interval;
 use super::state::{Known, Mask, State, Words, join, temp_bit};
-use crate::node::{Access, AccessKind, BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::node::{
+    Access, AccessKind, Action, BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty,
+};
 use crate::walk::{operands, statements};
 use rungc_rt::CmpOp;
 
@@ -14,6 +16,7 @@ pub(super) struct Eval<'m> {
 
 impl Eval<'_> {
     /// Bounds of an integer's value.
+    #[expect(clippy::wildcard_enum_match_arm, reason = "nothing is known of others")]
     pub(super) fn value(&self, state: &State, id: ExprId) -> Interval {
         let expr = *self.module.expr(id);
         let all = || Interval::of_type(self.module.ty(id));
@@ -59,21 +62,7 @@ impl Eval<'_> {
                 let value = self.value(state, value);
                 value.meet(Interval { low, high }).unwrap_or(value)
             }
-            Expr::Bit(_)
-            | Expr::F32(_)
-            | Expr::Sys(_)
-            | Expr::Flag(_)
-            | Expr::Cell(_)
-            | Expr::Entry(..)
-            | Expr::Stride(..)
-            | Expr::Not(_)
-            | Expr::And(..)
-            | Expr::Or(..)
-            | Expr::Cmp(..)
-            | Expr::Un(..)
-            | Expr::Float(..)
-            | Expr::BitToInt(_)
-            | Expr::InRange { .. } => all(),
+            _ => all(),
         }
     }
 
@@ -133,6 +122,7 @@ impl Eval<'_> {
     }
 
     /// The state where a condition is on (or off); `None` if it cannot be.
+    #[expect(clippy::wildcard_enum_match_arm, reason = "others tell nothing")]
     pub(super) fn when(&self, mut state: State, cond: ExprId, on: bool) -> Option<State> {
         match *self.module.expr(cond) {
             Expr::Bit(value) => (value == on).then_some(state),
@@ -164,27 +154,7 @@ impl Eval<'_> {
                 }
                 Some(state)
             }
-            Expr::I16(_)
-            | Expr::I32(_)
-            | Expr::F32(_)
-            | Expr::Read(_)
-            | Expr::Sys(_)
-            | Expr::Flag(_)
-            | Expr::Cell(_)
-            | Expr::Entry(..)
-            | Expr::Stride(..)
-            | Expr::Cmp(..)
-            | Expr::Bin(..)
-            | Expr::Un(..)
-            | Expr::Float(..)
-            | Expr::Complement(_)
-            | Expr::Neg(_)
-            | Expr::Widen(_)
-            | Expr::Narrow(_)
-            | Expr::HighWord(_)
-            | Expr::BitToInt(_)
-            | Expr::Within { .. }
-            | Expr::InRange { .. } => Some(state),
+            _ => Some(state),
         }
     }
 
@@ -201,6 +171,7 @@ impl Eval<'_> {
     }
 
     /// An expression's value lies there; `None` if it cannot.
+    #[expect(clippy::wildcard_enum_match_arm, reason = "others limit nothing")]
     fn limit(&self, state: &mut State, id: ExprId, limit: Interval) -> Option<()> {
         match *self.module.expr(id) {
             Expr::Read(Access {
@@ -234,29 +205,7 @@ impl Eval<'_> {
                     self.limit(state, a, limit)?;
                 }
             }
-            Expr::Bit(_)
-            | Expr::I16(_)
-            | Expr::I32(_)
-            | Expr::F32(_)
-            | Expr::Read(_)
-            | Expr::Sys(_)
-            | Expr::Flag(_)
-            | Expr::Cell(_)
-            | Expr::Entry(..)
-            | Expr::Stride(..)
-            | Expr::Not(_)
-            | Expr::And(..)
-            | Expr::Or(..)
-            | Expr::Cmp(..)
-            | Expr::Bin(..)
-            | Expr::Un(..)
-            | Expr::Float(..)
-            | Expr::Complement(_)
-            | Expr::Neg(_)
-            | Expr::Narrow(_)
-            | Expr::HighWord(_)
-            | Expr::BitToInt(_)
-            | Expr::InRange { .. } => {}
+            _ => {}
         }
         Some(())
     }
@@ -272,7 +221,7 @@ impl Eval<'_> {
         let mut found = vec![-1, 0, 1];
         for function in &self.module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::Write(access, value) = *stmt
+                if let Stmt::Do(Action::Write(access, value)) = *stmt
                     && access.kind == AccessKind::Word
                     && self.words.slot(access.place).is_some()
                     && let Expr::I16(value) = *self.module.expr(value)

@@ -1,7 +1,7 @@
 //! Known values of index registers, and of the words they are made from, at a point of the program.
 
 use super::interval::Interval;
-use crate::node::{AccessKind, Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{AccessKind, Action, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, statements};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
@@ -56,12 +56,12 @@ impl Words {
             let before = (self.slots.len(), temps.len());
             for function in &module.functions {
                 statements(&function.body, &mut |stmt| {
-                    if let Stmt::Write(access, value) = *stmt
+                    if let Stmt::Do(Action::Write(access, value)) = *stmt
                         && matches!(access.kind, AccessKind::Word | AccessKind::Pair)
                         && self.slot(access.place).is_some()
                     {
                         self.add_read(module, value, &mut temps);
-                    } else if let Stmt::Let(temp, value) = *stmt
+                    } else if let Stmt::Do(Action::Let(temp, value)) = *stmt
                         && temps.contains(&temp)
                     {
                         self.add_read(module, value, &mut temps);

@@ -4,8 +4,8 @@ use super::eval::Eval;
 use super::interval::Interval;
 use super::state::{Known, Mask, State, join};
 use crate::node::{
-    Access, AccessKind, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place,
-    Stmt, TempId, Ty,
+    Access, AccessKind, Action, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Part,
+    Place, Stmt, TempId, Ty,
 };
 use crate::reach::{self, of_access};
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
@@ -145,7 +145,7 @@ impl<'m> Walk<'m> {
         let mut told = FxHashSet::default();
         for function in &self.eval.module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::Let(temp, value) = *stmt {
+                if let Stmt::Do(Action::Let(temp, value)) = *stmt {
                     let integer = matches!(self.eval.module.ty(value), Ty::I16 | Ty::I32);
                     if integer || self.eval.reads(value) != (0, 0) {
                         told.insert(temp);
@@ -195,7 +195,7 @@ impl<'m> Walk<'m> {
         let all = (1 as Mask)
             .checked_shl(self.eval.words.len() as u32)
             .map_or(Mask::MAX, |bit| bit - 1);
-        if let Stmt::Clear { .. } = stmt {
+        if let Stmt::Do(Action::Clear { .. }) = stmt {
             return all;
         }
         let mut written = 0;
@@ -360,11 +360,11 @@ impl<'m> Walk<'m> {
         }
         self.note(stmt, &state);
         match *stmt {
-            Stmt::Let(temp, value) => {
+            Stmt::Do(Action::Let(temp, value)) => {
                 let known = self.known(&state, temp, value);
                 state.set_temp(temp, known);
             }
-            Stmt::Write(access, value) => {
+            Stmt::Do(Action::Write(access, value)) => {
                 let value = self.eval.value(&state, value);
                 self.write(&mut state, access, value);
             }
@@ -383,31 +383,11 @@ impl<'m> Walk<'m> {
                 return None;
             }
             Stmt::Parts(ref parts) => return self.parts(parts, &state),
-            Stmt::Clear { .. } => {
+            Stmt::Do(Action::Clear { .. }) => {
                 let all = self.writes_of(stmt, None);
                 state.may_become(all, Interval::of(0));
             }
-            Stmt::Network(_)
-            | Stmt::Edge(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::Timer(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16(_)
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Reset(_)
-            | Stmt::Block(_)
-            | Stmt::Repeat(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop => {
+            Stmt::Network(_) | Stmt::Do(_) | Stmt::Repeat(_) | Stmt::Watch { .. } => {
                 if let Some(temp) = assigned(stmt) {
                     state.set_temp(temp, None);
                 }

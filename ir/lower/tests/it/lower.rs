@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::passes::optimise;
 use rungc_ir::validate::validate;
 use rungc_ir::walk::statements;
@@ -219,7 +219,7 @@ fn has_call(module: &Module) -> bool {
     let mut found = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            found |= matches!(stmt, Stmt::Call(_));
+            found |= matches!(stmt, Stmt::Do(Action::Call(_)));
         });
     }
     found

@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;
-use rungc_ir::node::{Access, Branch, Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::node::{Access, Action, Branch, Expr, ExprId, LabelId, Place, Stmt, TempId};
 use rungc_ir::validate::validate;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
@@ -161,7 +161,7 @@ fn a_value_from_one_branch_is_not_enough() {
         with(|module| {
             module.temps.push(rungc_ir::node::Ty::Bit);
             let on = module.add(Expr::Bit(true));
-            let assign = vec![Stmt::Let(TempId(0), on)];
+            let assign = vec![Stmt::Do(Action::Let(TempId(0), on))];
             let branch = Stmt::If(Branch {
                 cond: on,
                 then: assign.clone(),
@@ -185,7 +185,7 @@ fn a_value_from_one_branch_is_not_enough() {
 fn devices_must_be_stored() {
     let error = with(|module| {
         let on = module.add(Expr::Bit(true));
-        Stmt::Write(Access::bit(relay(5)), on)
+        Stmt::Do(Action::Write(Access::bit(relay(5)), on))
     });
     assert!(error.is_err_and(|e| e.contains("M5 is not stored")));
 }
@@ -196,7 +196,7 @@ fn types_must_agree() {
         let word = module.add(Expr::I16(1));
         let pair = module.add(Expr::I32(1));
         let sum = module.add(Expr::Bin(rungc_ir::node::BinOp::Add, word, pair));
-        Stmt::Let(TempId(0), sum)
+        Stmt::Do(Action::Let(TempId(0), sum))
     });
     assert!(error.is_err_and(|e| e.contains("ill typed")));
 }

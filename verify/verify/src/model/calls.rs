@@ -4,8 +4,8 @@ use super::shared::{Seen, Signature};
 use super::{Encoder, Input, Key};
 use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
-use rungc_ir::node::{Arg, Call, Fetch, Stmt};
-use rungc_ir::reach::of_stmt;
+use rungc_ir::node::{Action, Arg, Call, Fetch};
+use rungc_ir::reach::of_action;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -60,11 +60,11 @@ impl Encoder<'_> {
         keys
     }
 
-    /// Devices that a statement writes through its operands.
-    pub(super) fn of_operands(&self, stmt: &Stmt) -> Vec<Key> {
+    /// Devices that an action writes through its operands.
+    pub(super) fn of_operands(&self, action: &Action) -> Vec<Key> {
         let mut runs = Vec::new();
         let (model, exprs) = (self.module.model, &self.module.exprs);
-        of_stmt(model, stmt, &mut |used| {
+        of_action(model, action, &mut |used| {
             if used.writes {
                 let reach = used.reach(model, exprs).into_iter();
                 runs.extend(reach.map(|(first, last)| (used.place.class, first, last)));
@@ -73,15 +73,15 @@ impl Encoder<'_> {
         self.named_in(&runs)
     }
 
-    pub(super) fn call(&mut self, stmt: &Stmt, call: &Call, guard: Lit) {
-        let mut keys = self.of_operands(stmt);
+    pub(super) fn call(&mut self, action: &Action, call: &Call, guard: Lit) {
+        let mut keys = self.of_operands(action);
         keys.extend(self.of_call(call));
         let name = match self.module.origin(call.step) {
             Some(origin) => origin.text.clone(),
             None => call.function.name().to_uppercase(),
         };
         let anywhere = call.function.needs().anywhere;
-        let seen = self.seen(stmt, anywhere, call.step);
+        let seen = self.seen(action, anywhere, call.step);
         let moved = self.moved(call);
         keys.retain(|key| !moved.contains_key(key));
         self.apply(&keys, guard, &name, &seen);
@@ -161,10 +161,10 @@ impl Encoder<'_> {
         Some(held)
     }
 
-    /// Inputs of a statement, if programs are compared.
-    fn seen(&mut self, stmt: &Stmt, anywhere: bool, step: u32) -> Seen {
+    /// Inputs of an action, if programs are compared.
+    fn seen(&mut self, action: &Action, anywhere: bool, step: u32) -> Seen {
         match self.is_compared() {
-            true => self.looks(stmt, anywhere, step),
+            true => self.looks(action, anywhere, step),
             false => Seen::default(),
         }
     }
@@ -180,7 +180,7 @@ impl Encoder<'_> {
     }
 
     pub(super) fn fetch(&mut self, fetch: &Fetch, guard: Lit) {
-        let seen = self.seen(&Stmt::Fetch(*fetch), false, fetch.step);
+        let seen = self.seen(&Action::Fetch(*fetch), false, fetch.step);
         let answer = |this: &mut Self, what: &str| {
             let signature = Signature::Answer(format!("{} {what}", seen.text));
             this.applied(1, BUFFER, signature, &seen.bits)[0]
@@ -226,18 +226,18 @@ impl Encoder<'_> {
         Some(signed(&bits, 32))
     }
 
-    pub(super) fn send(&mut self, stmt: &Stmt, step: u32, guard: Lit) {
-        let mut keys = self.of_operands(stmt);
+    pub(super) fn send(&mut self, action: &Action, step: u32, guard: Lit) {
+        let mut keys = self.of_operands(action);
         keys.extend(self.specials());
-        let seen = self.seen(stmt, false, step);
+        let seen = self.seen(action, false, step);
         self.apply(&keys, guard, BUFFER, &seen);
         self.leave_tokens(None, &seen, guard);
     }
 
     /// An operation error found inline.
-    pub(super) fn fault(&mut self, stmt: &Stmt, step: u32, guard: Lit) {
+    pub(super) fn fault(&mut self, action: &Action, step: u32, guard: Lit) {
         let keys = self.named_in(&ERRORS);
-        let seen = self.seen(stmt, false, step);
+        let seen = self.seen(action, false, step);
         self.apply(
             &keys,
             guard,

@@ -5,8 +5,8 @@ use super::{Encoder, Key, NODES, STATEMENTS};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, known, signed};
 use rungc_ir::node::{
-    Access, AccessKind, Block, Body, Branch, Edge, EdgeId, Expr, ExprId, IndexedCoil, Part, Place,
-    Repeat, SetEntry, Stmt, TempId,
+    Access, AccessKind, Action, Block, Body, Branch, Edge, EdgeId, Expr, ExprId, IndexedCoil, Part,
+    Place, Repeat, SetEntry, Stmt, TempId,
 };
 use rungc_models::runs::is_counter32;
 use rungc_rt::special::M_KEEP_IN_STOP;
@@ -73,8 +73,10 @@ impl Encoder<'_> {
             )
         };
         match stmt {
-            Stmt::Write(_, value) | Stmt::Block(Block::Fill { value, .. }) => zero(*value),
-            Stmt::Reset(_) | Stmt::Clear { .. } => true,
+            Stmt::Do(Action::Write(_, value) | Action::Block(Block::Fill { value, .. })) => {
+                zero(*value)
+            }
+            Stmt::Do(Action::Reset(_) | Action::Clear { .. }) => true,
             _ => false,
         }
     }
@@ -88,76 +90,11 @@ impl Encoder<'_> {
         }
         self.note_stmt(stmt, guard);
         match stmt {
-            Stmt::Network(_) => {}
-            &Stmt::Let(temp, value) => {
-                let value = self.eval(value);
-                self.assign(temp, value, guard);
+            Stmt::Network(_) => guard,
+            Stmt::Do(action) => {
+                self.action(action, guard);
+                guard
             }
-            Stmt::Edge(edge) => self.edge(edge, guard),
-            &Stmt::SetFlag(flag, value) => {
-                let value = self.eval(value);
-                self.store(Key::Flag(flag.0), &value, guard);
-            }
-            &Stmt::SetCell(cell, value) => {
-                let value = self.eval(value);
-                self.store(Key::Cell(cell.0), &value, guard);
-            }
-            &Stmt::SetEntry(SetEntry {
-                table,
-                index,
-                value,
-            }) => {
-                let (index, value) = (self.eval(index), self.eval(value));
-                for i in 0..self.module.tables[table].length {
-                    let here = self.aig.is(&index, i.into());
-                    let here = self.aig.and(guard, here);
-                    self.store(Key::Entry(table.0, i), &value, here);
-                }
-            }
-            &Stmt::Write(access, value) => self.write(access, value, guard),
-            Stmt::Block(block) => self.block(block, guard),
-            Stmt::Timer(coil) => {
-                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
-                self.timer(coil.number, coil.kind, drive, &preset, guard);
-            }
-            Stmt::TimerAt(coil) => self.coil_at(coil, guard),
-            &Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(number, kind, guard),
-            Stmt::Counter16(coil) => {
-                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
-                self.counter16(coil.number, drive, &preset, guard);
-            }
-            Stmt::Counter16At(coil) => self.coil_at(coil, guard),
-            Stmt::Counter32(coil) => {
-                let (drive, down) = (self.on(coil.drive), self.on(coil.down));
-                let preset = self.eval(coil.preset);
-                self.counter32(coil.number, drive, (down, &preset), guard);
-            }
-            Stmt::Count(count) => {
-                let (down, preset) = (self.on(count.down), self.eval(count.preset));
-                self.count(count.number, down, &preset, guard);
-            }
-            &Stmt::Reset(place) => self.reset(place, guard),
-            Stmt::If(_)
-            | Stmt::For { .. }
-            | Stmt::Repeat(_)
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Watch { .. } => return self.flow(stmt, guard),
-            Stmt::Call(call) => self.call(stmt, call, guard),
-            Stmt::Fetch(fetch) => self.fetch(fetch, guard),
-            Stmt::Send(send) => self.send(stmt, send.step, guard),
-            &Stmt::Fault { step, .. } => self.fault(stmt, step, guard),
-            Stmt::Stop => self.stop(guard),
-            &Stmt::Clear { latched } => self.clear(latched, guard),
-        }
-        guard
-    }
-
-    /// Executes a statement that decides what is executed.
-    fn flow(&mut self, stmt: &Stmt, guard: Lit) -> Lit {
-        match stmt {
             Stmt::If(Branch {
                 cond,
                 then,
@@ -205,7 +142,67 @@ impl Encoder<'_> {
             }
             Stmt::Watch { steps, .. } => self.watch(*steps, guard),
             // The caller continues.
-            _ => Lit::FALSE,
+            Stmt::Return => Lit::FALSE,
+        }
+    }
+
+    /// Executes an action.
+    fn action(&mut self, action: &Action, guard: Lit) {
+        match action {
+            &Action::Let(temp, value) => {
+                let value = self.eval(value);
+                self.assign(temp, value, guard);
+            }
+            Action::Edge(edge) => self.edge(edge, guard),
+            &Action::SetFlag(flag, value) => {
+                let value = self.eval(value);
+                self.store(Key::Flag(flag.0), &value, guard);
+            }
+            &Action::SetCell(cell, value) => {
+                let value = self.eval(value);
+                self.store(Key::Cell(cell.0), &value, guard);
+            }
+            &Action::SetEntry(SetEntry {
+                table,
+                index,
+                value,
+            }) => {
+                let (index, value) = (self.eval(index), self.eval(value));
+                for i in 0..self.module.tables[table].length {
+                    let here = self.aig.is(&index, i.into());
+                    let here = self.aig.and(guard, here);
+                    self.store(Key::Entry(table.0, i), &value, here);
+                }
+            }
+            &Action::Write(access, value) => self.write(access, value, guard),
+            Action::Block(block) => self.block(block, guard),
+            Action::Timer(coil) => {
+                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
+                self.timer(coil.number, coil.kind, drive, &preset, guard);
+            }
+            Action::TimerAt(coil) => self.coil_at(coil, guard),
+            &Action::TimerGoesOn { number, kind } => self.timer_goes_on(number, kind, guard),
+            Action::Counter16(coil) => {
+                let (drive, preset) = (self.on(coil.drive), self.eval(coil.preset));
+                self.counter16(coil.number, drive, &preset, guard);
+            }
+            Action::Counter16At(coil) => self.coil_at(coil, guard),
+            Action::Counter32(coil) => {
+                let (drive, down) = (self.on(coil.drive), self.on(coil.down));
+                let preset = self.eval(coil.preset);
+                self.counter32(coil.number, drive, (down, &preset), guard);
+            }
+            Action::Count(count) => {
+                let (down, preset) = (self.on(count.down), self.eval(count.preset));
+                self.count(count.number, down, &preset, guard);
+            }
+            &Action::Reset(place) => self.reset(place, guard),
+            Action::Call(call) => self.call(action, call, guard),
+            Action::Fetch(fetch) => self.fetch(fetch, guard),
+            Action::Send(send) => self.send(action, send.step, guard),
+            &Action::Fault { step, .. } => self.fault(action, step, guard),
+            Action::Stop => self.stop(guard),
+            &Action::Clear { latched } => self.clear(latched, guard),
         }
     }
 
@@ -318,13 +315,13 @@ impl Encoder<'_> {
                     self.write_at(kind, (place.class, number), &value, here);
                 }
             }
-            None => self.write_anywhere(Stmt::Write(Access { place, kind }, ExprId(0)), guard),
+            None => self.write_anywhere(&Action::Write(Access { place, kind }, ExprId(0)), guard),
         }
     }
 
     /// A write that an index may lead to many devices.
-    fn write_anywhere(&mut self, stmt: Stmt, guard: Lit) {
-        let keys = self.of_operands(&stmt);
+    fn write_anywhere(&mut self, action: &Action, guard: Lit) {
+        let keys = self.of_operands(action);
         self.free(
             &keys,
             guard,
@@ -389,7 +386,7 @@ impl Encoder<'_> {
     fn block(&mut self, block: &Block, guard: Lit) {
         let (to, count) = block.written();
         if count > REACH {
-            let keys = self.of_operands(&Stmt::Block(*block));
+            let keys = self.of_operands(&Action::Block(*block));
             return self.free(&keys, guard, "blocks of very many devices");
         }
         let bits = matches!(
@@ -420,7 +417,7 @@ impl Encoder<'_> {
         };
         let index = self.eval(index);
         let Some(candidates) = self.candidates(coil.place, &index) else {
-            return self.write_anywhere(Stmt::TimerAt(*coil), guard);
+            return self.write_anywhere(&Action::TimerAt(*coil), guard);
         };
         for (here, number) in candidates {
             let here = self.aig.and(guard, here);
@@ -445,7 +442,7 @@ impl Encoder<'_> {
         };
         let index = self.eval(index);
         let Some(candidates) = self.candidates(place, &index) else {
-            return self.write_anywhere(Stmt::Reset(place), guard);
+            return self.write_anywhere(&Action::Reset(place), guard);
         };
         for (here, number) in candidates {
             let here = self.aig.and(guard, here);

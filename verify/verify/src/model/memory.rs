@@ -4,7 +4,7 @@ use super::shared::Signature;
 use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
-use rungc_ir::node::{Expr, FunctionKind, Place, SetEntry, Stmt};
+use rungc_ir::node::{Action, Expr, FunctionKind, Place, SetEntry, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
@@ -309,7 +309,11 @@ impl Encoder<'_> {
             if seen.insert(i) {
                 let body = &module.functions[i].body;
                 open.extend(callees(body));
-                statements(body, &mut |stmt| self.outside_of(stmt));
+                statements(body, &mut |stmt| {
+                    if let Stmt::Do(action) = stmt {
+                        self.outside_of(action);
+                    }
+                });
             }
         }
         if module.sends_pulses() || module.has_ports() {
@@ -324,10 +328,10 @@ impl Encoder<'_> {
                 .filter(|(_, called)| *called)
             {
                 statements(&function.body, &mut |stmt| {
-                    if let Stmt::Call(call) = stmt {
+                    if let Stmt::Do(action @ Action::Call(call)) = stmt {
                         let needs = call.function.needs();
                         if needs.port || needs.names_port || needs.any_port || needs.can {
-                            self.outside_of(stmt);
+                            self.outside_of(action);
                         }
                     }
                 });
@@ -335,35 +339,35 @@ impl Encoder<'_> {
         }
     }
 
-    /// Adds the memory written by a statement that is executed between two scans.
-    fn outside_of(&mut self, stmt: &Stmt) {
-        let keys = self.of_operands(stmt);
+    /// Adds the memory written by an action that is executed between two scans.
+    fn outside_of(&mut self, action: &Action) {
+        let keys = self.of_operands(action);
         self.outside.extend(keys);
-        match *stmt {
-            Stmt::SetFlag(flag, _) => {
+        match *action {
+            Action::SetFlag(flag, _) => {
                 self.events.insert(flag.0);
             }
-            Stmt::SetCell(cell, _) => {
+            Action::SetCell(cell, _) => {
                 self.outside.insert(Key::Cell(cell.0));
             }
-            Stmt::SetEntry(SetEntry { table, .. }) => {
+            Action::SetEntry(SetEntry { table, .. }) => {
                 let length = self.module.tables[table].length;
                 self.outside
                     .extend((0..length).map(|i| Key::Entry(table.0, i)));
             }
-            Stmt::Edge(ref edge) => {
+            Action::Edge(ref edge) => {
                 self.outside.insert(Key::Edge(edge.memory.0));
             }
-            Stmt::Call(ref call) => {
+            Action::Call(ref call) => {
                 let keys = self.of_call(call);
                 self.outside.extend(keys);
             }
-            Stmt::Fetch(ref fetch) => {
+            Action::Fetch(ref fetch) => {
                 self.outside.insert(Key::Cell(fetch.value.0));
                 self.outside.extend(self.specials());
             }
-            Stmt::Send(_) | Stmt::Fault { .. } => self.outside.extend(self.specials()),
-            Stmt::Clear { latched } => {
+            Action::Send(_) | Action::Fault { .. } => self.outside.extend(self.specials()),
+            Action::Clear { latched } => {
                 let keys = self.cleared(latched);
                 self.outside.extend(keys);
             }

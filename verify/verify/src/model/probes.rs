@@ -2,7 +2,7 @@
 
 use super::Encoder;
 use crate::aig::Lit;
-use rungc_ir::node::{Access, AccessKind, ExprId, Stmt};
+use rungc_ir::node::{Access, AccessKind, Action, ExprId, Stmt};
 use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -111,8 +111,10 @@ impl Encoder<'_> {
             return;
         };
         let acts = match stmt {
-            Stmt::Write(Access { kind, .. }, _) => *kind != AccessKind::Bit,
-            Stmt::Block(_) | Stmt::Call(_) | Stmt::Send(_) | Stmt::Fetch(_) => true,
+            Stmt::Do(Action::Write(Access { kind, .. }, _)) => *kind != AccessKind::Bit,
+            Stmt::Do(Action::Block(_) | Action::Call(_) | Action::Send(_) | Action::Fetch(_)) => {
+                true
+            }
             Stmt::Network(_) => false,
             _ => return,
         };

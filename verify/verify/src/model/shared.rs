@@ -8,7 +8,7 @@
 use super::{Encoder, Gap, Input, Key};
 use crate::aig::{Aig, Lit};
 use crate::bits::Bits;
-use rungc_ir::node::{Arg, Call, Place, Stmt};
+use rungc_ir::node::{Action, Arg, Call, Place, Stmt};
 use rungc_ir::walk::statements;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
@@ -144,7 +144,7 @@ impl Encoder<'_> {
         let mut slots = Vec::new();
         for function in &self.module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::Call(call) = stmt
+                if let Stmt::Do(Action::Call(call)) = stmt
                     && call.slot > 0
                 {
                     slots.push(Key::Slot(call.slot));
@@ -200,16 +200,16 @@ impl Encoder<'_> {
     }
 
     /// Everything that a call looks at: what it is, as a text, and bits.
-    pub(super) fn looks(&mut self, stmt: &Stmt, anywhere: bool, step: u32) -> Seen {
+    pub(super) fn looks(&mut self, action: &Action, anywhere: bool, step: u32) -> Seen {
         let mut text = String::new();
         let mut bits = Vec::new();
-        let mut keys = self.of_operands(stmt);
+        let mut keys = self.of_operands(action);
         keys.extend(self.specials());
         if anywhere {
             keys.extend(self.state.keys().copied());
         }
-        match stmt {
-            Stmt::Call(call) => {
+        match action {
+            Action::Call(call) => {
                 text.push_str(&format!(
                     "{:?} {} {}",
                     call.function, call.wide, call.signal
@@ -224,16 +224,16 @@ impl Encoder<'_> {
                     self.look_at(arg, &mut text, &mut bits);
                 }
             }
-            Stmt::Fetch(fetch) => {
+            Action::Fetch(fetch) => {
                 text.push_str(&format!("fetch {}", fetch.wide));
                 self.look_at(&fetch.from, &mut text, &mut bits);
             }
-            Stmt::Send(send) => {
+            Action::Send(send) => {
                 text.push_str(&format!("send {}", send.wide));
                 bits.extend(self.eval(send.value));
                 self.look_at(&send.to, &mut text, &mut bits);
             }
-            Stmt::Fault { code, .. } => text.push_str(&format!("error {code}")),
+            Action::Fault { code, .. } => text.push_str(&format!("error {code}")),
             _ => {}
         }
         keys.extend([Key::Outer, Key::Now, Key::First]);

@@ -3,7 +3,7 @@
 use super::{CounterPart, Encoder, Key, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{Action, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::TimerKind;
@@ -111,7 +111,12 @@ impl Encoder<'_> {
             statements(&function.body, &mut |stmt| {
                 let coil = matches!(
                     stmt,
-                    Stmt::Timer(_) | Stmt::TimerGoesOn { .. } | Stmt::TimerAt(_) | Stmt::Reset(_)
+                    Stmt::Do(
+                        Action::Timer(_)
+                            | Action::TimerGoesOn { .. }
+                            | Action::TimerAt(_)
+                            | Action::Reset(_)
+                    )
                 );
                 if !coil {
                     of_stmt(module.model, stmt, &mut note);

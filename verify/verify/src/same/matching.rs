@@ -5,7 +5,7 @@
 
 use crate::model::{Key, Names};
 use rungc_ir::Module;
-use rungc_ir::node::{Expr, ExprId, Stmt, TempId};
+use rungc_ir::node::{Action, Expr, ExprId, Stmt, TempId};
 use rungc_ir::walk::{operands, statements};
 use rungc_syntax::align;
 use rustc_hash::{FxHashMap, FxHasher};
@@ -53,19 +53,19 @@ fn numbered(module: &Module) -> (Numbered, Numbered) {
     };
     for function in &module.functions {
         statements(&function.body, &mut |stmt| match stmt {
-            Stmt::Let(temp, value) => {
+            Stmt::Do(Action::Let(temp, value)) => {
                 let value = texts.of(*value);
                 texts.temps.insert(*temp, value);
                 texts.known.clear();
             }
-            Stmt::Edge(edge) => {
+            Stmt::Do(Action::Edge(edge)) => {
                 let input = texts.of(edge.input);
                 edges.push((
                     Key::Edge(edge.memory.0),
                     hashed(&(format!("{:?}", edge.kind), input)),
                 ));
             }
-            Stmt::Call(call) if call.slot > 0 => {
+            Stmt::Do(Action::Call(call)) if call.slot > 0 => {
                 let drive = call.drive.map(|drive| texts.of(drive));
                 let text = format!("{:?} {} {:?}", call.function, call.wide, call.args);
                 slots.push((Key::Slot(call.slot), hashed(&(text, drive))));

@@ -1,8 +1,8 @@
 //! Making the body of a loop of its first iteration.
 
 use crate::node::{
-    Access, AccessKind, Body, Branch, Counter16Coil, Edge, Expr, ExprId, IndexedCoil, Module,
-    Place, Stmt, TempId, TimerCoil, Ty,
+    Access, AccessKind, Action, Body, Branch, Counter16Coil, Edge, Expr, ExprId, IndexedCoil,
+    Module, Place, Stmt, TempId, TimerCoil, Ty,
 };
 use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
@@ -18,7 +18,7 @@ fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
         return None;
     };
     let writes = then.iter().map(|stmt| {
-        if let Stmt::Write(access, value) = *stmt
+        if let Stmt::Do(Action::Write(access, value)) = *stmt
             && access.kind == AccessKind::Bit
             && let Expr::Bit(on) = *module.expr(value)
         {
@@ -56,7 +56,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         let mut drive = self.expr(cond);
         if writes.len() > 1 {
             let temp = self.module.temps.push_and_get_key(Ty::Bit);
-            out.push(Stmt::Let(temp, drive));
+            out.push(Stmt::Do(Action::Let(temp, drive)));
             drive = self.module.add(Expr::Temp(temp));
         }
         for (access, on) in writes {
@@ -69,25 +69,17 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                     Expr::And(before, others)
                 }
             };
-            out.push(Stmt::Write(access, self.module.add(after)));
+            out.push(Stmt::Do(Action::Write(access, self.module.add(after))));
         }
     }
 
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "others have nothing of an iteration, or no shape admits them"
+    )]
     fn stmt(&mut self, stmt: &Stmt) -> Stmt {
         match stmt {
-            Stmt::Let(temp, value) => Stmt::Let(*temp, self.expr(*value)),
-            &Stmt::Edge(edge) => Stmt::Edge(Edge {
-                index: self.index(),
-                input: self.expr(edge.input),
-                ..edge
-            }),
-            Stmt::Write(access, value) => {
-                let access = self.access(*access);
-                Stmt::Write(access, self.expr(*value))
-            }
-            Stmt::Timer(coil) => self.timer(*coil),
-            Stmt::Counter16(coil) => self.counter16(*coil),
-            Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
+            Stmt::Do(action) => Stmt::Do(self.action(action)),
             Stmt::If(Branch {
                 cond,
                 then,
@@ -97,30 +89,30 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                 then: self.body(then),
                 otherwise: self.body(otherwise),
             }),
-            // Those without anything of an iteration, and those that no shape admits.
-            other @ (Stmt::Network(_)
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(_)
-            | Stmt::TimerAt(_)
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16At(_)
-            | Stmt::Counter32(_)
-            | Stmt::Count(_)
-            | Stmt::Block(_)
-            | Stmt::For { .. }
-            | Stmt::Repeat(_)
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch(_)
-            | Stmt::Send(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. }) => other.clone(),
+            _ => stmt.clone(),
+        }
+    }
+
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "others have nothing of an iteration, or no shape admits them"
+    )]
+    fn action(&mut self, action: &Action) -> Action {
+        match action {
+            Action::Let(temp, value) => Action::Let(*temp, self.expr(*value)),
+            &Action::Edge(edge) => Action::Edge(Edge {
+                index: self.index(),
+                input: self.expr(edge.input),
+                ..edge
+            }),
+            Action::Write(access, value) => {
+                let access = self.access(*access);
+                Action::Write(access, self.expr(*value))
+            }
+            Action::Timer(coil) => self.timer(*coil),
+            Action::Counter16(coil) => self.counter16(*coil),
+            Action::Reset(place) => Action::Reset(self.place(*place)),
+            _ => action.clone(),
         }
     }
 
@@ -137,17 +129,17 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     }
 
     /// The coil of a timer. All iterations have one kind of timers, so its number decides it.
-    fn timer(&mut self, coil: TimerCoil) -> Stmt {
+    fn timer(&mut self, coil: TimerCoil) -> Action {
         let place = self.place(Place::fixed(DeviceClass::T, coil.number));
         let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
         if place.index.is_some() {
-            Stmt::TimerAt(IndexedCoil {
+            Action::TimerAt(IndexedCoil {
                 place,
                 drive,
                 preset,
             })
         } else {
-            Stmt::Timer(TimerCoil {
+            Action::Timer(TimerCoil {
                 drive,
                 preset,
                 ..coil
@@ -155,17 +147,17 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         }
     }
 
-    fn counter16(&mut self, coil: Counter16Coil) -> Stmt {
+    fn counter16(&mut self, coil: Counter16Coil) -> Action {
         let place = self.place(Place::fixed(DeviceClass::C, coil.number));
         let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
         if place.index.is_some() {
-            Stmt::Counter16At(IndexedCoil {
+            Action::Counter16At(IndexedCoil {
                 place,
                 drive,
                 preset,
             })
         } else {
-            Stmt::Counter16(Counter16Coil {
+            Action::Counter16(Counter16Coil {
                 drive,
                 preset,
                 ..coil

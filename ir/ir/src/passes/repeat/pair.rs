@@ -1,6 +1,6 @@
 //! Comparing two iterations, statement by statement.
 
-use crate::node::{Access, Branch, Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{Access, Action, Branch, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
@@ -54,35 +54,37 @@ impl<'m> Pair<'m> {
     fn stmt(&mut self, one: &Stmt, other: &Stmt) -> Option<()> {
         match (one, other) {
             (Stmt::Network(_), Stmt::Network(_)) => Some(()),
-            (&Stmt::Let(temp, value), &Stmt::Let(with, other)) => {
+            (&Stmt::Do(Action::Let(temp, value)), &Stmt::Do(Action::Let(with, other))) => {
                 self.expr(value, other)?;
                 self.temps.insert(temp, with);
                 Some(())
             }
-            (Stmt::Edge(edge), Stmt::Edge(with)) => {
+            (Stmt::Do(Action::Edge(edge)), Stmt::Do(Action::Edge(with))) => {
                 (edge.kind == with.kind).then_some(())?;
                 self.named(Kind::Edge, edge.memory.0, with.memory.0)?;
                 self.expr(edge.input, with.input)?;
                 self.temps.insert(edge.out, with.out);
                 Some(())
             }
-            (&Stmt::Write(access, value), &Stmt::Write(to, other)) => {
+            (&Stmt::Do(Action::Write(access, value)), &Stmt::Do(Action::Write(to, other))) => {
                 self.access(access, to)?;
                 self.expr(value, other)
             }
-            (Stmt::Timer(coil), Stmt::Timer(with)) => {
+            (Stmt::Do(Action::Timer(coil)), Stmt::Do(Action::Timer(with))) => {
                 // A shared timer is driven in several places, which repeated rungs seldom do.
                 (coil.kind == with.kind && !coil.kind.shared).then_some(())?;
                 self.named(Kind::Device(DeviceClass::T), coil.number, with.number)?;
                 self.expr(coil.drive, with.drive)?;
                 self.expr(coil.preset, with.preset)
             }
-            (Stmt::Counter16(coil), Stmt::Counter16(with)) => {
+            (Stmt::Do(Action::Counter16(coil)), Stmt::Do(Action::Counter16(with))) => {
                 self.named(Kind::Device(DeviceClass::C), coil.number, with.number)?;
                 self.expr(coil.drive, with.drive)?;
                 self.expr(coil.preset, with.preset)
             }
-            (&Stmt::Reset(place), &Stmt::Reset(with)) => self.place(place, with),
+            (&Stmt::Do(Action::Reset(place)), &Stmt::Do(Action::Reset(with))) => {
+                self.place(place, with)
+            }
             (
                 Stmt::If(Branch {
                     cond,

@@ -1,7 +1,8 @@
 //! Shape of statements that differ in their devices only, as a number to compare them by.
 
 use crate::node::{
-    Access, AccessKind, Branch, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt, TimerCoil,
+    Access, AccessKind, Action, Branch, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt,
+    TimerCoil,
 };
 use crate::walk::operands;
 use rungc_models::runs::is_counter32;
@@ -31,23 +32,13 @@ pub(super) fn shape(module: &Module, stmt: &Stmt) -> Option<Shape> {
     })
 }
 
+#[expect(clippy::wildcard_enum_match_arm, reason = "others are not compared")]
 fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
     std::mem::discriminant(stmt).hash(hasher);
     *size += 1;
     match stmt {
         Stmt::Network(_) => *size -= 1,
-        Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
-        Stmt::Edge(Edge { input, .. }) => add_expr(module, *input, hasher, size)?,
-        Stmt::Write(access, value) => {
-            add_access(*access, hasher)?;
-            add_expr(module, *value, hasher, size)?;
-        }
-        Stmt::Timer(TimerCoil { drive, preset, .. })
-        | Stmt::Counter16(Counter16Coil { drive, preset, .. }) => {
-            add_expr(module, *drive, hasher, size)?;
-            add_expr(module, *preset, hasher, size)?;
-        }
-        Stmt::Reset(place) => add_place(*place, hasher)?,
+        Stmt::Do(action) => add_action(module, action, hasher, size)?,
         Stmt::If(Branch {
             cond,
             then,
@@ -61,32 +52,38 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
                 }
             }
         }
-        Stmt::SetFlag(..)
-        | Stmt::SetCell(..)
-        | Stmt::SetEntry(_)
-        | Stmt::TimerAt(_)
-        | Stmt::TimerGoesOn { .. }
-        | Stmt::Counter16At(_)
-        | Stmt::Counter32(_)
-        | Stmt::Count(_)
-        | Stmt::Block(_)
-        | Stmt::For { .. }
-        | Stmt::Repeat(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Call(_)
-        | Stmt::Fetch(_)
-        | Stmt::Send(_)
-        | Stmt::Fault { .. }
-        | Stmt::Watch { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => return None,
+        _ => return None,
     }
     Some(())
 }
 
+#[expect(clippy::wildcard_enum_match_arm, reason = "others are not compared")]
+fn add_action(
+    module: &Module,
+    action: &Action,
+    hasher: &mut FxHasher,
+    size: &mut u64,
+) -> Option<()> {
+    std::mem::discriminant(action).hash(hasher);
+    match action {
+        Action::Let(_, value) => add_expr(module, *value, hasher, size)?,
+        Action::Edge(Edge { input, .. }) => add_expr(module, *input, hasher, size)?,
+        Action::Write(access, value) => {
+            add_access(*access, hasher)?;
+            add_expr(module, *value, hasher, size)?;
+        }
+        Action::Timer(TimerCoil { drive, preset, .. })
+        | Action::Counter16(Counter16Coil { drive, preset, .. }) => {
+            add_expr(module, *drive, hasher, size)?;
+            add_expr(module, *preset, hasher, size)?;
+        }
+        Action::Reset(place) => add_place(*place, hasher)?,
+        _ => return None,
+    }
+    Some(())
+}
+
+#[expect(clippy::wildcard_enum_match_arm, reason = "others are not compared")]
 fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
     let expr = module.expr(id);
     std::mem::discriminant(expr).hash(hasher);
@@ -115,14 +112,7 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) 
         | Expr::BitToInt(_) => {
             operands(expr).try_for_each(|operand| add_expr(module, operand, hasher, size))
         }
-        Expr::F32(_)
-        | Expr::Un(..)
-        | Expr::Float(..)
-        | Expr::Cell(_)
-        | Expr::Entry(..)
-        | Expr::Stride(..)
-        | Expr::Within { .. }
-        | Expr::InRange { .. } => None,
+        _ => None,
     }
 }
 
