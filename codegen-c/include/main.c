@@ -158,16 +158,16 @@ static size_t instruction_at(unsigned step)
 /* Reports once what stopped the program. */
 static void print_stop(const PROGRAM_plc *plc, uint32_t now_ms)
 {
-    static bool told;
+    static bool reported;
     const plc_error error = PROGRAM_error(plc);
 
-    if (!told && error.stop == PLC_STOP_WATCHDOG) {
+    if (!reported && error.stop == PLC_STOP_WATCHDOG) {
         print(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, %s; the PLC is in STOP\n", (unsigned long)now_ms, error.stop_step,
                 instructions[instruction_at(error.stop_step)].text, error.stop, meaning(error.stop));
-    } else if (!told && error.stop == PLC_STOP_M8037) {
+    } else if (!reported && error.stop == PLC_STOP_M8037) {
         print(stderr, "PROGRAM: the program has stopped itself (M8037)\n");
     }
-    told = error.stop != PLC_STOP_NONE;
+    reported = error.stop != PLC_STOP_NONE;
 }
 
 /* ON_ERROR */

@@ -92,7 +92,7 @@ static bool receive_answers(PROGRAM_plc *plc, tcp_client_link *link, uint32_t no
         return errno == EAGAIN || errno == EINTR;
     }
     for (ssize_t i = 0; i < count; i++) {
-        if (rungc_client_hear(&link->client, client_rows + link->first, link->count, bytes[i], now_us, &map) == RUNGC_WISH_CLOSE) {
+        if (rungc_client_feed(&link->client, client_rows + link->first, link->count, bytes[i], now_us, &map) == RUNGC_CLIENT_ACTION_CLOSE) {
             close_link(link);
             return true;
         }
@@ -110,18 +110,18 @@ static void ask(PROGRAM_plc *plc, tcp_client_link *link, uint32_t now_us)
         lose_link(plc, link, now_us);
     }
     switch (rungc_client_next(&link->client, client_rows + link->first, link->count, link->link, now_us, &map, &request)) {
-    case RUNGC_WISH_OPEN:
+    case RUNGC_CLIENT_ACTION_OPEN:
         if (!open_link(link)) {
             lose_link(plc, link, now_us);
         }
         break;
-    case RUNGC_WISH_SEND:
+    case RUNGC_CLIENT_ACTION_SEND:
         /* It is shorter than any buffer of the system, so one that does not fit is the end. */
         if (send(link->file, request.bytes, request.length, MSG_NOSIGNAL) != (ssize_t)request.length) {
             lose_link(plc, link, now_us);
         }
         break;
-    case RUNGC_WISH_CLOSE:
+    case RUNGC_CLIENT_ACTION_CLOSE:
         close_link(link);
         break;
     default:

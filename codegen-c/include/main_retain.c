@@ -21,11 +21,11 @@ static struct {
     int error; /* why the thread has not written it; 0: it has */
     uint32_t length;
     uint8_t record[RECORD_LENGTH];
-} kept;
+} retained;
 
 static bool keep_in(const char *path)
 {
-    kept.path = path;
+    retained.path = path;
     return true;
 }
 
@@ -39,21 +39,21 @@ static bool read_kept(void *context, uint32_t offset, void *bytes, uint32_t leng
 /* Gives latched devices the values in the file, which need not exist; false if it cannot be used. */
 static bool load_kept(PROGRAM_plc *plc)
 {
-    FILE *const file = kept.path != NULL ? fopen(kept.path, "rb") : NULL;
+    FILE *const file = retained.path != NULL ? fopen(retained.path, "rb") : NULL;
     const rungc_source source = {read_kept, file};
     rungc_record record = {0};
     rungc_loaded loaded = RUNGC_LOADED_FAILED;
     uint32_t dropped = 0;
 
-    if (kept.path == NULL) {
+    if (retained.path == NULL) {
         return true;
     }
     if (file == NULL && errno == ENOENT) {
-        print(stderr, "PROGRAM: %s does not exist yet: latched devices begin as the PLC leaves the factory\n", kept.path);
+        print(stderr, "PROGRAM: %s does not exist yet: latched devices begin as the PLC leaves the factory\n", retained.path);
         return true;
     }
     if (file == NULL) {
-        print(stderr, "PROGRAM: %s: %s\n", kept.path, strerror(errno));
+        print(stderr, "PROGRAM: %s: %s\n", retained.path, strerror(errno));
         return false;
     }
     const long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
@@ -62,28 +62,28 @@ static bool load_kept(PROGRAM_plc *plc)
     }
     fclose(file);
     if (loaded == RUNGC_LOADED_FOREIGN) {
-        print(stderr, "PROGRAM: %s holds the latched devices of `%s`, and this program is `%s`; name another file\n", kept.path, record.owner,
+        print(stderr, "PROGRAM: %s holds the latched devices of `%s`, and this program is `%s`; name another file\n", retained.path, record.owner,
                 PROGRAM_retained.program);
     } else if (loaded != RUNGC_LOADED_DEVICES) {
-        print(stderr, "PROGRAM: %s does not hold latched devices, or is damaged\n", kept.path);
+        print(stderr, "PROGRAM: %s does not hold latched devices, or is damaged\n", retained.path);
     } else if (dropped != 0u) {
         print(stderr, "PROGRAM: %s: %lu of its devices are dropped: the program does not use them as latched devices any more\n",
-                kept.path, (unsigned long)dropped);
+                retained.path, (unsigned long)dropped);
     }
-    kept.sequence = record.sequence + 1u;
-    kept.has_saved = dropped == 0u;
-    kept.saved = rungc_retained_state(&PROGRAM_retained, plc);
+    retained.sequence = record.sequence + 1u;
+    retained.has_saved = dropped == 0u;
+    retained.saved = rungc_retained_state(&PROGRAM_retained, plc);
     return loaded == RUNGC_LOADED_DEVICES;
 }
 
 static bool put_kept(void *context, const uint8_t *bytes, uint32_t length)
 {
     (void)context;
-    if (length > sizeof kept.record - kept.length) {
+    if (length > sizeof retained.record - retained.length) {
         return false;
     }
-    memcpy(&kept.record[kept.length], bytes, length);
-    kept.length += length;
+    memcpy(&retained.record[retained.length], bytes, length);
+    retained.length += length;
     return true;
 }
 
@@ -92,19 +92,19 @@ static void record_kept(const PROGRAM_plc *plc, uint32_t state)
 {
     const rungc_sink sink = {put_kept, NULL};
 
-    kept.length = 0;
-    (void)rungc_put_record(&PROGRAM_retained, plc, kept.sequence, &sink);
-    kept.writing = state;
+    retained.length = 0;
+    (void)rungc_put_record(&PROGRAM_retained, plc, retained.sequence, &sink);
+    retained.writing = state;
 }
 
 /* Flushes the folder of the file, so that its new name lasts; false with errno if that fails. */
 static bool flush_folder(void)
 {
     char folder[1024];
-    const char *const slash = strrchr(kept.path, '/');
-    const size_t length = slash != NULL ? (size_t)(slash - kept.path) + 1u : 0u;
+    const char *const slash = strrchr(retained.path, '/');
+    const size_t length = slash != NULL ? (size_t)(slash - retained.path) + 1u : 0u;
 
-    memcpy(folder, kept.path, length);
+    memcpy(folder, retained.path, length);
     folder[length] = '\0';
     const int file = open(length != 0u ? folder : ".", O_RDONLY);
     if (file < 0) {
@@ -120,7 +120,7 @@ static bool flush_folder(void)
 /* Writes the record to a file, and flushes it; false with errno if the disk does not take it. */
 static bool write_record(FILE *file)
 {
-    const bool done = fwrite(kept.record, 1, kept.length, file) == kept.length && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const bool done = fwrite(retained.record, 1, retained.length, file) == retained.length && fflush(file) == 0 && fsync(fileno(file)) == 0;
     const int error = errno;
     const bool closed = fclose(file) == 0;
 
@@ -134,10 +134,10 @@ static bool write_record(FILE *file)
  * Replaces the file: a new one beside it is written and flushed, and takes its name. Nothing remains of what a full disk does not
  * take. Returns why it cannot be; 0: it is.
  */
-static int replace_kept(void)
+static int replace_file(void)
 {
     char path[1024];
-    const int length = snprintf(path, sizeof path, "%s.new", kept.path);
+    const int length = snprintf(path, sizeof path, "%s.new", retained.path);
 
     if (length < 0 || (size_t)length >= sizeof path) {
         return ENAMETOOLONG;
@@ -146,7 +146,7 @@ static int replace_kept(void)
     if (file == NULL) {
         return errno;
     }
-    if (!write_record(file) || rename(path, kept.path) != 0) {
+    if (!write_record(file) || rename(path, retained.path) != 0) {
         const int error = errno;
         (void)unlink(path);
         return error;
@@ -159,9 +159,9 @@ static void *write_records(void *context)
 {
     (void)context;
     for (;;) {
-        if (sem_wait(&kept.to_write) == 0) {
-            kept.error = replace_kept();
-            sem_post(&kept.written);
+        if (sem_wait(&retained.to_write) == 0) {
+            retained.error = replace_file();
+            sem_post(&retained.written);
         }
     }
     return NULL;
@@ -173,16 +173,16 @@ static bool begin_kept(void)
     pthread_t thread;
     int error = 0;
 
-    if (kept.path == NULL) {
+    if (retained.path == NULL) {
         return true;
     }
-    if (sem_init(&kept.to_write, 0, 0) != 0 || sem_init(&kept.written, 0, 0) != 0) {
+    if (sem_init(&retained.to_write, 0, 0) != 0 || sem_init(&retained.written, 0, 0) != 0) {
         error = errno;
     } else {
         error = pthread_create(&thread, NULL, write_records, NULL);
     }
     if (error != 0) {
-        print(stderr, "PROGRAM: no thread for %s: %s\n", kept.path, strerror(error));
+        print(stderr, "PROGRAM: no thread for %s: %s\n", retained.path, strerror(error));
     }
     return error == 0;
 }
@@ -190,48 +190,48 @@ static bool begin_kept(void)
 /* Saving fails: reports why, once. */
 static void unsaved(const char *why)
 {
-    if (!kept.fails) {
-        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", kept.path, why);
+    if (!retained.fails) {
+        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", retained.path, why);
     }
-    kept.fails = true;
+    retained.fails = true;
 }
 
 /* The record has been written, or this is why it cannot be. */
 static void end_record(int error)
 {
-    kept.writes = false;
+    retained.writes = false;
     if (error != 0) {
         unsaved(strerror(error));
         return;
     }
-    kept.sequence++;
-    kept.has_saved = true;
-    kept.saved = kept.writing;
-    if (kept.fails) {
-        print(stderr, "PROGRAM: %s: latched devices are saved again\n", kept.path);
+    retained.sequence++;
+    retained.has_saved = true;
+    retained.saved = retained.writing;
+    if (retained.fails) {
+        print(stderr, "PROGRAM: %s: latched devices are saved again\n", retained.path);
     }
-    kept.fails = false;
+    retained.fails = false;
 }
 
 /* Between scans: has what has changed saved, once a second. */
 static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
 {
-    if (kept.path == NULL) {
+    if (retained.path == NULL) {
         return;
     }
-    if (kept.writes) {
-        if (sem_trywait(&kept.written) == 0) {
-            end_record(kept.error);
-        } else if (now_ms - kept.looked_ms > SLOW_MS) {
+    if (retained.writes) {
+        if (sem_trywait(&retained.written) == 0) {
+            end_record(retained.error);
+        } else if (now_ms - retained.looked_ms > SLOW_MS) {
             unsaved("the disk takes longer than 10 s");
         }
-    } else if (now_ms - kept.looked_ms >= SAVE_EVERY_MS) {
+    } else if (now_ms - retained.looked_ms >= SAVE_EVERY_MS) {
         const uint32_t state = rungc_retained_state(&PROGRAM_retained, plc);
-        kept.looked_ms = now_ms;
-        if (!kept.has_saved || kept.saved != state) {
+        retained.looked_ms = now_ms;
+        if (!retained.has_saved || retained.saved != state) {
             record_kept(plc, state);
-            kept.writes = true;
-            sem_post(&kept.to_write);
+            retained.writes = true;
+            sem_post(&retained.to_write);
         }
     }
     /* UNSAVED */
@@ -240,22 +240,22 @@ static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
 /* After the last scan: saves what has changed since, and waits for the disk; false if it does not take it. */
 static bool end_kept(const PROGRAM_plc *plc)
 {
-    if (kept.path == NULL) {
+    if (retained.path == NULL) {
         return true;
     }
-    while (kept.writes) {
-        if (sem_wait(&kept.written) == 0) {
-            end_record(kept.error);
+    while (retained.writes) {
+        if (sem_wait(&retained.written) == 0) {
+            end_record(retained.error);
         }
     }
     const uint32_t state = rungc_retained_state(&PROGRAM_retained, plc);
-    if (kept.has_saved && kept.saved == state) {
+    if (retained.has_saved && retained.saved == state) {
         return true;
     }
     record_kept(plc, state);
-    const int error = replace_kept();
+    const int error = replace_file();
     if (error != 0) {
-        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", kept.path, strerror(error));
+        print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", retained.path, strerror(error));
     }
     return error == 0;
 }

@@ -25,8 +25,8 @@ typedef struct {
 typedef struct {
     int file; /* -1: none */
     tcp_client *client;
-    uint32_t heard; /* the poll of the last input */
-    rungc_connection said;
+    uint32_t last_poll; /* poll of the last reception */
+    rungc_connection parser;
     uint8_t to_send[2 * RUNGC_LONGEST_REPLY];
     size_t waiting;
 } tcp_connection;
@@ -101,7 +101,7 @@ static bool listen_at(tcp_server *server, const struct addrinfo *at)
 }
 
 /* Opens a server. */
-static bool open_server(rungc_speaks speaks, const char *name, const char *text)
+static bool open_server(rungc_server_protocol protocol, const char *name, const char *text)
 {
     if (tcp_server_count == SERVERS) {
         print(stderr, "PROGRAM: at most %d servers\n", SERVERS);
@@ -113,7 +113,7 @@ static bool open_server(rungc_speaks speaks, const char *name, const char *text)
         return false;
     }
     tcp_server *const server = &tcp_servers[tcp_server_count];
-    server->service = (rungc_service){.speaks = speaks, .family = FAMILY, .type_code = TYPE_CODE};
+    server->service = (rungc_service){.protocol = protocol, .family = FAMILY, .type_code = TYPE_CODE};
     server->name = name;
     const bool listens = listen_at(server, found);
     freeaddrinfo(found);
@@ -167,7 +167,7 @@ static tcp_connection *free_connection(void)
         if (connection->client == NULL || connection->file < 0) {
             return connection;
         }
-        if (polls - connection->heard > polls - longest->heard) {
+        if (polls - connection->last_poll > polls - longest->last_poll) {
             longest = connection;
         }
     }
@@ -197,9 +197,9 @@ static void accept_clients(size_t at)
         tcp_connection *const connection = free_connection();
         connection->file = file;
         connection->client = client_of(at, host);
-        connection->heard = polls;
+        connection->last_poll = polls;
         connection->waiting = 0;
-        rungc_connect(&connection->said, server->service);
+        rungc_connect(&connection->parser, server->service);
     }
 }
 
@@ -210,24 +210,24 @@ static bool has_room(const tcp_connection *connection)
 }
 
 /* Takes a character, and carries out and answers the request that it ends; false if nothing that follows can be a request. */
-static bool hear(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
+static bool feed(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
 {
     static rungc_reply reply;
     rungc_map map = PROGRAM_map(plc);
-    const rungc_heard heard = rungc_hear(&connection->said, &map, byte, &reply);
+    const rungc_feed_result result = rungc_feed(&connection->parser, &map, byte, &reply);
 
-    if (heard == RUNGC_HEARD_MORE) {
+    if (result == RUNGC_FEED_RESULT_MORE) {
         return true;
     }
     connection->client->requests++;
-    connection->client->rejected += heard == RUNGC_HEARD_REQUEST ? 0u : 1u;
+    connection->client->rejected += result == RUNGC_FEED_RESULT_REQUEST ? 0u : 1u;
     connection->client->answers += reply.length > 0u ? 1u : 0u;
     memcpy(connection->to_send + connection->waiting, reply.bytes, reply.length);
     connection->waiting += reply.length;
     if (reply.request != RUNGC_REQUEST_NONE) {
         PROGRAM_set_running(plc, reply.request == RUNGC_REQUEST_RUN);
     }
-    return heard != RUNGC_HEARD_LOST;
+    return result != RUNGC_FEED_RESULT_LOST;
 }
 
 /* Sends what the client takes; false when the connection is over. */
@@ -258,13 +258,13 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
         size_t taken = 0;
         open = count > 0;
         while (open && taken < (size_t)count && has_room(connection)) {
-            open = hear(plc, connection, bytes[taken]);
+            open = feed(plc, connection, bytes[taken]);
             taken++;
         }
         if (taken == 0u) {
             break;
         }
-        connection->heard = polls;
+        connection->last_poll = polls;
         left -= taken < left ? taken : left;
         if (recv(connection->file, bytes, taken, 0) < 0) {
             open = false;

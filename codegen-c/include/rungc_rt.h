@@ -102,7 +102,7 @@ typedef uint8_t rungc_ports;
 /**
  * Next action of a host on a connection.
  */
-enum rungc_wish
+enum rungc_client_action
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -110,25 +110,25 @@ enum rungc_wish
     /**
      * Nothing.
      */
-    RUNGC_WISH_NOTHING = 0,
+    RUNGC_CLIENT_ACTION_NOTHING = 0,
     /**
      * It opens the connection.
      */
-    RUNGC_WISH_OPEN = 1,
+    RUNGC_CLIENT_ACTION_OPEN = 1,
     /**
      * It sends the request.
      */
-    RUNGC_WISH_SEND = 2,
+    RUNGC_CLIENT_ACTION_SEND = 2,
     /**
      * It closes the connection.
      */
-    RUNGC_WISH_CLOSE = 3,
+    RUNGC_CLIENT_ACTION_CLOSE = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum rungc_wish rungc_wish;
+typedef enum rungc_client_action rungc_client_action;
 #else
-typedef uint8_t rungc_wish;
+typedef uint8_t rungc_client_action;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -455,7 +455,7 @@ typedef uint8_t rungc_operand_kind;
 /**
  * The protocols of servers.
  */
-enum rungc_speaks
+enum rungc_server_protocol
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -463,28 +463,28 @@ enum rungc_speaks
     /**
      * Modbus TCP, with the address table of the model.
      */
-    RUNGC_SPEAKS_MODBUS_TCP = 0,
+    RUNGC_SERVER_PROTOCOL_MODBUS_TCP = 0,
     /**
      * MC protocol, frames 1E and 3E in binary.
      */
-    RUNGC_SPEAKS_MC = 1,
+    RUNGC_SERVER_PROTOCOL_MC = 1,
     /**
      * The programming port's protocol, as the model speaks it.
      */
-    RUNGC_SPEAKS_PROGRAMMING_PORT = 2,
+    RUNGC_SERVER_PROTOCOL_PROGRAMMING_PORT = 2,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum rungc_speaks rungc_speaks;
+typedef enum rungc_server_protocol rungc_server_protocol;
 #else
-typedef uint8_t rungc_speaks;
+typedef uint8_t rungc_server_protocol;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
 /**
  * Effect of a character received by a connection.
  */
-enum rungc_heard
+enum rungc_feed_result
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -492,25 +492,25 @@ enum rungc_heard
     /**
      * Part of a request that continues, or of none.
      */
-    RUNGC_HEARD_MORE = 0,
+    RUNGC_FEED_RESULT_MORE = 0,
     /**
      * The last of a request, which has been carried out.
      */
-    RUNGC_HEARD_REQUEST = 1,
+    RUNGC_FEED_RESULT_REQUEST = 1,
     /**
      * The last of a request, which has been rejected.
      */
-    RUNGC_HEARD_REJECTED = 2,
+    RUNGC_FEED_RESULT_REJECTED = 2,
     /**
      * Not part of a request; nothing that follows can be one, so the connection is to be closed.
      */
-    RUNGC_HEARD_LOST = 3,
+    RUNGC_FEED_RESULT_LOST = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum rungc_heard rungc_heard;
+typedef enum rungc_feed_result rungc_feed_result;
 #else
-typedef uint8_t rungc_heard;
+typedef uint8_t rungc_feed_result;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -1185,7 +1185,7 @@ typedef struct rungc_service {
     /**
      * Its protocol.
      */
-    rungc_speaks speaks;
+    rungc_server_protocol protocol;
     /**
      * The model's family.
      */
@@ -1345,23 +1345,23 @@ void rungc_client_begin(struct rungc_client *client, rungc_ports family, uint8_t
  * Next action of a client, `now_us` microseconds after an arbitrary origin; a request to be sent is in `request`.
  * `rows` are the `count` rows of the server, the same in each call. Call it between two scans.
  */
-rungc_wish rungc_client_next(struct rungc_client *client,
-                             const struct rungc_client_row *rows,
-                             uint16_t count,
-                             rungc_link link,
-                             uint32_t now_us,
-                             struct rungc_map *map,
-                             struct rungc_reply *request);
+rungc_client_action rungc_client_next(struct rungc_client *client,
+                                      const struct rungc_client_row *rows,
+                                      uint16_t count,
+                                      rungc_link link,
+                                      uint32_t now_us,
+                                      struct rungc_map *map,
+                                      struct rungc_reply *request);
 
 /**
- * Takes a character that has come; `RUNGC_WISH_CLOSE` if nothing that follows can be an answer.
+ * Takes a character that has come; `RUNGC_CLIENT_ACTION_CLOSE` if nothing that follows can be an answer.
  */
-rungc_wish rungc_client_hear(struct rungc_client *client,
-                             const struct rungc_client_row *rows,
-                             uint16_t count,
-                             uint8_t byte,
-                             uint32_t now_us,
-                             struct rungc_map *map);
+rungc_client_action rungc_client_feed(struct rungc_client *client,
+                                      const struct rungc_client_row *rows,
+                                      uint16_t count,
+                                      uint8_t byte,
+                                      uint32_t now_us,
+                                      struct rungc_map *map);
 
 /**
  * The connection could not be opened, or has been closed by the server.
@@ -1481,42 +1481,42 @@ bool rungc_module_write(struct rungc_module *module, uint16_t address, int16_t v
 /**
  * `--io FILE`: reads the connections that a file describes; false after a message if it cannot be used.
  */
-bool rungc_outside_describe(const char *program, const char *path);
+bool rungc_io_describe(const char *program, const char *path);
 
 /**
  * `--log FILE`: begins or continues a log; false after a message if it cannot be written.
  */
-bool rungc_outside_log(const char *program, const char *path);
+bool rungc_io_open_log(const char *program, const char *path);
 
 /**
  * Adds a line to the log, if there is one.
  */
-void rungc_outside_note(const char *line);
+void rungc_io_log(const char *line);
 
 /**
  * Returns true if a connection reads standard input, which leaves none for commands.
  */
-bool rungc_outside_takes_input(void);
+bool rungc_io_uses_stdin(void);
 
 /**
  * Starts the connections, before the first scan; false after a message if that cannot be done.
  */
-bool rungc_outside_begin(const char *program, const struct rungc_map *map);
+bool rungc_io_begin(const char *program, const struct rungc_map *map);
 
 /**
  * Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
  */
-void rungc_outside_take(struct rungc_map *map, const struct rungc_terminal *terminal);
+void rungc_io_read_inputs(struct rungc_map *map, const struct rungc_terminal *terminal);
 
 /**
  * After a scan: the other ends are given what the devices are.
  */
-void rungc_outside_give(struct rungc_map *map, const struct rungc_terminal *terminal);
+void rungc_io_write_outputs(struct rungc_map *map, const struct rungc_terminal *terminal);
 
 /**
  * The run is over: outputs are turned off, and the log is written.
  */
-void rungc_outside_end(void);
+void rungc_io_end(void);
 
 /**
  * A connection begins.
@@ -1527,10 +1527,10 @@ void rungc_connect(struct rungc_connection *connection, struct rungc_service ser
  * Takes a character that has come over a connection. If it is the last of a request, that is carried out and answered
  * in `reply`. Call it between two scans.
  */
-rungc_heard rungc_hear(struct rungc_connection *connection,
-                       struct rungc_map *map,
-                       uint8_t byte,
-                       struct rungc_reply *reply);
+rungc_feed_result rungc_feed(struct rungc_connection *connection,
+                             struct rungc_map *map,
+                             uint8_t byte,
+                             struct rungc_reply *reply);
 
 /**
  * The virtual hardware as instructions see it, for `Map::hal`.

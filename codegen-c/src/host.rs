@@ -8,7 +8,7 @@ use crate::{Options, include, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
-use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
+use rungc_rt::comm::service::{ServerProtocol, TABLE_HEADING};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -341,9 +341,9 @@ fn valued(module: &Module, host: &Host) -> String {
             Takes::Retained => "keep_in(argv[++i])".to_string(),
             Takes::Io => outside::option(module, "describe"),
             Takes::Log => outside::option(module, "log"),
-            Takes::Address(speaks) => open_server(speaks),
-            Takes::AddressOrLine(speaks, port) => {
-                let open = open_server(speaks);
+            Takes::Address(protocol) => open_server(protocol),
+            Takes::AddressOrLine(protocol, port) => {
+                let open = open_server(protocol);
                 format!("(is_line(argv[i + 1]) ? connect_line({port}, argv[++i]) : {open})")
             }
         };
@@ -357,17 +357,17 @@ fn valued(module: &Module, host: &Host) -> String {
 }
 
 /// The call that opens a server.
-fn open_server(speaks: Speaks) -> String {
-    let (name, speaks) = (speaks.name(), constant(speaks));
-    format!("open_server(RUNGC_SPEAKS_{speaks}, \"{name}\", argv[++i])")
+fn open_server(protocol: ServerProtocol) -> String {
+    let (name, protocol) = (protocol.name(), constant(protocol));
+    format!("open_server(RUNGC_SERVER_PROTOCOL_{protocol}, \"{name}\", argv[++i])")
 }
 
 /// Name of a protocol in the runtime's header.
-fn constant(speaks: Speaks) -> &'static str {
-    match speaks {
-        Speaks::ModbusTcp => "MODBUS_TCP",
-        Speaks::Mc => "MC",
-        Speaks::ProgrammingPort => "PROGRAMMING_PORT",
+fn constant(protocol: ServerProtocol) -> &'static str {
+    match protocol {
+        ServerProtocol::ModbusTcp => "MODBUS_TCP",
+        ServerProtocol::Mc => "MC",
+        ServerProtocol::ProgrammingPort => "PROGRAMMING_PORT",
     }
 }
 

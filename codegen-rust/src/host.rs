@@ -9,7 +9,7 @@ use rungc_ir::Module;
 use rungc_ir::node::Origin;
 use rungc_models::plc_errors::{self, PlcError};
 use rungc_models::runs::rt_class;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use rungc_syntax::text::one_line;
 use rungc_syntax::{DeviceClass, NetworkRequest};
 use std::collections::BTreeSet;
@@ -49,7 +49,7 @@ const OUTSIDE_USES: [&str; 2] = [
 /// Imports of servers.
 const SERVERS_USES: [&str; 3] = [
     "rungc_rt::Ports",
-    "rungc_rt::comm::service::{Service, Speaks, address}",
+    "rungc_rt::comm::service::{Service, ServerProtocol, address}",
     "rungc_rt::servers::Servers",
 ];
 
@@ -248,9 +248,9 @@ fn open(module: &Module, host: &Host) -> String {
             }
             Takes::Io => "outside().describe(&value)".to_string(),
             Takes::Log => "outside().log(&value)".to_string(),
-            Takes::Address(speaks) => open_server(speaks),
-            Takes::AddressOrLine(speaks, port) => {
-                let open = open_server(speaks);
+            Takes::Address(protocol) => open_server(protocol),
+            Takes::AddressOrLine(protocol, port) => {
+                let open = open_server(protocol);
                 format!(
                     "match is_line(&value) {{
                 true => Line::of_port(&mut plc, {port}, &value).map(|line| lines.push(line)),
@@ -274,8 +274,8 @@ const CLIENTS: &str = "    let requests = REQUESTS.iter().filter_map(|(server, r
 ";
 
 /// The call that opens a server.
-fn open_server(speaks: Speaks) -> String {
-    format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
+fn open_server(protocol: ServerProtocol) -> String {
+    format!("open_server(&mut servers, ServerProtocol::{protocol:?}, &value)")
 }
 
 /// End of the loop over options.

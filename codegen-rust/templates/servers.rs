@@ -5,10 +5,10 @@ fn is_line(value: &str) -> bool {
 }
 
 /// Opens the server that an option names: `--modbus-tcp 5020`.
-fn open_server(servers: &mut Servers, speaks: Speaks, value: &str) -> Result<(), String> {
+fn open_server(servers: &mut Servers, protocol: ServerProtocol, value: &str) -> Result<(), String> {
     let at = address(value).ok_or("an address is written 127.0.0.1:5020, [::1]:5020 or 5020")?;
-    let service = Service::new(speaks, Ports::FAMILY, TYPE_CODE);
-    let name = speaks.name();
+    let service = Service::new(protocol, Ports::FAMILY, TYPE_CODE);
+    let name = protocol.name();
     let opened = servers.open(service, at);
     let at = opened.map_err(|error| format!("cannot serve {name} at {at}: {error}"))?;
     report!("{name} at {at}");

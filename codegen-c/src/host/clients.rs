@@ -3,7 +3,7 @@
 use crate::include;
 use rungc_ir::Module;
 use rungc_models::runs::rt_class;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use rungc_syntax::NetworkRequest;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -60,7 +60,7 @@ pub fn code(module: &Module) -> String {
     include("main_clients.c")
         .replace("    /* ROWS */\n", &rows)
         .replace("    /* SERVERS */\n", &servers)
-        .replace("MODBUS_TCP", Speaks::ModbusTcp.name())
+        .replace("MODBUS_TCP", ServerProtocol::ModbusTcp.name())
 }
 
 fn row(rows: &mut String, request: &NetworkRequest) {

@@ -53,12 +53,12 @@ pub fn parts(module: &Module, io: bool) -> Parts {
     };
     Parts {
         code: include("main_io.c").replace("    /* EDGE */\n", edge),
-        begin: "    if (!begin_outside(plc)) {\n        return 2;\n    }\n",
-        take: "        take_outside(plc);\n",
-        give: "        give_outside(plc);\n",
-        end: "    rungc_outside_end();\n",
-        note: "    rungc_outside_note(line);\n",
-        commands: "    if (rungc_outside_takes_input()) {\n        return;\n    }\n",
+        begin: "    if (!io_begin(plc)) {\n        return 2;\n    }\n",
+        take: "        io_read_inputs(plc);\n",
+        give: "        io_write_outputs(plc);\n",
+        end: "    rungc_io_end();\n",
+        note: "    rungc_io_log(line);\n",
+        commands: "    if (rungc_io_uses_stdin()) {\n        return;\n    }\n",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::cycle::keeps_any;
 use rungc_ir::Module;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use rungc_syntax::text::one_line;
 use std::fmt::Write;
 
@@ -26,9 +26,9 @@ pub enum Takes {
     /// End of a serial port: `COM1=/dev/ttyUSB0`.
     Line,
     /// The address of a server.
-    Address(Speaks),
+    Address(ServerProtocol),
     /// That of one that speaks what this port does: or what the port is connected to.
-    AddressOrLine(Speaks, u8),
+    AddressOrLine(ServerProtocol, u8),
     /// The file that keeps latched devices from run to run.
     Retained,
     /// The file that describes connections.
@@ -54,11 +54,13 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
     };
     let programmer = module.model.ports.of_programmer();
     let programmer = programmer.filter(|port| module.ports.contains(port));
-    let servers = Speaks::all().map(|speaks| Valued {
-        name: speaks.option(),
+    let servers = ServerProtocol::all().map(|protocol| Valued {
+        name: protocol.option(),
         takes: match programmer {
-            Some(port) if speaks == Speaks::ProgrammingPort => Takes::AddressOrLine(speaks, port),
-            _ => Takes::Address(speaks),
+            Some(port) if protocol == ServerProtocol::ProgrammingPort => {
+                Takes::AddressOrLine(protocol, port)
+            }
+            _ => Takes::Address(protocol),
         },
     });
     let line = module.has_ports().then_some(line);
@@ -120,7 +122,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                 &format!("{name} FILE"),
                 "add what is printed to this file, with the time (UTC)",
             ),
-            Takes::Address(speaks) | Takes::AddressOrLine(speaks, _) => {
+            Takes::Address(protocol) | Takes::AddressOrLine(protocol, _) => {
                 let or_line = if let Takes::AddressOrLine(_, port) = takes {
                     let lines = host.lines.join(&format!(", {name} "));
                     format!("; or connect COM{port}: {name} {lines}")
@@ -129,7 +131,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                 };
                 option(
                     &format!("{name} ADDRESS"),
-                    &format!("serve all devices over TCP: {}{or_line}", speaks.name()),
+                    &format!("serve all devices over TCP: {}{or_line}", protocol.name()),
                 );
             }
         }

@@ -16,7 +16,7 @@ use failures::About;
 use rungc_fleet::{At, Choice, Engine, Fleet, Group, Machines, Plcs, Schedule, Setting, Written};
 use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
-use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::wall::WallClock;
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
 use rungc_syntax::{DeviceClass, Diagnostic, FittedModule};
@@ -68,7 +68,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
         check_settings(&mut group, plcs, compiled).map_err(refuse)?;
         if let Some(first) = plcs.modbus_tcp {
             let model = compiled.module.model;
-            let service = Service::new(Speaks::ModbusTcp, model.ports, model.type_code());
+            let service = Service::new(ServerProtocol::ModbusTcp, model.ports, model.type_code());
             let opened = group.serve(first, plcs.units, service);
             opened.map_err(|(address, error)| {
                 let why = format!("cannot serve Modbus TCP at {address}: {error}");

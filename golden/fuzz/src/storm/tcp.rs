@@ -8,7 +8,7 @@ use crate::text::{ACK, Bytes, stx, words};
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
-use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::servers::Dialogue;
 
 /// Registers that good frames read and write, from D100 on.
@@ -18,7 +18,7 @@ const COUNT: usize = 50;
 pub struct Server {
     /// Its name.
     pub name: &'static str,
-    speaks: Speaks,
+    protocol: ServerProtocol,
     /// Writes or reads a register: the frame, and its answer.
     good: fn(u16, u16, bool) -> (Bytes, Bytes),
 }
@@ -27,7 +27,7 @@ pub struct Server {
 pub const SERVERS: [Server; 4] = [
     Server {
         name: "modbus-tcp",
-        speaks: Speaks::ModbusTcp,
+        protocol: ServerProtocol::ModbusTcp,
         good: |number, value, write| {
             let ([high, low], [a, b]) = (number.to_be_bytes(), value.to_be_bytes());
             if write {
@@ -42,7 +42,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "mc-1e",
-        speaks: Speaks::Mc,
+        protocol: ServerProtocol::Mc,
         good: |number, value, write| {
             let ([low, high], [a, b]) = (number.to_le_bytes(), value.to_le_bytes());
             let head = [
@@ -67,7 +67,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "mc-3e",
-        speaks: Speaks::Mc,
+        protocol: ServerProtocol::Mc,
         good: |number, value, write| {
             let ([low, high], [a, b]) = (number.to_le_bytes(), value.to_le_bytes());
             let (command, length) = if write { (0x14, 14) } else { (0x04, 12) };
@@ -87,7 +87,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "fx-over-tcp",
-        speaks: Speaks::ProgrammingPort,
+        protocol: ServerProtocol::ProgrammingPort,
         good: |number, value, write| {
             let (address, digits) = (0x1000 + 2 * number, words(&[value.swap_bytes()]));
             if write {
@@ -126,7 +126,7 @@ pub fn run(server: &Server, frames: usize, seed: u64) -> Outcome {
     let mut plc = Plc::new(module(ModelId::H2u, 0, "LD M8000\nOUT M0\nEND\n"), 0);
     let mut random = Random::new(seed);
     let mut wanted = [0; COUNT];
-    let service = Service::new(server.speaks, Ports::Inovance, 24_120);
+    let service = Service::new(server.protocol, Ports::Inovance, 24_120);
     let mut good = Dialogue::new(service);
     // Connections that stopped in the middle of a frame, and stay open.
     let mut idle = Vec::new();

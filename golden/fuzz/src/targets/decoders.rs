@@ -95,7 +95,7 @@ fn modbus_client(_: u8, bytes: &[u8], map: &mut dyn Map, request: &mut Frame) {
     let length = (rest.len() as u16).to_be_bytes();
     let whole = [&[0, 1, 0, 0][..], &length, rest].concat();
     for &byte in rest.iter().chain(&whole) {
-        let _ = client.hear(&rows, byte, 0, map);
+        let _ = client.feed(&rows, byte, 0, map);
     }
 }
 

@@ -8,7 +8,7 @@ use rungc_firmware::flash::{Payload, uf2};
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Protocol;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use rungc_rt::retain::{Flash, FlashFailed, Slots};
 use rungc_sim::serve::{Decoder, Direction, Speech};
 use std::io;
@@ -143,9 +143,9 @@ fn overheard(input: &[u8]) {
     let (before, bytes) = frames.split_at(frames.len().min((*split).into()));
     let speeches = [
         Speech::Client,
-        Speech::Tcp(Speaks::ModbusTcp),
-        Speech::Tcp(Speaks::Mc),
-        Speech::Tcp(Speaks::ProgrammingPort),
+        Speech::Tcp(ServerProtocol::ModbusTcp),
+        Speech::Tcp(ServerProtocol::Mc),
+        Speech::Tcp(ServerProtocol::ProgrammingPort),
         Speech::Serial(Protocol::Free),
         Speech::Serial(Protocol::ProgrammingPort),
         Speech::Serial(Protocol::ModbusRtu),

@@ -6,7 +6,7 @@ use crate::text::stx;
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
-use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::servers::Dialogue;
 
 /// Reads D0 in each protocol, and the answer.
@@ -21,11 +21,11 @@ const MC_3E: &[u8] = &[
 
 fn target(
     name: &'static str,
-    speaks: Speaks,
+    protocol: ServerProtocol,
     probe: (&'static [u8], &'static [u8]),
     seeds: &[&[u8]],
 ) -> Target {
-    let service = Service::new(speaks, Ports::Inovance, 24_120);
+    let service = Service::new(protocol, Ports::Inovance, 24_120);
     let module = module(ModelId::H2u, 0, "LD M8000\nOUT M0\nEND\n");
     Target {
         name,
@@ -54,11 +54,16 @@ pub(super) fn targets() -> [Target; 3] {
     let fx = stx("0100002");
     let write: &[u8] = &[0, 1, 0, 0, 0, 11, 1, 16, 0, 0, 0, 2, 4, 0, 1, 0, 2];
     [
-        target("modbus-tcp", Speaks::ModbusTcp, MODBUS, &[MODBUS.0, write]),
-        target("mc", Speaks::Mc, MC, &[MC.0, MC_3E]),
+        target(
+            "modbus-tcp",
+            ServerProtocol::ModbusTcp,
+            MODBUS,
+            &[MODBUS.0, write],
+        ),
+        target("mc", ServerProtocol::Mc, MC, &[MC.0, MC_3E]),
         target(
             "fx-over-tcp",
-            Speaks::ProgrammingPort,
+            ServerProtocol::ProgrammingPort,
             (b"\x05", b"\x06"),
             &[&fx, b"\x05"],
         ),

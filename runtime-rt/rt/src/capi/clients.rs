@@ -3,7 +3,7 @@
 use super::Map;
 use super::map::elements;
 use super::servers::Reply;
-use crate::comm::modbus::client::{Client, ClientRow, Link, Wish};
+use crate::comm::modbus::client::{Client, ClientAction, ClientRow, Link};
 use crate::comm::{Frame, Ports, Served};
 
 /// The client of a server whose IP address ends in `part` begins.
@@ -23,7 +23,7 @@ pub extern "C" fn rungc_client_next(
     now_us: u32,
     map: &mut Map,
     request: &mut Reply,
-) -> Wish {
+) -> ClientAction {
     let mut frame = Frame::new(&mut request.bytes);
     let rows = elements(rows, count.into());
     let wish = client.next(rows, link, now_us, &mut Served::new(map, 0), &mut frame);
@@ -31,18 +31,18 @@ pub extern "C" fn rungc_client_next(
     wish
 }
 
-/// Takes a character that has come; `RUNGC_WISH_CLOSE` if nothing that follows can be an answer.
+/// Takes a character that has come; `RUNGC_CLIENT_ACTION_CLOSE` if nothing that follows can be an answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_client_hear(
+pub extern "C" fn rungc_client_feed(
     client: &mut Client,
     rows: *const ClientRow,
     count: u16,
     byte: u8,
     now_us: u32,
     map: &mut Map,
-) -> Wish {
+) -> ClientAction {
     let rows = elements(rows, count.into());
-    client.hear(rows, byte, now_us, &mut Served::new(map, 0))
+    client.feed(rows, byte, now_us, &mut Served::new(map, 0))
 }
 
 /// The connection could not be opened, or has been closed by the server.

@@ -36,7 +36,7 @@ fn check(program: &str, option: &str, value: &str, result: Result<(), String>) -
 
 /// `--io FILE`: reads the connections that a file describes; false after a message if it cannot be used.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_describe(program: *const c_char, path: *const c_char) -> bool {
+pub extern "C" fn rungc_io_describe(program: *const c_char, path: *const c_char) -> bool {
     let (program, path) = (text(program), text(path));
     let described = with(|outside| outside.describe(&path));
     check(&program, "--io", &path, described)
@@ -44,7 +44,7 @@ pub extern "C" fn rungc_outside_describe(program: *const c_char, path: *const c_
 
 /// `--log FILE`: begins or continues a log; false after a message if it cannot be written.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_log(program: *const c_char, path: *const c_char) -> bool {
+pub extern "C" fn rungc_io_open_log(program: *const c_char, path: *const c_char) -> bool {
     let (program, path) = (text(program), text(path));
     let begun = with(|outside| outside.log(&path));
     check(&program, "--log", &path, begun)
@@ -52,19 +52,19 @@ pub extern "C" fn rungc_outside_log(program: *const c_char, path: *const c_char)
 
 /// Adds a line to the log, if there is one.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_note(line: *const c_char) {
+pub extern "C" fn rungc_io_log(line: *const c_char) {
     with(|outside| outside.note(text(line).trim_end_matches('\n')));
 }
 
 /// Returns true if a connection reads standard input, which leaves none for commands.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_takes_input() -> bool {
+pub extern "C" fn rungc_io_uses_stdin() -> bool {
     with(|outside| outside.takes_input())
 }
 
 /// Starts the connections, before the first scan; false after a message if that cannot be done.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_begin(program: *const c_char, map: &Map) -> bool {
+pub extern "C" fn rungc_io_begin(program: *const c_char, map: &Map) -> bool {
     let begun = with(|outside| outside.begin(map));
     if let Err(why) = &begun {
         let program = text(program);
@@ -107,18 +107,18 @@ impl Terminals for InC<'_> {
 
 /// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_take(map: &mut Map, terminal: &Terminal) {
+pub extern "C" fn rungc_io_read_inputs(map: &mut Map, terminal: &Terminal) {
     with(|outside| outside.take(&mut InC(map, terminal)));
 }
 
 /// After a scan: the other ends are given what the devices are.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_give(map: &mut Map, terminal: &Terminal) {
+pub extern "C" fn rungc_io_write_outputs(map: &mut Map, terminal: &Terminal) {
     with(|outside| outside.give(&mut InC(map, terminal)));
 }
 
 /// The run is over: outputs are turned off, and the log is written.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_outside_end() {
+pub extern "C" fn rungc_io_end() {
     with(Outside::end);
 }

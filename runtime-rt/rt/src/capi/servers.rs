@@ -1,7 +1,7 @@
 //! Servers over TCP, for hosts in C: what a connection says is carried out here, the sockets are the host's.
 
 use super::{Map, Request};
-use crate::comm::service::{Connection, Heard, LONGEST_REPLY, Service};
+use crate::comm::service::{Connection, FeedResult, LONGEST_REPLY, Service};
 use crate::comm::{Frame, Served};
 
 /// The answer to a request.
@@ -25,16 +25,16 @@ pub extern "C" fn rungc_connect(connection: &mut Connection, service: Service) {
 /// Takes a character that has come over a connection. If it is the last of a request, that is carried out and answered
 /// in `reply`. Call it between two scans.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_hear(
+pub extern "C" fn rungc_feed(
     connection: &mut Connection,
     map: &mut Map,
     byte: u8,
     reply: &mut Reply,
-) -> Heard {
+) -> FeedResult {
     let mut frame = Frame::new(&mut reply.bytes);
     let mut served = Served::new(map, connection.service().type_code);
-    let heard = connection.hear(byte, &mut served, &mut frame);
+    let result = connection.feed(byte, &mut served, &mut frame);
     reply.length = frame.len() as u16;
     reply.request = Request::of(served.take_request());
-    heard
+    result
 }

@@ -25,7 +25,7 @@ pub const TABLE_HEADING: &str =
 /// The protocols of servers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
-pub enum Speaks {
+pub enum ServerProtocol {
     /// Modbus TCP, with the address table of the model.
     ModbusTcp = 0,
     /// MC protocol, frames 1E and 3E in binary.
@@ -34,7 +34,7 @@ pub enum Speaks {
     ProgrammingPort = 2,
 }
 
-impl Speaks {
+impl ServerProtocol {
     /// All of them.
     pub const fn all() -> [Self; 3] {
         [Self::ModbusTcp, Self::Mc, Self::ProgrammingPort]
@@ -70,7 +70,7 @@ pub fn address(text: &str) -> Option<SocketAddr> {
 #[repr(C)]
 pub struct Service {
     /// Its protocol.
-    pub speaks: Speaks,
+    pub protocol: ServerProtocol,
     /// The model's family.
     pub family: Ports,
     /// Code of model and version, which D8001 shows.
@@ -79,9 +79,9 @@ pub struct Service {
 
 impl Service {
     /// A protocol as a model of the family speaks it; `type_code` is what its D8001 shows.
-    pub const fn new(speaks: Speaks, family: Ports, type_code: u16) -> Self {
+    pub const fn new(protocol: ServerProtocol, family: Ports, type_code: u16) -> Self {
         Service {
-            speaks,
+            protocol,
             family,
             type_code,
         }
@@ -89,24 +89,24 @@ impl Service {
 
     /// Decides whether the characters so far form a request.
     fn cut(self, received: &[u8]) -> Cut {
-        match self.speaks {
-            Speaks::ModbusTcp => tcp::cut(received),
-            Speaks::Mc => mc::cut(received),
-            Speaks::ProgrammingPort => fx_port::cut(received),
+        match self.protocol {
+            ServerProtocol::ModbusTcp => tcp::cut(received),
+            ServerProtocol::Mc => mc::cut(received),
+            ServerProtocol::ProgrammingPort => fx_port::cut(received),
         }
     }
 
     /// Returns true if a character that begins no request ends the connection: the beginning of the next request is
     /// unknown.
     fn is_lost_after_drop(self) -> bool {
-        self.speaks != Speaks::ProgrammingPort
+        self.protocol != ServerProtocol::ProgrammingPort
     }
 }
 
 /// Effect of a character received by a connection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
-pub enum Heard {
+pub enum FeedResult {
     /// Part of a request that continues, or of none.
     More = 0,
     /// The last of a request, which has been carried out.
@@ -143,7 +143,7 @@ impl Connection {
     }
 
     /// Takes a character. If it is the last of a request, that is carried out on `map` and answered in `reply`.
-    pub fn hear(&mut self, byte: u8, map: &mut dyn Map, reply: &mut Frame) -> Heard {
+    pub fn feed(&mut self, byte: u8, map: &mut dyn Map, reply: &mut Frame) -> FeedResult {
         if core::mem::take(&mut self.over) {
             self.length = 0;
         }
@@ -152,20 +152,20 @@ impl Connection {
             self.length = 0;
             cut = self.push(byte);
         }
-        let heard = match cut {
-            Cut::More | Cut::Restart => Heard::More,
+        let result = match cut {
+            Cut::More | Cut::Restart => FeedResult::More,
             Cut::Whole => match self.answer(map, reply) {
-                Ok(()) => Heard::Request,
-                Err(_) => Heard::Rejected,
+                Ok(()) => FeedResult::Request,
+                Err(_) => FeedResult::Rejected,
             },
-            Cut::Drop if self.service.is_lost_after_drop() => Heard::Lost,
+            Cut::Drop if self.service.is_lost_after_drop() => FeedResult::Lost,
             Cut::Drop => {
                 self.length = 0;
-                Heard::More
+                FeedResult::More
             }
         };
-        self.over = heard != Heard::More;
-        heard
+        self.over = result != FeedResult::More;
+        result
     }
 
     /// Service of its server.
@@ -190,16 +190,16 @@ impl Connection {
 
     fn answer(&mut self, map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault> {
         let Service {
-            speaks,
+            protocol,
             family,
             type_code,
         } = self.service;
         let length = usize::from(self.length);
         let request = self.received.get(..length).unwrap_or_default();
-        match speaks {
-            Speaks::ModbusTcp => tcp::answer(family.modbus(type_code), request, map, reply),
-            Speaks::Mc => mc::answer(request, map, reply),
-            Speaks::ProgrammingPort => {
+        match protocol {
+            ServerProtocol::ModbusTcp => tcp::answer(family.modbus(type_code), request, map, reply),
+            ServerProtocol::Mc => mc::answer(request, map, reply),
+            ServerProtocol::ProgrammingPort => {
                 let settings = family.programming_port();
                 fx_port::answer(settings, &mut self.memory, request, map, reply)
             }

@@ -72,10 +72,10 @@ impl Servers {
     pub fn table(&self) -> Vec<String> {
         let mut rows = Vec::new();
         for (n, Open { server, address }) in self.servers.iter().enumerate() {
-            let speaks = server.service().speaks.name();
+            let protocol = server.service().protocol.name();
             let mut row = |client: &str, counts: &Counts| {
                 let counts = [counts.requests, counts.answers, counts.rejected];
-                rows.push(self::row(&address.to_string(), client, speaks, counts));
+                rows.push(self::row(&address.to_string(), client, protocol, counts));
             };
             let mut clients = self.clients.range((n, IpAddr::from([0; 4]))..).peekable();
             if clients.peek().is_none_or(|((at, _), _)| *at != n) {
@@ -93,7 +93,9 @@ impl Servers {
 }
 
 /// A row of the table: a server, its client, the protocol, and how many requests, answers and rejections.
-pub(super) fn row(server: &str, client: &str, speaks: &str, counts: [u64; 3]) -> String {
+pub(super) fn row(server: &str, client: &str, protocol: &str, counts: [u64; 3]) -> String {
     let [requests, answers, rejected] = counts;
-    format!("{server:<21}  {client:<15}  {speaks:<16}  {requests:>8}  {answers:>8}  {rejected:>8}")
+    format!(
+        "{server:<21}  {client:<15}  {protocol:<16}  {requests:>8}  {answers:>8}  {rejected:>8}"
+    )
 }

@@ -1,7 +1,7 @@
 //! Requests of a program to servers over TCP.
 
-use crate::comm::modbus::client::{Client, ClientRow, Link, Wish};
-use crate::comm::service::Speaks;
+use crate::comm::modbus::client::{Client, ClientAction, ClientRow, Link};
+use crate::comm::service::ServerProtocol;
 use crate::comm::{Frame, Ports, Served};
 use crate::plc::Plc;
 use std::io::{self, ErrorKind, Read, Write};
@@ -100,7 +100,7 @@ impl Clients {
             super::all::row(
                 &asking.address.to_string(),
                 "asked by PLC",
-                Speaks::ModbusTcp.name(),
+                ServerProtocol::ModbusTcp.name(),
                 counts,
             )
         });
@@ -133,10 +133,10 @@ impl Asking {
             .client
             .next(&self.rows, link, now_us, &mut map, &mut request);
         match wish {
-            Wish::Nothing => {}
-            Wish::Close => self.connection = Connection::Closed,
-            Wish::Open => self.connection = open(self.address),
-            Wish::Send => self.send(request.as_slice(), plc, now_us, seen),
+            ClientAction::Nothing => {}
+            ClientAction::Close => self.connection = Connection::Closed,
+            ClientAction::Open => self.connection = open(self.address),
+            ClientAction::Send => self.send(request.as_slice(), plc, now_us, seen),
         }
     }
 
@@ -165,7 +165,7 @@ impl Asking {
                 report(stream, self.address, false, bytes, seen);
                 let mut map = Served::new(plc, 0);
                 let closes = bytes.iter().any(|&byte| {
-                    self.client.hear(&self.rows, byte, now_us, &mut map) == Wish::Close
+                    self.client.feed(&self.rows, byte, now_us, &mut map) == ClientAction::Close
                 });
                 if closes {
                     self.connection = Connection::Closed;

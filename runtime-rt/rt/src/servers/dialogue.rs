@@ -1,6 +1,6 @@
 //! Dialogue over one connection: received requests and their answers.
 
-use crate::comm::service::{Connection, Heard, LONGEST_REPLY, Service};
+use crate::comm::service::{Connection, FeedResult, LONGEST_REPLY, Service};
 use crate::comm::{Frame, Map};
 use std::vec::Vec;
 
@@ -42,8 +42,8 @@ impl Dialogue {
         let mut buffer = [0; LONGEST_REPLY];
         for &byte in bytes {
             let mut frame = Frame::new(&mut buffer);
-            let heard = self.0.hear(byte, map, &mut frame);
-            if heard == Heard::More {
+            let result = self.0.feed(byte, map, &mut frame);
+            if result == FeedResult::More {
                 continue;
             }
             let reply = frame.as_slice().to_vec();
@@ -51,9 +51,9 @@ impl Dialogue {
             reaction.exchanges.push(Exchange {
                 request: self.0.request().to_vec(),
                 reply,
-                rejected: heard != Heard::Request,
+                rejected: result != FeedResult::Request,
             });
-            if heard == Heard::Lost {
+            if result == FeedResult::Lost {
                 reaction.closes = true;
                 break;
             }

@@ -2,7 +2,7 @@
 
 use super::{Dialogue, Reaction, Server};
 use crate::comm::Map;
-use crate::comm::service::{Service, Speaks};
+use crate::comm::service::{ServerProtocol, Service};
 use crate::{Class, Ports};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -71,8 +71,8 @@ impl Map for Registers {
 }
 
 /// A protocol as H2U speaks it.
-fn service(speaks: Speaks) -> Service {
-    Service::new(speaks, Ports::Inovance, 24120)
+fn service(protocol: ServerProtocol) -> Service {
+    Service::new(protocol, Ports::Inovance, 24120)
 }
 
 const WRITE_D100: [u8; 12] = [0, 1, 0, 0, 0, 6, 1, 6, 0, 100, 0, 7];
@@ -82,7 +82,7 @@ const D100_IS_7: [u8; 11] = [0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7];
 #[test]
 fn requests_come_in_pieces_and_together() {
     let mut plc = Registers::new();
-    let mut dialogue = Dialogue::new(service(Speaks::ModbusTcp));
+    let mut dialogue = Dialogue::new(service(ServerProtocol::ModbusTcp));
     let (begin, end) = WRITE_D100.split_at(5);
     assert_eq!(dialogue.receive(begin, &mut plc), Reaction::default());
     let rest = [end, &READ_D100, &READ_D100].concat();
@@ -94,19 +94,19 @@ fn requests_come_in_pieces_and_together() {
 #[test]
 fn what_is_no_request_ends_the_dialogue_after_what_was_asked_before() {
     let mut plc = Registers::new();
-    let mut dialogue = Dialogue::new(service(Speaks::ModbusTcp));
+    let mut dialogue = Dialogue::new(service(ServerProtocol::ModbusTcp));
     let http = [&READ_D100[..], b"GET / HTTP/1.1\r\n"].concat();
     let reaction = dialogue.receive(&http, &mut plc);
     assert!(reaction.closes);
     assert_eq!(reaction.reply[..9], [0, 2, 0, 0, 0, 5, 1, 3, 2]);
-    let mut mc = Dialogue::new(service(Speaks::Mc));
+    let mut mc = Dialogue::new(service(ServerProtocol::Mc));
     assert!(mc.receive(b"GET / HTTP/1.1\r\n", &mut plc).closes);
 }
 
 #[test]
 fn a_programming_port_waits_for_the_next_request() {
     let mut plc = Registers::new();
-    let mut dialogue = Dialogue::new(service(Speaks::ProgrammingPort));
+    let mut dialogue = Dialogue::new(service(ServerProtocol::ProgrammingPort));
     let reaction = dialogue.receive(b"noise\x05", &mut plc);
     assert_eq!(
         (&reaction.reply[..], reaction.closes),
@@ -117,7 +117,7 @@ fn a_programming_port_waits_for_the_next_request() {
 /// A server, and where it listens.
 fn server() -> (Server, SocketAddr) {
     let any = SocketAddr::from(([127, 0, 0, 1], 0));
-    let server = Server::bind(any, service(Speaks::ModbusTcp)).unwrap();
+    let server = Server::bind(any, service(ServerProtocol::ModbusTcp)).unwrap();
     let address = server.address().unwrap();
     (server, address)
 }

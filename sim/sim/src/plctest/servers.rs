@@ -8,7 +8,7 @@ use crate::protocol::{Answer, Request};
 use rungc_ir::Module;
 use rungc_rt::Class;
 use rungc_rt::comm::Map;
-use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::servers::Dialogue;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -37,15 +37,17 @@ impl Servers {
     /// The servers of a case whose PLC runs this program.
     pub(super) fn new(serve: &[(u16, Protocol)], module: &Module) -> Self {
         let (family, type_code) = (module.model.ports, module.model.type_code());
-        let speaks = |protocol: Protocol| match protocol {
-            Protocol::Modbus => Speaks::ModbusTcp,
-            Protocol::Mc => Speaks::Mc,
-            Protocol::Fx => Speaks::ProgrammingPort,
+        let of_server = |protocol: Protocol| match protocol {
+            Protocol::Modbus => ServerProtocol::ModbusTcp,
+            Protocol::Mc => ServerProtocol::Mc,
+            Protocol::Fx => ServerProtocol::ProgrammingPort,
         };
         let services = serve.iter();
         Servers {
             services: services
-                .map(|&(port, protocol)| (port, Service::new(speaks(protocol), family, type_code)))
+                .map(|&(port, protocol)| {
+                    (port, Service::new(of_server(protocol), family, type_code))
+                })
                 .collect(),
             connections: BTreeMap::new(),
             type_code,

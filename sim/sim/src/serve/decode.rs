@@ -11,7 +11,7 @@ use super::probe::{Devices, Probe, ranges};
 use rungc_rt::Ports;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
 use rungc_rt::comm::modbus::Framing;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use rungc_rt::comm::{CanFrame, Frame, LineFault, Memory, Protocol, fx_port, mc};
 use std::fmt::Write;
 
@@ -35,7 +35,7 @@ const NAK: u8 = 0x15;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Speech {
     /// A protocol over TCP.
-    Tcp(Speaks),
+    Tcp(ServerProtocol),
     /// Modbus over TCP, whose client is the PLC.
     Client,
     /// The protocol of a serial port.
@@ -87,11 +87,11 @@ impl Decoder {
     ) -> Decoded {
         let asks = direction == Direction::In;
         match speech {
-            Speech::Tcp(Speaks::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
+            Speech::Tcp(ServerProtocol::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
             Speech::Client => modbus::over_tcp(!asks, bytes, before),
-            Speech::Tcp(Speaks::Mc) if asks => self.mc_request(bytes),
-            Speech::Tcp(Speaks::Mc) => mc_reply(bytes),
-            Speech::Tcp(Speaks::ProgrammingPort) => self.programming_port(asks, bytes),
+            Speech::Tcp(ServerProtocol::Mc) if asks => self.mc_request(bytes),
+            Speech::Tcp(ServerProtocol::Mc) => mc_reply(bytes),
+            Speech::Tcp(ServerProtocol::ProgrammingPort) => self.programming_port(asks, bytes),
             Speech::Serial(protocol) => match protocol {
                 Protocol::ModbusRtu => self.modbus(Framing::Rtu, asks, bytes, before),
                 Protocol::ModbusAscii => self.modbus(Framing::Ascii, asks, bytes, before),
@@ -282,8 +282,8 @@ impl Speech {
     /// Display name.
     pub fn name(self) -> &'static str {
         match self {
-            Speech::Tcp(speaks) => speaks.name(),
-            Speech::Client => Speaks::ModbusTcp.name(),
+            Speech::Tcp(protocol) => protocol.name(),
+            Speech::Client => ServerProtocol::ModbusTcp.name(),
             Speech::Serial(protocol) => protocol.name(),
         }
     }

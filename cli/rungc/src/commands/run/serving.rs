@@ -11,7 +11,7 @@ use rungc_project::serve::FxEnd;
 use rungc_rt::Program;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::modbus::client::ClientRow;
-use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::servers::{Clients, Server};
 use rungc_sim::serve::{Direction, Place, Seen, Speech};
 use rungc_syntax::NetworkRequest;
@@ -99,17 +99,17 @@ impl Servers {
             FxEnd::Line(_) => None,
         });
         let of_fx: Vec<_> = of_fx.collect();
-        let addresses = |speaks| match speaks {
-            Speaks::ModbusTcp => &args.modbus_tcp,
-            Speaks::Mc => &args.mc,
-            Speaks::ProgrammingPort => &of_fx,
+        let addresses = |protocol| match protocol {
+            ServerProtocol::ModbusTcp => &args.modbus_tcp,
+            ServerProtocol::Mc => &args.mc,
+            ServerProtocol::ProgrammingPort => &of_fx,
         };
         let mut servers = Vec::new();
-        for speaks in Speaks::all() {
-            let service = Service::new(speaks, model.ports, type_code);
-            for &address in addresses(speaks) {
+        for protocol in ServerProtocol::all() {
+            let service = Service::new(protocol, model.ports, type_code);
+            for &address in addresses(protocol) {
                 let open = open(service, address)?;
-                watch.open(&open.place(None), Speech::Tcp(speaks));
+                watch.open(&open.place(None), Speech::Tcp(protocol));
                 servers.push(open);
             }
         }
@@ -136,7 +136,7 @@ impl Servers {
                 for (direction, bytes) in frames.into_iter().filter(|frame| !frame.1.is_empty()) {
                     let seen = Seen {
                         place: &place,
-                        speech: Speech::Tcp(open.server.service().speaks),
+                        speech: Speech::Tcp(open.server.service().protocol),
                         direction,
                         bytes,
                     };
@@ -162,7 +162,7 @@ impl Open {
 }
 
 fn open(service: Service, address: SocketAddr) -> Result<Open, Failure> {
-    let name = service.speaks.name();
+    let name = service.protocol.name();
     let server = Server::bind(address, service)
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));

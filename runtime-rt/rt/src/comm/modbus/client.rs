@@ -74,7 +74,7 @@ pub enum Link {
 /// Next action of a host on a connection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
-pub enum Wish {
+pub enum ClientAction {
     /// Nothing.
     Nothing = 0,
     /// It opens the connection.
@@ -147,28 +147,34 @@ impl Client {
         now_us: u32,
         map: &mut dyn Map,
         request: &mut Frame,
-    ) -> Wish {
+    ) -> ClientAction {
         let waited_us = now_us.wrapping_sub(self.since_us);
         match link {
             Link::Closed => {
                 self.waits = false;
                 if waited_us < PAUSE_US || self.driven(rows, map).is_none() {
-                    return Wish::Nothing;
+                    return ClientAction::Nothing;
                 }
                 self.since_us = now_us;
                 self.length = 0;
-                Wish::Open
+                ClientAction::Open
             }
             Link::Opening if waited_us > OPEN_US => self.give_up(now_us, map),
-            Link::Opening => Wish::Nothing,
+            Link::Opening => ClientAction::Nothing,
             Link::Open if self.waits && waited_us > ANSWER_US => self.give_up(now_us, map),
-            Link::Open if self.waits => Wish::Nothing,
+            Link::Open if self.waits => ClientAction::Nothing,
             Link::Open => self.ask(rows, now_us, map, request),
         }
     }
 
-    /// Takes a character that has come; [`Wish::Close`] if nothing that follows can be an answer.
-    pub fn hear(&mut self, rows: &[ClientRow], byte: u8, now_us: u32, map: &mut dyn Map) -> Wish {
+    /// Takes a character that has come; [`ClientAction::Close`] if nothing that follows can be an answer.
+    pub fn feed(
+        &mut self,
+        rows: &[ClientRow],
+        byte: u8,
+        now_us: u32,
+        map: &mut dyn Map,
+    ) -> ClientAction {
         if let Some(place) = self.received.get_mut(usize::from(self.length)) {
             *place = byte;
             self.length += 1;
@@ -176,7 +182,7 @@ impl Client {
         let length = usize::from(self.length);
         let received = self.received.get(..length).unwrap_or_default();
         match (tcp::cut(received), received) {
-            (Cut::More | Cut::Restart, _) => return Wish::Nothing,
+            (Cut::More | Cut::Restart, _) => return ClientAction::Nothing,
             (Cut::Whole, &[high, low, _, _, _, _, ref body @ ..]) => {
                 let transaction = u16::from_be_bytes([high, low]);
                 let row = rows.get(usize::from(self.row)).filter(|_| self.waits);
@@ -186,7 +192,7 @@ impl Client {
                     self.finish(done, map);
                 }
                 self.length = 0;
-                return Wish::Nothing;
+                return ClientAction::Nothing;
             }
             _ => {}
         }
@@ -198,13 +204,13 @@ impl Client {
         let _ = self.give_up(now_us, map);
     }
 
-    fn give_up(&mut self, now_us: u32, map: &mut dyn Map) -> Wish {
+    fn give_up(&mut self, now_us: u32, map: &mut dyn Map) -> ClientAction {
         if self.waits {
             self.pass_on();
         }
         self.since_us = now_us;
         self.note(LineFault::TimeOut, map);
-        Wish::Close
+        ClientAction::Close
     }
 
     /// The next row whose trigger is on.
@@ -223,10 +229,10 @@ impl Client {
         now_us: u32,
         map: &mut dyn Map,
         request: &mut Frame,
-    ) -> Wish {
+    ) -> ClientAction {
         let at = self.driven(rows, map);
         let Some((at, row)) = at.and_then(|at| Some((at, rows.get(at)?))) else {
-            return Wish::Nothing;
+            return ClientAction::Nothing;
         };
         self.row = at as u16;
         self.transaction = self.transaction.wrapping_add(1);
@@ -235,12 +241,12 @@ impl Client {
         if let Err(fault) = made.and_then(|()| tcp::close(request)) {
             self.pass_on();
             self.note(fault, map);
-            return Wish::Nothing;
+            return ClientAction::Nothing;
         }
         self.tally.requests = self.tally.requests.wrapping_add(1);
         self.waits = true;
         self.since_us = now_us;
-        Wish::Send
+        ClientAction::Send
     }
 
     /// The request of the row in work is over: it is the next one's turn.
@@ -317,7 +323,7 @@ mod tests {
             }
         }
 
-        fn next(&mut self, link: Link) -> (Wish, Vec<u8>) {
+        fn next(&mut self, link: Link) -> (ClientAction, Vec<u8>) {
             let mut bytes = [0; tcp::LONGEST];
             let mut request = Frame::new(&mut bytes);
             let mut map = Served::new(&mut self.plc, 0);
@@ -328,12 +334,12 @@ mod tests {
             (wish, request.as_slice().to_vec())
         }
 
-        fn hear(&mut self, bytes: &[u8]) -> Wish {
+        fn feed(&mut self, bytes: &[u8]) -> ClientAction {
             let mut map = Served::new(&mut self.plc, 0);
-            let heard = bytes
+            let result = bytes
                 .iter()
-                .map(|&byte| self.client.hear(&self.rows, byte, self.now_us, &mut map));
-            heard.last().unwrap_or(Wish::Nothing)
+                .map(|&byte| self.client.feed(&self.rows, byte, self.now_us, &mut map));
+            result.last().unwrap_or(ClientAction::Nothing)
         }
 
         fn error(&self) -> u16 {
@@ -348,26 +354,26 @@ mod tests {
             ..read(0x20)
         };
         let mut bench = Bench::new(&[read(0x1f4), other, read(0x30)]);
-        assert_eq!(bench.next(Link::Closed).0, Wish::Open);
-        assert_eq!(bench.next(Link::Opening).0, Wish::Nothing);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
+        assert_eq!(bench.next(Link::Opening).0, ClientAction::Nothing);
         let (wish, request) = bench.next(Link::Open);
-        assert_eq!(wish, Wish::Send);
+        assert_eq!(wish, ClientAction::Send);
         assert_eq!(request, [0, 1, 0, 0, 0, 6, 1, 3, 1, 0xf4, 0, 1]);
-        assert_eq!(bench.next(Link::Open).0, Wish::Nothing);
+        assert_eq!(bench.next(Link::Open).0, ClientAction::Nothing);
         // An answer to another request is not that of this one.
-        bench.hear(&[0, 9, 0, 0, 0, 5, 1, 3, 2, 0, 9]);
-        bench.hear(&[0, 1, 0, 0, 0, 5, 1, 3, 2, 0x12, 0x34]);
+        bench.feed(&[0, 9, 0, 0, 0, 5, 1, 3, 2, 0, 9]);
+        bench.feed(&[0, 1, 0, 0, 0, 5, 1, 3, 2, 0x12, 0x34]);
         assert_eq!(bench.plc.d(10, 1), [0x1234]);
         let (_, request) = bench.next(Link::Open);
         assert_eq!(request, [0, 2, 0, 0, 0, 6, 1, 3, 0, 0x30, 0, 1]);
-        bench.hear(&[0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
+        bench.feed(&[0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
         bench.plc.set_m(0, "01");
         let (_, request) = bench.next(Link::Open);
         assert_eq!(request[8..10], [0, 0x20]);
-        bench.hear(&[0, 3, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
+        bench.feed(&[0, 3, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
         bench.plc.set_m(0, "00");
-        assert_eq!(bench.next(Link::Open).0, Wish::Nothing);
-        assert_eq!(bench.next(Link::Closed).0, Wish::Nothing);
+        assert_eq!(bench.next(Link::Open).0, ClientAction::Nothing);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Nothing);
         assert_eq!((bench.error(), bench.client.tally.rejected), (0, 0));
     }
 
@@ -376,15 +382,15 @@ mod tests {
         for (exception, code) in [(1, 0x810c), (2, 0x830c), (3, 0x820c), (4, 0x840c)] {
             let mut bench = Bench::new(&[read(0)]);
             bench.next(Link::Open);
-            bench.hear(&[0, 1, 0, 0, 0, 3, 1, 0x83, exception]);
+            bench.feed(&[0, 1, 0, 0, 0, 3, 1, 0x83, exception]);
             assert_eq!(bench.error(), code);
             assert_eq!(bench.plc.bit(Class::M, 8063), Some(true));
             // The connection is as good as before.
-            assert_eq!(bench.next(Link::Open).0, Wish::Send);
+            assert_eq!(bench.next(Link::Open).0, ClientAction::Send);
         }
         let mut bench = Bench::new(&[read(0)]);
         bench.next(Link::Open);
-        assert_eq!(bench.hear(b"HTTP/1.1"), Wish::Close);
+        assert_eq!(bench.feed(b"HTTP/1.1"), ClientAction::Close);
         assert_eq!(bench.error(), 0x840c);
         // More registers than a request may be about, and a buffer that there is not.
         let many = |count, buffer| ClientRow {
@@ -394,7 +400,7 @@ mod tests {
         };
         for (row, code) in [(many(126, 10), 0x820c), (many(2, 8511), 0x830c)] {
             let mut bench = Bench::new(&[row]);
-            assert_eq!(bench.next(Link::Open).0, Wish::Nothing);
+            assert_eq!(bench.next(Link::Open).0, ClientAction::Nothing);
             assert_eq!(bench.error(), code);
         }
         let mut bench = Bench::new(&[read(0)]);
@@ -406,24 +412,24 @@ mod tests {
     #[test]
     fn a_server_that_is_silent_or_away_is_tried_again() {
         let mut bench = Bench::new(&[read(0)]);
-        assert_eq!(bench.next(Link::Closed).0, Wish::Open);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
         bench.client.lost(0, &mut Served::new(&mut bench.plc, 0));
         assert_eq!(bench.error(), 0x840c);
-        assert_eq!(bench.next(Link::Closed).0, Wish::Nothing);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Nothing);
         bench.now_us += PAUSE_US;
-        assert_eq!(bench.next(Link::Closed).0, Wish::Open);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
         bench.now_us += OPEN_US + 1;
-        assert_eq!(bench.next(Link::Opening).0, Wish::Close);
+        assert_eq!(bench.next(Link::Opening).0, ClientAction::Close);
         bench.now_us += PAUSE_US;
-        assert_eq!(bench.next(Link::Closed).0, Wish::Open);
-        assert_eq!(bench.next(Link::Open).0, Wish::Send);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
+        assert_eq!(bench.next(Link::Open).0, ClientAction::Send);
         bench.now_us += ANSWER_US + 1;
-        assert_eq!(bench.next(Link::Open).0, Wish::Close);
+        assert_eq!(bench.next(Link::Open).0, ClientAction::Close);
         bench.now_us += PAUSE_US;
-        assert_eq!(bench.next(Link::Closed).0, Wish::Open);
+        assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
         // Half an answer of the last connection is forgotten.
-        assert_eq!(bench.next(Link::Open).0, Wish::Send);
-        bench.hear(&[0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
+        assert_eq!(bench.next(Link::Open).0, ClientAction::Send);
+        bench.feed(&[0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7]);
         assert_eq!(bench.plc.d(10, 1), [7]);
     }
 
@@ -438,7 +444,7 @@ mod tests {
         }
         for part in bytes.chunks(40) {
             bench.next(Link::Open);
-            bench.hear(part);
+            bench.feed(part);
         }
         assert_eq!(bench.plc.d(0, 10), [0; 10]);
         assert_eq!(bench.plc.d(11, 100), [0; 100]);

@@ -5,7 +5,7 @@ use crate::serve::{Place, Seen, Traffic};
 use rungc_rt::Ports;
 use rungc_rt::comm::Protocol;
 use rungc_rt::comm::modbus::crc16;
-use rungc_rt::comm::service::Speaks;
+use rungc_rt::comm::service::ServerProtocol;
 use std::fmt::Write;
 
 /// A frame of Modbus RTU.
@@ -65,20 +65,25 @@ fn frames_as_they_are_shown() {
         line(link, In, b"\x0505FFBW0M00100210", None),
         line(link, Out, b"\x1505FF06", None),
         line(
-            Speech::Tcp(Speaks::ProgrammingPort),
+            Speech::Tcp(ServerProtocol::ProgrammingPort),
             In,
             b"\x02110C8023412\x033C",
             None,
         ),
         line(
-            Speech::Tcp(Speaks::ProgrammingPort),
+            Speech::Tcp(ServerProtocol::ProgrammingPort),
             In,
             b"\x020\x0399",
             None,
         ),
-        line(Speech::Tcp(Speaks::ProgrammingPort), Out, b"\x15", None),
-        line(Speech::Tcp(Speaks::Mc), In, &mc_1e, None),
-        line(Speech::Tcp(Speaks::Mc), Out, &[0x81, 0x56], None),
+        line(
+            Speech::Tcp(ServerProtocol::ProgrammingPort),
+            Out,
+            b"\x15",
+            None,
+        ),
+        line(Speech::Tcp(ServerProtocol::Mc), In, &mc_1e, None),
+        line(Speech::Tcp(ServerProtocol::Mc), Out, &[0x81, 0x56], None),
         line(nn, Out, b"\x02P11100\x0307", None),
     ];
     insta::assert_snapshot!("frames", shown.join("\n"));
@@ -122,9 +127,9 @@ fn what_is_not_carried_out_is_not_written() {
 fn any_bytes_are_shown() {
     let decoder = Decoder::new(Ports::L01s, 24120);
     let speeches = [
-        Speech::Tcp(Speaks::ModbusTcp),
-        Speech::Tcp(Speaks::Mc),
-        Speech::Tcp(Speaks::ProgrammingPort),
+        Speech::Tcp(ServerProtocol::ModbusTcp),
+        Speech::Tcp(ServerProtocol::Mc),
+        Speech::Tcp(ServerProtocol::ProgrammingPort),
     ];
     let serial = [
         Protocol::ModbusRtu,
