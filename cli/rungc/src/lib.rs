@@ -5,6 +5,7 @@
 
 mod args;
 mod commands;
+mod crash;
 mod progress;
 mod report;
 mod time;
@@ -17,6 +18,7 @@ use std::process::ExitCode;
 
 /// Does what the arguments of the process ask for, and returns its exit code.
 pub fn main() -> ExitCode {
+    crash::report_panics();
     let cli = Cli::parse();
     let cx = Context {
         color: color(cli.color),

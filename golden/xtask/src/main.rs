@@ -1,7 +1,6 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published, `cargo xtask size` measures the executable, `cargo xtask campaign`
-//! compares engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
-//! files.
+//! package` the packages that are published, `cargo xtask campaign` compares engines for hours. No crate may depend on
+//! this one. Start reading at `generate.rs`, the table of generated files.
 
 mod book;
 mod campaign;
@@ -9,7 +8,6 @@ mod generate;
 mod header;
 mod package;
 mod rungc;
-mod size;
 mod tools;
 
 use clap::{Parser, Subcommand};
@@ -32,8 +30,6 @@ enum Chore {
     Package(package::Args),
     /// Compare random programs on every way to run them, for hours.
     Campaign(campaign::Args),
-    /// Print how large an executable is, and what each crate takes of it.
-    Size(size::Args),
 }
 
 /// Error of a chore, as a message.
@@ -49,7 +45,6 @@ fn main() -> ExitCode {
         Chore::Generate(args) => generate::run(&args),
         Chore::Package(args) => package::run(&args),
         Chore::Campaign(args) => campaign::run(&args),
-        Chore::Size(args) => size::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -21,6 +21,7 @@ use rungc_sim::plctest::{Case, Suite, run_steps};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, Program};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::thread;
 
@@ -359,7 +360,7 @@ pub fn run(
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         let done = workers
             .into_iter()
-            .flat_map(|worker| worker.join().unwrap_or_default());
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
         done.collect()
     });
     fates.sort_by_key(|(at, _)| *at);
