@@ -2,7 +2,7 @@
 //! request.
 
 use crate::host::terminals;
-use crate::include;
+use crate::template;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -85,7 +85,7 @@ pub fn source(module: &Module, runtime: bool) -> String {
     };
     let (events, take, changes) = match module.takes_events() {
         true => (
-            include("board_events.c"),
+            template!("board_events.c"),
             TAKE_EVENTS,
             "scans || edges || counts",
         ),
@@ -95,7 +95,7 @@ pub fn source(module: &Module, runtime: bool) -> String {
         Some(_) => "    rungc_board_waits(board, PROGRAM_constant_scan_us(plc));\n",
         None => "",
     };
-    let mut text = include("board.c")
+    let mut text = template!("board.c")
         .replace("/* CONSTANT */", constant)
         .replace("/* EVENTS */\n", events)
         .replace("/* TAKE */\n", take)

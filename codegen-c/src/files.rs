@@ -2,7 +2,7 @@
 
 use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, access, board, cmake, header, include, lanes, retain, text};
+use crate::{Options, OutFile, access, board, cmake, header, lanes, retain, template, text};
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
@@ -91,7 +91,7 @@ impl Part {
             recipe.sources.push("main.c".to_string());
         }
         if options.misra {
-            files.push(OutFile::new("misra.txt", include("misra.txt")));
+            files.push(OutFile::new("misra.txt", template!("misra.txt")));
         }
         Part { files, recipe }
     }
@@ -201,7 +201,7 @@ fn header_file(module: &Module, unit: &Unit, main: bool) -> String {
         "rungc.h"
     };
     let own = format!("{name}.h");
-    let mut checks = same_version(&own, "rungc.h", "RUNGC_H", include("rungc.h"));
+    let mut checks = same_version(&own, "rungc.h", "RUNGC_H", template!("rungc.h"));
     if unit.runtime {
         checks += &same_version(&own, "rungc_rt.h", "RUNGC_RT_H", &runtime_header());
     }
@@ -266,29 +266,38 @@ pub struct Shared {
 impl Shared {
     /// The headers.
     pub fn headers(self) -> impl Iterator<Item = &'static str> {
+        self.texts().map(|(name, _)| name)
+    }
+
+    /// The headers with their texts as they stand in `include/`.
+    fn texts(self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let kinds = [
-            (true, "rungc.h"),
-            (self.runtime || self.board, "rungc_rt.h"),
-            (self.board, "rungc_board.h"),
-            (self.access, "rungc_access.h"),
-            (self.retain, "rungc_retain.h"),
-            (self.lanes, "rungc_lanes.h"),
+            (true, "rungc.h", template!("rungc.h")),
+            (
+                self.runtime || self.board,
+                "rungc_rt.h",
+                template!("rungc_rt.h"),
+            ),
+            (self.board, "rungc_board.h", template!("rungc_board.h")),
+            (self.access, "rungc_access.h", template!("rungc_access.h")),
+            (self.retain, "rungc_retain.h", template!("rungc_retain.h")),
+            (self.lanes, "rungc_lanes.h", template!("rungc_lanes.h")),
         ];
-        let there = kinds.into_iter().filter(|(there, _)| *there);
-        there.map(|(_, header)| header)
+        let there = kinds.into_iter().filter(|(there, ..)| *there);
+        there.map(|(_, name, text)| (name, text))
     }
 
     /// The headers, and the runtime's sources.
     fn files(self) -> Vec<OutFile> {
-        let header = |path| {
+        let header = |(path, text)| {
             let text = match path {
-                "rungc.h" => stamped(include(path), "RUNGC_H"),
+                "rungc.h" => stamped(text, "RUNGC_H"),
                 "rungc_rt.h" => stamped(&runtime_header(), "RUNGC_RT_H"),
-                _ => include(path).to_string(),
+                _ => text.to_string(),
             };
             OutFile::new(path, text)
         };
-        let mut files: Vec<OutFile> = self.headers().map(header).collect();
+        let mut files: Vec<OutFile> = self.texts().map(header).collect();
         if self.runtime {
             let sources = rungc_runtime_sources::library::sources().into_iter();
             files
@@ -352,7 +361,7 @@ fn runtime_header() -> String {
         prototypes.push_str(");\n");
     }
     prototypes.push_str("\n#ifdef __cplusplus\n}\n#endif\n");
-    include("rungc_rt.h").replace("/* INSTRUCTIONS */\n", &prototypes)
+    template!("rungc_rt.h").replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
 /// A source file of a batch and its header.
@@ -447,7 +456,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         .iter()
         .map(|header| format!("#include \"{header}\"\n"))
         .collect();
-    let main = include("batch.c")
+    let main = template!("batch.c")
         .replace("/* HEADERS */\n", &includes)
         .replace("    /* MEMORY */\n", &memory)
         .replace("/* CASES */\n", &functions)

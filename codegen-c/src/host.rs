@@ -4,7 +4,7 @@ mod clients;
 mod outside;
 
 use crate::fields::PrintStorage;
-use crate::{Options, include, text};
+use crate::{Options, template, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
@@ -184,7 +184,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let (lines, serving) = (lines(module), server_code(module, servers));
     let parts = [clock, &lines, &retain.functions, &hardware, &serving];
     outside
-        .in_main(include("main.c"))
+        .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", retain.header)
@@ -292,7 +292,7 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
     };
     Retaining {
         header: "#include \"PROGRAM_retain.h\"\n",
-        functions: include("main_retain.c").replace("    /* UNSAVED */\n", &show),
+        functions: template!("main_retain.c").replace("    /* UNSAVED */\n", &show),
         load: "    if (!load_kept(plc) || !begin_kept()) {\n        return 2;\n    }\n",
         save: "        save_kept(plc, now_ms);\n",
         end: "    const bool is_kept = end_kept(plc);\n",
@@ -377,7 +377,7 @@ fn server_code(module: &Module, servers: bool) -> String {
         return String::new();
     }
     let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
-    let mut code = include("main_servers.c").to_string();
+    let mut code = template!("main_servers.c").to_string();
     if clients::are_there(module, servers) {
         code.push_str(&clients::code(module));
     }
@@ -397,7 +397,7 @@ fn lines(module: &Module) -> String {
     }
     let ports = module.ports.iter();
     let rows = ports.map(|port| format!("    {{.port = {port}, .file = -1, .client_end = -1}},\n"));
-    include("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>())
+    template!("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>())
 }
 
 /// The hardware that the program asks, if it asks any.

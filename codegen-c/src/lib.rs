@@ -49,7 +49,6 @@ pub use retain::record_len;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;
-use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
 
 /// Options of the output.
@@ -79,14 +78,14 @@ pub struct Options {
     pub misra: bool,
 }
 
-/// The headers that programs share, and the templates: `include/`, packed by the build script. `rungc_rt.h`, the header
-/// of the runtime library, is made by `cargo xtask generate`.
-static INCLUDE: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/include.bin")));
-
-/// A file of `include/`.
-fn include(name: &str) -> &'static str {
-    INCLUDE.text(name)
+/// Text of a file of `include/`: a header that programs share, or a template. `rungc_rt.h`, the header of the runtime
+/// library, is made by `cargo xtask generate`.
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/include/", $name))
+    };
 }
+use template;
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make`
 /// builds it as `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

@@ -15,7 +15,7 @@ pub const MODULE: &str = "#[cfg(feature = \"defmt\")]\nmod format;\n";
 
 /// The file with the program's [`defmt::Format`](https://docs.rs/defmt/1/defmt/trait.Format.html).
 pub fn file(type_name: &Ident, crate_name: &str) -> OutFile {
-    let text = template("format.rs")
+    let text = template!("format.rs")
         .replace("MACHINE", &type_name.to_string())
         .replace("NAME", crate_name);
     OutFile::new("src/format.rs", text)

@@ -433,10 +433,10 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
                 profile,
             ),
         ),
-        OutFile::new("src/main.rs", template("batch/main.rs")),
-        OutFile::new("src/lib.rs", template("batch/lib.rs")),
-        OutFile::new("src/port.rs", template("batch/port.rs")),
-        OutFile::new("src/bare.rs", template("batch/bare.rs")),
+        OutFile::new("src/main.rs", template!("batch/main.rs")),
+        OutFile::new("src/lib.rs", template!("batch/lib.rs")),
+        OutFile::new("src/port.rs", template!("batch/port.rs")),
+        OutFile::new("src/bare.rs", template!("batch/bare.rs")),
     ];
     let mut models: BTreeMap<&str, &Module> = BTreeMap::new();
     let mut cases = String::from(

@@ -96,7 +96,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let names = usage::options(module, &host).into_iter();
     let names: Vec<_> = names.map(|option| format!("{:?}", option.name)).collect();
     let (report, on_error) = match module.may_fail() {
-        true => (REPORT, template("host_errors.rs")),
+        true => (REPORT, template!("host_errors.rs")),
         false => ("", ""),
     };
     let mut code = outside(io)
@@ -107,10 +107,10 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let in_order = servers || keeps || io;
     let [catch, stopped] = if in_order { INTERRUPTED } else { [""; 2] };
     let parts = [
-        (module.has_ports(), template("lines.rs")),
-        (servers, template("servers.rs")),
-        (io, template("outside.rs")),
-        (in_order, template("signals.rs")),
+        (module.has_ports(), template!("lines.rs")),
+        (servers, template!("servers.rs")),
+        (io, template!("outside.rs")),
+        (in_order, template!("signals.rs")),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
     code.extend(asks.then(|| requests(module)));
@@ -153,7 +153,7 @@ fn outside(io: bool) -> String {
         true => CONNECTED,
         false => ALONE,
     };
-    template("host.rs")
+    template!("host.rs")
         .replace("        SERVE;\n", &format!("        SERVE;\n{take}"))
         .replace("        GIVE;\n", give)
         .replace("COMMANDS;", commands)

@@ -34,7 +34,6 @@ mod write;
 pub use members::Members;
 pub use rungc_emit::OutFile;
 use rungc_ir::Module;
-use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
 
 /// Options of the output.
@@ -64,13 +63,13 @@ pub enum Runtime {
     At(String),
 }
 
-/// Texts that are the same for all programs: `templates/`, packed by the build script.
-static TEMPLATES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/templates.bin")));
-
-/// A file of `templates/`.
-fn template(name: &str) -> &'static str {
-    TEMPLATES.text(name)
+/// Text of a file of `templates/`, the same for all programs.
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/templates/", $name))
+    };
 }
+use template;
 
 /// Emits a program as a crate that `cargo build` builds. The same module gives the same bytes.
 pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
@@ -85,17 +84,4 @@ pub fn names(module: &Module) -> (String, String) {
 /// Emits programs as one crate whose executable runs them on virtual hardware, as requests on standard input say.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files::batch(modules)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-
-    #[test]
-    fn what_is_packed_is_used() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let used = rungc_packed::used(&sources, "template").unwrap();
-        assert_eq!(TEMPLATES.names(), used);
-    }
 }

@@ -1,7 +1,6 @@
 //! Descriptions of boards that come with rungc.
 
 use crate::board::{self, Board, BoardError};
-use crate::template;
 use rungc_syntax::Source;
 use std::path::Path;
 
@@ -10,37 +9,36 @@ use std::path::Path;
 pub struct Known {
     /// The name.
     pub name: &'static str,
+    /// The description, in TOML.
+    pub text: &'static str,
+}
+
+/// The board with a file in `boards/`.
+macro_rules! known {
+    ($name:literal) => {
+        Known {
+            name: $name,
+            text: include_str!(concat!("../boards/", $name, ".toml")),
+        }
+    };
 }
 
 /// All of them.
 pub static ALL: [Known; 5] = [
-    Known {
-        name: "fx3u-f103vc",
-    },
-    Known {
-        name: "fx1n-10mt-f103rc",
-    },
-    Known {
-        name: "fx1n-14-f103rb",
-    },
-    Known {
-        name: "fx2n-10mr-f030c8",
-    },
-    Known { name: "pico" },
+    known!("fx3u-f103vc"),
+    known!("fx1n-10mt-f103rc"),
+    known!("fx1n-14-f103rb"),
+    known!("fx2n-10mr-f030c8"),
+    known!("pico"),
 ];
 
 impl Known {
-    /// The description, in TOML.
-    pub fn text(&self) -> &'static str {
-        template(&format!("boards/{}.toml", self.name))
-    }
-
     /// Reads the description.
     ///
     /// # Errors
     /// None, as the tests of this crate show.
     pub fn board(&self) -> Result<Board, BoardError> {
-        let source = Source::new(format!("{}.toml", self.name), self.text().to_string());
+        let source = Source::new(format!("{}.toml", self.name), self.text.to_string());
         board::parse(&source, Path::new(""))
     }
 }

@@ -160,7 +160,7 @@ fn linker_script(board: &Board) -> String {
     let region = |r: crate::board::Region| format!("0x{:08X}, LENGTH = {}", r.origin, r.length);
     let [boot2, in_ram] = boot2::sections(board);
     let mut text = format!("/* Memory of {}. */\n", comment(&board.name));
-    let script = template("image.ld")
+    let script = template!("image.ld")
         .replace("/* BOOT2 */", boot2)
         .replace("/* IN_RAM */", in_ram)
         .replace("/* FLASH */", &region(board.flash))

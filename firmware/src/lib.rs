@@ -18,27 +18,10 @@ pub mod report;
 pub mod sources;
 pub mod target;
 
-use rungc_packed::Packed;
-
-/// The templates of images and packages, and the descriptions of boards: `templates/` and `boards/`, packed by the
-/// build script.
-static TEMPLATES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/templates.bin")));
-
-/// A file of `templates/`, or of `boards/` by its path.
-fn template(name: &str) -> &'static str {
-    TEMPLATES.text(name)
+/// Text of a file of `templates/`, for images and packages.
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/templates/", $name))
+    };
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-
-    #[test]
-    fn what_is_packed_is_used() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let mut used = rungc_packed::used(&sources, "template").unwrap();
-        used.extend(boards::ALL.map(|known| format!("boards/{}.toml", known.name)));
-        assert_eq!(TEMPLATES.names(), used);
-    }
-}
+use template;

@@ -1,77 +1,119 @@
-//! Packs the sources of the runtime and of libm, without their tests, into one compressed text, which the library
-//! embeds.
+//! Lists the sources of the runtime and of libm, which the library embeds.
 //!
-//! A published package has no neighbours to
-//! pack; it carries the packed text as `sources.bin`, which `cargo xtask package` makes.
+//! The runtime is a neighbour in the repository. libm lies where Cargo has it: in the registry's folder, or wherever
+//! its configuration puts the sources of packages. A published package has neither: it brings the files in
+//! `published/`, which `cargo xtask package` makes.
 
+use serde_json::Value;
+use std::ffi::OsString;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs, io};
 
 /// The runtime's package.
 const RUNTIME: &str = "../rt";
 
-/// The crate that it depends on.
-const LIBM: &str = "vendor/libm";
+/// The lock file of the workspace.
+const LOCK: &str = "../../Cargo.lock";
 
-/// The packed text of a published package.
-const PUBLISHED: &str = "sources.bin";
+/// Files of libm beside its `src`: what builds it, and its licence.
+const LIBM_FILES: [&str; 4] = ["Cargo.toml", "LICENSE.txt", "build.rs", "configure.rs"];
+
+/// A package that depends on libm; the lock file gives the version.
+const PROBE: &str = r#"[package]
+name = "probe"
+version = "0.0.0"
+edition = "2024"
+
+[dependencies]
+libm = "*"
+
+[workspace]
+"#;
+
+/// The files of a published package.
+const PUBLISHED: &str = "published";
+
+/// Manifests in it, which would otherwise make packages of their folders.
+const MANIFEST: &str = "manifest.toml";
 
 fn main() -> io::Result<()> {
-    let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
-    let out = PathBuf::from(out).join(PUBLISHED);
-    let runtime = Path::new(RUNTIME);
-    if !runtime.exists() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let out = PathBuf::from(variable("OUT_DIR")?);
+    let here = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
+    let runtime = here.join(RUNTIME);
+    let mut files = Vec::new();
+    if runtime.exists() {
+        let libm = libm(&here, &out)?;
+        println!("cargo::rerun-if-changed={RUNTIME}");
+        println!("cargo::rerun-if-changed={LOCK}");
+        files.push(("Cargo.toml".to_string(), runtime.join("Cargo.toml")));
+        for name in LIBM_FILES {
+            files.push((format!("libm/{name}"), libm.join(name)));
+        }
+        list(&libm.join("src"), "libm/src/", &mut files)?;
+        list(&runtime.join("src"), "src/", &mut files)?;
+    } else {
         println!("cargo::rerun-if-changed={PUBLISHED}");
-        return fs::copy(PUBLISHED, out).map(drop);
-    }
-    println!("cargo::rerun-if-changed={RUNTIME}");
-    println!("cargo::rerun-if-changed={LIBM}");
-    let manifest = fs::read_to_string(runtime.join("Cargo.toml"))?;
-    let mut files = vec![("Cargo.toml".to_string(), manifest)];
-    files.extend(rungc_packed::folder(Path::new(LIBM), "libm/")?);
-    files.extend(rungc_packed::folder(&runtime.join("src"), "src/")?);
-    let mut tests = Vec::new();
-    for (name, text) in &mut files {
-        *text = without_tests(text, &children(name), &mut tests);
-    }
-    files.retain(|(name, _)| {
-        let mut rests = tests
-            .iter()
-            .filter_map(|module| name.strip_prefix(module.as_str()));
-        !rests.any(|rest| rest == ".rs" || rest.starts_with('/'))
-    });
-    fs::write(out, rungc_packed::pack(files)?)
-}
-
-/// Folder of the modules that a file declares.
-fn children(name: &str) -> String {
-    let folder = name.strip_suffix("mod.rs").or(name.strip_suffix("lib.rs"));
-    let folder = folder.or(name.strip_suffix(".rs")).unwrap_or(name);
-    format!("{}/", folder.trim_end_matches('/'))
-}
-
-/// A source as rustfmt lays it out, without the items that only tests have. Modules among them that are files of
-/// their own are added to `tests`, by their paths without an ending.
-fn without_tests(source: &str, children: &str, tests: &mut Vec<String>) -> String {
-    let mut kept = Vec::new();
-    let mut lines = source.lines();
-    while let Some(line) = lines.next() {
-        if line != "#[cfg(test)]" {
-            kept.push(line);
-            continue;
-        }
-        while kept.pop_if(|line| line.starts_with("///")).is_some() {}
-        let is_item = |line: &&str| !line.starts_with("#[") && !line.starts_with("//");
-        let item = lines.by_ref().find(is_item).unwrap_or_default();
-        let declared = item.trim_start_matches("pub ").strip_prefix("mod ");
-        match declared.and_then(|name| name.strip_suffix(';')) {
-            Some(module) => tests.push(format!("{children}{module}")),
-            None => lines
-                .by_ref()
-                .take_while(|&line| line != "}")
-                .for_each(drop),
+        list(&here.join(PUBLISHED), "", &mut files)?;
+        for (name, _) in &mut files {
+            *name = name.replace(MANIFEST, "Cargo.toml");
         }
     }
-    while kept.pop_if(|line| line.is_empty()).is_some() {}
-    kept.join("\n") + "\n"
+    files.sort();
+    let mut table = String::from("&[\n");
+    for (name, path) in files {
+        let _ = writeln!(table, "    ({name:?}, include_str!({path:?})),");
+    }
+    table += "]\n";
+    fs::write(out.join("files.rs"), table)
+}
+
+/// Adds the files in a folder and its folders, named by `prefix` and their paths in it.
+fn list(folder: &Path, prefix: &str, files: &mut Vec<(String, PathBuf)>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        if entry.file_type()?.is_dir() {
+            list(&entry.path(), &format!("{name}/"), files)?;
+        } else {
+            files.push((name, entry.path()));
+        }
+    }
+    Ok(())
+}
+
+/// The folder of the libm that the workspace's lock file names. Cargo is asked about a package that depends on nothing
+/// else, so that nothing has to be there but what this build has taken from the registry already.
+fn libm(here: &Path, out: &Path) -> io::Result<PathBuf> {
+    let probe = out.join("probe");
+    let manifest = probe.join("Cargo.toml");
+    fs::create_dir_all(probe.join("src"))?;
+    fs::write(probe.join("src/lib.rs"), "")?;
+    fs::copy(here.join(LOCK), probe.join("Cargo.lock"))?;
+    fs::write(&manifest, PROBE)?;
+    // In this folder, so that it has the configuration of this build.
+    let output = Command::new(variable("CARGO")?)
+        .args(["metadata", "--offline", "--format-version", "1"])
+        .arg("--manifest-path")
+        .arg(manifest)
+        .current_dir(here)
+        .output()?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(io::Error::other(format!("cargo metadata: {said}")));
+    }
+    let metadata: Value = serde_json::from_slice(&output.stdout)?;
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    let mut manifests = packages
+        .filter(|package| package["name"] == "libm")
+        .filter_map(|package| package["manifest_path"].as_str());
+    let folder = manifests.next().and_then(|path| Path::new(path).parent());
+    let folder = folder.ok_or_else(|| io::Error::other("cargo metadata names no libm"))?;
+    Ok(folder.to_path_buf())
+}
+
+fn variable(name: &str) -> io::Result<OsString> {
+    env::var_os(name).ok_or_else(|| io::Error::other(format!("cargo sets {name}")))
 }

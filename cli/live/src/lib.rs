@@ -18,25 +18,10 @@ pub use markup::page;
 pub use scene::Scene;
 pub use server::{Order, Server};
 
-use rungc_packed::Packed;
-
-/// The modules, the style and the panels of the page: `assets/`, packed by the build script.
-static ASSETS: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/assets.bin")));
-
-/// A file of `assets/`.
-fn asset(name: &str) -> &'static str {
-    ASSETS.text(name)
+/// Text of a file of `assets/`: a module, the style or a panel of the page.
+macro_rules! asset {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/", $name))
+    };
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-
-    #[test]
-    fn what_is_packed_is_used() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let used = rungc_packed::used(&sources, "asset").unwrap();
-        assert_eq!(ASSETS.names(), used);
-    }
-}
+use asset;

@@ -27,7 +27,7 @@ fn write_page(
     let title = Escaped(title);
     let model = resolved.model.name.to_uppercase();
     let (steps, count) = (resolved.steps, ladder.networks.len());
-    let (controls, panels) = (asset("controls.html"), asset("panels.html"));
+    let (controls, panels) = (asset!("controls.html"), asset!("panels.html"));
     let class = if read_only {
         " class=\"read-only\""
     } else {

@@ -25,17 +25,14 @@ const LINGER: Duration = Duration::from_millis(500);
 /// Time-out of a command.
 const ANSWER: Duration = Duration::from_secs(10);
 
-/// Function that returns the text of a file.
-type Text = fn() -> &'static str;
-
 /// The modules and the style of the page: what they are called, their types, and their texts.
-const ASSETS: [(&str, &str, Text); 6] = [
-    ("live.css", "text/css", || asset("live.css")),
-    ("ladder.css", "text/css", || rungc_ladder::html::STYLE),
-    ("live.js", "text/javascript", || asset("live.js")),
-    ("ladder.js", "text/javascript", || asset("ladder.js")),
-    ("panels.js", "text/javascript", || asset("panels.js")),
-    ("controls.js", "text/javascript", || asset("controls.js")),
+const ASSETS: [(&str, &str, &str); 6] = [
+    ("live.css", "text/css", asset!("live.css")),
+    ("ladder.css", "text/css", rungc_ladder::html::STYLE),
+    ("live.js", "text/javascript", asset!("live.js")),
+    ("ladder.js", "text/javascript", asset!("ladder.js")),
+    ("panels.js", "text/javascript", asset!("panels.js")),
+    ("controls.js", "text/javascript", asset!("controls.js")),
 ];
 
 /// A command, and where its answer goes.
@@ -195,7 +192,7 @@ impl Shared {
             ("GET", name) => {
                 let found = ASSETS.iter().find(|asset| asset.0 == name);
                 let (_, kind, text) = found.ok_or(Rejection::NotFound)?;
-                self.send(stream, kind, text())
+                self.send(stream, kind, text)
             }
             _ => Err(Rejection::MethodNotAllowed),
         }

@@ -1,6 +1,6 @@
 //! Requests of a host to servers over TCP.
 
-use crate::include;
+use crate::template;
 use rungc_ir::Module;
 use rungc_models::runs::rt_class;
 use rungc_rt::comm::service::ServerProtocol;
@@ -57,7 +57,7 @@ pub fn code(module: &Module) -> String {
             .into_iter()
             .for_each(|request| row(&mut rows, request));
     }
-    include("main_clients.c")
+    template!("main_clients.c")
         .replace("    /* ROWS */\n", &rows)
         .replace("    /* SERVERS */\n", &servers)
         .replace("MODBUS_TCP", ServerProtocol::ModbusTcp.name())

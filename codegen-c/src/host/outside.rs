@@ -1,6 +1,6 @@
 //! Connections and log of a host; the runtime library implements them.
 
-use crate::include;
+use crate::template;
 use rungc_ir::Module;
 
 /// The parts of a main program.
@@ -52,7 +52,7 @@ pub fn parts(module: &Module, io: bool) -> Parts {
         false => "    (void)context;\n    (void)number;\n    (void)on;\n",
     };
     Parts {
-        code: include("main_io.c").replace("    /* EDGE */\n", edge),
+        code: template!("main_io.c").replace("    /* EDGE */\n", edge),
         begin: "    if (!io_begin(plc)) {\n        return 2;\n    }\n",
         take: "        io_read_inputs(plc);\n",
         give: "        io_write_outputs(plc);\n",
@@ -64,5 +64,5 @@ pub fn parts(module: &Module, io: bool) -> Parts {
 
 /// The call for the value of an option.
 pub fn option(module: &Module, function: &str) -> String {
-    format!("rungc_outside_{function}(\"{}\", argv[++i])", module.name)
+    format!("rungc_io_{function}(\"{}\", argv[++i])", module.name)
 }

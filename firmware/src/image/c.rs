@@ -102,7 +102,7 @@ fn startup_text(board: &Board, interrupts: &BTreeMap<u32, String>) -> String {
         let _ = writeln!(prototypes, "void {handler}(void);");
     }
     let count = 16 + last.map_or(0, |last| last + 1);
-    template("startup.c")
+    template!("startup.c")
         .replace("/* PROTOTYPES */\n", &format!("{prototypes}\n"))
         .replace("/* BOOT2 */", &boot2::in_c(board))
         .replace("/* COUNT */", &count.to_string())
@@ -122,7 +122,7 @@ fn main(image: &Image) -> String {
     };
     let (lines, lines_declared) = serial::in_tick(image);
     let timers = match (sends, timer) {
-        (true, true) => template("pulses.c").to_string(),
+        (true, true) => template!("pulses.c").to_string(),
         (true, false) => ON_TIMER.replace("/* CALL */", "    PROGRAM_on_timer(&plc, &board);\n"),
         (false, _) if !own("wake_in") => ON_TIMER.replace("/* CALL */", ""),
         (false, _) => String::new(),
@@ -151,7 +151,7 @@ fn main(image: &Image) -> String {
     if let Some(ms) = image.script.until_ms {
         show.push_str(&END.replace("MS", &ms.to_string()));
     }
-    let text = template("main.c")
+    let text = template!("main.c")
         .replace("/* INCLUDE */", include)
         .replace(
             "/* LOAD */",
@@ -211,12 +211,12 @@ fn pins(image: &Image) -> String {
         for (ms, number, on) in &image.script.inputs {
             let _ = writeln!(lines, "    {{{ms}u, {number}u, {on}}},");
         }
-        text.push_str(&template("script.c").replace("/* SCRIPT */", &lines));
+        text.push_str(&template!("script.c").replace("/* SCRIPT */", &lines));
     }
     let drivers = image.serial().into_iter();
     let mut drivers = drivers.filter_map(|serial| serial.driver.as_ref());
     if changes_bits(image.board) || drivers.any(is_bit) {
-        text.push_str(template("bits.c"));
+        text.push_str(template!("bits.c"));
     }
     if let Some(function) = input_function(image) {
         text.push_str(&inputs(image));
@@ -226,7 +226,7 @@ fn pins(image: &Image) -> String {
                 Edges::InTick => "",
                 Edges::InPoll => NOTE_EDGES,
             };
-            let edges = template("edges.c").replace("/* WATCHED */", &list.join(", "));
+            let edges = template!("edges.c").replace("/* WATCHED */", &list.join(", "));
             let edges = edges.replace("/* NOTE */", note);
             text.push_str(&edges.replace("INPUT", &function));
         }
@@ -395,10 +395,10 @@ fn console(image: &Image) -> String {
     match (image.board.console, ends) {
         (true, _) => format!(
             "{}{}",
-            template("semihosting.c"),
-            template("console.c").replace("/* OUTPUTS */", &printed(image))
+            template!("semihosting.c"),
+            template!("console.c").replace("/* OUTPUTS */", &printed(image))
         ),
-        (false, true) => template("semihosting.c").to_string(),
+        (false, true) => template!("semihosting.c").to_string(),
         (false, false) => String::new(),
     }
 }
@@ -493,7 +493,7 @@ fn makefile(image: &Image, runtime: bool) -> String {
         ),
         false => String::new(),
     };
-    template("Makefile")
+    template!("Makefile")
         .replace("/* BOARD */", &comment(&image.board.name))
         .replace("/* CC */", target.cc)
         .replace("/* AR */", target.ar)

@@ -91,7 +91,7 @@ pub fn project(image: &Image, runtime: &Runtime) -> Vec<OutFile> {
         ("image.ld", linker_script(image.board)),
         (
             "src/startup.s",
-            template("startup.s")
+            template!("startup.s")
                 .replace("/* FPU */", fpu)
                 .replace("/* VECTORS */", &serial::vectors(image))
                 + &boot2::in_assembler(image.board),
@@ -153,7 +153,7 @@ fn main(image: &Image) -> String {
             .unwrap_or(0)
     };
     let (fields, pins) = fields(image);
-    let text = template("main.rs")
+    let text = template!("main.rs")
         .replace(
             "/* EDGE TYPE */",
             if watched.is_empty() {
@@ -420,7 +420,7 @@ fn setup(image: &Image) -> String {
 fn console(image: &Image) -> String {
     if !image.board.console {
         return match image.script.until_ms {
-            Some(_) => template("console.rs").to_string(),
+            Some(_) => template!("console.rs").to_string(),
             None => String::new(),
         };
     }
@@ -429,8 +429,8 @@ fn console(image: &Image) -> String {
     for (number, name, text) in &rows {
         let _ = writeln!(table, "    ({number}, c{name:?}, c{text:?}),");
     }
-    let outputs = template("outputs.rs")
+    let outputs = template!("outputs.rs")
         .replace("/* COUNT */", &rows.len().to_string())
         .replace("/* TABLE */", &table);
-    template("console.rs").to_string() + &outputs
+    template!("console.rs").to_string() + &outputs
 }

@@ -7,8 +7,8 @@ use rungc_emit::OutFile;
 
 /// The example in C++, for Arduino and for PlatformIO with Arduino's framework. Pins 0 and 1 are the serial port.
 pub const CPP: Style = Style {
-    template: || template("package/arduino.cpp"),
-    edges: || template("package/arduino_edges.cpp"),
+    template: template!("package/arduino.cpp"),
+    edges: template!("package/arduino_edges.cpp"),
     pins: &[
         2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19,
     ],

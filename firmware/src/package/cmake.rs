@@ -10,8 +10,8 @@ use std::fmt::Write;
 
 /// The example for Zephyr: its devicetree has the pins.
 const ZEPHYR: Style = Style {
-    template: || template("package/zephyr.c"),
-    edges: || template("package/zephyr_edges.c"),
+    template: template!("package/zephyr.c"),
+    edges: template!("package/zephyr_edges.c"),
     pins: &[],
     none: "",
     one_handler: true,
@@ -19,8 +19,8 @@ const ZEPHYR: Style = Style {
 
 /// The example for ESP-IDF: pins of an ESP32 that nothing on a module needs.
 const ESP_IDF: Style = Style {
-    template: || template("package/esp_idf.c"),
-    edges: || template("package/esp_idf_edges.c"),
+    template: template!("package/esp_idf.c"),
+    edges: template!("package/esp_idf_edges.c"),
     pins: &[4, 13, 14, 16, 17, 18, 19, 21, 22, 23, 25, 26, 27, 32, 33],
     none: "GPIO_NUM_NC",
     one_handler: true,

@@ -10,9 +10,9 @@ use std::fmt::Write;
 /// Style of a build system's example.
 pub struct Style {
     /// The program around what depends on the terminals.
-    pub template: fn() -> &'static str,
+    pub template: &'static str,
     /// Additional code if the program takes edges.
-    pub edges: fn() -> &'static str,
+    pub edges: &'static str,
     /// Its pins, in the order in which terminals get them.
     pub pins: &'static [u8],
     /// The pin of a terminal for which none is left.
@@ -80,7 +80,7 @@ pub fn fill(package: &Package, style: &Style, inputs: &str, outputs: &str) -> St
     let watched = rungc_emit::events::inputs(package.module);
     let (mut edges, mut attach) = (String::new(), String::new());
     if !watched.is_empty() {
-        edges.push_str((style.edges)());
+        edges.push_str(style.edges);
         attach.push_str("    board.next_edge = next_edge;\n");
     }
     for number in watched {
@@ -89,7 +89,8 @@ pub fn fill(package: &Package, style: &Style, inputs: &str, outputs: &str) -> St
             false => writeln!(attach, "    attach({number}, [] {{ note({number}); }});"),
         };
     }
-    (style.template)()
+    style
+        .template
         .replace("/* INPUTS */", inputs)
         .replace("/* OUTPUTS */", outputs)
         .replace("/* EDGES */", &edges)

@@ -19,7 +19,6 @@ pub mod print;
 mod search;
 mod text;
 
-use rungc_packed::Packed;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -33,9 +32,6 @@ pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{Names, PLCOPEN_CPU, iec_timer_unit};
 pub use search::{is_project, programs};
-
-/// `tokens.tsv`, without its notes, and `applied.tsv`, packed by the build script.
-static TABLES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/tables.bin")));
 
 /// A program and what its reader found.
 #[derive(Clone, Debug, Default)]

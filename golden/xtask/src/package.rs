@@ -18,7 +18,7 @@ pub struct Args {
 
 /// Publishes all crates, or does so but for the upload, except those with `publish = false`.
 pub fn run(args: &Args) -> Result<(), Problem> {
-    // Cargo would count the packed sources below, which git ignores, as a change that is not committed.
+    // Cargo would count the sources below, which git ignores, as a change that is not committed.
     let changes = tools::output(
         Command::new("git")
             .args(["status", "--porcelain"])
@@ -28,8 +28,13 @@ pub fn run(args: &Args) -> Result<(), Problem> {
         return Err(format!("commit these changes first:\n{changes}").into());
     }
     // The runtime's sources lie beside the crate that embeds them, and packages have no neighbours.
-    let packed = root().join("runtime-rt/sources/sources.bin");
-    fs::write(&packed, rungc_runtime_sources::PACKED.bytes())?;
+    let published = root().join("runtime-rt/sources/published");
+    for (path, text) in rungc_runtime_sources::EMBEDDED {
+        // A folder with a manifest would be a package of its own.
+        let path = published.join(path.replace("Cargo.toml", "manifest.toml"));
+        fs::create_dir_all(path.parent().unwrap_or(&published))?;
+        fs::write(path, text)?;
+    }
     let mut cargo = tools::cargo(&["publish", "--workspace", "--locked", "--allow-dirty"]);
     if !args.publish {
         cargo.arg("--dry-run");
@@ -41,6 +46,6 @@ pub fn run(args: &Args) -> Result<(), Problem> {
         cargo.arg("--no-verify");
     }
     let done = tools::run(&mut cargo);
-    fs::remove_file(packed)?;
+    fs::remove_dir_all(published)?;
     done
 }

@@ -1,5 +1,7 @@
 //! Names of modules, made of the names of files and projects in any script.
 
+use deunicode::deunicode_char;
+
 /// An identifier in lower case from the name of a file. What is not ASCII is transliterated; since other names can be
 /// so, too, a short number that belongs to this name alone follows then: `往复.gxw` becomes `wang_fu_4c1e`.
 pub fn module_name(source: &str) -> String {
@@ -44,7 +46,7 @@ pub fn stem(source: &str) -> &str {
 /// Appends what a character is in ASCII. Those that stand for syllables or words (`往`: `Wang `) are set apart from what
 /// is before and after them.
 fn transliterate(c: char, name: &mut String) {
-    let ascii = rungc_ascii::of(c).unwrap_or_default();
+    let ascii = deunicode_char(c).unwrap_or_default();
     let is_word = ascii.ends_with(' ');
     if is_word && !name.is_empty() && !name.ends_with('_') {
         name.push('_');

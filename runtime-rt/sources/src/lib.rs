@@ -9,31 +9,39 @@
 pub mod cache;
 pub mod library;
 
-use rungc_packed::Packed;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The sources as the build script packs them, without their tests, by their paths. `cargo xtask package` puts them
-/// into the published package.
-pub static PACKED: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
+/// The sources as they stand in the repository and in the registry, by their paths in order: `Cargo.toml`, then
+/// `libm/…` and `src/…`. `cargo xtask package` puts them into the published package.
+pub static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
 /// Dependency on the crate that the runtime needs, in the manifest, and where its sources are included.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
 
+/// Silences warnings about libm, as cargo does for packages of the registry.
+const NO_WARNINGS: &str = "\n[lints.rust]\nwarnings = \"allow\"\n";
+
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
-/// `src/…`.
+/// `src/…`. They are as they were written, but for the manifests, which have no `dev-dependencies`: those would have to
+/// be in the lock file, and come from the registry.
 pub fn files() -> Vec<(String, String)> {
-    let mut files = PACKED.texts().to_vec();
-    files[0].1 = manifest();
-    files
+    let file = |&(path, text): &(&str, &str)| {
+        let text = match path {
+            "Cargo.toml" => manifest(text),
+            "libm/Cargo.toml" => manifest(text) + NO_WARNINGS,
+            _ => text.to_string(),
+        };
+        (path.to_string(), text)
+    };
+    EMBEDDED.iter().map(file).collect()
 }
 
-/// The manifest without what only tests need, which is inherited from a workspace that is not there, and with `libm`
-/// beside it.
-fn manifest() -> String {
+/// A manifest without what only tests need, and with `libm` beside it.
+fn manifest(text: &str) -> String {
     let mut kept = String::new();
     let mut is_for_tests = false;
-    for line in PACKED.text("Cargo.toml").lines() {
+    for line in text.lines() {
         if line.starts_with('[') {
             is_for_tests = line.starts_with("[dev-dependencies");
         }
@@ -46,6 +54,12 @@ fn manifest() -> String {
     kept
 }
 
+/// A file by its path, as it was written.
+fn text(path: &str) -> &'static str {
+    let at = EMBEDDED.binary_search_by_key(&path, |&(path, _)| path);
+    EMBEDDED[at.expect("the build script lists it")].1
+}
+
 /// The version of emitted crates.
 pub const EMITTED_VERSION: &str = "0.1.0";
 
@@ -55,8 +69,8 @@ pub const EMITTED_VERSION: &str = "0.1.0";
 pub fn lock_file(emitted: &[(&str, &[&str])]) -> String {
     // Each by its name, with its version and what it needs.
     let mut packages: BTreeMap<&str, (&str, &[&str])> = BTreeMap::new();
-    packages.insert("libm", (version(PACKED.text("libm/Cargo.toml")), &[]));
-    packages.insert("rungc-rt", (version(PACKED.text("Cargo.toml")), &["libm"]));
+    packages.insert("libm", (version(text("libm/Cargo.toml")), &[]));
+    packages.insert("rungc-rt", (version(text("Cargo.toml")), &["libm"]));
     for &(name, needs) in emitted {
         packages.insert(name, (EMITTED_VERSION, needs));
     }
@@ -87,6 +101,9 @@ fn version(manifest: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+    use std::path::Path;
+    use std::process::Command;
 
     #[test]
     fn the_crate_is_whole() {
@@ -95,6 +112,7 @@ mod tests {
         assert!(has("Cargo.toml") && has("src/lib.rs") && has("src/fnc/data.rs"));
         assert!(has("libm/Cargo.toml") && has("libm/src/math/sqrt.rs") && has("libm/LICENSE.txt"));
         for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".toml")) {
+            assert!(!text.contains("dev-dependencies"), "{path}");
             assert!(
                 !text.contains("workspace"),
                 "{path} must not name a workspace"
@@ -103,13 +121,53 @@ mod tests {
         assert!(files[0].1.contains("path = \"libm\""));
     }
 
+    /// The package of libm in the workspace, which the interpreter is compiled with.
+    fn libm() -> serde_json::Value {
+        let manifest = concat!(env!("RUNGC_ROOT"), "/Cargo.toml");
+        let output = Command::new(env!("CARGO"))
+            .args(["metadata", "--locked", "--format-version", "1"])
+            .args(["--manifest-path", manifest])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let packages = metadata["packages"].as_array().unwrap().iter();
+        let found: Vec<_> = packages.filter(|it| it["name"] == "libm").collect();
+        assert_eq!(found.len(), 1, "{found:?}");
+        found[0].clone()
+    }
+
     #[test]
-    fn tests_are_not_packed() {
-        let root = include_str!(concat!(env!("RUNGC_ROOT"), "/runtime-rt/rt/src/fnc/mod.rs"));
-        assert!(root.contains("mod random_tests;"));
+    fn emitted_code_has_the_interpreters_libm() {
+        let libm = libm();
+        let version = libm["version"].as_str().unwrap();
+        let locked = format!("name = \"libm\"\nversion = \"{version}\"\n");
+        assert!(lock_file(&[]).contains(&locked));
+        let folder = Path::new(libm["manifest_path"].as_str().unwrap());
+        let folder = folder.parent().unwrap();
+        let embedded = EMBEDDED
+            .iter()
+            .filter_map(|(path, text)| Some((path.strip_prefix("libm/")?, text)));
+        for (path, text) in embedded {
+            assert_eq!(
+                fs::read_to_string(folder.join(path)).unwrap(),
+                **text,
+                "{path}"
+            );
+        }
+    }
+
+    #[test]
+    fn sources_are_as_they_were_written() {
+        let root = Path::new(env!("RUNGC_ROOT")).join("runtime-rt/rt");
         for (path, text) in files() {
-            assert!(!path.contains("tests"), "{path} is packed");
-            assert!(!text.contains("#[test]"), "{path} has a test");
+            if path.starts_with("src/") {
+                assert_eq!(
+                    fs::read_to_string(root.join(&path)).unwrap(),
+                    text,
+                    "{path}"
+                );
+            }
         }
     }
 

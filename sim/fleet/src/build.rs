@@ -5,19 +5,18 @@ use rungc_codegen_c::{Members, Options, emit, lanes};
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Call, Stmt};
 use rungc_ir::walk::{calls_runtime, statements};
-use rungc_packed::Packed;
 use rungc_syntax::DeviceClass;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Sources of the executables, packed by the build script: `children.c`, common to both kinds, is `main`, with the name
-/// of the program as `NAME`; `lanes.c` runs 64 at once, `singles.c` one after the other.
-static SOURCES: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin")));
+/// `main` of both kinds of executables, with the name of the program as `NAME`.
+const CHILDREN: &str = include_str!("children.c");
 
-/// One of these.
-fn source(name: &str) -> &'static str {
-    SOURCES.text(name)
-}
+/// Runs 64 PLCs at once.
+const LANES: &str = include_str!("lanes.c");
+
+/// Runs one PLC after the other.
+const SINGLES: &str = include_str!("singles.c");
 
 /// Number of devices that are read together.
 pub(crate) const CHUNK: u32 = 64;
@@ -84,10 +83,10 @@ pub(crate) fn build(module: &Module, folder: &Path, form: &Form) -> Result<PathB
         ..Options::default()
     };
     let engine = match form {
-        Form::Lanes => source("lanes.c").replace("BITS\n", &bits(module)),
-        Form::Singles { .. } => source("singles.c").to_string(),
+        Form::Lanes => LANES.replace("BITS\n", &bits(module)),
+        Form::Singles { .. } => SINGLES.to_string(),
     };
-    let main = source("children.c")
+    let main = CHILDREN
         .replace("ENGINE\n", &engine)
         .replace("NAME", &module.name);
     let mut command = Command::new("cc");
@@ -159,16 +158,4 @@ fn bits(module: &Module) -> String {
         }
     }
     cases
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_packed_is_used() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let used = rungc_packed::used(&sources, "source").unwrap();
-        assert_eq!(SOURCES.names(), used);
-    }
 }

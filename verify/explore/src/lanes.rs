@@ -6,7 +6,6 @@ use crate::task::{Input, Step, Task};
 use crate::wide::{Bit, Change, Items, LANES, Stride};
 use rungc_codegen_c::{Members, Options};
 use rungc_models::runs::{is_counter32, name_class};
-use rungc_packed::Packed;
 use rungc_rt::Class;
 use rungc_sim::Target;
 use rungc_sim::engines::{BuildError, Piped, build_with_main};
@@ -15,12 +14,8 @@ use std::fmt::Write as _;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Main program of the lanes: `lanes.c`, a `main` with the name of the program as `NAME`, packed by the build script.
-static MAIN: Packed = Packed::new(include_bytes!(concat!(env!("OUT_DIR"), "/main.bin")));
-
-fn main_text() -> &'static str {
-    MAIN.text("lanes.c")
-}
+/// Main program of the lanes: `lanes.c`, a `main` with the name of the program as `NAME`.
+const MAIN: &str = include_str!("lanes.c");
 
 /// The lanes of a program.
 pub struct Lanes {
@@ -80,8 +75,7 @@ fn main_file(task: &Task) -> String {
         .inputs
         .iter()
         .map(|input| input_line(input, name, &members));
-    main_text()
-        .replace("BITS", &bits)
+    MAIN.replace("BITS", &bits)
         .replace("WORDS", &words)
         .replace("INPUTS", &inputs.collect::<String>())
         .replace("NAME", name)
@@ -239,6 +233,6 @@ mod tests {
 
     #[test]
     fn main_is_packed() {
-        assert!(main_text().contains("int main("));
+        assert!(MAIN.contains("int main("));
     }
 }

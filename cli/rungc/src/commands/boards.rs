@@ -25,7 +25,7 @@ pub fn run(args: &BoardsArgs, cx: Context) -> Result {
     if args.toml {
         let known = name.to_str().and_then(boards::find);
         match known {
-            Some(known) => say(known.text())?,
+            Some(known) => say(known.text)?,
             None => say(&std::fs::read_to_string(name)?)?,
         }
         return Ok(Outcome::Success);

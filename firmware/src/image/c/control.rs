@@ -16,7 +16,7 @@ pub(super) fn functions(image: &Image) -> String {
             pin.at,
             1u32 << pin.bit
         );
-        text.push_str(&template("switch.c").replace("/* READ */", &read));
+        text.push_str(&template!("switch.c").replace("/* READ */", &read));
     }
     let error = format!(
         "const plc_error error = {}_error(&plc);\n    on = error.code != 0u || error.stop != 0u;",

@@ -38,7 +38,7 @@ pub(super) fn drivers(image: &Image) -> String {
                 measured(pin)
             );
         }
-        text.push_str(&template("analog.c").replace("/* CASES */\n", &cases));
+        text.push_str(&template!("analog.c").replace("/* CASES */\n", &cases));
     }
     let outputs = match are_own(image) {
         true => image.own_outputs(),
@@ -111,7 +111,7 @@ fn modules(image: &Image, outputs: &[(u8, AnalogPin)]) -> String {
         true => "",
         false => "    if (unit == 0u) {\n        return put_out(address, value);\n    }\n",
     };
-    template("modules.c")
+    template!("modules.c")
         .replace("/* BOARD */", board)
         .replace("/* UNITS */", units.trim_end_matches(", "))
         .replace("/* NUMBER */", &modules.len().to_string())

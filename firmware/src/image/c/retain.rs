@@ -41,18 +41,18 @@ pub(super) fn driver(retain: &Retain) -> String {
         a.length, a.origin, b.origin
     );
     let body = match retain.memory {
-        RetainMemory::Ram => template("retain_ram.c").to_string(),
+        RetainMemory::Ram => template!("retain_ram.c").to_string(),
         RetainMemory::Stm32f1 => {
             let _ = writeln!(text, "#define KEPT_PAGE {}u", retain.page);
             text.push_str("typedef uint16_t flash_unit; /* half a word at a time is written */\n");
             stm32(
                 "STM32F1",
                 ["0x40022000", "1u", "0x14u", "(1u << 7)"],
-                template("retain_erase_f1.c"),
+                template!("retain_erase_f1.c"),
                 "1u",
             )
         }
-        RetainMemory::Rp2040 => template("retain_rp2040.c").to_string(),
+        RetainMemory::Rp2040 => template!("retain_rp2040.c").to_string(),
         RetainMemory::Stm32f4 => {
             let sectors = retain.slots.map(|slot| {
                 let sectors = f4_sectors(&(slot.origin..slot.origin + slot.length));
@@ -69,7 +69,7 @@ pub(super) fn driver(retain: &Retain) -> String {
             stm32(
                 "STM32F4",
                 bits,
-                template("retain_erase_f4.c"),
+                template!("retain_erase_f4.c"),
                 "2u << 8 | 1u",
             )
         }
@@ -78,7 +78,7 @@ pub(super) fn driver(retain: &Retain) -> String {
 }
 
 fn stm32(part: &str, [base, busy, errors, lock]: [&str; 4], erase: &str, program: &str) -> String {
-    template("retain_stm32.c")
+    template!("retain_stm32.c")
         .replace("/* PART */", part)
         .replace("/* BASE */", base)
         .replace("/* BUSY */", busy)

@@ -82,7 +82,7 @@ pub(super) fn drivers(image: &Image) -> String {
         return String::new();
     };
     let stm32 = |kind: &str, registers: &str, clear: &str| {
-        template("uart_stm32.c")
+        template!("uart_stm32.c")
             .replace("/* KIND */", kind)
             .replace("/* REGISTERS */", registers)
             .replace("/* CLEAR */", clear)
@@ -90,16 +90,16 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
-        Uart::Pl011 => template("uart_pl011.c").to_string(),
-        Uart::Cmsdk => template("uart_cmsdk.c").to_string(),
+        Uart::Pl011 => template!("uart_pl011.c").to_string(),
+        Uart::Cmsdk => template!("uart_cmsdk.c").to_string(),
     };
     // A function of the board's own has the finest resolution.
     let time = match image.board.functions.get("now_us") {
         Some(own) => format!("static uint32_t fine_us(void)\n{{\n    return {own}(NULL);\n}}\n\n"),
-        None => template("fine_us.c").to_string(),
+        None => template!("fine_us.c").to_string(),
     };
     let room = ports.iter().map(|serial| serial.send).max();
-    let text = template("serial.c")
+    let text = template!("serial.c")
         .replace("/* TIME */", &time)
         .replace("/* UART */", &uart)
         .replace("/* TABLE */", &table(&ports));

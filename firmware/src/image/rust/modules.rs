@@ -74,7 +74,7 @@ pub(super) fn drivers(image: &Image) -> String {
     let units: Vec<_> = units
         .map(|(n, module)| format!("            {} => Some({n}),\n", module.unit))
         .collect();
-    let text = template("modules.rs")
+    let text = template!("modules.rs")
         .replace("/* UNITS */\n", &units.concat())
         .replace("/* NUMBER */", &modules.len().to_string())
         .replace("/* TAKE */\n", &take)
@@ -142,7 +142,7 @@ pub(super) fn hal(image: &Image) -> String {
     let mut text = String::new();
     let outputs = own_outputs(image);
     let buffer = match (image.modules().is_empty(), outputs.is_empty()) {
-        (false, _) => template("buffer.rs"),
+        (false, _) => template!("buffer.rs"),
         (true, false) => WRITE,
         (true, true) => "",
     };

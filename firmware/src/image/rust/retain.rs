@@ -69,7 +69,7 @@ pub(super) fn drivers(image: &Image) -> String {
         let slots = slots.join(", ");
         return format!(
             "{supply}{}/// The memory that holds latched devices.\nconst fn kept() -> Rp2040 {{\n    Rp2040 {{ slots: [{slots}] }}\n}}\n\n",
-            template("retain_rp2040.rs")
+            template!("retain_rp2040.rs")
         );
     }
     let (name, slots) = (name(retain.memory), slots.join(", "));

@@ -96,7 +96,7 @@ pub(super) fn drivers(image: &Image) -> String {
         return String::new();
     };
     let stm32 = |kind: &str, registers: &str, clear: &str| {
-        template("uart_stm32.rs")
+        template!("uart_stm32.rs")
             .replace("/* KIND */", kind)
             .replace("/* REGISTERS */", registers)
             .replace("/* CLEAR */", clear)
@@ -104,8 +104,8 @@ pub(super) fn drivers(image: &Image) -> String {
     let uart = match first.uart {
         Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
         Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
-        Uart::Pl011 => template("uart_pl011.rs").to_string(),
-        Uart::Cmsdk => template("uart_cmsdk.rs").to_string(),
+        Uart::Pl011 => template!("uart_pl011.rs").to_string(),
+        Uart::Cmsdk => template!("uart_cmsdk.rs").to_string(),
     };
     let most = |room: fn(&Serial) -> u16| ports.iter().map(|serial| room(serial)).max();
     let [receive, send] = [most(|serial| serial.receive), most(|serial| serial.send)];
@@ -118,7 +118,7 @@ pub(super) fn drivers(image: &Image) -> String {
         ),
         false => ("", format!("{receive}, {send}")),
     };
-    template("serial.rs")
+    template!("serial.rs")
         .replace("/* HOW */", how)
         .replace("/* QUEUE */", &format!("{}<{room}>", queue(image)))
         .replace("/* UART */", &uart)

@@ -3,13 +3,12 @@
 //! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02
 //! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
 
-use crate::TABLES;
 use std::sync::LazyLock;
 
 /// The rows of `tokens.tsv`: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a
-/// text), evidence. The file's last column, notes, is not packed.
+/// text), evidence, notes.
 fn rows() -> impl Iterator<Item = &'static str> {
-    TABLES.text("tokens.tsv").lines().skip(1)
+    include_str!("tokens.tsv").lines().skip(1)
 }
 
 /// Evidence for the meaning of a code.

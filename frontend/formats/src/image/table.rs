@@ -1,13 +1,12 @@
 //! Words of instructions.
 
-use crate::TABLES;
 use std::sync::LazyLock;
 
 /// The rows of `applied.tsv`, applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse
 /// form, number of operands, evidence (`seen`: a published image or download holds it; `derived`: by the rule that all
 /// of those follow).
 fn rows() -> impl Iterator<Item = &'static str> {
-    TABLES.text("applied.tsv").lines().skip(1)
+    include_str!("applied.tsv").lines().skip(1)
 }
 
 /// Contacts: the upper nibble of one word from 2 on, or 01C2h and up before a wide point.

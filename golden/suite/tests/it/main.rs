@@ -8,6 +8,7 @@ mod conformance_qemu;
 mod corpus;
 mod counters;
 mod differential;
+mod embedded;
 mod explore_faults;
 mod faults;
 mod inlined;

@@ -19,8 +19,8 @@ const FILE_BYTES: u64 = 128 * 1024;
 /// Lines of a file.
 const FILE_LINES: usize = 700;
 
-/// Sources of others, and templates, which are broken as emitted text is.
-const LEFT_OUT: &[&str] = &["target", "vendor", "templates"];
+/// Templates, which are broken as emitted text is, and output of builds.
+const LEFT_OUT: &[&str] = &["target", "templates"];
 
 /// Files whose comments are those of the emitted header, which is broken at its own width.
 const HEADER: &[&str] = &[

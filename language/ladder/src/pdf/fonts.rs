@@ -4,6 +4,7 @@
 //! texts it takes a font of its system for the character collection that is named (§9.7.5.2). So a file is small, the
 //! same on every machine, and its texts can be searched.
 
+use deunicode::deunicode_char;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo};
 use pdf_writer::{Name, Pdf, Rect, Ref, Str};
 use unicode_width::UnicodeWidthChar;
@@ -181,7 +182,7 @@ fn encoded(character: char, asian: Font) -> Vec<Encoded> {
     // Letters that no standard font has: those that they come from. A control character has no shape.
     let plain = match character.is_ascii() {
         true => "",
-        false => rungc_ascii::of(character).unwrap_or("?"),
+        false => deunicode_char(character).unwrap_or("?"),
     };
     let plain = plain.bytes().filter(|byte| (b' '..=b'~').contains(byte));
     plain
