@@ -120,7 +120,7 @@ impl Setup {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SetupFormat {
-    at: rungc_tables::Spanned<u32>,
+    at: toml::Spanned<u32>,
     clear: Option<u32>,
     set: Option<u32>,
     write: Option<u32>,
@@ -195,7 +195,7 @@ struct Format {
     name: String,
     #[serde(default)]
     notes: String,
-    target: rungc_tables::Spanned<String>,
+    target: toml::Spanned<String>,
     chip: Option<Chip>,
     uncertain: Option<String>,
     #[serde(default)]
@@ -205,9 +205,9 @@ struct Format {
     #[serde(default)]
     setup: Vec<SetupFormat>,
     #[serde(default)]
-    inputs: BTreeMap<rungc_tables::Spanned<String>, InputFormat>,
+    inputs: BTreeMap<toml::Spanned<String>, InputFormat>,
     #[serde(default)]
-    outputs: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<Output>>,
+    outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
     #[serde(default)]
     run: control::Run,
     watchdog: Option<control::Watchdog>,
@@ -217,11 +217,11 @@ struct Format {
     serial: Vec<serial::Format>,
     retain: Option<retain::Format>,
     #[serde(default)]
-    functions: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
+    functions: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
     #[serde(default)]
-    sources: Vec<rungc_tables::Spanned<String>>,
+    sources: Vec<toml::Spanned<String>>,
     #[serde(default)]
-    interrupts: BTreeMap<rungc_tables::Spanned<String>, rungc_tables::Spanned<String>>,
+    interrupts: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -243,7 +243,7 @@ struct Memory {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Clock {
-    hz: rungc_tables::Spanned<u32>,
+    hz: toml::Spanned<u32>,
     #[serde(default = "default_tick_us")]
     tick_us: u32,
     #[serde(default = "default_scan_us")]
@@ -387,7 +387,7 @@ pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
         source,
         wiring: RefCell::default(),
     };
-    let format: Format = rungc_tables::from_str(&source.text).map_err(|error| {
+    let format: Format = toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
         reader.wrong(at, error.message().to_string())
     })?;
@@ -400,7 +400,7 @@ struct Reader<'s> {
     wiring: RefCell<Wiring>,
 }
 
-type Spanned = rungc_tables::Spanned<String>;
+type Spanned = toml::Spanned<String>;
 
 impl Reader<'_> {
     fn wrong(&self, at: usize, message: String) -> BoardError {
@@ -411,7 +411,7 @@ impl Reader<'_> {
         }
     }
 
-    fn at<T>(&self, item: &rungc_tables::Spanned<T>, message: String) -> BoardError {
+    fn at<T>(&self, item: &toml::Spanned<T>, message: String) -> BoardError {
         self.wrong(item.span().start, message)
     }
 

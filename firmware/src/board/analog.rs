@@ -70,9 +70,9 @@ fn numbered(pins: &BTreeMap<String, AnalogPin>) -> impl Iterator<Item = (u8, &An
 #[serde(deny_unknown_fields)]
 pub(super) struct Format {
     #[serde(default)]
-    inputs: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
+    inputs: BTreeMap<Spanned, toml::Spanned<Pin>>,
     #[serde(default)]
-    outputs: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
+    outputs: BTreeMap<Spanned, toml::Spanned<Pin>>,
 }
 
 #[derive(Deserialize)]
@@ -114,7 +114,7 @@ impl Reader<'_> {
 
     fn analog_pins(
         &self,
-        pins: BTreeMap<Spanned, rungc_tables::Spanned<Pin>>,
+        pins: BTreeMap<Spanned, toml::Spanned<Pin>>,
         outputs: bool,
     ) -> Result<BTreeMap<String, AnalogPin>, BoardError> {
         let mut known = BTreeMap::new();
@@ -141,7 +141,7 @@ impl Reader<'_> {
 
     fn analog_pin(
         &self,
-        pin: &rungc_tables::Spanned<Pin>,
+        pin: &toml::Spanned<Pin>,
         is_output: bool,
     ) -> Result<AnalogPin, BoardError> {
         let own = pin.get_ref();

@@ -32,9 +32,9 @@ impl Control {
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Run {
-    switch: Option<rungc_tables::Spanned<InputFormat>>,
-    lamp: Option<rungc_tables::Spanned<Output>>,
-    error: Option<rungc_tables::Spanned<Output>>,
+    switch: Option<toml::Spanned<InputFormat>>,
+    lamp: Option<toml::Spanned<Output>>,
+    error: Option<toml::Spanned<Output>>,
 }
 
 #[derive(Deserialize)]
@@ -50,10 +50,9 @@ impl Reader<'_> {
         run: Run,
         watchdog: Option<Watchdog>,
     ) -> Result<Control, BoardError> {
-        let lamp = |name: &str, lamp: Option<rungc_tables::Spanned<Output>>| {
-            let read = |lamp: rungc_tables::Spanned<Output>| {
-                self.output(lamp.span().start, name, lamp.get_ref())
-            };
+        let lamp = |name: &str, lamp: Option<toml::Spanned<Output>>| {
+            let read =
+                |lamp: toml::Spanned<Output>| self.output(lamp.span().start, name, lamp.get_ref());
             lamp.map(read).transpose()
         };
         let switch = run.switch.map(|switch| {

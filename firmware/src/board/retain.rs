@@ -38,12 +38,12 @@ pub enum RetainMemory {
 #[serde(deny_unknown_fields)]
 pub(super) struct Format {
     memory: RetainMemory,
-    slots: rungc_tables::Spanned<[Region; 2]>,
+    slots: toml::Spanned<[Region; 2]>,
     #[serde(default = "default_page")]
     page: u32,
     #[serde(default = "default_every_ms")]
     every_ms: u32,
-    power_fail: Option<rungc_tables::Spanned<InputFormat>>,
+    power_fail: Option<toml::Spanned<InputFormat>>,
 }
 
 fn default_page() -> u32 {

@@ -55,14 +55,14 @@ pub enum Uart {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Format {
-    port: rungc_tables::Spanned<String>,
-    uart: rungc_tables::Spanned<Uart>,
+    port: toml::Spanned<String>,
+    uart: toml::Spanned<Uart>,
     at: u32,
-    interrupts: rungc_tables::Spanned<Vec<u32>>,
+    interrupts: toml::Spanned<Vec<u32>>,
     hz: Option<u32>,
-    de: Option<rungc_tables::Spanned<Output>>,
-    tx: Option<rungc_tables::Spanned<String>>,
-    rx: Option<rungc_tables::Spanned<String>>,
+    de: Option<toml::Spanned<Output>>,
+    tx: Option<toml::Spanned<String>>,
+    rx: Option<toml::Spanned<String>>,
     #[serde(default)]
     function: u32,
     uncertain: Option<String>,
@@ -71,17 +71,17 @@ pub(super) struct Format {
     #[serde(default)]
     qlink: bool,
     #[serde(default = "default_receive")]
-    receive: rungc_tables::Spanned<u16>,
+    receive: toml::Spanned<u16>,
     #[serde(default = "default_send")]
-    send: rungc_tables::Spanned<u16>,
+    send: toml::Spanned<u16>,
 }
 
-fn default_receive() -> rungc_tables::Spanned<u16> {
-    rungc_tables::Spanned::new(0..0, DEFAULT_RECEIVE)
+fn default_receive() -> toml::Spanned<u16> {
+    toml::Spanned::new(0..0, DEFAULT_RECEIVE)
 }
 
-fn default_send() -> rungc_tables::Spanned<u16> {
-    rungc_tables::Spanned::new(0..0, DEFAULT_SEND)
+fn default_send() -> toml::Spanned<u16> {
+    toml::Spanned::new(0..0, DEFAULT_SEND)
 }
 
 impl Reader<'_> {

@@ -66,7 +66,7 @@ pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
 
 /// Reads the TOML of a file, without looking at what it means.
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
-    rungc_tables::from_str(&source.text).map_err(|error| {
+    toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
         vec![Problem::at(source, at, plain(error.message()))]
     })

@@ -10,11 +10,11 @@ use crate::target::Target;
 use rungc_models::{ModelId, Plc};
 use rungc_project::Project;
 use rungc_syntax::Source;
-use rungc_tables::Spanned;
 use serde::de::IgnoredAny;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use toml::Spanned;
 
 /// Values of names in one of several cases.
 type Row = BTreeMap<String, Scalar>;

@@ -7,9 +7,9 @@ use crate::protocol::{Answer, Request};
 use crate::target::{self, Channel};
 use rungc_rt::modules::{KINDS, Kind};
 use rungc_syntax::{FittedModule, Program, diag};
-use rungc_tables::Spanned;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use toml::Spanned;
 
 /// Modules as a file names them: kinds by numbers.
 pub(super) type Raw = BTreeMap<Spanned<String>, Spanned<String>>;

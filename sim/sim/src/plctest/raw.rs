@@ -4,10 +4,10 @@ use super::Basis;
 use super::modules;
 use super::program::RawProgram;
 use super::serial::{Protocol, RawMode, RawSent};
-use rungc_tables::Spanned;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
+use toml::Spanned;
 
 /// Values by names, each with its place.
 pub(super) type Map<T> = BTreeMap<Spanned<String>, T>;

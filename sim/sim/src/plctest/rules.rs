@@ -4,8 +4,8 @@ use super::format::Reader;
 use super::raw::{RawSettings, RawWhenever, RawWithin};
 use super::runner::Running;
 use super::{Failure, Setting, Step};
-use rungc_tables::Spanned;
 use std::fmt;
+use toml::Spanned;
 
 /// Rules that must hold after each scan.
 #[derive(Clone, Debug, Default)]

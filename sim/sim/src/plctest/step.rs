@@ -9,7 +9,7 @@ use crate::target::Target;
 use crate::wire::Signal;
 use rungc_rt::Clock;
 use rungc_syntax::{DeviceClass, diag};
-use rungc_tables::Spanned;
+use toml::Spanned;
 
 impl Reader<'_> {
     /// The steps that a step stands for: those of the scenario that it names, and itself.

@@ -4,9 +4,9 @@ use super::format::Reader;
 use super::runner::Running;
 use super::{Failure, Setting, Value};
 use crate::target::Target;
-use rungc_tables::Spanned;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 
 /// The folder of traces, beside the test file.
 const FOLDER: &str = "traces";

@@ -6,7 +6,7 @@ use super::switches::Scale;
 use super::values::FASTEST;
 use crate::plant::axis::{Axis, Back, Drive};
 use rungc_syntax::DeviceClass;
-use rungc_tables::Spanned;
+use toml::Spanned;
 
 /// Maximum number of cycles of an encoder per pulse.
 const CYCLES_PER_PULSE: f64 = 10.0;

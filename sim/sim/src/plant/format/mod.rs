@@ -14,8 +14,8 @@ use crate::problem::{self, LoadError, Problem};
 use raw::{RawCylinder, RawDelay, RawEnd, RawMachine};
 use rungc_models::Model;
 use rungc_syntax::{DeviceClass, Source};
-use rungc_tables::Spanned;
 use std::path::Path;
+use toml::Spanned;
 
 /// A machine as a file describes it.
 #[derive(Clone, Debug)]

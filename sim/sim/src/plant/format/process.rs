@@ -5,7 +5,7 @@ use super::raw::{RawProcess, RawSensor};
 use crate::plant::process::{Drive, Process, Sensor};
 use crate::target::{Channel, Target};
 use rungc_rt::modules::Quantity;
-use rungc_tables::Spanned;
+use toml::Spanned;
 
 /// The shortest time constant, in seconds, and the longest: a day.
 const TIMES_S: std::ops::RangeInclusive<f64> = 0.001..=86_400.0;

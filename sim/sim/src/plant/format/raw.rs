@@ -1,7 +1,7 @@
 //! The tables of a description, as TOML has them.
 
-use rungc_tables::Spanned;
 use serde::Deserialize;
+use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,7 @@ use super::Reader;
 use super::raw::{RawAxis, RawEncoder, RawSwitch};
 use super::values::TOO_OFTEN;
 use crate::plant::marks::{Marks, Switch};
-use rungc_tables::Spanned;
+use toml::Spanned;
 
 /// Scale of an axis's lengths.
 #[derive(Clone, Copy)]

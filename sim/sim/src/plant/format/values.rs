@@ -3,7 +3,7 @@
 use super::{Reader, Terminal};
 use crate::target::Target;
 use rungc_syntax::DeviceClass;
-use rungc_tables::Spanned;
+use toml::Spanned;
 
 /// The longest time of a cylinder or delay, in milliseconds: an hour.
 const LONGEST_MS: u32 = 3_600_000;
