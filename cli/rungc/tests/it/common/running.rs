@@ -57,7 +57,7 @@ impl Run {
     pub fn goes_on(&self) {
         while self.rows.try_recv().is_ok() {}
         for _ in 0..2 {
-            self.rows.recv_timeout(HANG).expect("the run goes on");
+            self.rows.recv_timeout(HANG).expect("the run continues");
         }
     }
 
