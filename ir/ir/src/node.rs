@@ -13,9 +13,9 @@
 //! # Devices
 //!
 //! What a program reads and writes of its devices is one notion, an [`Access`]: a [`Place`], with or without an index,
-//! and what of it, from a bit to several bit devices as a number. [`Expr::Read`] has the access's type, [`Action::Write`]
-//! takes a value of it. Coils of timers and counters, [`Action::Reset`], and calls of the runtime access devices, too;
-//! [`crate::reach`] says for all of them which ones.
+//! and what of it, from a bit to several bit devices as a number. [`Expr::Read`] has the access's type,
+//! [`Action::Write`] takes a value of it. Coils of timers and counters, [`Action::Reset`], and calls of the runtime
+//! access devices, too; [`crate::reach`] says for all of them which ones.
 //!
 //! # Order
 //!
@@ -32,10 +32,10 @@
 //!
 //! # Temporaries
 //!
-//! A value that is needed later as it is now is a temporary: [`Action::Let`], [`Action::Edge`] or [`Action::Fetch`] assigns
-//! it, [`Expr::Temp`] reads it. It lives in one function, is assigned on every path before it is read, and holds the
-//! last value that was assigned. Where it is kept, as a local, in a field, or nowhere because its only use can stand in
-//! its place, is up to a backend.
+//! A value that is needed later as it is now is a temporary: [`Action::Let`], [`Action::Edge`] or [`Action::Fetch`]
+//! assigns it, [`Expr::Temp`] reads it. It lives in one function, is assigned on every path before it is read, and
+//! holds the last value that was assigned. Where it is kept, as a local, in a field, or nowhere because its only use
+//! can stand in its place, is up to a backend.
 //!
 //! # What lasts
 //!

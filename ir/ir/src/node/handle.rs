@@ -5,9 +5,9 @@
 pub struct ExprId(pub u32);
 
 /// Handle of a temporary; its type is in [`Module::temps`](super::Module::temps). Assigned by
-/// [`Action::Let`](super::Action::Let), [`Action::Edge`](super::Action::Edge) or [`Action::Fetch`](super::Action::Fetch) before any
-/// use on every path, in the same [`Function`](super::Function), which may be in a body around or before the use; some
-/// are assigned in several places.
+/// [`Action::Let`](super::Action::Let), [`Action::Edge`](super::Action::Edge) or
+/// [`Action::Fetch`](super::Action::Fetch) before any use on every path, in the same [`Function`](super::Function),
+/// which may be in a body around or before the use; some are assigned in several places.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct TempId(pub u32);
 
