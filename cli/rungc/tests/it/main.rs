@@ -1,5 +1,6 @@
 //! Tests of the crate from outside, one module for each area.
 
+mod arm_linux;
 mod boards;
 #[cfg(all(unix, feature = "mqtt"))]
 mod brokers;
@@ -24,6 +25,8 @@ mod flash;
 mod fleet;
 mod hostile;
 mod images;
+#[cfg(unix)]
+mod interrupted;
 mod large;
 mod learn;
 #[cfg(unix)]
