@@ -1,6 +1,6 @@
 //! `cargo xtask generate`.
 
-use crate::{Problem, book, header, root, rungc, tools};
+use crate::{Problem, book, crates, header, root, rungc, tools};
 use clap::ValueEnum;
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Write the generated files, or check that they are up to date.
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// Outputs to make [default: everything that comes out the same on every machine]
+    /// What to make [default: everything that comes out the same on every machine]
     what: Vec<What>,
     /// Write nothing; fail if a file is not up to date.
     #[arg(long)]
@@ -25,6 +25,8 @@ pub enum What {
     Book,
     /// docs/src/commands.md, from --help.
     Commands,
+    /// The table of crates in ARCHITECTURE.md.
+    Crates,
     /// The diagrams of the book, drawn by the commands on its pages.
     Diagram,
     /// golden/benches/figures.toml, measured with the Arm compiler and QEMU; `cargo test -p rungc-benches` compares.
@@ -39,7 +41,13 @@ pub enum What {
 
 impl What {
     /// Outputs that are the same on every machine.
-    const SAME_EVERYWHERE: [What; 4] = [What::Header, What::Book, What::Commands, What::Diagram];
+    const SAME_EVERYWHERE: [What; 5] = [
+        What::Header,
+        What::Book,
+        What::Commands,
+        What::Crates,
+        What::Diagram,
+    ];
 }
 
 /// Generated files, by their paths below the root.
@@ -73,6 +81,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             What::Header => header::make()?,
             What::Book => book::make()?,
             What::Commands => rungc::commands()?,
+            What::Crates => crates::make()?,
             What::Diagram => rungc::diagrams()?,
             What::Figures | What::Benchmarks | What::Snapshots if args.check => {
                 return Err(format!(

@@ -4,6 +4,7 @@
 
 mod book;
 mod campaign;
+mod crates;
 mod generate;
 mod header;
 mod package;

@@ -101,15 +101,15 @@ fn head(picture: &Path) -> Result<[u8; PNG_HEAD], Problem> {
     Ok(head)
 }
 
+/// The workspace, as `cargo metadata` describes it.
+pub fn metadata() -> Result<serde_json::Value, Problem> {
+    let args = ["metadata", "--no-deps", "--format-version", "1"];
+    Ok(serde_json::from_str(&output(&mut cargo(&args))?)?)
+}
+
 /// The crates of the workspace that are not published.
 pub fn private_packages() -> Result<Vec<String>, Problem> {
-    let metadata = output(&mut cargo(&[
-        "metadata",
-        "--no-deps",
-        "--format-version",
-        "1",
-    ]))?;
-    let metadata: serde_json::Value = serde_json::from_str(&metadata)?;
+    let metadata = metadata()?;
     let packages = metadata["packages"].as_array().into_iter().flatten();
     // `publish = false` is an empty list of registries.
     let private =

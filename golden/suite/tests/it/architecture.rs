@@ -1,9 +1,9 @@
-//! ARCHITECTURE.md's picture and table of the crates agree with Cargo's metadata, and each crate says where to start
-//! reading.
+//! ARCHITECTURE.md's picture and the rules in `Cargo.toml` agree with Cargo's metadata, and each crate says where to
+//! start reading.
 
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 fn root() -> PathBuf {
@@ -13,6 +13,15 @@ fn root() -> PathBuf {
 #[derive(Deserialize)]
 struct Metadata {
     packages: Vec<Package>,
+    metadata: Rules,
+}
+
+/// `[workspace.metadata]`.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Rules {
+    /// For each package, those that it must not reach.
+    must_not_know: BTreeMap<String, BTreeSet<String>>,
 }
 
 /// A package of the workspace, as `cargo metadata` prints it.
@@ -25,40 +34,36 @@ struct Package {
 
 #[derive(Deserialize)]
 struct Dependency {
+    name: String,
     /// `None` for a normal one, else `dev` or `build`.
     kind: Option<String>,
     /// The folder of a dependency inside the workspace.
     path: Option<PathBuf>,
 }
 
-/// A crate's folder below the root, by which the documents name it.
-fn folder(path: &Path) -> String {
-    let below = path
-        .strip_prefix(root())
-        .expect("crates lie below the root");
-    let names: Vec<_> = below.iter().map(|name| name.to_string_lossy()).collect();
-    names.join("/")
-}
-
 impl Package {
+    /// Its folder below the root, by which the documents name it.
     fn folder(&self) -> String {
-        folder(
-            self.manifest_path
-                .parent()
-                .expect("a manifest has a folder"),
-        )
+        let folder = self
+            .manifest_path
+            .parent()
+            .expect("a manifest has a folder");
+        let below = folder
+            .strip_prefix(root())
+            .expect("crates lie below the root");
+        let names: Vec<_> = below.iter().map(|name| name.to_string_lossy()).collect();
+        names.join("/")
     }
 
-    /// Dependencies of its code, not of its tests.
+    /// Packages of the workspace that its own code depends on, not that of its tests.
     fn uses(&self) -> BTreeSet<String> {
-        let normal = self.dependencies.iter().filter(|d| d.kind.is_none());
-        normal
-            .filter_map(|d| Some(folder(d.path.as_deref()?)))
-            .collect()
+        let dependencies = self.dependencies.iter();
+        let own = dependencies.filter(|one| one.kind.is_none() && one.path.is_some());
+        own.map(|one| one.name.clone()).collect()
     }
 }
 
-fn packages() -> Vec<Package> {
+fn metadata() -> Metadata {
     let output = Command::new(env!("CARGO"))
         .args([
             "metadata",
@@ -75,51 +80,20 @@ fn packages() -> Vec<Package> {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let metadata: Metadata = serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
-    metadata.packages
+    serde_json::from_slice(&output.stdout).expect("cargo prints JSON")
 }
 
-/// The crates of the workspace, and what each depends on.
+fn packages() -> Vec<Package> {
+    metadata().packages
+}
+
+/// The packages of the workspace, and what each depends on.
 fn graph() -> BTreeMap<String, BTreeSet<String>> {
     let packages = packages();
     packages
         .iter()
-        .map(|package| (package.folder(), package.uses()))
+        .map(|package| (package.name.clone(), package.uses()))
         .collect()
-}
-
-/// The section on crates of ARCHITECTURE.md.
-fn section() -> String {
-    let text = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("ARCHITECTURE.md");
-    let (_, section) = text
-        .split_once("\n## Crates\n")
-        .expect("a section on crates");
-    let end = section.find("\n## ").unwrap_or(section.len());
-    section[..end].to_string()
-}
-
-/// The names in backquotes.
-fn quoted(cell: &str) -> BTreeSet<String> {
-    cell.split('`')
-        .skip(1)
-        .step_by(2)
-        .map(str::to_string)
-        .collect()
-}
-
-/// The rows of the table: a crate, what it depends on, what it must not know.
-fn rows() -> Vec<(String, BTreeSet<String>, BTreeSet<String>)> {
-    let section = section();
-    let rows = section.lines().filter(|line| line.starts_with("| `"));
-    rows.map(|row| {
-        let cells: Vec<&str> = row.trim_matches('|').split('|').collect();
-        let [name, uses, forbidden] = cells[..] else {
-            panic!("three columns: {row}");
-        };
-        let name = quoted(name).pop_first().expect("a crate's name");
-        (name, quoted(uses), quoted(forbidden))
-    })
-    .collect()
 }
 
 /// All that a crate depends on, also through others.
@@ -138,29 +112,17 @@ fn reached(graph: &BTreeMap<String, BTreeSet<String>>, from: &str) -> BTreeSet<S
 }
 
 #[test]
-fn the_table_lists_what_crates_depend_on() {
-    let rows = rows();
-    let listed = rows
-        .iter()
-        .map(|(name, uses, _)| (name.clone(), uses.clone()));
-    let listed: BTreeMap<_, _> = listed.collect();
-    assert_eq!(listed.len(), rows.len(), "a crate has two rows");
-    assert_eq!(listed, graph(), "left: ARCHITECTURE.md, right: Cargo");
-}
-
-#[test]
 fn no_crate_reaches_what_it_must_not_know() {
-    let graph = graph();
-    for (name, _, forbidden) in rows() {
-        for other in &forbidden {
-            assert!(
-                graph.contains_key(other),
-                "{name}: there is no crate `{other}`"
-            );
+    let (graph, rules) = (graph(), metadata().metadata.must_not_know);
+    let (ruled, crates) = (rules.keys(), graph.keys());
+    assert!(ruled.eq(crates), "left: rules in Cargo.toml, right: crates");
+    for (name, forbidden) in &rules {
+        for other in forbidden {
+            assert!(graph.contains_key(other), "{name}: there is no `{other}`");
         }
         assert!(!forbidden.is_empty(), "{name} must not know anything?");
-        let known: Vec<_> = reached(&graph, &name)
-            .intersection(&forbidden)
+        let known: Vec<_> = reached(&graph, name)
+            .intersection(forbidden)
             .cloned()
             .collect();
         assert!(known.is_empty(), "{name} must not know {known:?}");
@@ -169,8 +131,11 @@ fn no_crate_reaches_what_it_must_not_know() {
 
 /// The crates of the picture, in reading order: a line is a folder and its crates, or folders that are crates.
 fn drawn() -> Vec<String> {
-    let section = section();
-    let picture = section.split("```").nth(1).expect("a picture");
+    let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("ARCHITECTURE.md");
+    let (_, crates) = page
+        .split_once("\n## Folders and crates\n")
+        .expect("a section on crates");
+    let picture = crates.split("```").nth(1).expect("a picture");
     let mut crates = Vec::new();
     for line in picture.lines() {
         let mut folders = Vec::new();
@@ -190,7 +155,7 @@ fn drawn() -> Vec<String> {
 
 #[test]
 fn the_picture_shows_each_crate_above_or_left_of_its_dependencies() {
-    let (drawn, graph) = (drawn(), graph());
+    let (drawn, graph, packages) = (drawn(), graph(), packages());
     let places: BTreeMap<&str, usize> = drawn
         .iter()
         .enumerate()
@@ -198,13 +163,21 @@ fn the_picture_shows_each_crate_above_or_left_of_its_dependencies() {
         .collect();
     assert_eq!(places.len(), drawn.len(), "a crate is drawn twice");
     let shown: Vec<&str> = places.keys().copied().collect();
-    let crates: Vec<&str> = graph.keys().map(String::as_str).collect();
-    assert_eq!(shown, crates, "left: the picture, right: Cargo");
+    let folders: BTreeMap<&str, String> = packages
+        .iter()
+        .map(|package| (package.name.as_str(), package.folder()))
+        .collect();
+    let crates: BTreeSet<&str> = folders.values().map(String::as_str).collect();
+    assert!(
+        shown.iter().eq(&crates),
+        "drawn: {shown:?}, in Cargo: {crates:?}"
+    );
+    let place = |name: &str| places[folders[name].as_str()];
     for (name, uses) in &graph {
         for other in uses {
             assert!(
-                places[name.as_str()] < places[other.as_str()],
-                "{name} stands above or left of {other}"
+                place(name) < place(other),
+                "{name} is not above or left of {other}"
             );
         }
     }
