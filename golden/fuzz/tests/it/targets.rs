@@ -153,7 +153,7 @@ fn readers() -> BTreeSet<String> {
     let folders = WalkDir::new(root).max_depth(2);
     let folders = folders.into_iter().filter_entry(is_ours);
     let sources = folders.map(|entry| entry.unwrap().path().join("src"));
-    let sources = sources.filter(|folder| folder.with_file_name("Cargo.toml").exists());
+    let sources = sources.filter(|src| src.is_dir() && src.with_file_name("Cargo.toml").exists());
     let files = sources.flat_map(WalkDir::new);
     let mut found = BTreeSet::new();
     for file in files.map(|file| file.unwrap()) {
