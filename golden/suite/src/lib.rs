@@ -2,7 +2,8 @@
 //! programs for differential tests, and the pages that are generated from the tables.
 //!
 //! Random programs are made from the catalogue's rows. What they should do must not be known here: the engines are
-//! compared with one another. Start reading at `tests/it/conformance.rs`, then [`random`] and `tests/it/differential.rs`.
+//! compared with one another. Start reading at `tests/it/conformance.rs`, then [`random`] and
+//! `tests/it/differential.rs`.
 
 pub mod book;
 mod fitting;

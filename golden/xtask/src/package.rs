@@ -30,7 +30,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     // The runtime's sources lie beside the crate that embeds them, and packages have no neighbours.
     let published = root().join("runtime-rt/sources/published");
     for (path, text) in rungc_runtime_sources::EMBEDDED {
-        // A folder with a manifest would be a package of its own.
+        // Cargo takes a folder with a manifest for another package.
         let path = published.join(path.replace("Cargo.toml", "manifest.toml"));
         fs::create_dir_all(path.parent().unwrap_or(&published))?;
         fs::write(path, text)?;
