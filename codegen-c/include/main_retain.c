@@ -29,7 +29,7 @@ static bool keep_in(const char *path)
     return true;
 }
 
-static bool read_kept(void *context, uint32_t offset, void *bytes, uint32_t length)
+static bool read_retained(void *context, uint32_t offset, void *bytes, uint32_t length)
 {
     FILE *const file = context;
 
@@ -37,10 +37,10 @@ static bool read_kept(void *context, uint32_t offset, void *bytes, uint32_t leng
 }
 
 /* Gives latched devices the values in the file, which need not exist; false if it cannot be used. */
-static bool load_kept(PROGRAM_plc *plc)
+static bool load_retained(PROGRAM_plc *plc)
 {
     FILE *const file = retained.path != NULL ? fopen(retained.path, "rb") : NULL;
-    const rungc_source source = {read_kept, file};
+    const rungc_source source = {read_retained, file};
     rungc_record record = {0};
     rungc_loaded loaded = RUNGC_LOADED_FAILED;
     uint32_t dropped = 0;
@@ -76,7 +76,7 @@ static bool load_kept(PROGRAM_plc *plc)
     return loaded == RUNGC_LOADED_DEVICES;
 }
 
-static bool put_kept(void *context, const uint8_t *bytes, uint32_t length)
+static bool put_retained(void *context, const uint8_t *bytes, uint32_t length)
 {
     (void)context;
     if (length > sizeof retained.record - retained.length) {
@@ -88,9 +88,9 @@ static bool put_kept(void *context, const uint8_t *bytes, uint32_t length)
 }
 
 /* Puts the values, of which this is the checksum, into the record. */
-static void record_kept(const PROGRAM_plc *plc, uint32_t state)
+static void record_retained(const PROGRAM_plc *plc, uint32_t state)
 {
-    const rungc_sink sink = {put_kept, NULL};
+    const rungc_sink sink = {put_retained, NULL};
 
     retained.length = 0;
     (void)rungc_put_record(&PROGRAM_retained, plc, retained.sequence, &sink);
@@ -168,7 +168,7 @@ static void *write_records(void *context)
 }
 
 /* Starts it; false if the system has none. */
-static bool begin_kept(void)
+static bool begin_retained(void)
 {
     pthread_t thread;
     int error = 0;
@@ -214,7 +214,7 @@ static void end_record(int error)
 }
 
 /* Between scans: has what has changed saved, once a second. */
-static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
+static void save_retained(PROGRAM_plc *plc, uint32_t now_ms)
 {
     if (retained.path == NULL) {
         return;
@@ -229,7 +229,7 @@ static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
         const uint32_t state = rungc_retained_state(&PROGRAM_retained, plc);
         retained.looked_ms = now_ms;
         if (!retained.has_saved || retained.saved != state) {
-            record_kept(plc, state);
+            record_retained(plc, state);
             retained.writes = true;
             sem_post(&retained.to_write);
         }
@@ -238,7 +238,7 @@ static void save_kept(PROGRAM_plc *plc, uint32_t now_ms)
 }
 
 /* After the last scan: saves what has changed since, and waits for the disk; false if it does not take it. */
-static bool end_kept(const PROGRAM_plc *plc)
+static bool end_retained(const PROGRAM_plc *plc)
 {
     if (retained.path == NULL) {
         return true;
@@ -252,7 +252,7 @@ static bool end_kept(const PROGRAM_plc *plc)
     if (retained.has_saved && retained.saved == state) {
         return true;
     }
-    record_kept(plc, state);
+    record_retained(plc, state);
     const int error = replace_file();
     if (error != 0) {
         print(stderr, "PROGRAM: %s: %s; latched devices are not saved\n", retained.path, strerror(error));

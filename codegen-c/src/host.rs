@@ -287,16 +287,16 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
     let is_stored =
         unsaved.is_some_and(|(class, number)| fields.access(&mut device, class, number));
     let show = match is_stored {
-        true => format!("    {device} = kept.fails;\n"),
+        true => format!("    {device} = retained.fails;\n"),
         false => String::new(),
     };
     Retaining {
         header: "#include \"PROGRAM_retain.h\"\n",
         functions: template!("main_retain.c").replace("    /* UNSAVED */\n", &show),
-        load: "    if (!load_kept(plc) || !begin_kept()) {\n        return 2;\n    }\n",
-        save: "        save_kept(plc, now_ms);\n",
-        end: "    const bool is_kept = end_kept(plc);\n",
-        code: "is_kept ? 0 : 1",
+        load: "    if (!load_retained(plc) || !begin_retained()) {\n        return 2;\n    }\n",
+        save: "        save_retained(plc, now_ms);\n",
+        end: "    const bool is_saved = end_retained(plc);\n",
+        code: "is_saved ? 0 : 1",
     }
 }
 
@@ -340,7 +340,7 @@ fn valued(module: &Module, host: &Host) -> String {
             Takes::Line => "open_line(argv[++i])".to_string(),
             Takes::Retained => "keep_in(argv[++i])".to_string(),
             Takes::Io => outside::option(module, "describe"),
-            Takes::Log => outside::option(module, "log"),
+            Takes::Log => outside::option(module, "open_log"),
             Takes::Address(protocol) => open_server(protocol),
             Takes::AddressOrLine(protocol, port) => {
                 let open = open_server(protocol);

@@ -19,8 +19,10 @@ pub static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files
 /// Dependency on the crate that the runtime needs, in the manifest, and where its sources are included.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
 
-/// Silences warnings about libm, as cargo does for packages of the registry.
-const NO_WARNINGS: &str = "\n[lints.rust]\nwarnings = \"allow\"\n";
+/// Silences warnings about libm, as cargo does for packages of the registry. The lint that libm violates is named, so
+/// that it also stays silent where users deny warnings.
+const NO_WARNINGS: &str =
+    "\n[lints.rust]\nwarnings = \"allow\"\nunstable_name_collisions = \"allow\"\n";
 
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
 /// `src/…`. They are as they were written, but for the manifests, which have no `dev-dependencies`: those would have to

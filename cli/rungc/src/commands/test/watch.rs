@@ -25,6 +25,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     Chosen::of(args, cx)?;
     let mut inputs: BTreeSet<PathBuf> = BTreeSet::new();
     loop {
+        let unread = look(args, &inputs);
         let chosen = Chosen::of(args, cx);
         let loaded = chosen.and_then(|chosen| {
             let files = chosen.load(args)?;
@@ -34,7 +35,13 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         if let Ok((chosen, files)) = &loaded {
             inputs = all_inputs(args, chosen, files);
         }
-        let before = look(args, &inputs);
+        let mut before = look(args, &inputs);
+        // A file that is saved after it was read, and before this, has changed.
+        for (path, state) in &mut before {
+            if let Some(earlier) = unread.get(path) {
+                *state = *earlier;
+            }
+        }
         let ran = loaded.and_then(|(chosen, files)| run_files(args, &chosen, files, cx));
         if let Err(failure) = ran {
             match failure {
