@@ -531,6 +531,8 @@ LD M0
 MRDD K2 K100 K4 D10 K1
 LD M1
 MWRDS K2 K200 K2 D20 K1
+LDI M50
+OUT M50
 END
 ";
     asks_a_faulty_slave("hm", "COM1", &["512", "368"], text);

@@ -74,10 +74,12 @@ impl Run {
         while !self.next_line().contains(text) {}
     }
 
-    /// Runs `p.il` of this folder with more options, and waits for nothing.
+    /// Runs `p.il` of this folder with more options, and waits for nothing. HM has no clock relays: a program for it
+    /// inverts M50 in each scan.
     pub fn start(folder: &Path, model: &str, args: &[&str]) -> Run {
+        let beat = if model == "hm" { "M50" } else { "M8012" };
         let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-            .args(["run", "p.il", "--model", model, "--watch", "M8012"])
+            .args(["run", "p.il", "--model", model, "--watch", beat])
             .args(args)
             .current_dir(folder)
             .stdout(Stdio::piped())
