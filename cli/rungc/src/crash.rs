@@ -1,4 +1,4 @@
-//! What a mistake in rungc itself looks like to its user.
+//! Report of a mistake in rungc itself.
 
 use std::backtrace::Backtrace;
 use std::{env, panic, process, thread};

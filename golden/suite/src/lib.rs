@@ -1,5 +1,5 @@
 //! Tests that span the crates: conformance cases (`conformance/`), snapshots of what the examples become, random
-//! programs for differential tests, and the pages that are generated from the tables.
+//! programs for differential tests, the pages that are generated from the tables, and the workspace's own rules.
 //!
 //! Random programs are made from the catalogue's rows. What they should do must not be known here: the engines are
 //! compared with one another. Start reading at `tests/it/conformance.rs`, then [`random`] and
@@ -14,6 +14,7 @@ pub mod rng;
 pub mod rows;
 pub mod shapes;
 pub mod stations;
+pub mod workspace;
 
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};

@@ -1,6 +1,7 @@
 //! `cargo xtask package`.
 
 use crate::{Problem, root, tools};
+use rungc_golden::workspace;
 use std::fs;
 use std::process::Command;
 
@@ -39,8 +40,9 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     if !args.publish {
         cargo.arg("--dry-run");
     }
-    for private in tools::private_packages()? {
-        cargo.args(["--exclude", &private]);
+    let crates = workspace::crates(&root())?;
+    for (private, _) in crates.iter().filter(|(_, one)| !one.is_published) {
+        cargo.args(["--exclude", private]);
     }
     if args.no_verify {
         cargo.arg("--no-verify");

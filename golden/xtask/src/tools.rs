@@ -100,21 +100,3 @@ fn head(picture: &Path) -> Result<[u8; PNG_HEAD], Problem> {
     fs::File::open(picture)?.read_exact(&mut head)?;
     Ok(head)
 }
-
-/// The workspace, as `cargo metadata` describes it.
-pub fn metadata() -> Result<serde_json::Value, Problem> {
-    let args = ["metadata", "--no-deps", "--format-version", "1"];
-    Ok(serde_json::from_str(&output(&mut cargo(&args))?)?)
-}
-
-/// The crates of the workspace that are not published.
-pub fn private_packages() -> Result<Vec<String>, Problem> {
-    let metadata = metadata()?;
-    let packages = metadata["packages"].as_array().into_iter().flatten();
-    // `publish = false` is an empty list of registries.
-    let private =
-        packages.filter(|package| package["publish"].as_array().is_some_and(Vec::is_empty));
-    Ok(private
-        .filter_map(|package| package["name"].as_str().map(String::from))
-        .collect())
-}

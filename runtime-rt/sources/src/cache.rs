@@ -35,10 +35,7 @@ pub fn folder() -> io::Result<PathBuf> {
 }
 
 /// The cache of these sources in a folder.
-///
-/// # Errors
-/// It cannot be written.
-pub fn inside(folder: &Path) -> io::Result<PathBuf> {
+fn inside(folder: &Path) -> io::Result<PathBuf> {
     let folder = std::path::absolute(folder)?.join(of_sources());
     fs::create_dir_all(&folder)?;
     Ok(folder)

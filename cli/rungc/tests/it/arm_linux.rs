@@ -1,6 +1,6 @@
 //! Executables for Linux on 32-bit Arm, under QEMU's user emulation.
 
-use crate::common::{HANG, MOTOR, cache, folder, rungc, soon, text};
+use crate::common::{HANG, MOTOR, folder, rungc, soon, text};
 use crate::firmware::quiet;
 use crate::tools::{cargo, leave_out, no_rust, tools, with_cargo, with_library};
 use std::io::{BufRead, BufReader, Write};
@@ -55,7 +55,6 @@ fn executables_run_on_arm_linux() {
             "build", &file, "--emit", "bin", "--io", "--target", LINUX, "-o", program,
         ];
         let output = with_cargo(&cargo)
-            .env("RUNGC_CACHE_DIR", cache())
             .args(args)
             .current_dir(folder.path())
             .output();

@@ -169,7 +169,7 @@ fn lost_and_back(form: Form) {
     });
     scans(folder);
     for recipe in [7, 8] {
-        let broker = broker(folder, port);
+        let broker = broker(folder);
         works(folder, port, recipe);
         drop(broker);
         soon("the broker is lost", || file(folder, "lost") == "1");
@@ -178,7 +178,7 @@ fn lost_and_back(form: Form) {
         });
         scans(folder);
     }
-    let _broker = broker(folder, port);
+    let _broker = broker(folder);
     works(folder, port, 9);
     assert_eq!(run.interrupt(), Some(form.code()));
     shows(port, "plant/status", "offline");
@@ -198,7 +198,7 @@ fn the_last_will_says_that_the_plc_is_gone() {
         ("rungc.toml", settings.as_bytes()),
         ("mosquitto.conf", open_to_all(port).as_bytes()),
     ]);
-    let _broker = broker(folder.path(), port);
+    let _broker = broker(folder.path());
     let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
     serve
         .arg("serve")
@@ -442,7 +442,7 @@ Y000 = 'write plant/motor'
         let folder = folder.path();
         certificates(folder);
         let port = ports[0].1;
-        let first = broker(folder, port);
+        let first = broker(folder);
         let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
         serve.arg("serve").current_dir(folder).stdin(Stdio::null());
         serve.stdout(Stdio::null()).stderr(Stdio::piped());
@@ -484,7 +484,7 @@ Y000 = 'write plant/motor'
         scans(folder);
         // A corrected file takes effect at the next attempt.
         fs::copy(folder.join("ca.pem"), folder.join("foreign.pem")).unwrap();
-        let _broker = broker(folder, port);
+        let _broker = broker(folder);
         works();
         soon("the authority is known", || {
             lines().contains("authority: connected to ")

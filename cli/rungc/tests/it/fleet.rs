@@ -304,7 +304,7 @@ mod brokers {
             ("mosquitto.conf", open_to_all(port).as_bytes()),
         ]);
         let folder = folder.path();
-        let first = broker(folder, port);
+        let first = broker(folder);
         let mut fleets = ["hall-1.toml", "hall-2.toml"].map(|file| {
             let (fleet, errors) = start(folder, file);
             thread::spawn(move || errors.lines().map_while(Result::ok).count());
@@ -313,7 +313,7 @@ mod brokers {
         works(port);
         drop(first);
         thread::sleep(Duration::from_millis(500));
-        let _second = broker(folder, port);
+        let _second = broker(folder);
         works(port);
         for fleet in &mut fleets {
             let summary = interrupt(fleet);

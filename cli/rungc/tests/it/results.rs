@@ -234,7 +234,6 @@ mod interrupted {
         let mut child = begin(
             Command::new(env!("CARGO_BIN_EXE_rungc"))
                 .args(["test", ".", "--watch"])
-                .env("RUNGC_CACHE_DIR", common::cache())
                 .current_dir(path),
         );
         let mut out = std::io::BufReader::new(child.stdout.take().unwrap());
@@ -379,7 +378,6 @@ fn answered(folder: &Path, answers: &str) -> String {
     let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
         .args(["test", ".", "--filter", "course", "--review"])
         .current_dir(folder)
-        .env("RUNGC_CACHE_DIR", common::cache())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -9,7 +9,7 @@ use rungc_rt::{CmpOp, EdgeKind, TimerKind};
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_runtime_sources::library;
 use rungc_syntax::{DeviceClass, Span};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// A module in the making.
@@ -198,14 +198,9 @@ pub fn compiled(name: &str, text: &str) -> Module {
         .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
 }
 
-/// Cache of the runtime and of its compiled parts, for the tests of all crates.
-fn kept() -> PathBuf {
-    cache::inside(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")).unwrap()
-}
-
 /// The runtime that all emitted crates share.
 pub fn runtime() -> Runtime {
-    let folder = library::unpacked(&kept()).unwrap();
+    let folder = library::unpacked(&cache::folder().unwrap()).unwrap();
     Runtime::At(folder.to_string_lossy().into_owned())
 }
 
@@ -221,7 +216,7 @@ pub fn write(folder: &Path, files: &[OutFile]) {
 /// Runs cargo in an emitted crate with warnings forbidden, in a folder where the runtime is compiled once; that folder,
 /// which is the crate's until it is dropped.
 pub fn cargo(folder: &Path, arguments: &[&str]) -> Slot {
-    let objects = Slot::wait(kept().join("linted")).unwrap();
+    let objects = Slot::wait(cache::folder().unwrap().join("linted")).unwrap();
     // Cargo takes crates with the same name for one, and compiles those again that are newer.
     let files = std::fs::read_dir(folder)
         .unwrap()

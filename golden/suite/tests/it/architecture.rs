@@ -1,130 +1,28 @@
 //! ARCHITECTURE.md's picture and the rules in `Cargo.toml` agree with Cargo's metadata, and each crate says where to
 //! start reading.
 
-use serde::Deserialize;
+use rungc_golden::workspace::{self, Crate, Crates};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
-use std::process::Command;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("RUNGC_ROOT"))
 }
 
-#[derive(Deserialize)]
-struct Metadata {
-    packages: Vec<Package>,
-    metadata: Rules,
-}
-
-/// `[workspace.metadata]`.
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-struct Rules {
-    /// For each package, those that it must not reach.
-    must_not_know: BTreeMap<String, BTreeSet<String>>,
-}
-
-/// A package of the workspace, as `cargo metadata` prints it.
-#[derive(Deserialize)]
-struct Package {
-    name: String,
-    manifest_path: PathBuf,
-    dependencies: Vec<Dependency>,
-}
-
-#[derive(Deserialize)]
-struct Dependency {
-    name: String,
-    /// `None` for a normal one, else `dev` or `build`.
-    kind: Option<String>,
-    /// The folder of a dependency inside the workspace.
-    path: Option<PathBuf>,
-}
-
-impl Package {
-    /// Its folder below the root, by which the documents name it.
-    fn folder(&self) -> String {
-        let folder = self
-            .manifest_path
-            .parent()
-            .expect("a manifest has a folder");
-        let below = folder
-            .strip_prefix(root())
-            .expect("crates lie below the root");
-        let names: Vec<_> = below.iter().map(|name| name.to_string_lossy()).collect();
-        names.join("/")
-    }
-
-    /// Packages of the workspace that its own code depends on, not that of its tests.
-    fn uses(&self) -> BTreeSet<String> {
-        let dependencies = self.dependencies.iter();
-        let own = dependencies.filter(|one| one.kind.is_none() && one.path.is_some());
-        own.map(|one| one.name.clone()).collect()
-    }
-}
-
-fn metadata() -> Metadata {
-    let output = Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--no-deps",
-            "--offline",
-            "--format-version",
-            "1",
-        ])
-        .current_dir(root())
-        .output()
-        .expect("cargo starts");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    serde_json::from_slice(&output.stdout).expect("cargo prints JSON")
-}
-
-fn packages() -> Vec<Package> {
-    metadata().packages
-}
-
-/// The packages of the workspace, and what each depends on.
-fn graph() -> BTreeMap<String, BTreeSet<String>> {
-    let packages = packages();
-    packages
-        .iter()
-        .map(|package| (package.name.clone(), package.uses()))
-        .collect()
-}
-
-/// All that a crate depends on, also through others.
-fn reached(graph: &BTreeMap<String, BTreeSet<String>>, from: &str) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    let mut open = vec![from];
-    while let Some(name) = open.pop() {
-        open.extend(
-            graph[name]
-                .iter()
-                .filter(|uses| found.insert((*uses).clone()))
-                .map(String::as_str),
-        );
-    }
-    found
+fn crates() -> Crates {
+    workspace::crates(&root()).expect("cargo metadata")
 }
 
 #[test]
 fn no_crate_reaches_what_it_must_not_know() {
-    let (graph, rules) = (graph(), metadata().metadata.must_not_know);
-    let (ruled, crates) = (rules.keys(), graph.keys());
-    assert!(ruled.eq(crates), "left: rules in Cargo.toml, right: crates");
-    for (name, forbidden) in &rules {
-        for other in forbidden {
-            assert!(graph.contains_key(other), "{name}: there is no `{other}`");
-        }
-        assert!(!forbidden.is_empty(), "{name} must not know anything?");
-        let known: Vec<_> = reached(&graph, name)
-            .intersection(forbidden)
-            .cloned()
-            .collect();
+    let crates = crates();
+    for (name, Crate { must_not_know, .. }) in &crates {
+        assert!(
+            !must_not_know.is_empty(),
+            "no rule for {name} in Cargo.toml"
+        );
+        let reached = workspace::reached(&crates, name);
+        let known: Vec<_> = reached.intersection(must_not_know).collect();
         assert!(known.is_empty(), "{name} must not know {known:?}");
     }
 }
@@ -155,25 +53,18 @@ fn drawn() -> Vec<String> {
 
 #[test]
 fn the_picture_shows_each_crate_above_or_left_of_its_dependencies() {
-    let (drawn, graph, packages) = (drawn(), graph(), packages());
+    let (drawn, crates) = (drawn(), crates());
     let places: BTreeMap<&str, usize> = drawn
         .iter()
         .enumerate()
         .map(|(place, name)| (name.as_str(), place))
         .collect();
     assert_eq!(places.len(), drawn.len(), "a crate is drawn twice");
-    let shown: Vec<&str> = places.keys().copied().collect();
-    let folders: BTreeMap<&str, String> = packages
-        .iter()
-        .map(|package| (package.name.as_str(), package.folder()))
-        .collect();
-    let crates: BTreeSet<&str> = folders.values().map(String::as_str).collect();
-    assert!(
-        shown.iter().eq(&crates),
-        "drawn: {shown:?}, in Cargo: {crates:?}"
-    );
-    let place = |name: &str| places[folders[name].as_str()];
-    for (name, uses) in &graph {
+    let shown: BTreeSet<&str> = places.keys().copied().collect();
+    let folders: BTreeSet<&str> = crates.values().map(|one| one.folder.as_str()).collect();
+    assert_eq!(shown, folders, "left: drawn, right: in Cargo");
+    let place = |name: &str| places[crates[name].folder.as_str()];
+    for (name, Crate { uses, .. }) in &crates {
         for other in uses {
             assert!(
                 place(name) < place(other),
@@ -185,28 +76,23 @@ fn the_picture_shows_each_crate_above_or_left_of_its_dependencies() {
 
 #[test]
 fn packages_are_named_after_their_folders() {
-    for package in packages() {
-        let folder = package.folder();
-        let expected = match folder.as_str() {
+    for (package, one) in crates() {
+        let expected = match one.folder.as_str() {
             "cli/rungc" => "rungc".to_string(),
             "frontend/formats" => "rungc-frontend".to_string(),
             "golden/suite" => "rungc-golden".to_string(),
             "golden/xtask" => "xtask".to_string(),
             "runtime-rt/sources" => "rungc-runtime-sources".to_string(),
-            path => format!("rungc-{}", path.rsplit('/').next().unwrap_or(path)),
+            _ => format!("rungc-{}", one.name()),
         };
-        assert_eq!(package.name, expected);
+        assert_eq!(package, expected);
     }
 }
 
 #[test]
 fn each_crate_says_where_to_start_reading() {
-    for package in packages() {
-        let folder = package
-            .manifest_path
-            .parent()
-            .expect("a manifest has a folder");
-        let roots = ["src/lib.rs", "src/main.rs"].map(|root| folder.join(root));
+    for one in crates().values() {
+        let roots = ["src/lib.rs", "src/main.rs"].map(|file| root().join(&one.folder).join(file));
         let root = roots
             .iter()
             .find(|root| root.exists())

@@ -3,7 +3,6 @@
 
 mod pico;
 
-use crate::common;
 use crate::common::{folder, rungc, text};
 use crate::tools::{cargo, leave_out, no_rust, tools, with_cargo};
 use serde_json::{Value, json};
@@ -250,7 +249,6 @@ impl Published {
             .args(["build", "p.il", "--model", self.model])
             .args(["--emit", emit, "--backend", backend])
             .args(["--board", "own.toml", "-o", &image, "--force"])
-            .env("RUNGC_CACHE_DIR", common::cache())
             .current_dir(folder)
             .output()
             .unwrap();

@@ -118,16 +118,10 @@ pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
     folder
 }
 
-/// Folder of the built runtime, for all tests.
-pub fn cache() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
-}
-
 pub fn rungc(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rungc"))
         .args(args)
         .current_dir(folder)
-        .env("RUNGC_CACHE_DIR", cache())
         .output()
         .unwrap()
 }
@@ -135,7 +129,7 @@ pub fn rungc(folder: &Path, args: &[&str]) -> Output {
 /// Builds a program in Rust: emits a package with these arguments into a folder and lets cargo build it, with the
 /// runtime that all tests share and in a folder where that is compiled once. Returns its executable `name`.
 pub fn built_in_rust(folder: &Path, args: &[&str], output: &str, name: &str) -> PathBuf {
-    let kept = cache::inside(&cache()).unwrap();
+    let kept = cache::folder().unwrap();
     let runtime = library::unpacked(&kept).unwrap();
     let form = ["--emit", "rust", "--main", "-o", output, "--runtime"];
     let emitted = rungc(

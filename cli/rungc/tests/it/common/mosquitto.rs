@@ -3,6 +3,7 @@
 
 use super::{soon, text};
 use std::env;
+use std::fs;
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -56,15 +57,22 @@ pub fn open_to_all(port: u16) -> String {
     format!("listener {port} 127.0.0.1\nallow_anonymous true\nuser root\n")
 }
 
-/// A broker in a folder that has its configuration.
-pub fn broker(folder: &Path, port: u16) -> Ends {
+/// A broker in a folder that has its configuration, with all its listeners open.
+pub fn broker(folder: &Path) -> Ends {
     let mut command = Command::new("mosquitto");
     command.args(["-c", "mosquitto.conf"]).current_dir(folder);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let broker = Ends(command.spawn().unwrap());
-    soon("the broker listens", || {
-        TcpStream::connect(("127.0.0.1", port)).is_ok()
+    let configuration = fs::read_to_string(folder.join("mosquitto.conf")).unwrap();
+    let listeners = configuration.lines().filter_map(|line| {
+        let mut words = line.strip_prefix("listener ")?.split(' ');
+        words.next()?.parse::<u16>().ok()
     });
+    for port in listeners {
+        soon("the broker listens", || {
+            TcpStream::connect(("127.0.0.1", port)).is_ok()
+        });
+    }
     broker
 }
 

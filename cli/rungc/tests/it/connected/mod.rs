@@ -1,6 +1,6 @@
 //! A program with connections in the forms in which it runs: by `rungc serve`, and as an executable of C or Rust.
 
-use crate::common::{built_in_rust, cache, rungc, text};
+use crate::common::{built_in_rust, rungc, text};
 use crate::tools::{self, cargo, leave_out, no_rust, with_cargo, with_library};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -83,6 +83,5 @@ fn for_arm(folder: &Path, args: &[&str]) -> Option<Output> {
         return None;
     };
     let mut rungc = with_cargo(&cargo);
-    rungc.env("RUNGC_CACHE_DIR", cache());
     Some(rungc.args(args).current_dir(folder).output().unwrap())
 }
