@@ -1,5 +1,5 @@
 /*
- * main.c: runs PROGRAM on a Linux host in real time, one scan every 10 ms.
+ * main.c: runs PROGRAM on a computer in real time, one scan every 10 ms.
  *
  * Type `X0=1` or `X0=0` and Enter to switch an input; outputs are printed when they change. Ctrl-C or `quit` stops.
  */
@@ -14,12 +14,6 @@
 
 static PROGRAM_plc plc_memory;
 static volatile sig_atomic_t stopped;
-
-static void stop(int signal_number)
-{
-    (void)signal_number;
-    stopped = 1;
-}
 
 /* Prints a line. A file that is full or closed does no harm. */
 static void print(FILE *to, const char *format, ...)
@@ -58,19 +52,7 @@ static bool set_input(PROGRAM_plc *plc, unsigned long number, bool on)
     }
 }
 
-static uint64_t microseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
-}
-
-static void sleep_until(uint64_t moment_us)
-{
-    const struct timespec until = {.tv_sec = (time_t)(moment_us / 1000000u), .tv_nsec = (long)(moment_us % 1000000u) * 1000L};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
-}
-
+/* SYSTEM */
 /* Start of the next scan. After a suspension of more than a second (a suspended machine, a debugger) it does not catch up. */
 static uint64_t not_late(uint64_t next)
 {
@@ -91,16 +73,18 @@ static void read_commands(PROGRAM_plc *plc)
     static char line[80];
     static size_t length;
     char text[512];
-    struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
 
     /* COMMANDS */
-    if (closed || poll(&input, 1, 0) <= 0) {
+    if (closed) {
         return;
     }
-    const ssize_t count = read(STDIN_FILENO, text, sizeof text);
-    closed = count <= 0;
-    for (ssize_t i = 0; i < count; i++) {
+    const long count = typed(text, sizeof text);
+    closed = count < 0;
+    for (long i = 0; i < count; i++) {
         const char c = text[i];
+        if (c == '\r') {
+            continue;
+        }
         if (c != '\n') {
             if (length < sizeof line - 1) {
                 line[length++] = c;
@@ -210,16 +194,6 @@ static int read_options(int argc, char **argv)
     return -1;
 }
 
-/* A signal ends the run in order, unless the caller ignores it (`nohup`). */
-static void catch_signal(int number, const struct sigaction *action)
-{
-    struct sigaction before;
-
-    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
-        sigaction(number, action, NULL);
-    }
-}
-
 int main(int argc, char **argv)
 {
     const int code = read_options(argc, argv);
@@ -228,18 +202,10 @@ int main(int argc, char **argv)
     }
     PROGRAM_plc *const plc = &plc_memory;
     const uint64_t start = microseconds();
-    struct sigaction action = {.sa_flags = SA_RESTART};
     uint64_t next = start;
     uint32_t scan_us = 0;
 
-    sigemptyset(&action.sa_mask);
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &action, NULL);
-    sigaction(SIGXFSZ, &action, NULL);
-    action.sa_handler = stop;
-    catch_signal(SIGHUP, &action);
-    catch_signal(SIGINT, &action);
-    catch_signal(SIGTERM, &action);
+    catch_signals();
     PROGRAM_init(plc);
     /* LOAD */
     /* REPORT */

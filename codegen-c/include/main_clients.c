@@ -149,4 +149,3 @@ static void print_clients(void)
                 (unsigned long)tally->rejected);
     }
 }
-

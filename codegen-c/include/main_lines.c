@@ -249,4 +249,3 @@ static bool open_line(const char *what)
     }
     return connect_line((uint8_t)port, end + 1);
 }
-

@@ -97,6 +97,29 @@ static void record_retained(const PROGRAM_plc *plc, uint32_t state)
     retained.writing = state;
 }
 
+#ifdef _WIN32
+/* Flushes a file to the disk; false with errno if that fails. */
+static bool flush_file(FILE *file)
+{
+    return _commit(_fileno(file)) == 0;
+}
+
+/* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
+static bool take_name(const char *path)
+{
+    if (MoveFileExA(path, retained.path, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH)) {
+        return true;
+    }
+    errno = EACCES;
+    return false;
+}
+#else
+/* Flushes a file to the disk; false with errno if that fails. */
+static bool flush_file(FILE *file)
+{
+    return fsync(fileno(file)) == 0;
+}
+
 /* Flushes the folder of the file, so that its new name lasts; false with errno if that fails. */
 static bool flush_folder(void)
 {
@@ -117,10 +140,17 @@ static bool flush_folder(void)
     return done;
 }
 
+/* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
+static bool take_name(const char *path)
+{
+    return rename(path, retained.path) == 0 && flush_folder();
+}
+#endif
+
 /* Writes the record to a file, and flushes it; false with errno if the disk does not take it. */
 static bool write_record(FILE *file)
 {
-    const bool done = fwrite(retained.record, 1, retained.length, file) == retained.length && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const bool done = fwrite(retained.record, 1, retained.length, file) == retained.length && fflush(file) == 0 && flush_file(file);
     const int error = errno;
     const bool closed = fclose(file) == 0;
 
@@ -146,12 +176,12 @@ static int replace_file(void)
     if (file == NULL) {
         return errno;
     }
-    if (!write_record(file) || rename(path, retained.path) != 0) {
+    if (!write_record(file) || !take_name(path)) {
         const int error = errno;
-        (void)unlink(path);
+        (void)remove(path);
         return error;
     }
-    return flush_folder() ? 0 : errno;
+    return 0;
 }
 
 /* The thread: writes one record after the other. */

@@ -310,4 +310,3 @@ static void print_connections(void)
         }
     }
 }
-

@@ -1,4 +1,4 @@
-//! The host program for Linux: scans in real time.
+//! The host program: scans in real time on a system with POSIX, or on Windows.
 
 mod clients;
 mod outside;
@@ -83,20 +83,23 @@ static bool set_clock(void *context, const rungc_clock *clock)
 
 ";
 
-/// Headers that every host needs, those with serial ports, and those with servers.
-const HEADERS: [&str; 8] = [
-    "poll", "signal", "stdarg", "stdio", "stdlib", "string", "time", "unistd",
-];
-const LINES_HEADERS: [&str; 3] = ["errno", "fcntl", "termios"];
-const RETAIN_HEADERS: [&str; 4] = ["errno", "fcntl", "pthread", "semaphore"];
-const SERVERS_HEADERS: [&str; 6] = [
-    "errno",
-    "fcntl",
-    "netdb",
-    "netinet/in",
-    "netinet/tcp",
-    "sys/socket",
-];
+/// Headers that every host needs on all systems, and those of hosts that retain latched devices, with serial ports, and
+/// with servers.
+const HEADERS: [&str; 6] = ["signal", "stdarg", "stdio", "stdlib", "string", "time"];
+const RETAIN_HEADERS: [&str; 3] = ["errno", "pthread", "semaphore"];
+const LINES_HEADERS: [&str; 1] = ["errno"];
+const SERVERS_HEADERS: [&str; 1] = ["errno"];
+
+/// Those beside them of systems with POSIX.
+const POSIX_HEADERS: [&str; 2] = ["poll", "unistd"];
+const POSIX_RETAIN_HEADERS: [&str; 1] = ["fcntl"];
+const POSIX_LINES_HEADERS: [&str; 2] = ["fcntl", "termios"];
+const POSIX_SERVERS_HEADERS: [&str; 5] =
+    ["fcntl", "netdb", "netinet/in", "netinet/tcp", "sys/socket"];
+
+/// Those of Windows.
+const WINDOWS_HEADERS: &str = "#include <windows.h>\n";
+const WINDOWS_RETAIN_HEADERS: &str = "#include <io.h>\n";
 
 /// Report of a scan that exceeds the constant scan time.
 const OVERRUN: &str = "\
@@ -186,6 +189,10 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     outside
         .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
+        .replace(
+            "/* SYSTEM */\n",
+            &(by_system(template!("main_windows.c"), template!("main_posix.c")) + "\n"),
+        )
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", retain.header)
         .replace("    /* LOAD */\n", retain.load)
@@ -303,23 +310,43 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
 /// Feature test macros for the system's headers.
 fn features(ports: bool) -> &'static str {
     match ports {
-        true => "#define _DEFAULT_SOURCE\n#define _XOPEN_SOURCE 700",
+        true => {
+            "#define _DEFAULT_SOURCE\n#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700"
+        }
         false => "#define _POSIX_C_SOURCE 200809L",
     }
 }
 
+/// Code for Windows, and for all other systems.
+fn by_system(windows: &str, posix: &str) -> String {
+    format!("#ifdef _WIN32\n{windows}#else\n{posix}#endif\n")
+}
+
 /// The lines that include the system's headers.
 fn headers(module: &Module, servers: bool, retain: bool) -> String {
-    let of_lines = LINES_HEADERS.iter().filter(|_| module.has_ports());
-    let of_clients = clients::HEADERS.iter();
-    let of_clients = of_clients.filter(|_| clients::are_there(module, servers));
-    let of_servers = SERVERS_HEADERS.iter().filter(|_| servers);
-    let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
-    let usual = HEADERS.iter().chain(of_lines);
-    let all = usual.chain(of_servers).chain(of_clients).chain(of_retain);
-    let all: BTreeSet<_> = all.collect();
-    let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
-    lines.collect()
+    let lines = |sets: [(bool, &[&str]); 4]| {
+        let sets = sets.iter().filter(|(is_needed, _)| *is_needed);
+        let names: BTreeSet<_> = sets.flat_map(|(_, names)| *names).collect();
+        let lines = names
+            .into_iter()
+            .map(|name| format!("#include <{name}.h>\n"));
+        lines.collect::<String>()
+    };
+    let ports = module.has_ports();
+    let all = lines([
+        (true, &HEADERS),
+        (retain, &RETAIN_HEADERS),
+        (ports, &LINES_HEADERS),
+        (servers, &SERVERS_HEADERS),
+    ]);
+    let posix = lines([
+        (true, &POSIX_HEADERS),
+        (retain, &POSIX_RETAIN_HEADERS),
+        (ports, &POSIX_LINES_HEADERS),
+        (servers, &POSIX_SERVERS_HEADERS),
+    ]);
+    let of_retain = if retain { WINDOWS_RETAIN_HEADERS } else { "" };
+    all + &by_system(&format!("{of_retain}{WINDOWS_HEADERS}"), &posix)
 }
 
 /// The statements that print the text for `--help`.
@@ -377,10 +404,13 @@ fn server_code(module: &Module, servers: bool) -> String {
         return String::new();
     }
     let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
-    let mut code = template!("main_servers.c").to_string();
+    let mut windows = template!("main_servers_windows.c").to_string();
+    let mut posix = template!("main_servers.c").to_string();
     if clients::are_there(module, servers) {
-        code.push_str(&clients::code(module));
+        windows = [windows.as_str(), template!("main_clients_windows.c")].join("\n");
+        posix = [posix, clients::code(module)].join("\n");
     }
+    let code = by_system(&windows, &posix) + "\n";
     code.replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
         .replace("TYPE_CODE", &module.model.type_code().to_string())
         .replace("HEADING", TABLE_HEADING)
@@ -397,7 +427,8 @@ fn lines(module: &Module) -> String {
     }
     let ports = module.ports.iter();
     let rows = ports.map(|port| format!("    {{.port = {port}, .file = -1, .client_end = -1}},\n"));
-    template!("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>())
+    let posix = template!("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>());
+    by_system(template!("main_lines_windows.c"), &posix) + "\n"
 }
 
 /// The hardware that the program asks, if it asks any.

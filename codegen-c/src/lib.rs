@@ -54,7 +54,7 @@ use rungc_syntax::DeviceClass;
 /// Options of the output.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// Also a `main.c` for a Linux host that scans in real time.
+    /// Also a `main.c` for a host that scans in real time.
     pub main: bool,
     /// The `main.c` takes options that open servers over TCP; the runtime library is needed then.
     pub servers: bool,

@@ -16,9 +16,6 @@ const CALLS: [&str; 3] = [
     "    print_clients();\n",
 ];
 
-/// The headers that they include, beside those of servers.
-pub const HEADERS: [&str; 1] = ["poll"];
-
 /// Returns true if a host with servers is also a client of others.
 pub fn are_there(module: &Module, servers: bool) -> bool {
     servers && !module.requests.is_empty()

@@ -6,3 +6,4 @@ mod emit;
 mod errors;
 mod retain;
 mod shapes;
+mod windows;

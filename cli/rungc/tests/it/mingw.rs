@@ -1,0 +1,99 @@
+//! Main programs in C for Windows: mingw compiles them, and wine runs them.
+
+use crate::common::{folder, rungc, text};
+use crate::tools::tools;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+const COMPILER: &str = "x86_64-w64-mingw32-gcc";
+
+/// Y000 follows X000; D512 is latched and counts how often X000 goes on.
+const KEEP: &str = "\
+LD X000
+OUT Y000
+LDP X000
+INC D512
+LD= D512 K2
+OUT Y001
+END
+";
+
+/// COM1 is a Modbus slave, and the clock is read.
+const SLAVE: &str = "\
+LD M8002
+MOV H2 D8126
+MOV H81 D8120
+MOV K1 D8121
+LD M8000
+MOV D8013 D0
+END
+";
+
+/// Emits a main program, and makes these files of it for Windows.
+fn made(folder: &Path, emit: &[&str], files: &[&str]) {
+    let args = [&["build", "--emit", "c", "--main", "-o", "out"], emit].concat();
+    let emitted = rungc(folder, &args);
+    assert!(emitted.status.success(), "{}", text(&emitted.stderr));
+    let made = Command::new("make")
+        .args([&format!("CC={COMPILER}"), "LDFLAGS=-static"])
+        .arg("CFLAGS=-std=c99 -O1 -Wall -Wextra -Wconversion -pedantic -Werror")
+        .args(files)
+        .current_dir(folder.join("out"))
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", text(&made.stderr));
+}
+
+#[test]
+fn main_programs_in_c_compile_for_windows() {
+    if !tools(&[COMPILER, "make"]) {
+        return;
+    }
+    let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
+    let emit = ["slave.il", "--model", "h2u", "--servers", "--io"];
+    made(folder.path(), &emit, &["main.o", "slave.o"]);
+}
+
+/// Runs the program that keeps D512, and types each line once the program has printed the text of the one before.
+fn run(folder: &Path, dialogue: &[(&str, &str)]) {
+    let mut program = Command::new("wine")
+        .args(["out/keep.exe", "--retain", "latched"])
+        .env("WINEPREFIX", folder.join("wine"))
+        .env("WINEDEBUG", "-all")
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        // The server of wine would keep it open for some seconds more.
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut input = program.stdin.take().unwrap();
+    let mut lines = BufReader::new(program.stdout.take().unwrap()).lines();
+    for (typed, printed) in dialogue {
+        input.write_all(format!("{typed}\r\n").as_bytes()).unwrap();
+        assert!(
+            lines.any(|line| line.unwrap().contains(printed)),
+            "{printed}"
+        );
+    }
+    input.write_all(b"quit\r\n").unwrap();
+    assert_eq!(program.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn a_main_program_in_c_runs_on_windows_and_keeps_devices() {
+    if !tools(&[COMPILER, "make", "wine"]) {
+        return;
+    }
+    let folder = folder(&[("keep.il", KEEP.as_bytes())]);
+    let folder = folder.path();
+    made(folder, &["keep.il"], &["keep"]);
+    let [on, off] = [("X0=1", "Y000 on"), ("X0=0", "Y000 off")];
+    run(folder, &[on, off, ("X0=1", "Y001 on")]);
+    let latched = || std::fs::read(folder.join("latched")).unwrap();
+    let twice = latched();
+    run(folder, &[("X9=1", "Y001 on"), ("X0=1", "Y001 off")]);
+    assert_ne!(latched(), twice);
+    assert!(!folder.join("latched.new").exists());
+}

@@ -1,0 +1,21 @@
+/* Executables in C have no servers on Windows. */
+static bool open_server(rungc_server_protocol protocol, const char *name, const char *text)
+{
+    (void)protocol;
+    print(stderr, "PROGRAM: cannot serve %s at %s: executables in C have no servers on Windows; those in Rust do (`--emit rust`)\n", name, text);
+    return false;
+}
+
+static bool is_line(const char *text)
+{
+    return strchr(text, '/') != NULL;
+}
+
+static void poll_servers(PROGRAM_plc *plc)
+{
+    (void)plc;
+}
+
+static void print_connections(void)
+{
+}
