@@ -35,6 +35,7 @@ mod lines;
 mod linux;
 mod listings;
 mod live;
+#[cfg(unix)]
 mod mingw;
 mod offline;
 #[cfg(unix)]
