@@ -39,8 +39,44 @@ mod signals {
     }
 }
 
+/// Ctrl-C, Ctrl-Break, and the end of the console, the session or the computer end the run as `quit` does.
+#[cfg(windows)]
+mod signals {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+
+    static STOPPED: AtomicBool = AtomicBool::new(false);
+
+    /// `CTRL_BREAK_EVENT`; `CTRL_C_EVENT` is 0.
+    const BREAK: u32 = 1;
+
+    #[link(name = "kernel32")]
+    unsafe extern "system" {
+        safe fn SetConsoleCtrlHandler(handler: extern "system" fn(u32) -> i32, add: i32) -> i32;
+    }
+
+    extern "system" fn stop(event: u32) -> i32 {
+        STOPPED.store(true, Ordering::Relaxed);
+        // The process ends when this returns, or a few seconds later: the run has these.
+        while event > BREAK {
+            std::thread::sleep(Duration::from_secs(1));
+        }
+        1
+    }
+
+    /// From now on the events do not end the program at once.
+    pub fn catch() {
+        SetConsoleCtrlHandler(stop, 1);
+    }
+
+    /// Returns true if one of them has come.
+    pub fn stopped() -> bool {
+        STOPPED.load(Ordering::Relaxed)
+    }
+}
+
 /// Other systems end the program at once.
-#[cfg(not(unix))]
+#[cfg(not(any(unix, windows)))]
 mod signals {
     pub fn catch() {}
 
