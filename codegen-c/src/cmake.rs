@@ -1,7 +1,7 @@
 //! The `CMakeLists.txt` beside emitted C, of one program or of several: `add_subdirectory()` gives the target
 //! `rungc::NAME`, and so does `find_package()` after an installation.
 
-use crate::makefile::Recipe;
+use crate::makefile::{Recipe, Source};
 use std::fmt::Write;
 
 /// Beginning of the file; `@PROJECT@` is its name.
@@ -21,19 +21,19 @@ set(RUNGC_OPT \"\" CACHE STRING \"Optimisation level of the runtime library; emp
 set(RUNGC_CARGO_FLAGS --offline CACHE STRING \"Arguments for cargo, which builds the runtime library\")
 set(rungc_rt ${RUNGC_RT})
 if(NOT RUNGC_RT)
-    set(rungc_rt ${CMAKE_CURRENT_BINARY_DIR}/rungc-rt/${RUNGC_TARGET}/release/librungc_rt.a)
+    set(rungc_rt ${CMAKE_CURRENT_BINARY_DIR}/rungc-rt/${RUNGC_TARGET}/release/@LIBRARY@)
     if(RUNGC_TARGET)
         set(rungc_target_flags --target ${RUNGC_TARGET})
     endif()
     if(NOT RUNGC_OPT)
         set(RUNGC_OPT $<IF:$<BOOL:${RUNGC_TARGET}>,s,3>)
     endif()
-    file(GLOB_RECURSE rungc_sources CONFIGURE_DEPENDS @ROOT@rungc-rt/src/*.rs @ROOT@rungc-rt/libm/*.rs)
+    file(GLOB_RECURSE rungc_sources CONFIGURE_DEPENDS@FOLDERS@)
     add_custom_command(
         OUTPUT ${rungc_rt}
         COMMAND ${CMAKE_COMMAND} -E env CARGO_PROFILE_RELEASE_OPT_LEVEL=${RUNGC_OPT}
             cargo rustc --release --locked ${RUNGC_CARGO_FLAGS} ${rungc_target_flags}
-            --target-dir ${CMAKE_CURRENT_BINARY_DIR}/rungc-rt --crate-type staticlib --features staticlib
+            --target-dir ${CMAKE_CURRENT_BINARY_DIR}/rungc-rt --crate-type staticlib@PACKAGE@ --features @FEATURES@
         DEPENDS ${rungc_sources} ${CMAKE_CURRENT_SOURCE_DIR}/@ROOT@rungc-rt/Cargo.toml
         WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/@ROOT@rungc-rt
         VERBATIM)
@@ -97,12 +97,8 @@ pub fn cmake_lists(recipes: &[Recipe]) -> String {
         PROJECT.replace("@PROJECT@", &project)
     );
     if recipes.iter().any(|recipe| recipe.shared.runtime) {
-        let runtime = runtime(&project, "", TARGET);
         let std = recipes.iter().any(|recipe| recipe.shared.std);
-        text.push_str(&match std {
-            true => runtime.replace("--features staticlib", "--features staticlib,std"),
-            false => runtime,
-        });
+        text.push_str(&runtime_of(Source::new(std), &project, "", TARGET));
     }
     for recipe in recipes {
         program(&mut text, recipe, &project);
@@ -113,7 +109,18 @@ pub fn cmake_lists(recipes: &[Recipe]) -> String {
 /// CMake rules that build the runtime library from the sources in the folder `rungc-rt` of `root` (empty, or ending
 /// with `/`): the file is `${rungc_rt}`, the target `PROJECT_runtime`. `target` sets `RUNGC_TARGET`.
 pub fn runtime(project: &str, root: &str, target: &str) -> String {
-    RUNTIME
+    runtime_of(Source::new(false), project, root, target)
+}
+
+/// The same for a library of this crate.
+fn runtime_of(source: &Source, project: &str, root: &str, target: &str) -> String {
+    let folders = source.folders.iter();
+    let folders: String = folders
+        .map(|name| format!(" @ROOT@rungc-rt/{name}/*.rs"))
+        .collect();
+    source
+        .in_text(RUNTIME)
+        .replace("@FOLDERS@", &folders)
         .replace("@PROJECT@", project)
         .replace("@ROOT@", root)
         .replace("@TARGET@", target)

@@ -251,7 +251,7 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
 pub struct Shared {
     /// The runtime library: its header and its sources.
     pub runtime: bool,
-    /// The library has the standard library of Rust in it, for connections.
+    /// The library has a host's services in it, for connections, and with them the standard library of Rust.
     pub std: bool,
     /// The header for boards; its types are in the runtime's header, too.
     pub board: bool,
@@ -299,7 +299,7 @@ impl Shared {
         };
         let mut files: Vec<OutFile> = self.texts().map(header).collect();
         if self.runtime {
-            let sources = rungc_runtime_sources::library::sources().into_iter();
+            let sources = rungc_runtime_sources::library::sources(self.std).into_iter();
             files
                 .extend(sources.map(|(path, text)| OutFile::new(format!("rungc-rt/{path}"), text)));
         }

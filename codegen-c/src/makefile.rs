@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// Path of the runtime library; `make` needs it before the first rule that uses it.
 const LIBRARY_PATH: &str = "\
 # The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
-# It is built from the sources in rungc-rt, without a network; RUNGC_RT=path/to/librungc_rt.a names one that is built already.
+# It is built from the sources in rungc-rt, without a network; RUNGC_RT=path/to/@LIBRARY@ names one that is built already.
 CARGO ?= cargo
 ifdef TARGET
 TARGET_FLAG = --target $(TARGET)
@@ -16,23 +16,63 @@ OFFLINE ?= $(if $(CARGO_UNSTABLE_BUILD_STD)$(findstring build-std,$(CARGOFLAGS))
 RUNTIME_OPT ?= $(if $(TARGET),s,3)
 # For size, the runtime is optimised with the part of the standard library that it uses.
 RUNTIME_PROFILE = $(if $(filter s z,$(RUNTIME_OPT)),CARGO_PROFILE_RELEASE_LTO=fat CARGO_PROFILE_RELEASE_CODEGEN_UNITS=1)
-LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
+LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/@LIBRARY@)
+RUNTIME_FEATURES = @FEATURES@
 ";
 
-/// Features of the library, and the system libraries these need.
-const PLAIN: &str = "RUNTIME_FEATURES = staticlib\n";
-const WITH_STD: &str =
-    "RUNTIME_FEATURES = staticlib,std\noverride LDFLAGS += -s -lpthread -ldl -lm\n";
+/// System libraries that the standard library of Rust needs.
+const STD_LIBRARIES: &str = "override LDFLAGS += -s -lpthread -ldl -lm\n";
 
 /// Build rule.
 const LIBRARY_RULE: &str = "\
 ifndef RUNGC_RT
-$(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
+$(LIBRARY): $(shell find@FOLDERS@ -name '*.rs') rungc-rt/Cargo.toml
 \tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(RUNTIME_PROFILE) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
-\t\t--crate-type staticlib --features $(RUNTIME_FEATURES) $(TARGET_FLAG) $(CARGOFLAGS)
+\t\t--crate-type staticlib@PACKAGE@ --features $(RUNTIME_FEATURES) $(TARGET_FLAG) $(CARGOFLAGS)
 endif
 
 ";
+
+/// Crate that the runtime library is built from.
+pub(crate) struct Source {
+    /// File of the library, as cargo names it.
+    pub(crate) library: &'static str,
+    /// Argument that names the package; empty for the one in the folder `rungc-rt`.
+    package: &'static str,
+    features: &'static str,
+    /// Folders of sources in `rungc-rt`.
+    pub(crate) folders: &'static [&'static str],
+}
+
+/// What runs on a microcontroller.
+const TARGET: Source = Source {
+    library: "librungc_rt.a",
+    package: "",
+    features: "staticlib",
+    folders: &["src", "libm"],
+};
+
+/// The same with a host's services.
+const HOST: Source = Source {
+    library: "librungc_host.a",
+    package: " --package rungc-host",
+    features: "capi",
+    folders: &["src", "libm", "host"],
+};
+
+impl Source {
+    /// The crate for a library with or without the standard library.
+    pub(crate) const fn new(std: bool) -> &'static Self {
+        if std { &HOST } else { &TARGET }
+    }
+
+    /// Puts its names into a text for a build system.
+    pub(crate) fn in_text(&self, text: &str) -> String {
+        text.replace("@LIBRARY@", self.library)
+            .replace("@PACKAGE@", self.package)
+            .replace("@FEATURES@", self.features)
+    }
+}
 
 /// Build recipe of a program.
 #[derive(Clone, Debug)]
@@ -114,6 +154,8 @@ fn library(runtime: bool) -> &'static str {
 pub fn makefile(recipes: &[Recipe]) -> String {
     let count = recipes.len();
     let runtime = recipes.iter().any(|recipe| recipe.shared.runtime);
+    let std = recipes.iter().any(|recipe| recipe.shared.std);
+    let source = Source::new(std);
     let targets: Vec<String> = recipes.iter().map(Recipe::target).collect();
     let targets = targets.join(" ");
     let links = recipes.iter().any(|recipe| !recipe.main);
@@ -146,13 +188,15 @@ pub fn makefile(recipes: &[Recipe]) -> String {
         );
     }
     if runtime {
-        text.push_str(LIBRARY_PATH);
-        let std = recipes.iter().any(|recipe| recipe.shared.std);
-        text.push_str(if std { WITH_STD } else { PLAIN });
+        text.push_str(&source.in_text(LIBRARY_PATH));
+        text.push_str(if std { STD_LIBRARIES } else { "" });
     }
     let _ = writeln!(text, "\nall: {targets}{}\n", library(runtime));
     if runtime {
-        text.push_str(LIBRARY_RULE);
+        let folders = source.folders.iter();
+        let folders: String = folders.map(|name| format!(" rungc-rt/{name}")).collect();
+        let rule = source.in_text(LIBRARY_RULE);
+        text.push_str(&rule.replace("@FOLDERS@", &folders));
     }
     for recipe in recipes {
         recipe.rules(&mut text, count);

@@ -6,7 +6,7 @@ use crate::{Options, OutFile, Runtime, defmt, host, template};
 use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
-use rungc_runtime_sources::EMITTED_VERSION;
+use rungc_runtime_sources::{EMITTED_VERSION, HOST_FOLDER};
 use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -23,16 +23,20 @@ const CASES_PER_FILE: usize = 25;
 /// Folder of the runtime inside an emitted crate.
 const RUNTIME_FOLDER: &str = "rungc-rt";
 
-/// The runtime's sources, for a path dependency.
-fn runtime() -> impl Iterator<Item = OutFile> {
-    rungc_runtime_sources::files()
+/// The runtime's sources, for a path dependency; with a host's services if there is a `host`.
+fn runtime(host: bool) -> impl Iterator<Item = OutFile> {
+    rungc_runtime_sources::files(host)
         .into_iter()
         .map(|(path, text)| OutFile::new(format!("{RUNTIME_FOLDER}/{path}"), text))
 }
 
 /// The lock file of a crate that depends on nothing but the runtime's sources.
-fn lock_file(crate_name: &str) -> OutFile {
-    let lock = rungc_runtime_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
+fn lock_file(crate_name: &str, host: bool) -> OutFile {
+    let needs: &[&str] = match host {
+        true => &["rungc-host", "rungc-rt"],
+        false => &["rungc-rt"],
+    };
+    let lock = rungc_runtime_sources::lock_file(host, &[(crate_name, needs)]);
     OutFile::new("Cargo.lock", lock)
 }
 
@@ -45,16 +49,22 @@ impl Runtime {
     /// The line of a manifest that depends on it. The emitted crate, which may have its sources, is in `folder`: empty,
     /// or with a slash at its end.
     pub fn dependency(&self, folder: &str) -> String {
-        self.with_features(folder, "")
+        format!("rungc-rt = {{ path = {} }}\n", quoted(&self.path(folder)))
     }
 
-    /// The same with more keys after the path, each after a comma.
-    fn with_features(&self, folder: &str, features: &str) -> String {
-        let path = match self {
-            Runtime::Included => &format!("{folder}{RUNTIME_FOLDER}"),
-            Runtime::At(path) => path,
-        };
-        format!("rungc-rt = {{ path = {}{features} }}\n", quoted(path))
+    /// The lines of a manifest that depend on it and on a host's services.
+    fn host_dependencies(&self, folder: &str) -> String {
+        let path = format!("{}/{HOST_FOLDER}", self.path(folder));
+        let host = format!("rungc-host = {{ path = {} }}\n", quoted(&path));
+        host + &self.dependency(folder)
+    }
+
+    /// Folder of the runtime, for an emitted crate in `folder`.
+    fn path(&self, folder: &str) -> String {
+        match self {
+            Runtime::Included => format!("{folder}{RUNTIME_FOLDER}"),
+            Runtime::At(path) => path.clone(),
+        }
     }
 }
 
@@ -74,13 +84,11 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     let functions = std::mem::take(&mut generator.items);
     let crate_name = crate_name(&module.name);
     let asks = cycle::keeps_any(module) || cycle::asks_clock(module);
-    let needs_std = options.main && (options.servers || options.io || asks);
-    let runtime_features = if needs_std {
-        ", features = [\"std\"]"
-    } else {
-        ""
+    let needs_host = options.main && (options.servers || options.io || asks);
+    let mut dependencies = match needs_host {
+        true => options.runtime.host_dependencies(""),
+        false => options.runtime.dependency(""),
     };
-    let mut dependencies = options.runtime.with_features("", runtime_features);
     let mut features = "";
     if options.defmt {
         dependencies.push_str(defmt::DEPENDENCY);
@@ -106,11 +114,11 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         ));
     }
     if options.runtime == Runtime::Included {
-        files.extend(runtime());
+        files.extend(runtime(needs_host));
     }
     // The registry knows the other locked dependencies of defmt.
     if !options.defmt {
-        files.push(lock_file(&crate_name));
+        files.push(lock_file(&crate_name, needs_host));
     }
     files
 }
@@ -128,7 +136,8 @@ fn crate_name(name: &str) -> String {
     let name = words.join("_");
     let is_taken = matches!(
         name.as_str(),
-        "" | "rungc_rt"
+        "" | "rungc_host"
+            | "rungc_rt"
             | "libm"
             | "core"
             | "defmt"
@@ -478,8 +487,8 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         tables.push_str(&table.replace("const DEVICES", &format!("const {}", table_name(name))));
     }
     files.push(OutFile::new("src/models.rs", tables));
-    files.extend(runtime());
-    files.push(lock_file("batch"));
+    files.extend(runtime(false));
+    files.push(lock_file("batch", false));
     files
 }
 

@@ -42,21 +42,21 @@ const MUTEX: &str = "std::sync::Mutex";
 
 /// Imports of connections.
 const OUTSIDE_USES: [&str; 2] = [
-    "rungc_rt::io::{Of, Outside}",
+    "rungc_host::io::{Of, Outside}",
     "std::sync::{LazyLock, MutexGuard, PoisonError}",
 ];
 
 /// Imports of servers.
 const SERVERS_USES: [&str; 3] = [
+    "rungc_host::servers::Servers",
     "rungc_rt::Ports",
     "rungc_rt::comm::service::{Service, ServerProtocol, address}",
-    "rungc_rt::servers::Servers",
 ];
 
 /// Imports of clients of other servers.
 const CLIENTS_USES: [&str; 2] = [
+    "rungc_host::servers::Clients",
     "rungc_rt::comm::modbus::client::ClientRow",
-    "rungc_rt::servers::Clients",
 ];
 
 /// `src/main.rs` of a crate.
@@ -192,7 +192,7 @@ fn outputs(generator: &Generator) -> String {
 fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
     let Options { servers, io, .. } = *options;
     let module = generator.module;
-    let wall = "rungc_rt::wall::WallClock";
+    let wall = "rungc_host::wall::WallClock";
     let of_clock = cycle::asks_clock(module).then_some(&wall);
     let ports = module.has_ports();
     let usual = USES.iter().filter(|_| !ports);
@@ -200,7 +200,7 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
     let of_servers = SERVERS_USES.iter().filter(|_| servers);
     let asks = servers && !module.requests.is_empty();
     let of_clients = CLIENTS_USES.iter().filter(|_| asks);
-    let retain = "rungc_rt::retain::RetainFile";
+    let retain = "rungc_host::retain::RetainFile";
     let of_retain = cycle::keeps_any(module).then_some(&retain);
     let all = usual
         .chain(of_lines)

@@ -1,9 +1,9 @@
 //! `[io.NAME]`: what the terminals and registers of a running program are connected to.
 
 use crate::{Error, Project};
+use rungc_host::io::Connection;
 use rungc_models::Model;
 use rungc_models::runs::name_class;
-use rungc_rt::io::Connection;
 use rungc_syntax::{DeviceRun, Program, Span, codes};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
-//! Lists the sources of the runtime and of libm, which the library embeds.
+//! Lists the sources of the runtime, of a host's services and of libm, which the library embeds.
 //!
-//! The runtime is a neighbour in the repository. libm lies where Cargo has it: in the registry's folder, or wherever
-//! its configuration puts the sources of packages. A published package has neither: it brings the files in
+//! Runtime and services are neighbours in the repository. libm lies where Cargo has it: in the registry's folder, or
+//! wherever its configuration puts the sources of packages. A published package has neither: it brings the files in
 //! `published/`, which `cargo xtask package` makes.
 
 use serde_json::Value;
@@ -13,6 +13,9 @@ use std::{env, fs, io};
 
 /// The runtime's package.
 const RUNTIME: &str = "../rt";
+
+/// The package of a host's services.
+const HOST: &str = "../host";
 
 /// The lock file of the workspace.
 const LOCK: &str = "../../Cargo.lock";
@@ -47,6 +50,7 @@ fn main() -> io::Result<()> {
     if runtime.exists() {
         let libm = libm(&here, &out)?;
         println!("cargo::rerun-if-changed={RUNTIME}");
+        println!("cargo::rerun-if-changed={HOST}");
         println!("cargo::rerun-if-changed={LOCK}");
         files.push(("Cargo.toml".to_string(), runtime.join("Cargo.toml")));
         for name in LIBM_FILES {
@@ -54,6 +58,9 @@ fn main() -> io::Result<()> {
         }
         list(&libm.join("src"), "libm/src/", &mut files)?;
         list(&runtime.join("src"), "src/", &mut files)?;
+        let host = here.join(HOST);
+        files.push(("host/Cargo.toml".to_string(), host.join("Cargo.toml")));
+        list(&host.join("src"), "host/src/", &mut files)?;
     } else {
         println!("cargo::rerun-if-changed={PUBLISHED}");
         list(&here.join(PUBLISHED), "", &mut files)?;

@@ -105,7 +105,7 @@ pub fn project(image: &Image, runtime: &Runtime) -> Vec<OutFile> {
 fn lock_file(package: &str) -> String {
     let mut needs = [package, "rungc-rt"];
     needs.sort();
-    rungc_runtime_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
+    rungc_runtime_sources::lock_file(false, &[("image", &needs), (package, &["rungc-rt"])])
 }
 
 fn manifest(package: &str, runtime: &Runtime) -> String {

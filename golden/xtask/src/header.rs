@@ -78,7 +78,7 @@ const CONSTRUCTORS: &str = include_str!("constructors.h");
 
 /// The header.
 pub fn make() -> Result<Made, Problem> {
-    let source = root().join("runtime-rt/rt/src");
+    let runtime = root().join("runtime-rt");
     let mut names: std::collections::HashMap<String, String> = NAMES
         .iter()
         .map(|(rust, c)| (rust.to_string(), c.to_string()))
@@ -122,29 +122,29 @@ pub fn make() -> Result<Made, Problem> {
         ..Config::default()
     };
     let files = [
-        "plc.rs",
-        "operand.rs",
-        "hal.rs",
-        "pulse.rs",
-        "axis.rs",
-        "wiring.rs",
-        "comm/line.rs",
-        "comm/memory.rs",
-        "comm/modbus/client.rs",
-        "comm/service.rs",
-        "comm/wiring.rs",
-        "capi.rs",
-        "capi/clients.rs",
-        "capi/exports.rs",
-        "capi/modules.rs",
-        "capi/outside.rs",
-        "capi/servers.rs",
-        "capi_virtual.rs",
+        "rt/src/plc.rs",
+        "rt/src/operand.rs",
+        "rt/src/hal.rs",
+        "rt/src/pulse.rs",
+        "rt/src/axis.rs",
+        "rt/src/wiring.rs",
+        "rt/src/comm/line.rs",
+        "rt/src/comm/memory.rs",
+        "rt/src/comm/modbus/client.rs",
+        "rt/src/comm/service.rs",
+        "rt/src/comm/wiring.rs",
+        "rt/src/capi.rs",
+        "rt/src/capi/clients.rs",
+        "rt/src/capi/exports.rs",
+        "rt/src/capi/modules.rs",
+        "host/src/capi.rs",
+        "rt/src/capi/servers.rs",
+        "rt/src/capi_virtual.rs",
     ];
     let builder = files
         .iter()
         .fold(Builder::new().with_config(config), |b, f| {
-            b.with_src(source.join(f))
+            b.with_src(runtime.join(f))
         });
     let mut text = Vec::new();
     builder.generate()?.write(&mut text);

@@ -3,7 +3,7 @@
 use super::{Reader, Value, span};
 use crate::Project;
 use crate::connections::Connected;
-use rungc_rt::io::{Connection, overlap};
+use rungc_host::io::{Connection, overlap};
 use rungc_syntax::{Span, codes};
 use toml::de::{DeTable, DeValue};
 

@@ -1,5 +1,5 @@
 //! Drivers of connections that need a library: brokers (MQTT, at least once and by TLS) and serial lines of systems
-//! other than Linux. The others are the runtime's ([`rungc_rt::io`]), because emitted programs use them, too.
+//! other than Linux. The others are in [`rungc_host::io`], because emitted programs use them, too.
 //!
 //! The crate must not know source formats or the IR. Start reading at [`opener`].
 #![deny(missing_docs)]
@@ -10,7 +10,7 @@ mod rtu;
 #[cfg(feature = "tls")]
 mod tls;
 
-use rungc_rt::io::{Connection, Kind, Opener};
+use rungc_host::io::{Connection, Kind, Opener};
 
 /// Returns the opener of a connection's other end.
 ///
@@ -22,6 +22,6 @@ pub fn opener(connection: &Connection) -> Result<Opener, String> {
         #[cfg(feature = "mqtt")]
         Kind::Mqtt => mqtt::opener(connection),
         Kind::ModbusRtu => Ok(rtu::open),
-        _ => rungc_rt::io::opener(connection),
+        _ => rungc_host::io::opener(connection),
     }
 }

@@ -5,7 +5,7 @@ use crate::tls::explained;
 #[cfg(not(feature = "tls"))]
 use rumqttc::ConnectionError;
 use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
-use rungc_rt::io::{Connection, Driver, Opener, Trouble, address, password, take, topics};
+use rungc_host::io::{Connection, Driver, Opener, Trouble, address, password, take, topics};
 use std::collections::BTreeMap;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::thread::{self, JoinHandle};

@@ -1,6 +1,6 @@
 //! Remote I/O on a serial line of any system.
 
-use rungc_rt::io::{Connection, Driver, Rtu, SerialLine};
+use rungc_host::io::{Connection, Driver, Rtu, SerialLine};
 use serial2::{CharSize, Parity, SerialPort, StopBits};
 use std::io;
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! Brokers by TLS, with rustls: certificates in files of PEM, and what to do where one does not fit.
 
 use rumqttc::{ConnectionError, StateError, TlsConfiguration, TlsError, Transport, mqttbytes};
-use rungc_rt::io::Connection;
+use rungc_host::io::Connection;
 use rustls::crypto::ring;
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};

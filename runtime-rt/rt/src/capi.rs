@@ -17,8 +17,6 @@ mod exports;
 mod hal;
 mod map;
 mod modules;
-#[cfg(feature = "std")]
-mod outside;
 mod servers;
 mod stored;
 

@@ -10,7 +10,7 @@
 #![deny(missing_docs)]
 #![deny(unsafe_code)]
 
-#[cfg(any(test, feature = "std"))]
+#[cfg(test)]
 extern crate std;
 
 mod access;
@@ -20,7 +20,7 @@ pub mod board;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;
-#[cfg(all(feature = "staticlib", not(feature = "std")))]
+#[cfg(feature = "staticlib")]
 #[allow(unsafe_code, reason = "abort() is the C library's")]
 mod capi_panic;
 #[cfg(feature = "capi")]
@@ -40,8 +40,6 @@ mod edge_queue;
 mod fault;
 pub mod fnc;
 mod hal;
-#[cfg(any(test, feature = "std"))]
-pub mod io;
 mod line_queues;
 pub mod modules;
 mod operand;
@@ -52,15 +50,11 @@ mod pulse_side;
 mod registry;
 pub mod retain;
 mod runs;
-#[cfg(any(test, feature = "std"))]
-pub mod servers;
 pub mod special;
 mod specials;
 mod timing;
 mod virtual_hal;
 mod virtual_line;
-#[cfg(any(test, feature = "std"))]
-pub mod wall;
 mod wiring;
 pub mod word;
 

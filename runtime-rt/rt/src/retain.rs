@@ -5,23 +5,19 @@
 //! (`record.rs` has the format). [`Slots`] writes records to two slots of flash, each an erasable run of it: record
 //! after record into one slot until that is full, then the other slot is erased and takes the next. So power may fail
 //! at any time: the newest complete record is either the one being written or the one before it, never a mix of both.
-//! On a host with files, the feature `std` has `RetainFile`.
+//! Where there are files, `rungc_host::retain::RetainFile` keeps a record in one.
 //!
 //! # Wear
 //!
 //! A part that allows N erasures takes N · [`Slots::saves_per_erasure`] · 2 saves. [`Slots::poll`] saves at most once
 //! in an interval, and only if a latched device has changed.
 
-#[cfg(feature = "std")]
-mod file;
 mod parts;
-mod record;
+pub mod record;
 mod slots;
 #[cfg(test)]
 mod tests;
 
-#[cfg(feature = "std")]
-pub use file::RetainFile;
 pub use parts::{Ram, Registers, Stm32f1, Stm32f4, f4_sectors};
 pub use slots::{Flash, FlashFailed, Slots};
 

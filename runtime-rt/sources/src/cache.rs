@@ -45,7 +45,7 @@ fn inside(folder: &Path) -> io::Result<PathBuf> {
 fn of_sources() -> &'static str {
     static NAME: OnceLock<String> = OnceLock::new();
     NAME.get_or_init(|| {
-        let hash = hash(&crate::files());
+        let hash = hash(&crate::files(true));
         format!("{}-{hash:016x}", env!("CARGO_PKG_VERSION"))
     })
 }

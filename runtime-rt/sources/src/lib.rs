@@ -1,7 +1,8 @@
-//! The runtime as data: the sources of `rungc-rt` and of `libm`, all that it depends on.
+//! The runtime as data: the sources of `rungc-rt`, of `libm`, all that it depends on, and of `rungc-host`, the services
+//! of a computer.
 //!
-//! Emitted crates depend on them by path, emitted C links the static library built from them. They come with a lock
-//! file and build without a registry. [`library`] builds that static library once for each target and keeps it in the
+//! Emitted crates depend on them by path, emitted C links a static library built from them. They come with a lock file
+//! and build without a registry. [`library`] builds that static library once for each target and keeps it in the
 //! user's cache.
 //!
 //! The crate must not use the runtime that it carries, nor know what is emitted beside it. Start reading at [`files`].
@@ -11,35 +12,41 @@ pub mod library;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::Path;
 
 /// The sources as they stand in the repository and in the registry, by their paths in order: `Cargo.toml`, then
-/// `libm/…` and `src/…`. `cargo xtask package` puts them into the published package.
+/// `host/…`, `libm/…` and `src/…`. `cargo xtask package` puts them into the published package.
 pub static EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
-/// Dependency on the crate that the runtime needs, in the manifest, and where its sources are included.
-const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
+/// Folder of `rungc-host` in that of `rungc-rt`.
+pub const HOST_FOLDER: &str = "host";
+
+/// Dependencies among these crates, and their folders as seen from the crate that has them.
+const DEPENDENCIES: [(&str, &str); 2] = [("libm", "libm"), ("rungc-rt", "..")];
 
 /// Silences warnings about libm, as cargo does for packages of the registry. The lint that libm violates is named, so
 /// that it also stays silent where users deny warnings.
 const NO_WARNINGS: &str =
     "\n[lints.rust]\nwarnings = \"allow\"\nunstable_name_collisions = \"allow\"\n";
 
-/// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
-/// `src/…`. They are as they were written, but for the manifests, which have no `dev-dependencies`: those would have to
-/// be in the lock file, and come from the registry.
-pub fn files() -> Vec<(String, String)> {
+/// The files of `rungc-rt`, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
+/// `src/…`; if there is a `host`, also those of `rungc-host` in `host/…`. They are as they were written, but for the
+/// manifests, which have no `dev-dependencies`: those would have to be in the lock file, and come from the registry.
+pub fn files(host: bool) -> Vec<(String, String)> {
+    let is_taken = |path: &str| host || !Path::new(path).starts_with(HOST_FOLDER);
     let file = |&(path, text): &(&str, &str)| {
         let text = match path {
-            "Cargo.toml" => manifest(text),
+            "Cargo.toml" | "host/Cargo.toml" => manifest(text),
             "libm/Cargo.toml" => manifest(text) + NO_WARNINGS,
             _ => text.to_string(),
         };
         (path.to_string(), text)
     };
-    EMBEDDED.iter().map(file).collect()
+    let taken = EMBEDDED.iter().filter(|(path, _)| is_taken(path));
+    taken.map(file).collect()
 }
 
-/// A manifest without what only tests need, and with `libm` beside it.
+/// A manifest without what only tests need, which takes the other crates from their folders.
 fn manifest(text: &str) -> String {
     let mut kept = String::new();
     let mut is_for_tests = false;
@@ -48,9 +55,11 @@ fn manifest(text: &str) -> String {
             is_for_tests = line.starts_with("[dev-dependencies");
         }
         if !is_for_tests {
-            let (registry, path) = LIBM_DEPENDENCY;
-            kept.push_str(if line == registry { path } else { line });
-            kept.push('\n');
+            let is_named = |name: &str| line.split(" = ").next() == Some(name);
+            let _ = match DEPENDENCIES.iter().find(|(name, _)| is_named(name)) {
+                Some((name, folder)) => writeln!(kept, "{name} = {{ path = {folder:?} }}"),
+                None => writeln!(kept, "{line}"),
+            };
         }
     }
     kept
@@ -66,13 +75,17 @@ fn text(path: &str) -> &'static str {
 pub const EMITTED_VERSION: &str = "0.1.0";
 
 /// A `Cargo.lock` for emitted crates: each by its name, with the names of what it depends on in order, `rungc-rt` among
-/// them; without any, for the runtime alone. All packages are in it: with it `cargo build --locked --offline` needs
-/// nothing but the sources.
-pub fn lock_file(emitted: &[(&str, &[&str])]) -> String {
+/// them; without any, for the runtime alone. `host`: with `rungc-host`. All packages are in it: with it `cargo build
+/// --locked --offline` needs nothing but the sources.
+pub fn lock_file(host: bool, emitted: &[(&str, &[&str])]) -> String {
     // Each by its name, with its version and what it needs.
     let mut packages: BTreeMap<&str, (&str, &[&str])> = BTreeMap::new();
     packages.insert("libm", (version(text("libm/Cargo.toml")), &[]));
     packages.insert("rungc-rt", (version(text("Cargo.toml")), &["libm"]));
+    if host {
+        let version = version(text("host/Cargo.toml"));
+        packages.insert("rungc-host", (version, &["rungc-rt"]));
+    }
     for &(name, needs) in emitted {
         packages.insert(name, (EMITTED_VERSION, needs));
     }
@@ -104,15 +117,15 @@ fn version(manifest: &str) -> &str {
 mod tests {
     use super::*;
     use std::fs;
-    use std::path::Path;
     use std::process::Command;
 
     #[test]
-    fn the_crate_is_whole() {
-        let files = files();
+    fn the_crates_are_whole() {
+        let files = files(true);
         let has = |path: &str| files.iter().any(|(p, _)| p == path);
         assert!(has("Cargo.toml") && has("src/lib.rs") && has("src/fnc/data.rs"));
         assert!(has("libm/Cargo.toml") && has("libm/src/math/sqrt.rs") && has("libm/LICENSE.txt"));
+        assert!(has("host/Cargo.toml") && has("host/src/lib.rs") && has("host/src/io/mod.rs"));
         for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".toml")) {
             assert!(!text.contains("dev-dependencies"), "{path}");
             assert!(
@@ -121,6 +134,17 @@ mod tests {
             );
         }
         assert!(files[0].1.contains("path = \"libm\""));
+        let host = files.iter().find(|(path, _)| path == "host/Cargo.toml");
+        assert!(host.unwrap().1.contains("path = \"..\""));
+    }
+
+    #[test]
+    fn a_microcontroller_gets_nothing_of_a_host() {
+        let names: Vec<_> = files(false).into_iter().map(|(path, _)| path).collect();
+        assert!(names.iter().all(|path| !path.starts_with("host")));
+        let both: Vec<_> = files(true).into_iter().map(|(path, _)| path).collect();
+        assert!(names.iter().all(|path| both.contains(path)));
+        assert!(!lock_file(false, &[]).contains("rungc-host"));
     }
 
     /// The package of libm in the workspace, which the interpreter is compiled with.
@@ -144,7 +168,7 @@ mod tests {
         let libm = libm();
         let version = libm["version"].as_str().unwrap();
         let locked = format!("name = \"libm\"\nversion = \"{version}\"\n");
-        assert!(lock_file(&[]).contains(&locked));
+        assert!(lock_file(true, &[]).contains(&locked));
         let folder = Path::new(libm["manifest_path"].as_str().unwrap());
         let folder = folder.parent().unwrap();
         let embedded = EMBEDDED
@@ -161,28 +185,27 @@ mod tests {
 
     #[test]
     fn sources_are_as_they_were_written() {
-        let root = Path::new(env!("RUNGC_ROOT")).join("runtime-rt/rt");
-        for (path, text) in files() {
-            if path.starts_with("src/") {
-                assert_eq!(
-                    fs::read_to_string(root.join(&path)).unwrap(),
-                    text,
-                    "{path}"
-                );
-            }
+        let root = Path::new(env!("RUNGC_ROOT")).join("runtime-rt");
+        for (path, text) in files(true) {
+            let own = match path.starts_with("src/") {
+                true => root.join("rt").join(&path),
+                false if path.starts_with("host/src/") => root.join(&path),
+                false => continue,
+            };
+            assert_eq!(fs::read_to_string(own).unwrap(), text, "{path}");
         }
     }
 
     #[test]
     fn the_lock_file_names_all_packages() {
-        let lock = lock_file(&[("motor", &["rungc-rt"])]);
+        let lock = lock_file(true, &[("motor", &["rungc-host", "rungc-rt"])]);
         let names: Vec<_> = lock
             .lines()
             .filter(|line| line.starts_with("name"))
             .collect();
         assert_eq!(
             names,
-            ["name = \"libm\"", "name = \"motor\"", "name = \"rungc-rt\""]
+            ["libm", "motor", "rungc-host", "rungc-rt"].map(|name| format!("name = \"{name}\""))
         );
         assert!(lock.contains("name = \"libm\"\nversion = \"0.2."));
     }

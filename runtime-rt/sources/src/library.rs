@@ -10,6 +10,9 @@ use std::{env, fs};
 /// The library's file.
 pub const FILE: &str = "librungc_rt.a";
 
+/// The file of the library with a host's services, as cargo names it.
+const HOST_FILE: &str = "librungc_host.a";
+
 /// Build recipe.
 #[derive(Clone, Debug)]
 pub struct Recipe<'a> {
@@ -21,7 +24,7 @@ pub struct Recipe<'a> {
     pub target: Option<&'a str>,
     /// Goal of the optimisation.
     pub optimise: Optimise,
-    /// True if it has connections, and with them the standard library in it.
+    /// True if it has a host's services, and with them the standard library in it.
     pub std: bool,
     /// More arguments of cargo, such as `-Zbuild-std=core`.
     pub cargo_args: &'a [String],
@@ -89,15 +92,23 @@ pub fn strictly(cargo_args: &[String]) -> impl Iterator<Item = &'static str> {
 }
 
 /// The manifest of the sources as a separate workspace, wherever their folder lies.
-pub fn manifest(manifest: &str) -> String {
-    format!("{manifest}\n[workspace]\n\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n")
+fn manifest(manifest: &str, host: bool) -> String {
+    let members = match host {
+        true => format!("members = [{:?}]\n", crate::HOST_FOLDER),
+        false => String::new(),
+    };
+    format!(
+        "{manifest}\n[workspace]\n{members}\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n"
+    )
 }
 
-/// The files that cargo builds the library from, by their paths in one folder.
-pub fn sources() -> Vec<(String, String)> {
-    let mut files = crate::files();
-    files[0].1 = manifest(&files[0].1);
-    files.insert(1, ("Cargo.lock".to_string(), crate::lock_file(&[])));
+/// The files that cargo builds the library from, by their paths in one folder; with a host's services if there is a
+/// `host`.
+pub fn sources(host: bool) -> Vec<(String, String)> {
+    let mut files = crate::files(host);
+    files[0].1 = manifest(&files[0].1, host);
+    let lock = crate::lock_file(host, &[]);
+    files.insert(1, ("Cargo.lock".to_string(), lock));
     files
 }
 
@@ -109,7 +120,7 @@ pub fn sources() -> Vec<(String, String)> {
 pub fn unpacked(cache: &Path) -> io::Result<PathBuf> {
     let slot = Slot::wait(cache.join("sources"))?;
     let folder = slot.path().join("rungc-rt");
-    cache::write_all(&folder, &sources())?;
+    cache::write_all(&folder, &sources(true))?;
     Ok(folder)
 }
 
@@ -174,16 +185,15 @@ pub fn copy_environment(from: &Command, to: &mut Command) {
 fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf, Error> {
     let mut cargo = Command::new(recipe.cargo.get_program());
     copy_environment(recipe.cargo, &mut cargo);
+    let (package, features, file) = match recipe.std {
+        true => ("rungc-host", "capi", HOST_FILE),
+        false => ("rungc-rt", "staticlib", FILE),
+    };
     cargo
         .args(["rustc", "--release"])
         .args(strictly(recipe.cargo_args))
-        .args(["--crate-type", "staticlib", "--features"])
-        .arg(if recipe.std {
-            "staticlib,std"
-        } else {
-            "staticlib"
-        })
-        .arg("--target-dir")
+        .args(["--package", package, "--features", features])
+        .args(["--crate-type", "staticlib", "--target-dir"])
         .arg(objects)
         .args(recipe.cargo_args)
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", recipe.optimise.level())
@@ -210,7 +220,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf,
         Some(target) => objects.join(target),
         None => objects.to_owned(),
     };
-    Ok(built.join("release").join(FILE))
+    Ok(built.join("release").join(file))
 }
 
 /// Version output of the compiler; empty if it cannot be called.

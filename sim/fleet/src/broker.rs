@@ -2,8 +2,8 @@
 
 use crate::engine::At;
 use crate::group::Group;
+use rungc_host::io::{Connection, End, Io, Row};
 use rungc_rt::Class;
-use rungc_rt::io::{Connection, End, Io, Row};
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 

@@ -2,11 +2,11 @@
 //! place.
 
 use crate::broker::{Broker, NUMBER, Rows};
+use rungc_host::io::{Connection, Kind, Mistake, Row, time};
 use rungc_models::Model;
 use rungc_models::runs::name_class;
 use rungc_project::{Error, device};
 use rungc_rt::comm::service::address;
-use rungc_rt::io::{Connection, Kind, Mistake, Row, time};
 use rungc_syntax::codes::FLEET_FILE;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Source, Span, diag};
 use std::net::SocketAddr;
@@ -551,5 +551,5 @@ fn is_row(key: &str) -> bool {
 
 /// Returns true if the topic of a row includes the number of the PLC.
 fn names_plc(row: &Row) -> bool {
-    matches!(&row.end, rungc_rt::io::End::Name(topic) if topic.contains(NUMBER))
+    matches!(&row.end, rungc_host::io::End::Name(topic) if topic.contains(NUMBER))
 }

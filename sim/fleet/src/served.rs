@@ -1,9 +1,9 @@
 //! Modbus TCP: a port for each PLC of a group, or units of a port.
 
 use crate::engine::{At, Engine};
+use rungc_host::servers::Server;
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::Service;
-use rungc_rt::servers::Server;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use std::cell::{Cell, RefCell};
 use std::io;

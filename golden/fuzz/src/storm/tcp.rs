@@ -5,11 +5,11 @@ use super::Outcome;
 use crate::plc::{Plc, module, used_ns};
 use crate::random::Random;
 use crate::text::{ACK, Bytes, stx, words};
+use rungc_host::servers::Dialogue;
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::service::{ServerProtocol, Service};
-use rungc_rt::servers::Dialogue;
 
 /// Registers that good frames read and write, from D100 on.
 const COUNT: usize = 50;

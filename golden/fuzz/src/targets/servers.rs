@@ -3,11 +3,11 @@
 use super::Target;
 use crate::plc::{Plc, module};
 use crate::text::stx;
+use rungc_host::servers::Dialogue;
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::service::{ServerProtocol, Service};
-use rungc_rt::servers::Dialogue;
 
 /// Reads D0 in each protocol, and the answer.
 const MODBUS: (&[u8], &[u8]) = (

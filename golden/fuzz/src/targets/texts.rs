@@ -3,8 +3,8 @@
 use super::Target;
 use rungc_fleet::Fleet;
 use rungc_frontend::Names;
+use rungc_host::io;
 use rungc_project::serve::{FxEnd, Line, LineEnd};
-use rungc_rt::io;
 use rungc_sim::protocol::Answer;
 use rungc_verify::property;
 use std::path::Path;

@@ -114,10 +114,13 @@ fn owner<'a>(retained: &Retained<'a>) -> &'a [u8] {
 }
 
 /// Takes the bytes of a record in turn.
-type Sink<'s, E> = &'s mut dyn FnMut(&[u8]) -> Result<(), E>;
+pub type Sink<'s, E> = &'s mut dyn FnMut(&[u8]) -> Result<(), E>;
 
 /// Writes a record.
-pub(super) fn write<P: Program + ?Sized, E>(
+///
+/// # Errors
+/// The first error of `sink`.
+pub fn write<P: Program + ?Sized, E>(
     program: &P,
     sequence: u32,
     sink: Sink<'_, E>,
@@ -183,7 +186,7 @@ fn values<P: Program + ?Sized, E>(program: &P, sink: Sink<'_, E>) -> Result<(), 
 }
 
 /// A checksum of the values alone: whether something has changed.
-pub(super) fn state<P: Program + ?Sized>(program: &P) -> u32 {
+pub fn state<P: Program + ?Sized>(program: &P) -> u32 {
     let mut crc = Crc::new();
     let add = |bytes: &[u8]| -> Result<(), core::convert::Infallible> {
         crc.add(bytes);
@@ -197,23 +200,26 @@ pub(super) fn state<P: Program + ?Sized>(program: &P) -> u32 {
 }
 
 /// Reads bytes of a slot or a file from an offset on.
-pub(super) type Source<'s, E> = &'s mut dyn FnMut(u32, &mut [u8]) -> Result<(), E>;
+pub type Source<'s, E> = &'s mut dyn FnMut(u32, &mut [u8]) -> Result<(), E>;
 
 /// A complete record.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Record {
+pub struct Record {
     /// Its offset.
     pub(super) at: u32,
     /// Its length.
     pub(super) length: u32,
     /// Its sequence number.
-    pub(super) sequence: u32,
+    pub sequence: u32,
     runs: u16,
     owner: Owner,
 }
 
 /// The complete record that begins at an offset of something that is `end` bytes long; `None` if there is none.
-pub(super) fn find<E>(source: Source<'_, E>, at: u32, end: u32) -> Result<Option<Record>, E> {
+///
+/// # Errors
+/// The first error of `source`.
+pub fn find<E>(source: Source<'_, E>, at: u32, end: u32) -> Result<Option<Record>, E> {
     let mut header = [0; HEADER as usize];
     if end.saturating_sub(at) < HEADER + CHECKSUM {
         return Ok(None);
@@ -260,7 +266,10 @@ pub(super) fn find<E>(source: Source<'_, E>, at: u32, end: u32) -> Result<Option
 }
 
 /// Gives a program the values of a record, if it is one of this program.
-pub(super) fn restore<P: Program + ?Sized, E>(
+///
+/// # Errors
+/// The first error of `source`; some devices may have their values then.
+pub fn restore<P: Program + ?Sized, E>(
     source: Source<'_, E>,
     record: &Record,
     program: &mut P,

@@ -320,54 +320,6 @@ fn contacts_open_where_the_model_opens_them() {
     assert_eq!(loaded(store.flash).1.bit(Class::T, 251), Some(false));
 }
 
-#[cfg(feature = "std")]
-mod files {
-    use super::*;
-    use std::io::ErrorKind;
-
-    #[test]
-    fn a_file_holds_the_values_of_the_last_save() {
-        let folder = std::env::temp_dir().join(std::format!("rungc-retain-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("motor.retain");
-        let (mut file, what) = RetainFile::open(&path, &mut Kept::new()).unwrap();
-        assert_eq!(what, Loaded::Nothing);
-        for number in 1..4 {
-            assert!(file.save(&Kept::with_state(number)).unwrap());
-        }
-        assert!(!file.save(&Kept::with_state(3)).unwrap(), "unchanged");
-        let mut kept = Kept::new();
-        let (_, what) = RetainFile::open(&path, &mut kept).unwrap();
-        assert_eq!(what, Loaded::Restored { dropped: 0 });
-        assert_eq!(kept.state(), Kept::with_state(3).state());
-        // Between scans another thread writes.
-        let kept = Kept::with_state(4);
-        let until = std::time::Instant::now() + std::time::Duration::from_secs(300);
-        let mut now_ms = 1000;
-        while !file.poll(&kept, now_ms, 1000).unwrap() {
-            assert!(std::time::Instant::now() < until, "it is saved");
-            now_ms += 1000;
-        }
-        assert!(!file.save(&kept).unwrap(), "saved already");
-        assert!(
-            !file
-                .poll(&Kept::with_state(5), now_ms + 1000, 1000)
-                .unwrap()
-        );
-        assert!(file.save(&Kept::with_state(6)).unwrap(), "the last one");
-        let mut read = Kept::new();
-        let _ = RetainFile::open(&path, &mut read).unwrap();
-        assert_eq!(read.state(), Kept::with_state(6).state());
-        let whole = std::fs::read(&path).unwrap();
-        for cut in 0..whole.len() {
-            std::fs::write(&path, &whole[..cut]).unwrap();
-            let error = RetainFile::open(&path, &mut Kept::new()).unwrap_err();
-            assert_eq!(error.kind(), ErrorKind::InvalidData, "{cut} bytes");
-        }
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-}
-
 /// The flash controller of a part, as its reference manual describes it.
 struct Part {
     is_f4: bool,

@@ -5,11 +5,11 @@ use super::serial::{Item, PortId, Protocol, Sent};
 use super::{Failure, Port, Step, Value};
 use crate::engines::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
+use rungc_host::servers::Dialogue;
 use rungc_ir::Module;
 use rungc_rt::Class;
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::{ServerProtocol, Service};
-use rungc_rt::servers::Dialogue;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 

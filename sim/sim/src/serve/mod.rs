@@ -1,5 +1,5 @@
 //! Traffic of the servers and serial ports of a running PLC: it is decoded ([`Decoder`]) and counted ([`Traffic`]). The
-//! servers themselves are the runtime's ([`rungc_rt::servers`]).
+//! servers themselves are those of [`rungc_host::servers`].
 
 mod decode;
 mod probe;

@@ -10,7 +10,7 @@ use std::{fs, io};
 /// Writes the runtime into a folder that does not have it yet; where a crate to be emitted finds it. A relative path
 /// stays relative, so that both can be moved together.
 pub(super) fn shared(folder: &Path, package: &Path, force: bool) -> Built<Runtime> {
-    let files = library::sources();
+    let files = library::sources(true);
     if !holds(folder, &files) {
         let sources = files.iter().map(|(path, text)| OutFile::new(path, text));
         let written = write_folder(folder, &bytes(sources.collect()), force);

@@ -3,11 +3,11 @@
 use super::super::subject::{self, Subject};
 use super::super::{Context, Failure, tell};
 use crate::args::ServeArgs;
+use rungc_host::io::{Connection, Io};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_project::Project;
 use rungc_rt::VirtualHal;
-use rungc_rt::io::{Connection, Io};
 use rungc_sim::plant::Description;
 use rungc_syntax::DeviceClass;
 use std::rc::Rc;

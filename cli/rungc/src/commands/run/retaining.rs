@@ -1,8 +1,8 @@
 //! `rungc run --retain`: latched devices that survive from run to run.
 
 use super::super::{Failure, tell};
+use rungc_host::retain::RetainFile;
 use rungc_interp::Machine;
-use rungc_rt::retain::RetainFile;
 use rungc_rt::{Class, Plc, Program};
 use std::path::PathBuf;
 

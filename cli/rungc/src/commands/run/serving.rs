@@ -3,6 +3,7 @@
 use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, tell};
+use rungc_host::servers::{Clients, Server};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_models::Model;
@@ -12,7 +13,6 @@ use rungc_rt::Program;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::modbus::client::ClientRow;
 use rungc_rt::comm::service::{ServerProtocol, Service};
-use rungc_rt::servers::{Clients, Server};
 use rungc_sim::serve::{Direction, Place, Seen, Speech};
 use rungc_syntax::NetworkRequest;
 use std::net::SocketAddr;

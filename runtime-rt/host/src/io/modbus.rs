@@ -3,19 +3,14 @@
 
 use super::cycle::{Driver, Trouble};
 use super::settings::{Connection, End, Row, Table};
-use crate::comm::modbus::{
+use rungc_rt::Class;
+use rungc_rt::comm::modbus::{
     Buffer, Framing, Job, LONGEST_RTU, Limits, accept, crc16, refusal, request, tcp,
 };
-use crate::comm::{Cut, Frame, Map};
-use crate::plc::Class;
-use std::boxed::Box;
-use std::format;
+use rungc_rt::comm::{Cut, Frame, Map};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
-use std::string::{String, ToString};
 use std::time::{Duration, Instant};
-use std::vec;
-use std::vec::Vec;
 
 /// The port of Modbus TCP.
 const PORT: u16 = 502;
@@ -66,7 +61,7 @@ impl<W: Wire> Remote<W> {
             count: own.0.len() as u16,
             buffer,
         };
-        let broken = |what: &dyn core::fmt::Debug| {
+        let broken = |what: &dyn std::fmt::Debug| {
             Trouble::Lost(format!(
                 "{}: the answer does not fit: {what:?}",
                 row.devices()

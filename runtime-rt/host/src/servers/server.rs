@@ -1,12 +1,11 @@
 //! The connections of one address.
 
 use super::{Dialogue, Exchange};
-use crate::comm::Map;
-use crate::comm::service::Service;
+use rungc_rt::comm::Map;
+use rungc_rt::comm::service::Service;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::time::Instant;
-use std::vec::Vec;
 
 /// Connections at once. When one more comes, the one that has been silent longest gives way.
 const CONNECTIONS: usize = 16;

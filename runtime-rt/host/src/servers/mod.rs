@@ -1,5 +1,4 @@
-//! Servers of a PLC over TCP: Modbus, MC protocol, the programming port's protocol. For hosts with a standard
-//! library (feature `std`).
+//! Servers of a PLC over TCP: Modbus, MC protocol, the programming port's protocol.
 //!
 //! A [`Dialogue`] is what one connection has said so far and is answered; it knows no network. A [`Server`] has the
 //! connections of one address, [`Servers`] are those of a program, and [`Clients`] ask other servers. They work only

@@ -1,13 +1,9 @@
 //! Connections, and how their keys and values are read.
 
-use crate::comm::modbus::Limits;
-use crate::plc::Class;
-use std::borrow::ToOwned;
+use rungc_rt::Class;
+use rungc_rt::comm::modbus::Limits;
 use std::collections::BTreeMap;
-use std::format;
 use std::ops::Range;
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// Kind of remote end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

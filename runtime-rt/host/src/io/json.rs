@@ -1,8 +1,5 @@
 //! The little of JSON that payloads hold: a number, a truth value, or a flat object or array of them.
 
-use std::string::String;
-use std::vec::Vec;
-
 /// A value of a payload.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Value {

@@ -2,17 +2,13 @@
 
 use super::cycle::{Driver, Trouble};
 use super::settings::{Connection, End, Row, devices};
-use std::boxed::Box;
 use std::collections::BTreeMap;
-use std::format;
 use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
-use std::vec::Vec;
 
 /// A larger file, in bytes, is rejected.
 const LARGEST: u64 = 1 << 20;

@@ -1,11 +1,8 @@
 //! Descriptions, and drivers of files.
 
 use super::*;
-use crate::plc::Class;
-use std::format;
+use rungc_rt::Class;
 use std::fs;
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// Errors of a connection, one per line: key, message, help.
 fn mistakes(pairs: &[(&str, &str)]) -> String {
@@ -148,7 +145,7 @@ allow = [
 }
 
 /// A driver of files in a new folder.
-fn files(folder: &str, pairs: &[(&str, &str)]) -> (Connection, std::boxed::Box<dyn Driver>) {
+fn files(folder: &str, pairs: &[(&str, &str)]) -> (Connection, Box<dyn Driver>) {
     let pairs: Vec<_> = [("files", folder)].iter().chain(pairs).copied().collect();
     let connection = Connection::read("plant", &pairs).unwrap();
     let driver = files::open_folder(&connection).unwrap();

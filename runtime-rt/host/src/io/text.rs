@@ -1,10 +1,6 @@
 //! Connections from a file, for hosts without a library for TOML.
 
 use super::settings::{Connection, Mistake, overlap};
-use std::borrow::ToOwned;
-use std::format;
-use std::string::String;
-use std::vec::Vec;
 
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
 /// What `rungc` itself reads as TOML, such as inline tables, is rejected here.

@@ -1,17 +1,10 @@
 //! Threads that exchange values with the other ends, and what they share with the scan.
 
 use super::settings::{Connection, Loss, Row};
-use crate::hal::{Hal, NoHal};
-use crate::plc::{Class, Plc};
-use crate::program::Program;
-use std::boxed::Box;
-use std::format;
-use std::string::{String, ToString};
+use rungc_rt::{Class, Hal, NoHal, Plc, Program};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
-use std::vec;
-use std::vec::Vec;
 
 /// Pause of a thread between attempts to reach the other end.
 const RETRY: Duration = Duration::from_secs(1);

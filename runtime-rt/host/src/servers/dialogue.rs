@@ -1,8 +1,7 @@
 //! Dialogue over one connection: received requests and their answers.
 
-use crate::comm::service::{Connection, FeedResult, LONGEST_REPLY, Service};
-use crate::comm::{Frame, Map};
-use std::vec::Vec;
+use rungc_rt::comm::service::{Connection, FeedResult, LONGEST_REPLY, Service};
+use rungc_rt::comm::{Frame, Map};
 
 /// One connection to a PLC.
 #[derive(Debug)]

@@ -3,13 +3,11 @@
 use super::cycle::Driver;
 use super::rtu::{Rtu, SerialLine};
 use super::settings::Connection;
-use core::ffi::{c_int, c_ulong, c_void};
-use std::boxed::Box;
+use std::ffi::{c_int, c_ulong, c_void};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::fd::{AsRawFd, FromRawFd, OwnedFd};
 use std::os::unix::fs::OpenOptionsExt;
-use std::string::{String, ToString};
 use std::time::{Duration, Instant};
 
 unsafe extern "C" {

@@ -1,16 +1,14 @@
 //! Requests of a program to servers over TCP.
 
-use crate::comm::modbus::client::{Client, ClientAction, ClientRow, Link};
-use crate::comm::service::ServerProtocol;
-use crate::comm::{Frame, Ports, Served};
-use crate::plc::Plc;
+use rungc_rt::Plc;
+use rungc_rt::comm::modbus::client::{Client, ClientAction, ClientRow, Link};
+use rungc_rt::comm::service::ServerProtocol;
+use rungc_rt::comm::{Frame, Ports, Served};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, SocketAddr, TcpStream};
-use std::string::{String, ToString};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::thread;
 use std::time::{Duration, Instant};
-use std::vec::Vec;
 
 /// Timeout of an attempt to connect.
 const CONNECT_WAIT: Duration = Duration::from_secs(3);
@@ -19,7 +17,7 @@ const CONNECT_WAIT: Duration = Duration::from_secs(3);
 const AT_ONCE: usize = 1024;
 
 /// The longest frame.
-const LONGEST: usize = crate::comm::modbus::tcp::LONGEST;
+const LONGEST: usize = rungc_rt::comm::modbus::tcp::LONGEST;
 
 /// The clients of a program: its table of requests, by servers.
 #[derive(Debug)]

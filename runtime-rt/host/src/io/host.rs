@@ -4,13 +4,10 @@ use super::cycle::{Io, Terminals};
 use super::log::Log;
 use super::settings::{Connection, Kind};
 use super::{opener, parse};
-use crate::plc::{Class, Plc};
-use std::format;
+use rungc_rt::{Class, Plc};
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// The largest description, in bytes.
 const LARGEST: u64 = 1 << 20;

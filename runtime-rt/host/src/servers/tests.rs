@@ -1,15 +1,13 @@
 //! Servers talked to over real sockets, and dialogues over none.
 
 use super::{Dialogue, Reaction, Server};
-use crate::comm::Map;
-use crate::comm::service::{ServerProtocol, Service};
-use crate::{Class, Ports};
+use rungc_rt::comm::Map;
+use rungc_rt::comm::service::{ServerProtocol, Service};
+use rungc_rt::{Class, Ports};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::thread;
 use std::time::Duration;
-use std::vec;
-use std::vec::Vec;
 
 /// A PLC that has 512 registers D and nothing else.
 struct Registers {

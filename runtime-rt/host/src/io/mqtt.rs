@@ -5,14 +5,10 @@ use super::cycle::{Driver, Trouble};
 use super::modbus::connect;
 use super::settings::Connection;
 use super::topics::{address, password, take, topics};
-use std::boxed::Box;
 use std::collections::BTreeMap;
-use std::format;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
-use std::string::{String, ToString};
 use std::time::{Duration, Instant};
-use std::vec::Vec;
 
 /// The port of MQTT.
 const PORT: u16 = 1883;
@@ -324,7 +320,6 @@ impl Driver for Broker {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec;
 
     #[test]
     fn packets_are_cut() {

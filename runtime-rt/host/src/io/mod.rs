@@ -1,5 +1,4 @@
-//! The terminals and registers of a PLC that runs on a computer: what they are connected to. For hosts with a standard
-//! library (feature `std`).
+//! The terminals and registers of a PLC that runs on a computer: what they are connected to.
 //!
 //! A [`Connection`] is what `[io.NAME]` of `rungc.toml` describes. Each has a thread, which exchanges values with the
 //! other end in separate cycles; the scan takes and leaves values between two of its scans and never waits for a
@@ -46,8 +45,6 @@ pub use rtu::{Rtu, SerialLine};
 pub use settings::{Connection, End, Kind, Loss, Mistake, Place, Row, Table, overlap, time};
 pub use text::parse;
 pub use topics::{Topic, address, password, take, topics};
-
-use std::string::String;
 
 /// The driver of a connection that needs nothing but the standard library and the system.
 ///

@@ -3,14 +3,10 @@
 use super::cycle::{Driver, Trouble};
 use super::settings::{Connection, End, Row};
 use super::sys::{Passed, Request, own};
-use std::boxed::Box;
-use std::format;
 use std::fs::{File, read_dir};
 use std::io::{self, ErrorKind};
 use std::os::fd::OwnedFd;
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// Lines of a request at most.
 const LINES: usize = 64;
@@ -328,7 +324,7 @@ mod tests {
     #[test]
     fn sizes_are_those_of_the_kernel() {
         assert_eq!((size_of::<Lines>(), size_of::<Values>()), (592, 16));
-        assert_eq!(core::mem::offset_of!(Lines, count), 560);
+        assert_eq!(std::mem::offset_of!(Lines, count), 560);
         assert_eq!(size_of::<Chip>(), 68);
     }
 

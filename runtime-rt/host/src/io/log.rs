@@ -1,11 +1,8 @@
 //! A log in a file, which a thread writes: a slow or full disk does not hold up a scan.
 
-use std::borrow::ToOwned;
-use std::format;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::thread;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};

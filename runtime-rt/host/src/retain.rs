@@ -1,17 +1,17 @@
-//! A record in a file.
+//! Latched devices that survive in a file, as a record of [`rungc_rt::retain`].
 
-use super::Loaded;
-use super::record::{self, Source};
-use crate::program::Program;
+#[cfg(test)]
+mod tests;
+
+use rungc_rt::Program;
+use rungc_rt::retain::Loaded;
+use rungc_rt::retain::record::{self, Source};
 use std::ffi::OsString;
-use std::format;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
-use std::vec::Vec;
 
 /// Interval at which a host checks latched devices for changes, in milliseconds.
 const EVERY_MS: u32 = 1000;

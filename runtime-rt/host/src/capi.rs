@@ -1,12 +1,10 @@
 //! Connections and log of a program on a computer, for hosts in C: one instance per process.
 
-use super::Map;
 use crate::io::{Outside, Terminals};
-use crate::plc::Plc;
-use core::ffi::{CStr, c_char, c_void};
+use rungc_rt::Plc;
+use rungc_rt::capi::Map;
 use std::borrow::Cow;
-use std::format;
-use std::string::String;
+use std::ffi::{CStr, c_char, c_void};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static OUTSIDE: Mutex<Option<Outside>> = Mutex::new(None);

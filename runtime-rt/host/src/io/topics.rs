@@ -2,11 +2,7 @@
 
 use super::json::{self, Value};
 use super::settings::{Connection, End, Row};
-use std::borrow::ToOwned;
-use std::format;
 use std::fs;
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// Stands for the name of the device in the topic of a row.
 const DEVICE: &str = "{}";

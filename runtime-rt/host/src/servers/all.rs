@@ -1,15 +1,12 @@
 //! The servers of a program.
 
 use super::Server;
-use crate::comm::Served;
-use crate::comm::service::{Service, TABLE_HEADING};
-use crate::plc::Plc;
+use rungc_rt::Plc;
+use rungc_rt::comm::Served;
+use rungc_rt::comm::service::{Service, TABLE_HEADING};
 use std::collections::BTreeMap;
-use std::format;
 use std::io;
 use std::net::{IpAddr, SocketAddr};
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// The servers of a program, and what has gone over their connections.
 #[derive(Debug, Default)]

@@ -1,7 +1,6 @@
 //! The time of day of the computer, for hosts whose real-time clock shows it.
 
-use crate::hal::{Clock, Hal};
-use crate::virtual_hal::VirtualHal;
+use rungc_rt::{Clock, Hal, VirtualHal};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// By how much the real-time clock may differ from the time of day before it follows, in milliseconds.
@@ -64,7 +63,7 @@ fn utc_ms() -> Option<i64> {
 #[cfg(unix)]
 #[allow(unsafe_code, reason = "a function of the C library")]
 mod system {
-    use core::ffi::{c_int, c_long};
+    use std::ffi::{c_int, c_long};
 
     /// `struct tm` to its offset, as the C libraries of Linux, macOS and the BSDs have it, and room for more.
     #[repr(C)]

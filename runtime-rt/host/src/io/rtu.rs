@@ -3,12 +3,9 @@
 use super::cycle::Driver;
 use super::modbus::{Remote, Wire};
 use super::settings::Connection;
-use std::boxed::Box;
 use std::io::{self, ErrorKind};
-use std::string::String;
 use std::thread;
 use std::time::{Duration, Instant};
-use std::vec::Vec;
 
 /// Bits of a character on the line: start, data, parity or a second stop bit, stop.
 const CHARACTER: u32 = 11;
