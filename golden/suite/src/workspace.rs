@@ -95,7 +95,8 @@ pub fn crates(root: &Path) -> io::Result<Crates> {
     let ruled = crates.values().flat_map(|one| &one.must_not_know);
     let mut named = ruled.chain(rules.keys());
     if let Some(unknown) = named.find(|name| !crates.contains_key(*name)) {
-        let message = format!("a rule of `must-not-know` names `{unknown}`, which is no package");
+        let message =
+            format!("a rule of `must-not-know` names `{unknown}`, which is not a package");
         return Err(io::Error::other(message));
     }
     Ok(crates)
