@@ -63,7 +63,7 @@ fn utc_ms() -> Option<i64> {
 #[cfg(unix)]
 #[allow(unsafe_code, reason = "a function of the C library")]
 mod system {
-    use std::ffi::{c_int, c_long};
+    use core::ffi::{c_int, c_long};
 
     /// `struct tm` to its offset, as the C libraries of Linux, macOS and the BSDs have it, and room for more.
     #[repr(C)]
@@ -92,10 +92,38 @@ mod system {
     }
 }
 
-/// Elsewhere the clock shows UTC.
-#[cfg(not(unix))]
+/// On Windows, its kernel knows.
+#[cfg(windows)]
+#[allow(unsafe_code, reason = "a function of Windows")]
 mod system {
-    pub use super::utc_ms as local_ms;
+    use core::ffi::c_int;
+
+    /// Milliseconds from 1601, with which `FILETIME` begins, to 1970.
+    const SINCE_1601_MS: i64 = 11_644_473_600_000;
+
+    /// `FILETIME`s in a millisecond.
+    const PER_MS: i64 = 10_000;
+
+    unsafe extern "system" {
+        /// Both are `FILETIME`: 64 bits in two words, the lower one first.
+        fn FileTimeToLocalFileTime(utc: *const [u32; 2], local: *mut [u32; 2]) -> c_int;
+    }
+
+    /// Milliseconds since 1970 by the zone of the system.
+    pub fn local_ms() -> Option<i64> {
+        let utc = (super::utc_ms()? + SINCE_1601_MS) * PER_MS;
+        let (utc, mut local) = ([utc as u32, (utc >> 32) as u32], [0; 2]);
+        // SAFETY: both are there, with the size and alignment of a FILETIME.
+        let done = unsafe { FileTimeToLocalFileTime(&utc, &mut local) } != 0;
+        let local = i64::from(local[1]) << 32 | i64::from(local[0]);
+        done.then(|| local / PER_MS - SINCE_1601_MS)
+    }
+}
+
+/// Elsewhere the clock shows UTC.
+#[cfg(not(any(unix, windows)))]
+mod system {
+    pub(super) use super::utc_ms as local_ms;
 }
 
 #[cfg(test)]
