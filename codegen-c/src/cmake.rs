@@ -65,6 +65,12 @@ target_link_libraries(plc_@NAME@ INTERFACE
 install(FILES ${rungc_rt} DESTINATION ${CMAKE_INSTALL_LIBDIR} RENAME librungc_rt.a)
 ";
 
+/// Link rule for a runtime library that has Rust's standard library in it.
+const LINK_SYSTEM: &str = "\
+target_link_libraries(plc_@NAME@ INTERFACE
+    \"$<IF:$<PLATFORM_ID:Windows>,ws2_32;userenv;ntdll,pthread;dl;m>\")
+";
+
 /// Install rules.
 const INSTALL: &str = "\
 install(TARGETS plc_@NAME@ EXPORT plc_@NAME@)
@@ -156,13 +162,15 @@ fn program(text: &mut String, recipe: &Recipe, project: &str) {
         let link = LINK_RUNTIME.replace("@PROJECT@", project);
         text.push_str(&link.replace("@NAME@", name));
     }
+    if recipe.shared.std {
+        text.push_str(&LINK_SYSTEM.replace("@NAME@", name));
+    }
     let install = INSTALL.replace("@HEADERS@", &headers.join(" "));
     text.push_str(&install.replace("@NAME@", name));
     if recipe.main {
-        let system = match (recipe.shared.std, recipe.has_thread()) {
-            (true, _) => "plc_@NAME@ pthread dl m)",
-            (false, true) => "plc_@NAME@ pthread)",
-            (false, false) => "plc_@NAME@)",
+        let system = match recipe.has_thread() {
+            true => "plc_@NAME@ pthread)",
+            false => "plc_@NAME@)",
         };
         let main = MAIN
             .replace("@FOLDER@", folder)

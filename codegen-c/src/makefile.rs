@@ -21,7 +21,9 @@ RUNTIME_FEATURES = @FEATURES@
 ";
 
 /// System libraries that the standard library of Rust needs.
-const STD_LIBRARIES: &str = "override LDFLAGS += -s -lpthread -ldl -lm\n";
+const STD_LIBRARIES: &str = "\
+override LDFLAGS += -s $(if $(findstring windows,$(TARGET)),-lws2_32 -luserenv -lntdll,-lpthread -ldl -lm)
+";
 
 /// Build rule.
 const LIBRARY_RULE: &str = "\
