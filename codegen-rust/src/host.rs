@@ -17,8 +17,8 @@ use std::fmt::Write;
 
 /// Imports of a host with serial ports from the standard library and the runtime.
 const LINES_USES: [&str; 5] = [
-    "rungc_rt::comm::{LineFormat, Parity, Received}",
-    "std::fs::File",
+    "rungc_host::io::SerialPort",
+    "rungc_rt::comm::{LineFormat, Received}",
     "std::io::{self, BufRead, Read, Write}",
     "std::sync::mpsc::{self, Receiver, SendError, Sender}",
     "std::time::{Duration, Instant}",

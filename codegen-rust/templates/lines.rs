@@ -7,7 +7,7 @@ struct Line {
     port: u8,
     path: String,
     /// `None`: it has vanished.
-    file: Option<File>,
+    serial: Option<SerialPort>,
     events: Receiver<Event>,
     format: LineFormat,
     /// Time of the last received character.
@@ -18,14 +18,14 @@ struct Line {
 enum Event {
     Came(Instant, Vec<u8>),
     Gone,
-    Back(File),
+    Back(SerialPort),
 }
 
 /// Reads a line for as long as the program runs, and opens it again when it vanishes.
-fn keep(path: &str, mut file: File, sender: &Sender<Event>) -> Result<(), SendError<Event>> {
+fn keep(path: &str, mut serial: SerialPort, sender: &Sender<Event>) -> Result<(), SendError<Event>> {
     loop {
         let mut bytes = [0; 1024];
-        while let Ok(count @ 1..) = file.read(&mut bytes) {
+        while let Ok(count @ 1..) = serial.receive(&mut bytes) {
             sender.send(Event::Came(Instant::now(), bytes[..count].to_vec()))?;
         }
         sender.send(Event::Gone)?;
@@ -35,16 +35,15 @@ fn keep(path: &str, mut file: File, sender: &Sender<Event>) -> Result<(), SendEr
                 break both;
             }
         };
-        file = reading;
+        serial = reading;
         sender.send(Event::Back(writing))?;
     }
 }
 
 /// Opens a line, to be read and to be written.
-fn ends(path: &str) -> io::Result<(File, File)> {
-    stty(path, &["raw", "-echo", "clocal"])?;
-    let file = File::options().read(true).write(true).open(path)?;
-    Ok((file.try_clone()?, file))
+fn ends(path: &str) -> io::Result<(SerialPort, SerialPort)> {
+    let serial = SerialPort::open(path)?;
+    Ok((serial.try_clone()?, serial))
 }
 
 impl Line {
@@ -73,7 +72,7 @@ impl Line {
         let (path, kept) = (path.to_string(), path.to_string());
         std::thread::spawn(move || keep(&kept, reading, &sender));
         let format = LineFormat::new();
-        Ok(Line { port, path, file: Some(writing), events, format, last_us: 0 })
+        Ok(Line { port, path, serial: Some(writing), events, format, last_us: 0 })
     }
 
     /// Passes received characters to the program's port at their time, and sends those of the program. The characters
@@ -85,7 +84,9 @@ impl Line {
         let format = line.format();
         if format != self.format && format.bits_per_second != 0 {
             self.format = format;
-            if let Err(error) = stty(&self.path, &settings(format)) {
+            if let Some(serial) = &self.serial
+                && let Err(error) = serial.set_format(format)
+            {
                 report!("COM{}: the line cannot be set to {} bit/s: {error}", self.port, format.bits_per_second);
             }
         }
@@ -95,12 +96,12 @@ impl Line {
                 Event::Came(at, bytes) => (at, bytes),
                 Event::Gone => {
                     report!("COM{}: {} is gone; waiting for it", self.port, self.path);
-                    self.file = None;
+                    self.serial = None;
                     continue;
                 }
-                Event::Back(file) => {
+                Event::Back(serial) => {
                     report!("COM{}: {} is back", self.port, self.path);
-                    self.file = Some(file);
+                    self.serial = Some(serial);
                     self.format = LineFormat::new();
                     continue;
                 }
@@ -121,31 +122,9 @@ impl Line {
         }
         let now_us = now_ms.wrapping_mul(1000);
         let sent: Vec<u8> = std::iter::from_fn(|| line.take(now_us)).map(|sent| sent.byte).collect();
-        if let Some(file) = &mut self.file {
+        if let Some(serial) = &mut self.serial {
             // A failure is one of reading, too, which is reported.
-            let _ = file.write_all(&sent);
+            let _ = serial.send(&sent);
         }
-    }
-}
-
-/// The format of characters as arguments of the command `stty`.
-fn settings(format: LineFormat) -> Vec<String> {
-    let on = |on: bool, name: &str| if on { name.to_string() } else { format!("-{name}") };
-    vec![
-        format.bits_per_second.to_string(),
-        format!("cs{}", format.data_bits),
-        on(format.parity != Parity::None, "parenb"),
-        on(format.parity == Parity::Odd, "parodd"),
-        on(format.stop_bits == 2, "cstopb"),
-    ]
-}
-
-/// Sets up a line with the command `stty`: the standard library has no other way.
-fn stty(path: &str, settings: &[impl AsRef<std::ffi::OsStr>]) -> io::Result<()> {
-    let mut command = std::process::Command::new("stty");
-    let output = command.arg("-F").arg(path).args(settings).output()?;
-    match output.status.success() {
-        true => Ok(()),
-        false => Err(io::Error::other(String::from_utf8_lossy(&output.stderr).trim().to_string())),
     }
 }

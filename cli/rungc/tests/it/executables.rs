@@ -135,7 +135,7 @@ fn cable(ours: &Path, theirs: &Path) -> Running {
 
 #[test]
 fn an_executable_in_rust_answers_on_a_terminal() {
-    if !has(&["mbpoll", "socat", "stty"]) {
+    if !has(&["mbpoll", "socat"]) {
         return;
     }
     let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
@@ -323,7 +323,7 @@ fn an_executable_in_rust_serves_over_tcp_and_reconnects() {
     let program = rust_program(folder.path(), &["--servers"]);
     insta::assert_snapshot!(help(&program));
     serves(&program);
-    if has(&["mbpoll", "socat", "stty"]) {
+    if has(&["mbpoll", "socat"]) {
         reconnects(&program, folder.path());
         let [ours, theirs] = ["port", "programmer"].map(|name| folder.path().join(name));
         let _cable = cable(&ours, &theirs);

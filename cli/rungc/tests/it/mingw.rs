@@ -1,12 +1,14 @@
-//! Main programs in C for Windows: mingw compiles them, and wine runs them.
+//! Main programs for Windows: mingw compiles those in C, and wine runs them; cargo checks those in Rust.
 
-use crate::common::{folder, rungc, text};
-use crate::tools::tools;
+use crate::common::{cargo, folder, rungc, text};
+use crate::tools::{no_rust, tools};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 const COMPILER: &str = "x86_64-w64-mingw32-gcc";
+
+const RUST_TARGET: &str = "x86_64-pc-windows-gnu";
 
 /// Y000 follows X000; D512 is latched and counts how often X000 goes on.
 const KEEP: &str = "\
@@ -30,19 +32,32 @@ MOV D8013 D0
 END
 ";
 
-/// Emits a main program, and makes these files of it for Windows.
-fn made(folder: &Path, emit: &[&str], files: &[&str]) {
+/// Emits a main program, and makes this of it for Windows.
+fn made(folder: &Path, emit: &[&str], make: &[&str]) {
     let args = [&["build", "--emit", "c", "--main", "-o", "out"], emit].concat();
     let emitted = rungc(folder, &args);
     assert!(emitted.status.success(), "{}", text(&emitted.stderr));
     let made = Command::new("make")
         .args([&format!("CC={COMPILER}"), "LDFLAGS=-static"])
         .arg("CFLAGS=-std=c99 -O1 -Wall -Wextra -Wconversion -pedantic -Werror")
-        .args(files)
+        .args(make)
         .current_dir(folder.join("out"))
         .output()
         .unwrap();
     assert!(made.status.success(), "{}", text(&made.stderr));
+}
+
+/// Returns true if Rust for Windows is installed.
+fn has_rust() -> bool {
+    let library = Command::new("rustc")
+        .args(["--print", "target-libdir", "--target", RUST_TARGET])
+        .output()
+        .unwrap();
+    let is_there = Path::new(text(&library.stdout).trim()).is_dir();
+    if !is_there {
+        eprintln!("not run: there is no {}", no_rust(RUST_TARGET));
+    }
+    is_there
 }
 
 #[test]
@@ -52,7 +67,12 @@ fn main_programs_in_c_compile_for_windows() {
     }
     let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
     let emit = ["slave.il", "--model", "h2u", "--servers", "--io"];
-    made(folder.path(), &emit, &["main.o", "slave.o"]);
+    let target = format!("TARGET={RUST_TARGET}");
+    let make: &[&str] = match has_rust() {
+        true => &["slave", &target, "RUNTIME_OPT=0"],
+        false => &["main.o", "slave.o"],
+    };
+    made(folder.path(), &emit, make);
 }
 
 /// Runs the program that keeps D512, and types each line once the program has printed the text of the one before.
@@ -96,4 +116,19 @@ fn a_main_program_in_c_runs_on_windows_and_keeps_devices() {
     run(folder, &[("X9=1", "Y001 on"), ("X0=1", "Y001 off")]);
     assert_ne!(latched(), twice);
     assert!(!folder.join("latched.new").exists());
+}
+
+#[test]
+fn main_programs_in_rust_compile_for_windows() {
+    if !has_rust() {
+        return;
+    }
+    let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
+    let args = ["build", "slave.il", "--model", "h2u", "--servers", "--io"];
+    cargo(
+        folder.path(),
+        &args,
+        "slave",
+        &["check", "--target", RUST_TARGET],
+    );
 }

@@ -16,7 +16,8 @@
 //! | `topics.rs`, `json.rs` | topics and payloads of brokers, by any client |
 //! | `gpio.rs` | pins (Linux) |
 //! | `files.rs` | files, standard input and output |
-//! | `sys.rs` | the calls of Linux that the standard library does not have |
+//! | `sys.rs` | serial ports, and the calls of Linux that the standard library does not have |
+//! | `no_serial.rs` | the same ports on other systems: none |
 //! | `host.rs`, `log.rs` | what `--io` and `--log` of an executable do |
 
 mod cycle;
@@ -28,6 +29,8 @@ mod json;
 mod log;
 mod modbus;
 mod mqtt;
+#[cfg(not(target_os = "linux"))]
+mod no_serial;
 mod rtu;
 mod settings;
 #[cfg(target_os = "linux")]
@@ -41,8 +44,12 @@ mod topics;
 pub use cycle::{Driver, GiveRow, Io, Of, Opener, TakeRow, Terminals, Trouble};
 pub use host::Outside;
 pub use modbus::{Remote, Wire};
+#[cfg(not(target_os = "linux"))]
+pub use no_serial::SerialPort;
 pub use rtu::{Rtu, SerialLine};
 pub use settings::{Connection, End, Kind, Loss, Mistake, Place, Row, Table, overlap, time};
+#[cfg(target_os = "linux")]
+pub use sys::SerialPort;
 pub use text::parse;
 pub use topics::{Topic, address, password, take, topics};
 

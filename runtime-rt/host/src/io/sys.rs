@@ -3,6 +3,7 @@
 use super::cycle::Driver;
 use super::rtu::{Rtu, SerialLine};
 use super::settings::Connection;
+use rungc_rt::comm::{LineFormat, Parity};
 use std::ffi::{c_int, c_ulong, c_void};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Write};
@@ -44,6 +45,7 @@ struct Termios {
 }
 
 /// Bits of `Termios::control`.
+const CS7: u32 = 0o40;
 const CS8: u32 = 0o60;
 const CSTOPB: u32 = 0o100;
 const CREAD: u32 = 0o200;
@@ -141,46 +143,125 @@ fn wait(file: &File, events: i16, wait: Duration) -> io::Result<bool> {
     }
 }
 
-/// A serial line of this machine.
+/// A serial port of this machine, raw. Neither reading nor writing waits.
+#[derive(Debug)]
+pub struct SerialPort(File);
+
+impl SerialPort {
+    /// Opens the port at a path; it keeps its present format.
+    ///
+    /// # Errors
+    /// It cannot be opened, or is no serial port.
+    pub fn open(path: &str) -> io::Result<SerialPort> {
+        let mut options = File::options();
+        options.read(true).write(true).custom_flags(FLAGS);
+        let port = SerialPort(options.open(path)?);
+        port.set(|settings| {
+            settings.input = 0;
+            settings.output = 0;
+            settings.local = 0;
+            settings.control |= CREAD | CLOCAL;
+        })?;
+        Ok(port)
+    }
+
+    /// Sets up the format of characters.
+    ///
+    /// # Errors
+    /// The port does not have it.
+    pub fn set_format(&self, format: LineFormat) -> io::Result<()> {
+        self.set(|settings| {
+            settings.control = CREAD | CLOCAL | BOTHER;
+            settings.control |= if format.data_bits == 7 { CS7 } else { CS8 };
+            settings.control |= match format.parity {
+                Parity::None => 0,
+                Parity::Even => PARENB,
+                Parity::Odd => PARENB | PARODD,
+            };
+            if format.stop_bits == 2 {
+                settings.control |= CSTOPB;
+            }
+            settings.input_rate = format.bits_per_second;
+            settings.output_rate = format.bits_per_second;
+        })
+    }
+
+    fn set(&self, change: impl FnOnce(&mut Termios)) -> io::Result<()> {
+        let mut settings = Termios::default();
+        GET_TERMIOS.pass(&self.0, &mut settings)?;
+        change(&mut settings);
+        SET_TERMIOS.pass(&self.0, &mut settings)
+    }
+
+    /// One more handle of the port.
+    ///
+    /// # Errors
+    /// The system has no more.
+    pub fn try_clone(&self) -> io::Result<SerialPort> {
+        self.0.try_clone().map(SerialPort)
+    }
+
+    /// Waits until characters have come; 0 where the port has vanished.
+    ///
+    /// # Errors
+    /// The port has vanished.
+    pub fn receive(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        loop {
+            let received = match wait(&self.0, POLLIN, Duration::from_secs(60)) {
+                Ok(true) => self.0.read(bytes),
+                Ok(false) => continue,
+                Err(error) => Err(error),
+            };
+            match received {
+                Err(error)
+                    if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
+                received => return received,
+            }
+        }
+    }
+
+    /// Sends characters; those for which the port has no room are lost.
+    ///
+    /// # Errors
+    /// The port has no room, or has vanished.
+    pub fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.write_all(bytes)
+    }
+}
+
+/// A serial line to slaves.
 struct Line {
-    file: File,
+    port: SerialPort,
     timeout: Duration,
 }
 
 /// Opens the line of a connection, to slaves.
 pub(super) fn open_line(connection: &Connection) -> Result<Box<dyn Driver>, String> {
-    let baud = connection.baud()?;
-    let (parity, stop) = connection.format()?;
-    let mut options = File::options();
-    options.read(true).write(true).custom_flags(FLAGS);
-    let wrong = |error: io::Error| error.to_string();
-    let file = options.open(&connection.end).map_err(wrong)?;
-    let mut settings = Termios::default();
-    GET_TERMIOS.pass(&file, &mut settings).map_err(wrong)?;
-    settings.input = 0;
-    settings.output = 0;
-    settings.local = 0;
-    settings.control = CS8 | CREAD | CLOCAL | BOTHER;
-    settings.control |= match parity {
-        'E' => PARENB,
-        'O' => PARENB | PARODD,
-        _ => 0,
+    let bits_per_second = connection.baud()?;
+    let (parity, stop_bits) = connection.format()?;
+    let mut format = LineFormat::new();
+    format.bits_per_second = bits_per_second;
+    format.stop_bits = stop_bits;
+    format.parity = match parity {
+        'E' => Parity::Even,
+        'O' => Parity::Odd,
+        _ => Parity::None,
     };
-    if stop == 2 {
-        settings.control |= CSTOPB;
-    }
-    settings.input_rate = baud;
-    settings.output_rate = baud;
-    SET_TERMIOS.pass(&file, &mut settings).map_err(wrong)?;
+    let open = || {
+        let port = SerialPort::open(&connection.end)?;
+        port.set_format(format)?;
+        Ok(port)
+    };
+    let port = open().map_err(|error: io::Error| error.to_string())?;
     let timeout = Duration::from_millis(connection.timeout_ms);
-    Rtu::driver(Line { file, timeout }, connection)
+    Rtu::driver(Line { port, timeout }, connection)
 }
 
 impl SerialLine for Line {
     fn discard(&mut self) -> io::Result<()> {
         let mut bytes = [0; 256];
         loop {
-            match self.file.read(&mut bytes) {
+            match self.port.0.read(&mut bytes) {
                 Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
                 Ok(_) => {}
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
@@ -193,11 +274,11 @@ impl SerialLine for Line {
     fn send(&mut self, mut bytes: &[u8]) -> io::Result<()> {
         let until = Instant::now() + self.timeout;
         while !bytes.is_empty() {
-            match self.file.write(bytes) {
+            match self.port.0.write(bytes) {
                 Ok(count) => bytes = &bytes[count..],
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {
                     let left = until.saturating_duration_since(Instant::now());
-                    if left.is_zero() || !wait(&self.file, POLLOUT, left)? {
+                    if left.is_zero() || !wait(&self.port.0, POLLOUT, left)? {
                         let why = "the line takes no characters";
                         return Err(io::Error::new(ErrorKind::TimedOut, why));
                     }
@@ -210,8 +291,8 @@ impl SerialLine for Line {
     }
 
     fn receive(&mut self, bytes: &mut [u8], longest: Duration) -> io::Result<usize> {
-        match wait(&self.file, POLLIN, longest)? {
-            true => self.file.read(bytes),
+        match wait(&self.port.0, POLLIN, longest)? {
+            true => self.port.0.read(bytes),
             false => Err(ErrorKind::TimedOut.into()),
         }
     }

@@ -126,9 +126,19 @@ pub fn rungc(folder: &Path, args: &[&str]) -> Output {
         .unwrap()
 }
 
-/// Builds a program in Rust: emits a package with these arguments into a folder and lets cargo build it, with the
-/// runtime that all tests share and in a folder where that is compiled once. Returns its executable `name`.
+/// Builds a program in Rust: emits a package with these arguments into a folder and lets cargo build it. Returns its
+/// executable `name`.
 pub fn built_in_rust(folder: &Path, args: &[&str], output: &str, name: &str) -> PathBuf {
+    let objects = cargo(folder, args, output, &["build"]);
+    let executable = folder.join(output).join(name);
+    let built = fs::read(objects.path().join("debug").join(name)).unwrap();
+    write_executable(&executable, &built);
+    executable
+}
+
+/// Emits a package in Rust with these arguments into a folder and lets cargo do something with it, with the runtime
+/// that all tests share. Returns the folder where that is compiled once.
+pub fn cargo(folder: &Path, args: &[&str], output: &str, command: &[&str]) -> Slot {
     let kept = cache::folder().unwrap();
     let runtime = library::unpacked(&kept).unwrap();
     let form = ["--emit", "rust", "--main", "-o", output, "--runtime"];
@@ -143,19 +153,17 @@ pub fn built_in_rust(folder: &Path, args: &[&str], output: &str, name: &str) -> 
     for root in ["src/lib.rs", "src/main.rs"] {
         cache::touch(&package.join(root)).unwrap();
     }
-    let built = Command::new("cargo")
-        .args(["build", "--quiet", "--offline"])
+    let done = Command::new("cargo")
+        .args(command)
+        .args(["--quiet", "--offline"])
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .env("CARGO_INCREMENTAL", "0")
         .env("CARGO_TARGET_DIR", objects.path())
         .current_dir(&package)
         .output()
         .unwrap();
-    assert!(built.status.success(), "{}", text(&built.stderr));
-    let executable = package.join(name);
-    let built = fs::read(objects.path().join("debug").join(name)).unwrap();
-    write_executable(&executable, &built);
-    executable
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    objects
 }
 
 /// Writes a file that can be executed. On Unix a shell writes it: a program that another test starts at that moment
