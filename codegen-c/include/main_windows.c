@@ -44,7 +44,7 @@ static void sleep_until(uint64_t moment_us)
     }
 }
 
-/* Characters from standard input, read by a thread: it sets `full`, and goes on after `taken`. */
+/* Characters from standard input, read by a thread: it sets `full`, and continues after `taken`. */
 static struct {
     HANDLE full, taken;
     DWORD count; /* 0: the end of input */

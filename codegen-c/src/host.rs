@@ -189,10 +189,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     outside
         .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
-        .replace(
-            "/* SYSTEM */\n",
-            &(by_system(template!("main_windows.c"), template!("main_posix.c")) + "\n"),
-        )
+        .replace("/* SYSTEM */\n", &system())
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", retain.header)
         .replace("    /* LOAD */\n", retain.load)
@@ -320,6 +317,11 @@ fn features(ports: bool) -> &'static str {
 /// Code for Windows, and for all other systems.
 fn by_system(windows: &str, posix: &str) -> String {
     format!("#ifdef _WIN32\n{windows}#else\n{posix}#endif\n")
+}
+
+/// What a run needs of the system: time, signals, standard input.
+fn system() -> String {
+    by_system(template!("main_windows.c"), template!("main_posix.c")) + "\n"
 }
 
 /// The lines that include the system's headers.

@@ -1,5 +1,5 @@
-//! Main programs for Windows compile strictly with mingw. Without it the test says so; with `RUNGC_REQUIRE_EMBEDDED` set,
-//! as in CI, that is a failure.
+//! Main programs for Windows compile strictly with mingw. Without it the test says so; with `RUNGC_REQUIRE_EMBEDDED`
+//! set, as in CI, that is a failure.
 
 use crate::build::{self, Builder};
 use rungc_codegen_c::{Options, emit};

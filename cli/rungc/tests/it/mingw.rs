@@ -10,7 +10,7 @@ const COMPILER: &str = "x86_64-w64-mingw32-gcc";
 
 const RUST_TARGET: &str = "x86_64-pc-windows-gnu";
 
-/// Y000 follows X000; D512 is latched and counts how often X000 goes on.
+/// Y000 follows X000; D512 is latched and counts how often X000 turns on.
 const KEEP: &str = "\
 LD X000
 OUT Y000

@@ -8,7 +8,7 @@ use std::io::{self, ErrorKind};
 pub enum SerialPort {}
 
 impl SerialPort {
-    /// Refuses to open the port.
+    /// Reports that there is none.
     ///
     /// # Errors
     /// Always.

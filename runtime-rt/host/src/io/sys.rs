@@ -151,7 +151,7 @@ impl SerialPort {
     /// Opens the port at a path; it keeps its present format.
     ///
     /// # Errors
-    /// It cannot be opened, or is no serial port.
+    /// It cannot be opened, or is not a serial port.
     pub fn open(path: &str) -> io::Result<SerialPort> {
         let mut options = File::options();
         options.read(true).write(true).custom_flags(FLAGS);
