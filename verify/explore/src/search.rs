@@ -14,7 +14,8 @@ use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Number of parts of a round.
 const PARTS: usize = 8;

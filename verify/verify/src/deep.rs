@@ -18,7 +18,8 @@ use rungc_ir::walk::statements;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Kind of finding.
 #[derive(Clone, PartialEq, Debug)]

@@ -12,7 +12,7 @@ use crate::system::System;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::time::Instant;
+use web_time::Instant;
 
 /// States: latches by number with their values, in order.
 pub type Cube = Vec<(usize, bool)>;

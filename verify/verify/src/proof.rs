@@ -5,7 +5,7 @@ use crate::pdr::Cube;
 use crate::reduce::reduced;
 use crate::system::System;
 use std::fmt;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Method by which a system is proved never to violate its property.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -11,7 +11,8 @@ use crate::system::System;
 use rungc_ir::Module;
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Options of a decision.
 #[derive(Clone, Debug)]
@@ -459,7 +460,8 @@ mod tests {
     use rungc_ir::Module;
     use rungc_ir::passes::simplify;
     use rungc_lower::compile::{CompileOptions, compile};
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
+    use web_time::Instant;
 
     fn module(list: &str) -> Module {
         let program = rungc_frontend::read_text("program.il", list).program;

@@ -10,7 +10,7 @@ use crate::proof::Fact;
 use crate::sat::{Answer, Solver};
 use crate::system::{Latch, System};
 use rustc_hash::FxHashMap;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Runs by chance before the induction, each of 64 lanes.
 const RUNS: u32 = 8;
@@ -254,7 +254,8 @@ mod tests {
     use crate::model::Key;
     use crate::system::{Latch, System};
     use rungc_syntax::DeviceClass;
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
+    use web_time::Instant;
 
     fn latch(number: u32, now: Lit, next: Lit, init: Option<bool>) -> Latch {
         Latch {

@@ -9,7 +9,7 @@ use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.
 fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> bool {

@@ -18,7 +18,8 @@ use rungc_ir::Module;
 use rungc_rt::{Class, Plc};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Result for an output of two programs.
 #[derive(Clone, Debug)]

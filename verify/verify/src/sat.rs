@@ -7,7 +7,7 @@ mod cadical;
 
 use crate::aig::{Aig, Lit, Node};
 use std::ops::Not;
-use std::time::Instant;
+use web_time::Instant;
 
 #[cfg(not(feature = "cadical"))]
 use batsat::Engine as Chosen;
@@ -155,7 +155,8 @@ impl Solver {
 mod tests {
     use super::{Answer, Solver};
     use crate::aig::Aig;
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
+    use web_time::Instant;
 
     #[test]
     fn assumptions_that_contradict_each_other_are_named() {

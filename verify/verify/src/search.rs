@@ -6,7 +6,7 @@ use crate::system::System;
 use crate::unroll::Unroller;
 use rungc_models::runs::is_counter32;
 use std::collections::BTreeMap;
-use std::time::Instant;
+use web_time::Instant;
 
 /// A run that the model allows: what it begins with, and the inputs of each scan.
 #[derive(Clone, PartialEq, Debug, Default)]

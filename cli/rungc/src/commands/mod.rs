@@ -348,13 +348,8 @@ impl AtomicFile {
             )));
         }
         fs::create_dir_all(folder).map_err(at)?;
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
-        #[cfg(not(unix))]
-        let _ = mode;
         // The file in the making has a name that means nothing to anybody.
-        let file = builder.tempfile_in(folder);
+        let file = temporary(mode).tempfile_in(folder);
         Ok(AtomicFile {
             file: file.map_err(|error| at(plain(error)))?,
             path: path.to_path_buf(),
@@ -386,6 +381,20 @@ pub fn plain(error: io::Error) -> io::Error {
         (None, Some(_)) => error.kind().into(),
         _ => error,
     }
+}
+
+/// Makes temporary files with these permissions, which are Unix's.
+#[cfg(unix)]
+fn temporary(mode: u32) -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    builder
+}
+
+/// Makes temporary files; there are no permissions of this kind.
+#[cfg(not(unix))]
+fn temporary(_mode: u32) -> tempfile::Builder<'static, 'static> {
+    tempfile::Builder::new()
 }
 
 /// The folder that a path lies in.

@@ -21,7 +21,7 @@ use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Relative tolerance of floats.
 const FLOAT_TOLERANCE: f64 = 1e-5;

@@ -4,7 +4,7 @@ use super::rarity::Rarity;
 use super::{Chance, Habits, Lanes};
 use crate::search::Trace;
 use crate::system::System;
-use std::time::Instant;
+use web_time::Instant;
 
 /// The most words that the inputs of a run take.
 const WORDS: usize = 4_000_000;

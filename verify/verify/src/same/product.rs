@@ -12,7 +12,7 @@ use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
-use std::time::Instant;
+use web_time::Instant;
 
 /// Two programs that are executed at the same time with the same inputs.
 ///

@@ -2,7 +2,7 @@
 
 use super::{Answer, SatLit};
 use ::batsat::{BasicSolver, Lit, SolverInterface, Var, lbool};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The solver.
 pub(super) struct Engine(BasicSolver);

@@ -2,7 +2,7 @@
 
 use super::{Answer, SatLit};
 use ::cadical::{Callbacks, Solver};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The solver.
 pub(super) struct Engine {
