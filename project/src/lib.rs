@@ -186,7 +186,7 @@ impl Project {
     pub fn find(path: &Path) -> Option<PathBuf> {
         let path = std::path::absolute(path).ok()?;
         // Through `..` and links as the system goes, where there is something at the path.
-        let path = path.canonicalize().unwrap_or(path);
+        let path = dunce::canonicalize(&path).unwrap_or(path);
         path.ancestors()
             .map(|folder| folder.join(FILE))
             .find(|file| file.is_file())

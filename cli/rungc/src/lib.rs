@@ -92,7 +92,11 @@ pub fn main() -> ExitCode {
 /// Returns true if standard error is to be coloured.
 fn color(when: ColorWhen) -> bool {
     match when {
-        ColorWhen::Always => true,
+        ColorWhen::Always => {
+            // Also on a Windows whose standard output is no console.
+            yansi::enable();
+            true
+        }
         ColorWhen::Never => false,
         ColorWhen::Auto => io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     }

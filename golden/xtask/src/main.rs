@@ -1,6 +1,7 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published, `cargo xtask campaign` compares engines for hours. No crate may depend on
-//! this one. Start reading at `generate.rs`, the table of generated files.
+//! package` the packages that are published, `cargo xtask platforms` checks other systems, `cargo xtask campaign`
+//! compares engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
+//! files.
 
 mod book;
 mod campaign;
@@ -8,6 +9,7 @@ mod crates;
 mod generate;
 mod header;
 mod package;
+mod platforms;
 mod rungc;
 mod tools;
 
@@ -29,6 +31,8 @@ enum Chore {
     Generate(generate::Args),
     /// Check that every published crate builds from its package alone, or publish them.
     Package(package::Args),
+    /// Check that the crates compile for Windows, macOS and WebAssembly.
+    Platforms(platforms::Args),
     /// Compare random programs on every way to run them, for hours.
     Campaign(campaign::Args),
 }
@@ -45,6 +49,7 @@ fn main() -> ExitCode {
     let done = match Args::parse().chore {
         Chore::Generate(args) => generate::run(&args),
         Chore::Package(args) => package::run(&args),
+        Chore::Platforms(args) => platforms::run(&args),
         Chore::Campaign(args) => campaign::run(&args),
     };
     match done {

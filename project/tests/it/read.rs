@@ -286,7 +286,7 @@ fn latched_devices_are_those_that_can_be() {
 #[test]
 fn the_nearest_file_is_found() {
     let folder = tempfile::tempdir().unwrap();
-    let root = folder.path().canonicalize().unwrap();
+    let root = dunce::canonicalize(folder.path()).unwrap();
     let inner = root.join("a/b");
     std::fs::create_dir_all(&inner).unwrap();
     std::fs::write(root.join(FILE), "").unwrap();

@@ -151,7 +151,7 @@ impl Projects<'_> {
 
 /// A path as seen from the current folder, where it lies below it.
 pub fn near(path: PathBuf) -> PathBuf {
-    let folder = std::env::current_dir().and_then(|folder| folder.canonicalize());
+    let folder = std::env::current_dir().and_then(dunce::canonicalize);
     let below = folder
         .ok()
         .and_then(|f| path.strip_prefix(f).ok().map(Path::to_owned));

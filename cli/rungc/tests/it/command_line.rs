@@ -604,3 +604,24 @@ fn device_access_is_for_emitted_c() {
         @"rungc: --device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this"
     );
 }
+
+#[cfg(windows)]
+#[test]
+fn what_windows_lacks_is_refused_by_name() {
+    let folder = folder(&[("p.il", b"LD X000\nOUT Y000\nEND\n")]);
+    std::fs::write(
+        folder.path().join("rungc.toml"),
+        "[project]\nprogram = 'p.il'\n[io.pins]\ngpio = ''\nX000 = 17\n",
+    )
+    .unwrap();
+    let refused = |args: &[&str]| {
+        let shown = shown(folder.path(), &[&["serve", "p.il"], args].concat());
+        shown
+            .lines()
+            .filter(|line| line.contains("exist"))
+            .collect::<String>()
+    };
+    insta::assert_snapshot!(refused(&["--priority", "50"]), @"");
+    insta::assert_snapshot!(refused(&["--serial", "COM1=pty"]), @"");
+    insta::assert_snapshot!(refused(&[]), @"");
+}

@@ -1,7 +1,7 @@
 //! Results of tests for tools, parts of a suite, and the output of an interrupted run.
 
 use crate::common;
-use crate::common::{MOTOR, code, folder, rungc, shown, soon, text};
+use crate::common::{MOTOR, code, folder, rungc, shown, text, with_slashes};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -190,6 +190,7 @@ fn cases_stay_in_their_part_when_others_are_added() {
 #[cfg(unix)]
 mod interrupted {
     use super::*;
+    use crate::common::soon;
     use crate::common::write_executable;
     use std::process::{Child, Command, Output, Stdio};
 
@@ -368,7 +369,7 @@ fn traces_are_reviewed() {
     story.push(answered(path, "a\n"));
     assert!(!pending.exists());
     assert_eq!(fs::read_to_string(&accepted).unwrap(), right);
-    insta::assert_snapshot!("results_review", story.join("\n\n"));
+    insta::assert_snapshot!("results_review", with_slashes(&story.join("\n\n")));
 }
 
 /// Output of a review with these answers.

@@ -3,8 +3,6 @@
 use crate::common;
 use crate::common::{HANG, MOTOR, code, folder, rungc, shown, text};
 use std::fs;
-use std::io::Read;
-use std::process::{Command, Stdio};
 
 #[test]
 fn settings_behind_the_end_are_told() {
@@ -229,6 +227,8 @@ fn machines_are_wired_to_programs() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_keeps_its_recording() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
     let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
         .args(["run", "motor.il", "--real-time", "--for", "1h"])

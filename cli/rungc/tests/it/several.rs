@@ -1,6 +1,6 @@
 //! Several programs at once: files, folders and standard input.
 
-use crate::common::{MOTOR, code, folder, rungc, shown, text};
+use crate::common::{MOTOR, code, folder, rungc, shown, text, with_slashes};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -56,12 +56,15 @@ fn files_and_folders_are_checked() {
     let path = folder.path();
     insta::assert_snapshot!(
         "check_files",
-        shown(path, &["check", "double.il", "motor.il"])
+        with_slashes(&shown(path, &["check", "double.il", "motor.il"]))
     );
-    insta::assert_snapshot!("check_folder", shown(path, &["check", "."]));
+    insta::assert_snapshot!("check_folder", with_slashes(&shown(path, &["check", "."])));
     insta::assert_snapshot!(
         "check_unread",
-        shown(path, &["check", "none.il", "motor.il", "line/motor.il"])
+        with_slashes(&shown(
+            path,
+            &["check", "none.il", "motor.il", "line/motor.il"]
+        ))
     );
     assert_eq!(code(path, &["check", "motor.il", "line"]), 1);
     assert_eq!(code(path, &["check", "-q", "motor.il", "double.il"]), 0);
@@ -82,7 +85,7 @@ fn documents_hold_all_files() {
     let files = ["check", "none.il", "double.il", "line/motor.il"];
     for format in ["json", "sarif"] {
         let args = [&files[..], &["--format", format]].concat();
-        insta::assert_snapshot!(format!("check_{format}"), shown(path, &args));
+        insta::assert_snapshot!(format!("check_{format}"), with_slashes(&shown(path, &args)));
     }
     // The shape follows from the command line: of a folder it is that of several, whatever is in it.
     let args = ["check", "line", "--format", "json"];
@@ -132,7 +135,7 @@ fn each_program_is_built_into_its_place() {
         "-o",
         "out",
     ];
-    insta::assert_snapshot!("build_several", shown(path, &args));
+    insta::assert_snapshot!("build_several", with_slashes(&shown(path, &args)));
     assert!(path.join("out/double/double.c").is_file());
     assert!(path.join("out/motor/motor.c").is_file());
     assert_eq!(
@@ -144,7 +147,7 @@ fn each_program_is_built_into_its_place() {
     let args = [
         "build", "motor.il", "line", "--emit", "ir", "-o", "ir", "--force",
     ];
-    insta::assert_snapshot!("build_same_name", shown(path, &args));
+    insta::assert_snapshot!("build_same_name", with_slashes(&shown(path, &args)));
     assert!(path.join("ir/motor.ir").is_file());
     let args = [
         "build",

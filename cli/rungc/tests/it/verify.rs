@@ -2,6 +2,7 @@
 
 mod peers;
 
+#[cfg(unix)]
 use crate::common;
 use crate::common::{folder, reverser, rungc, shown, text};
 

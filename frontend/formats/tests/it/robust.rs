@@ -1,12 +1,14 @@
 //! No input makes a reader panic or hang: random bytes, and valid inputs of every format with random damage.
 
 use crate::fixture::{
-    Part, Stream, compound, gh, gxw, project, qcd, replace, res, simple, structured_text,
-    with_list, wpa, wpg,
+    Part, gh, gxw, project, qcd, replace, res, simple, structured_text, with_list, wpa, wpg,
 };
+#[cfg(unix)]
+use crate::fixture::{Stream, compound};
 use encoding_rs::UTF_16LE;
 use proptest::prelude::*;
 use rungc_frontend::{Read, ReadOptions, print, read_bytes, read_text};
+#[cfg(unix)]
 use std::time::Duration;
 
 /// A small generator of random numbers (SplitMix64), so that every run sees the same inputs.
@@ -321,6 +323,7 @@ fn streams_that_share_sectors_are_not_read_twice() {
 }
 
 /// Gives each stream the sectors and the length of one of them, in the directory of a compound file.
+#[cfg(unix)]
 fn share_sectors(file: &mut [u8], name: &str) {
     let wide: Vec<u8> = name.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let entries: Vec<usize> = (512..file.len() - 127)

@@ -7,7 +7,9 @@ use rungc_ir::validate::validate;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_syntax::DeviceClass;
+#[cfg(unix)]
 use std::fmt::Write;
+#[cfg(unix)]
 use std::time::Duration;
 
 fn module(text: &str, optimise: bool) -> Module {

@@ -73,6 +73,6 @@ pub fn opener(connection: &Connection) -> Result<Opener, String> {
         #[cfg(target_os = "linux")]
         Kind::Gpio => Ok(gpio::open),
         #[cfg(not(target_os = "linux"))]
-        kind => Err(std::format!("only Linux has {}", kind.key())),
+        kind => Err(std::format!("`{}` exists only on Linux", kind.key())),
     }
 }

@@ -41,7 +41,7 @@ fn holds(folder: &Path, files: &[(String, String)]) -> bool {
 /// A path without links and `..`, whose end need not exist.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     let path = std::path::absolute(path)?;
-    match (path.canonicalize(), path.parent(), path.file_name()) {
+    match (dunce::canonicalize(&path), path.parent(), path.file_name()) {
         (Err(_), Some(parent), Some(name)) => Ok(resolved(parent)?.join(name)),
         (canonical, _, _) => canonical,
     }

@@ -60,7 +60,7 @@ impl<'m> Fleets<'m> {
     pub fn run(mut self, args: &FleetArgs) -> Result {
         interruption::note();
         if let Some(priority) = args.priority {
-            pace::raise(priority);
+            pace::raise(priority)?;
         }
         let plcs: u64 = self.groups.iter().map(|group| u64::from(group.count)).sum();
         let plcs = counted(plcs as usize, "PLC");

@@ -1,6 +1,6 @@
 //! Runs in real time: when scans begin, how late, and with which priority.
 
-use crate::commands::tell;
+use crate::commands::{Failure, tell};
 use std::time::{Duration, Instant};
 
 /// A run that is later than this has stood still (a suspended machine, a debugger). It does not catch up.
@@ -69,7 +69,11 @@ impl Pace {
 
 /// Lets this process run before all others, and keeps its memory from being paged out. What the system does not allow
 /// is reported.
-pub fn raise(priority: u8) {
+///
+/// # Errors
+/// The system has no such priorities.
+#[cfg(target_os = "linux")]
+pub fn raise(priority: u8) -> Result<(), Failure> {
     if let Err(why) = clock::raise(priority) {
         tell(&format!(
             "rungc: --priority {priority}: {why}; it needs the capability CAP_SYS_NICE, or `LimitRTPRIO=` of systemd"
@@ -80,6 +84,17 @@ pub fn raise(priority: u8) {
             "rungc: --priority {priority}: memory is not locked: {why}; it needs CAP_IPC_LOCK, or `LimitMEMLOCK=infinity` of systemd"
         ));
     }
+    Ok(())
+}
+
+/// Refuses what only Linux has.
+///
+/// # Errors
+/// Always.
+#[cfg(not(target_os = "linux"))]
+pub fn raise(priority: u8) -> Result<(), Failure> {
+    let why = "real-time priorities (SCHED_FIFO) exist only on Linux; leave out this option";
+    Err(Failure::Because(format!("--priority {priority}: {why}")))
 }
 
 /// Waiting for absolute times, which a late wake-up does not add up over.
@@ -154,16 +169,6 @@ mod clock {
         pub fn sleep_until(&self, due: Instant) {
             std::thread::sleep(due.saturating_duration_since(Instant::now()));
         }
-    }
-
-    const LINUX: &str = "only Linux has this";
-
-    pub fn raise(_: u8) -> Result<(), String> {
-        Err(LINUX.to_string())
-    }
-
-    pub fn lock_memory() -> Result<(), String> {
-        Err(LINUX.to_string())
     }
 }
 

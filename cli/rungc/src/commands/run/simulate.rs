@@ -175,7 +175,7 @@ impl Run<'_> {
         };
         interruption::note();
         if let Some(priority) = args.serve.priority {
-            pace::raise(priority);
+            pace::raise(priority)?;
         }
         let outcome = simulation.run(args)?;
         simulation.end(args, outcome)

@@ -1,6 +1,8 @@
 //! Emitted folders in the builds that firmware has.
 
 mod misra;
+// With tools as Debian installs them.
+#[cfg(unix)]
 mod packages;
 
 use crate::common::{folder, rungc, text};

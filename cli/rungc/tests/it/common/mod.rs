@@ -189,6 +189,9 @@ pub fn text(bytes: &[u8]) -> String {
 /// Times differ from run to run, paths and numbers of errors from system to system.
 pub fn normal(text: &str, folder: &Path) -> String {
     let text = text.replace(&folder.display().to_string(), "FOLDER");
+    let absent = std::io::Error::from_raw_os_error(2).to_string();
+    let text = text.replace(&absent, "No such file or directory (os error 2)");
+    let text = text.replace(r"FOLDER\", "FOLDER/");
     let mut lines = Vec::new();
     for line in text.lines() {
         let mut line = line.to_owned();
@@ -202,6 +205,14 @@ pub fn normal(text: &str, folder: &Path) -> String {
         lines.push(line);
     }
     lines.join("\n")
+}
+
+/// The text with slashes in paths, as Unix has them; also in JSON, which doubles what Windows has.
+pub fn with_slashes(text: &str) -> String {
+    match cfg!(windows) {
+        true => text.replace(r"\\", "/").replace('\\', "/"),
+        false => text.to_owned(),
+    }
 }
 
 /// Command, its output and its exit code.

@@ -205,7 +205,7 @@ fn interface(name: &str) -> io::Result<Wire> {
 /// There is no SocketCAN here.
 #[cfg(not(target_os = "linux"))]
 fn interface(_name: &str) -> io::Result<Wire> {
-    let why = "CAN interfaces (SocketCAN) exist on Linux alone; an adapter is written `slcan:PORT`";
+    let why = "CAN interfaces (SocketCAN) exist only on Linux; an adapter is written `slcan:PORT`";
     Err(io::Error::new(ErrorKind::Unsupported, why))
 }
 
@@ -382,5 +382,7 @@ fn pseudo_terminal() -> io::Result<(SerialPort, SerialPort, String)> {
 /// There are no pseudo-terminals here.
 #[cfg(not(unix))]
 fn pseudo_terminal() -> io::Result<(SerialPort, SerialPort, String)> {
-    Err(ErrorKind::Unsupported.into())
+    let why =
+        "pseudo-terminals exist only on Linux and macOS; name a serial port or `tcp-listen:PORT`";
+    Err(io::Error::new(ErrorKind::Unsupported, why))
 }
