@@ -88,7 +88,7 @@ target_link_libraries(plc_@NAME@_main PRIVATE plc_@NAME@)
 ";
 
 /// A `CMakeLists.txt` with a target for each program, of which none has the name of another.
-pub fn cmake_lists(recipes: &[Recipe]) -> String {
+pub(crate) fn cmake_lists(recipes: &[Recipe]) -> String {
     let targets: Vec<String> = recipes
         .iter()
         .map(|recipe| format!("rungc::{}", recipe.name))

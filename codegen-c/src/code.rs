@@ -111,7 +111,7 @@ impl Code {
     }
 
     /// Takes off what was added after a mark.
-    pub fn back_to(&mut self, mark: Mark) {
+    pub(crate) fn back_to(&mut self, mark: Mark) {
         self.take(mark);
     }
 
@@ -141,7 +141,7 @@ impl Code {
 
     /// Place to break the text from `start` on, if it does not fit: before the operator, or after the comma, that is
     /// least deep in parentheses, the last one of those.
-    pub fn break_at(&self, start: usize, room: usize) -> Option<usize> {
+    pub(crate) fn break_at(&self, start: usize, room: usize) -> Option<usize> {
         if self.text.len() - start <= room {
             return None;
         }

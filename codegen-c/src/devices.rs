@@ -343,7 +343,13 @@ impl Writer<'_, '_> {
 }
 
 /// Writes the call that runs a timer.
-pub fn run_timer(code: &mut Code, kind: TimerKind, timer: &str, drive: &Code, preset: &Code) {
+pub(crate) fn run_timer(
+    code: &mut Code,
+    kind: TimerKind,
+    timer: &str,
+    drive: &Code,
+    preset: &Code,
+) {
     let unit = kind.unit_ms;
     let family = match kind.accumulating {
         _ if kind.free_running

@@ -20,7 +20,7 @@ pub fn forget(module: &Module) -> String {
 }
 
 /// The statements that clear cells and tables at power-on.
-pub fn clear_cells(module: &Module) -> String {
+pub(crate) fn clear_cells(module: &Module) -> String {
     let cells = module.cells.iter();
     let cells = cells.map(|cell| format!("    plc->{} = 0;\n", cell.name));
     let tables = module.tables.iter().map(|table| {

@@ -322,7 +322,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes a value for an element of an array of columns.
-    pub fn grid_value(&mut self, out: &mut Code, value: ExprId) {
+    pub(crate) fn grid_value(&mut self, out: &mut Code, value: ExprId) {
         let expr = self.module.expr(value);
         let small = expr.as_bit().is_some()
             || matches!(

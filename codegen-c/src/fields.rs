@@ -6,7 +6,7 @@ use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// The C type of what a device is stored as.
-pub fn c_type(kind: Kind) -> &'static str {
+pub(crate) fn c_type(kind: Kind) -> &'static str {
     match kind {
         Kind::Bit => "bool",
         Kind::NumericBit => "uint8_t",

@@ -47,7 +47,7 @@ fn heading(section: Section) -> &'static str {
 }
 
 /// Writes struct and prototypes.
-pub fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> String {
+pub(crate) fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> String {
     let name = &module.name;
     let mut out = String::new();
     let mut size = Size::default();

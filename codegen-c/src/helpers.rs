@@ -31,7 +31,7 @@ enum Helper {
 
 /// The functions that a program needs.
 #[derive(Default)]
-pub struct Helpers {
+pub(crate) struct Helpers {
     needed: BTreeSet<(Helper, DeviceClass)>,
 }
 
@@ -64,7 +64,7 @@ impl Helpers {
     }
 
     /// `motor_put_bits_M`.
-    pub fn put_bits(&mut self, class: DeviceClass) {
+    pub(crate) fn put_bits(&mut self, class: DeviceClass) {
         self.needed.insert((Helper::PutBits, class));
         self.put("bit", class);
     }
@@ -406,7 +406,7 @@ impl std::fmt::Display for Device {
 }
 
 /// The function of rungc.h that resets a timer or counter.
-pub fn reset_function(kind: Kind) -> &'static str {
+pub(crate) fn reset_function(kind: Kind) -> &'static str {
     match kind {
         Kind::Timer => "plc_timer_reset",
         Kind::Counter32 => "plc_count32_reset",

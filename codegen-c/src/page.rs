@@ -46,7 +46,7 @@ impl Page {
     }
 
     /// Begins a block with this head, which ends in its brace and may be long.
-    pub fn open_code(&mut self, head: &Code) {
+    pub(crate) fn open_code(&mut self, head: &Code) {
         self.commented(head, None);
         self.indent += STEP;
         self.fresh = true;
@@ -77,7 +77,7 @@ impl Page {
     }
 
     /// Sets off what comes now by a blank line, unless a block has just begun.
-    pub fn set_off(&mut self) {
+    pub(crate) fn set_off(&mut self) {
         if !self.fresh {
             self.text.push('\n');
         }

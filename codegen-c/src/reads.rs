@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 impl Writer<'_, '_> {
     /// Writes the value that an access reads.
-    pub(crate) fn read(&mut self, out: &mut Code, access: &Access, around: Around) {
+    pub fn read(&mut self, out: &mut Code, access: &Access, around: Around) {
         let place = &access.place;
         match access.kind {
             AccessKind::Bit => self.bit(out, place),
@@ -56,7 +56,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes the expression of a device of the current iteration of a loop; false for any other.
-    pub fn access_iteration(&self, out: &mut String, place: &Place) -> bool {
+    pub(crate) fn access_iteration(&self, out: &mut String, place: &Place) -> bool {
         match place.index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, by)) => {
                 self.fields

@@ -57,7 +57,7 @@ impl Printer<'_> {
     }
 
     /// Forgets M8036 when STOP begins.
-    pub fn forget_run_command(&self) -> String {
+    pub(crate) fn forget_run_command(&self) -> String {
         match cycle::run_command(self.module, self.fields) {
             Some(RunCommand::Forced) => {
                 let run = self.stored(DeviceClass::M, M_FORCED_RUN.number());

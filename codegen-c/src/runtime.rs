@@ -19,7 +19,7 @@ struct Site {
 
 impl Writer<'_, '_> {
     /// Writes a [`Action::Call`](rungc_ir::node::Action::Call).
-    pub fn runtime_call(&mut self, code: &mut Code, call: &Call) {
+    pub(crate) fn runtime_call(&mut self, code: &mut Code, call: &Call) {
         let _ = write!(code.text(), "rungc_{}", call.function.name());
         code.open("(&map");
         code.comma();

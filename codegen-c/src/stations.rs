@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 impl<'m> Writer<'_, 'm> {
     /// Writes a loop.
-    pub fn station_loop(&mut self, page: &mut Page, stations: &Stations<'m>) {
+    pub(crate) fn station_loop(&mut self, page: &mut Page, stations: &Stations<'m>) {
         let (variable, count) = (self.loop_variable(), stations.count);
         page.set_off();
         page.comment(&stations::heading(stations));
@@ -44,7 +44,7 @@ impl<'m> Writer<'_, 'm> {
     }
 
     /// Writes the name of a bit that has been read before the loop around; false for any other.
-    pub fn loop_invariant(&self, out: &mut String, place: &Place) -> bool {
+    pub(crate) fn loop_invariant(&self, out: &mut String, place: &Place) -> bool {
         let device = (place.class, place.number);
         let is = place.index.is_none() && self.invariants.contains(&device);
         if is {

@@ -81,7 +81,7 @@ pub fn block(out: &mut String, indent: usize, text: &str) {
 }
 
 /// Appends spaces.
-pub fn push_indent(out: &mut String, mut indent: usize) {
+pub(crate) fn push_indent(out: &mut String, mut indent: usize) {
     const SPACES: &str = "                                ";
     while indent > SPACES.len() {
         out.push_str(SPACES);
@@ -91,12 +91,12 @@ pub fn push_indent(out: &mut String, mut indent: usize) {
 }
 
 /// Appends a number.
-pub fn push_number(out: &mut String, number: impl itoa::Integer) {
+pub(crate) fn push_number(out: &mut String, number: impl itoa::Integer) {
     out.push_str(itoa::Buffer::new().format(number));
 }
 
 /// Appends a number in octal.
-pub fn push_octal(out: &mut String, number: u32) {
+pub(crate) fn push_octal(out: &mut String, number: u32) {
     let digits = number.max(1).ilog2() / 3;
     for digit in (0..=digits).rev() {
         out.push(char::from(b'0' + (number >> (3 * digit) & 7) as u8));
@@ -104,7 +104,7 @@ pub fn push_octal(out: &mut String, number: u32) {
 }
 
 /// Writes a text into a string literal.
-pub fn string_literal(text: &str) -> String {
+pub(crate) fn string_literal(text: &str) -> String {
     use std::fmt::Write;
     let mut out = String::from("\"");
     for b in text.bytes() {

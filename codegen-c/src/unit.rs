@@ -105,7 +105,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Un
 }
 
 /// Returns true if a module calls the runtime.
-pub fn uses_runtime(module: &Module) -> bool {
+pub(crate) fn uses_runtime(module: &Module) -> bool {
     let mut uses = module.has_ports();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| uses |= calls_runtime(stmt));

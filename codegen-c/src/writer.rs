@@ -425,7 +425,7 @@ pub fn function_name(out: &mut String, module: &Module, function: usize) {
 }
 
 /// C type of a temporary.
-pub fn c_type(ty: Ty) -> &'static str {
+pub(crate) fn c_type(ty: Ty) -> &'static str {
     match ty {
         Ty::Bit => "bool",
         Ty::I16 => "int16_t",

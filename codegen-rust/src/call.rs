@@ -140,7 +140,7 @@ impl Generator<'_> {
     }
 
     /// Class and number of a device that the runtime is handed.
-    pub fn operand_place(&mut self, place: Place) -> (TokenStream, TokenStream) {
+    pub(crate) fn operand_place(&mut self, place: Place) -> (TokenStream, TokenStream) {
         let class = self.class(place.class);
         let number = match place.index {
             None => literal32(place.number as i32, false).tokens,

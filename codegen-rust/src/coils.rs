@@ -14,9 +14,9 @@ use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
 /// Function that runs a timer selected by an index.
-pub const OUT_TIMER: &str = "out_timer";
+pub(crate) const OUT_TIMER: &str = "out_timer";
 /// Function that runs a 16-bit counter selected by an index.
-pub const OUT_COUNTER: &str = "out_counter";
+pub(crate) const OUT_COUNTER: &str = "out_counter";
 
 /// Operations of a drive that fits on its coil's line.
 const SHORT_DRIVE: u64 = 5;
@@ -139,7 +139,7 @@ impl Generator<'_> {
 
     /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a
     /// program with very many timer coils it is called, not inlined.
-    pub fn coils_of_kinds(&mut self) {
+    pub(crate) fn coils_of_kinds(&mut self) {
         let never = has_many_timers(self.module).then(|| quote!(#[inline(never)]));
         for (name, kind) in std::mem::take(&mut self.timer_coils) {
             let kind = self.timer_kind(kind);
@@ -180,7 +180,7 @@ impl Generator<'_> {
     }
 
     /// Writes the functions for coils that an index leads to, if there are any.
-    pub fn indexed_coils(&mut self) {
+    pub(crate) fn indexed_coils(&mut self) {
         let (mut timers, mut counters) = (false, false);
         for function in &self.module.functions {
             rungc_ir::walk::statements(&function.body, &mut |stmt| {

@@ -4,10 +4,10 @@ use crate::{OutFile, template};
 use syn::Ident;
 
 /// The line of the manifest's dependencies.
-pub const DEPENDENCY: &str = "defmt = { version = \"1\", optional = true }\n";
+pub(crate) const DEPENDENCY: &str = "defmt = { version = \"1\", optional = true }\n";
 
 /// The end of the manifest.
-pub const FEATURE: &str =
+pub(crate) const FEATURE: &str =
     "\n[features]\n# defmt prints the program's state.\ndefmt = [\"dep:defmt\"]\n";
 
 /// The line of `src/lib.rs`.

@@ -9,27 +9,27 @@ use rungc_rt::EdgeKind;
 use std::rc::Rc;
 
 /// The field of a flag.
-pub fn flag_field(flag: &Flag) -> Ident {
+pub(crate) fn flag_field(flag: &Flag) -> Ident {
     format_ident!("{}", flag.name)
 }
 
 /// The field of a serial port.
-pub fn port_field(number: u8) -> Ident {
+pub(crate) fn port_field(number: u8) -> Ident {
     format_ident!("port_{}", number)
 }
 
 /// The field of a pulse output.
-pub fn axis_field(output: u32) -> Ident {
+pub(crate) fn axis_field(output: u32) -> Ident {
     format_ident!("y{:03o}_pulses", output)
 }
 
 /// The field that holds when a flag's period began.
-pub fn since_field(flag: &Flag) -> Ident {
+pub(crate) fn since_field(flag: &Flag) -> Ident {
     format_ident!("{}_since", flag.name)
 }
 
 /// The name of a method's hardware, which it may not use.
-pub fn hal_parameter(used: bool) -> Ident {
+pub(crate) fn hal_parameter(used: bool) -> Ident {
     format_ident!("{}", if used { "hal" } else { "_hal" })
 }
 
@@ -50,7 +50,7 @@ impl Generator<'_> {
     }
 
     /// Forgets what happened, when RUN begins.
-    pub fn forget_flags(&self) -> TokenStream {
+    pub(crate) fn forget_flags(&self) -> TokenStream {
         let flags = self.module.flags.iter().map(|flag| {
             let field = flag_field(flag);
             quote!(self.#field = false;)
@@ -63,7 +63,7 @@ impl Generator<'_> {
     }
 
     /// The methods that a host calls; nothing if the program takes no notice of anything outside its scan.
-    pub fn event_methods(&mut self) -> TokenStream {
+    pub(crate) fn event_methods(&mut self) -> TokenStream {
         let edge = self.input_edge();
         let tick = self.tick();
         let module = self.module;
@@ -128,7 +128,7 @@ impl Generator<'_> {
     }
 
     /// Statement that brings serial ports up to date.
-    pub fn ports_advance(&self) -> Option<TokenStream> {
+    pub(crate) fn ports_advance(&self) -> Option<TokenStream> {
         let has_ports = self.module.has_ports();
         has_ports.then(|| quote!(self.advance_ports(hal, now_ms.wrapping_mul(1000));))
     }
@@ -165,7 +165,7 @@ impl Generator<'_> {
     }
 
     /// The methods by which instructions and partners find serial ports.
-    pub fn port_methods(&mut self) -> Option<TokenStream> {
+    pub(crate) fn port_methods(&mut self) -> Option<TokenStream> {
         if !self.module.has_ports() {
             return None;
         }
@@ -293,7 +293,7 @@ impl Generator<'_> {
     }
 
     /// The methods by which instructions find pulse outputs.
-    pub fn axis_methods(&mut self) -> Option<TokenStream> {
+    pub(crate) fn axis_methods(&mut self) -> Option<TokenStream> {
         if !self.module.sends_pulses() {
             return None;
         }

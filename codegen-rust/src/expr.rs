@@ -116,7 +116,7 @@ fn literal16(value: i16, typed: bool) -> Code {
 }
 
 /// A 32-bit literal, with its type if the context does not give it.
-pub fn literal32(value: i32, typed: bool) -> Code {
+pub(crate) fn literal32(value: i32, typed: bool) -> Code {
     match (value, typed) {
         (i32::MIN, _) => Code::atom(quote!(i32::MIN)),
         (0.., true) => Code::atom(Literal::i32_suffixed(value).into_token_stream()),
@@ -321,7 +321,7 @@ impl Generator<'_> {
     }
 
     /// The device of a loop's current iteration.
-    pub fn cell_of_iteration(&self, place: Place) -> Option<TokenStream> {
+    pub(crate) fn cell_of_iteration(&self, place: Place) -> Option<TokenStream> {
         let Expr::Stride(_, by) = *self.module.expr(place.index?) else {
             return None;
         };
@@ -331,7 +331,7 @@ impl Generator<'_> {
     }
 
     /// Location of a bit; `None` if it is not stored, or selected by an index.
-    pub fn bit_cell(&self, place: Place) -> Option<TokenStream> {
+    pub(crate) fn bit_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
             Some(_) => bit_of(place.class, place.number, self.cell_of_iteration(place)?),
             None => self.storage.bit(&quote!(plc), place.class, place.number),
@@ -354,7 +354,7 @@ impl Generator<'_> {
     }
 
     /// Location of a word; `None` if it is not stored, or selected by an index.
-    pub fn word_cell(&self, place: Place) -> Option<TokenStream> {
+    pub(crate) fn word_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
             Some(_) => word_of(place.class, place.number, self.cell_of_iteration(place)?),
             None => self.storage.word(&quote!(plc), place.class, place.number),
@@ -437,7 +437,7 @@ impl Generator<'_> {
     }
 
     /// `plc.m[4..20]`, if all of these bits lie in one array.
-    pub fn array_slice(&self, place: Place, count: u32) -> Option<TokenStream> {
+    pub(crate) fn array_slice(&self, place: Place, count: u32) -> Option<TokenStream> {
         let array = self.storage.array(place.class, place.number, count);
         let field = array.filter(|field| field.kind == Kind::Bit)?;
         let (name, offset) = (field.name(), place.number - field.first);

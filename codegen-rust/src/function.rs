@@ -70,7 +70,7 @@ impl Generator<'_> {
     }
 
     /// The name of a function of the plan.
-    pub fn planned_name(&self, function: &Function) -> Ident {
+    pub(crate) fn planned_name(&self, function: &Function) -> Ident {
         let root = function_name(&self.module.functions[function.root]);
         format_ident!("{root}{}", function.suffix.to_lowercase())
     }
@@ -122,7 +122,7 @@ impl Generator<'_> {
     }
 
     /// Return statement that leaves the function of the module.
-    pub fn return_statement(&mut self) -> TokenStream {
+    pub(crate) fn return_statement(&mut self) -> TokenStream {
         if self.is_void() {
             return quote!(return;);
         }

@@ -150,13 +150,13 @@ impl<'m> Generator<'m> {
     }
 
     /// A function from `rungc_rt::word`, imported.
-    pub fn word_function(&mut self, name: &'static str) -> Ident {
+    pub(crate) fn word_function(&mut self, name: &'static str) -> Ident {
         self.uses.word_imports.insert(name);
         Ident::new(name, Span::call_site())
     }
 
     /// Brings the methods of access by number into scope.
-    pub fn import_access(&mut self) {
+    pub(crate) fn import_access(&mut self) {
         self.uses.imports.insert("Access");
     }
 
@@ -168,13 +168,13 @@ impl<'m> Generator<'m> {
     }
 
     /// The table of the model's devices.
-    pub fn devices_const(&mut self) -> Ident {
+    pub(crate) fn devices_const(&mut self) -> Ident {
         self.uses.devices = true;
         format_ident!("DEVICES")
     }
 
     /// The constant that holds a kind of timer.
-    pub fn timer_kind(&mut self, kind: TimerKind) -> Ident {
+    pub(crate) fn timer_kind(&mut self, kind: TimerKind) -> Ident {
         let name = kind_name(kind);
         self.rt("TimerKind");
         let ident = Ident::new(&name, Span::call_site());

@@ -12,7 +12,7 @@ use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
     /// Returns true if a `Bit` is written as a number: one from an array of columns, or made of such.
-    pub fn is_numeric(&self, id: ExprId) -> bool {
+    pub(crate) fn is_numeric(&self, id: ExprId) -> bool {
         let known = |e: ExprId| {
             let is_named = self.named.contains_key(&e);
             if let Expr::Temp(temp) = *self.module.expr(e) {
@@ -28,7 +28,7 @@ impl Generator<'_> {
     }
 
     /// A `Bit` as a number.
-    pub fn numeric(&mut self, id: ExprId) -> Code {
+    pub(crate) fn numeric(&mut self, id: ExprId) -> Code {
         let is_numeric = self.is_numeric(id);
         match (*self.module.expr(id), is_numeric) {
             (Expr::Bit(value), _) => literal(value),
@@ -47,7 +47,7 @@ impl Generator<'_> {
     }
 
     /// Numbers for the bits that a loop over stations reads before its first iteration.
-    pub fn invariant_lets(&self) -> TokenStream {
+    pub(crate) fn invariant_lets(&self) -> TokenStream {
         let lets = self.invariants.iter().filter_map(|&(class, number)| {
             let cell = self.storage.bit(&quote!(plc), class, number)?;
             let name = invariant_name(class, number);
@@ -61,7 +61,7 @@ impl Generator<'_> {
     }
 
     /// Location of a bit that is stored as a number.
-    pub fn numeric_cell(&self, place: Place) -> Option<TokenStream> {
+    pub(crate) fn numeric_cell(&self, place: Place) -> Option<TokenStream> {
         if self.is_invariant(place) {
             return Some(invariant_name(place.class, place.number).into_token_stream());
         }
@@ -77,7 +77,7 @@ impl Generator<'_> {
     }
 
     /// Gives a temporary of a loop over rungs a number, if its value is one; false if not.
-    pub fn assigns_level(&mut self, temp: TempId, value: ExprId) -> bool {
+    pub(crate) fn assigns_level(&mut self, temp: TempId, value: ExprId) -> bool {
         let is_constant = self.plan.temp(temp).home() == Home::Constant;
         let is = self.in_station_loop && is_constant && self.is_numeric(value);
         if is {

@@ -166,7 +166,7 @@ impl Generator<'_> {
     }
 
     /// The constant that stands for the part with this label.
-    pub fn label_state(&self, label: LabelId) -> Option<Ident> {
+    pub(crate) fn label_state(&self, label: LabelId) -> Option<Ident> {
         let root = self.plan.functions[self.function].root;
         let state = self.plan.state(root, label)?;
         Some(self.state_name(root, state))

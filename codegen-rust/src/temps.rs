@@ -26,7 +26,7 @@ pub fn type_of(ty: Ty) -> (TokenStream, TokenStream) {
 
 impl Generator<'_> {
     /// Location of a temporary: `step12`, `plc.step12`.
-    pub fn temp_place(&self, temp: TempId) -> TokenStream {
+    pub(crate) fn temp_place(&self, temp: TempId) -> TokenStream {
         let temp = self.plan.temp(temp);
         let name = format_ident!("{}", temp.to_string());
         match temp.home() {
@@ -36,7 +36,7 @@ impl Generator<'_> {
     }
 
     /// A temporary is given the value of an expression.
-    pub fn assign_temp(&mut self, temp: TempId, value: ExprId) -> TokenStream {
+    pub(crate) fn assign_temp(&mut self, temp: TempId, value: ExprId) -> TokenStream {
         if self.plan.temp(temp).used == 0 {
             return TokenStream::new();
         }

@@ -11,7 +11,7 @@ use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
     /// The steps that a scan may repeat, unless the program changes D8000.
-    pub fn initial_steps(&self) -> Literal {
+    pub(crate) fn initial_steps(&self) -> Literal {
         Literal::u32_unsuffixed(Module::scan_steps(self.module.watchdog_ms()))
     }
 
@@ -59,7 +59,7 @@ impl Generator<'_> {
 
     /// The method that reports an operation error which the program finds itself (see the runtime's `report`), as far
     /// as the program looks at it.
-    pub fn fault_method(&mut self) -> TokenStream {
+    pub(crate) fn fault_method(&mut self) -> TokenStream {
         let [first, each] = cycle::fault_shows(self.module.model, &self.storage);
         let shown = self.show(&first);
         let first = match first.first() {

@@ -294,7 +294,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
 }
 
 /// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
-pub const FUNCTIONS: [(&str, &str); 23] = [
+pub(crate) const FUNCTIONS: [(&str, &str); 23] = [
     ("init", "void NAME(void)"),
     (
         "input",

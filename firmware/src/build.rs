@@ -101,7 +101,7 @@ impl Tools {
     }
 
     /// Looks whether C can be built.
-    pub fn check_c(&self) -> Result<(), BuildError> {
+    pub(crate) fn check_c(&self) -> Result<(), BuildError> {
         let Target {
             triple, packages, ..
         } = self.target;
@@ -128,7 +128,7 @@ impl Tools {
     }
 
     /// Checks that Rust can be built. A cargo that builds the standard library itself needs no library for the target.
-    pub fn check_rust(&self) -> Result<(), BuildError> {
+    pub(crate) fn check_rust(&self) -> Result<(), BuildError> {
         if library::builds_std(&self.cargo_args) {
             return Ok(());
         }

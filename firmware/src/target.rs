@@ -135,7 +135,7 @@ impl Target {
     }
 
     /// The environment's variable that names a C compiler for it.
-    pub fn compiler_variable(&self) -> String {
+    pub(crate) fn compiler_variable(&self) -> String {
         match self.rustc_name() {
             Some(_) => format!("CC_{}", self.variable()),
             None => "CC".to_string(),
@@ -161,7 +161,7 @@ impl Target {
     }
 
     /// Returns true if code is built for it with a floating point unit, which is off after reset.
-    pub fn has_fpu(&self) -> bool {
+    pub(crate) fn has_fpu(&self) -> bool {
         self.is_bare() && self.triple.ends_with("hf")
     }
 }

@@ -12,13 +12,13 @@ use rungc_rt::special::M_RUNNING;
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind, Program, Span, codes};
 
 /// Stations are 1 to 63.
-pub const LAST_STATION: u32 = 63;
+pub(crate) const LAST_STATION: u32 = 63;
 /// Entries of a master and of a slave at most.
-pub const MOST_ENTRIES: [usize; 2] = [256, 16];
+pub(crate) const MOST_ENTRIES: [usize; 2] = [256, 16];
 /// Stations whose words to all one station takes.
-pub const MOST_HEARD: usize = 8;
+pub(crate) const MOST_HEARD: usize = 8;
 /// Relays that send several entries together, and entries of each.
-pub const MOST_TOGETHER: [usize; 2] = [8, 16];
+pub(crate) const MOST_TOGETHER: [usize; 2] = [8, 16];
 
 /// This PLC in its network.
 #[derive(Clone, PartialEq, Eq, Debug)]

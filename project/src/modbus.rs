@@ -43,7 +43,7 @@ const WRITE_COIL: u8 = 0x05;
 const WRITE_COILS: u8 = 0x0f;
 
 /// All of them.
-pub const TRANSFERS: [Transfer; 6] = {
+pub(crate) const TRANSFERS: [Transfer; 6] = {
     const fn new(key: &'static str, what: &'static str, function: u8, most: u16) -> Transfer {
         Transfer {
             key,

@@ -6,7 +6,7 @@ use rungc_rt::modules::{Kind, Place};
 use rungc_syntax::{FittedModule, Program, Span, codes};
 
 /// Numbers of modules beside the main unit.
-pub const LOCAL: std::ops::RangeInclusive<u16> = 0..=7;
+pub(crate) const LOCAL: std::ops::RangeInclusive<u16> = 0..=7;
 
 /// Numbers of modules on the CAN bus of H1U and H2U: 100 and their station.
 pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=162;

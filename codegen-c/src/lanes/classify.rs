@@ -83,7 +83,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// Returns true if a function runs as a whole in each instance: it is left before its end.
-    pub fn is_left_early(&self, function: usize) -> bool {
+    pub(crate) fn is_left_early(&self, function: usize) -> bool {
         let function = &self.plan.functions[function];
         function.flow != Flow::Void || self.jumps(&function.body)
     }
@@ -101,7 +101,7 @@ impl<'a, 'm> Classes<'a, 'm> {
 
     /// Selects the nodes that run on whole lanes. A temporary of one instance keeps all between its first and its last
     /// use together.
-    pub fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
+    pub(crate) fn of_nodes(&self, nodes: &[Node]) -> Vec<bool> {
         let mut sliced: Vec<bool> = nodes.iter().map(|node| self.slices(node)).collect();
         let mut uses: Vec<BTreeSet<TempId>> = Vec::with_capacity(nodes.len());
         for node in nodes {
@@ -139,7 +139,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// The temporaries that an expression reads.
-    pub fn temps_read(&self, id: ExprId, found: &mut BTreeSet<TempId>) {
+    pub(crate) fn temps_read(&self, id: ExprId, found: &mut BTreeSet<TempId>) {
         let expr = self.module.expr(id);
         if let Expr::Temp(temp) = *expr {
             found.insert(temp);
@@ -223,7 +223,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// Returns true if a bit is made of bits in lanes, and of comparisons that each instance can make.
-    pub fn slices_expr(&self, id: ExprId) -> bool {
+    pub(crate) fn slices_expr(&self, id: ExprId) -> bool {
         let expr = *self.module.expr(id);
         if let Expr::Temp(temp) = expr {
             return self.in_lanes(temp);
@@ -236,7 +236,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// Returns true if a bit by itself is in lanes, or the same in all.
-    pub fn is_lanes(&self, id: ExprId) -> bool {
+    pub(crate) fn is_lanes(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
         let known = matches!(
             expr,
@@ -265,7 +265,7 @@ impl<'a, 'm> Classes<'a, 'm> {
     }
 
     /// Returns true if all instances have the same value: it is made of constants and of values of the scan driver.
-    pub fn is_uniform(&self, id: ExprId) -> bool {
+    pub(crate) fn is_uniform(&self, id: ExprId) -> bool {
         let expr = self.module.expr(id);
         let own = matches!(
             expr,

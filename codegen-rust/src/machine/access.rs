@@ -18,7 +18,7 @@ enum Access {
 
 impl Generator<'_> {
     /// Access by number.
-    pub fn plc_impl(&mut self) -> Item {
+    pub(crate) fn plc_impl(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
         let (plc, state, sys) = (self.rt("Plc"), self.rt("State"), self.rt("Sys"));
@@ -306,7 +306,7 @@ impl Generator<'_> {
     }
 
     /// The table of the model's devices.
-    pub fn devices_table(&mut self) -> Item {
+    pub(crate) fn devices_table(&mut self) -> Item {
         self.uses = Default::default();
         let runs = self.rt("Runs");
         let mut rows = Vec::new();

@@ -16,7 +16,7 @@ use rungc_emit::storage::{Field, Keep, Kind, Section};
 
 impl Generator<'_> {
     /// The struct.
-    pub fn machine_struct(&mut self) -> Item {
+    pub(crate) fn machine_struct(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
         let fields: Vec<TokenStream> = self
@@ -151,7 +151,7 @@ impl Generator<'_> {
     }
 
     /// Power-on, and clearing.
-    pub fn machine_impl(&mut self) -> Item {
+    pub(crate) fn machine_impl(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
         let fields = self.storage.fields().to_vec();
@@ -207,7 +207,7 @@ impl Generator<'_> {
     }
 
     /// The text of some items, and what they use.
-    pub fn item_of(&mut self, tokens: TokenStream) -> Item {
+    pub(crate) fn item_of(&mut self, tokens: TokenStream) -> Item {
         Item {
             text: if self.with_comments {
                 format::items(tokens)

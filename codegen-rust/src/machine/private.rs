@@ -10,7 +10,7 @@ use rungc_rt::comm::Protocols;
 use std::rc::Rc;
 
 /// A private field.
-pub struct PrivateField {
+pub(crate) struct PrivateField {
     /// Its name.
     pub name: Ident,
     /// Its type.
@@ -25,7 +25,7 @@ pub struct PrivateField {
 
 impl Generator<'_> {
     /// The fields that are not devices.
-    pub fn private_fields(&mut self) -> Vec<PrivateField> {
+    pub(crate) fn private_fields(&mut self) -> Vec<PrivateField> {
         let plan = Rc::clone(&self.plan);
         let mut fields = Vec::new();
         for private in private::fields(self.module, &plan) {

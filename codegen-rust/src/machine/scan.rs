@@ -16,7 +16,7 @@ use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
     /// The scan.
-    pub fn program_impl(&mut self) -> Item {
+    pub(crate) fn program_impl(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
         let (program, hal) = (self.rt("Program"), self.rt("Hal"));

@@ -52,7 +52,7 @@ impl Analog {
     }
 
     /// The pins that are built-in analog outputs of the PLC, with their channels.
-    pub fn output_channels(&self) -> impl Iterator<Item = (u8, &AnalogPin)> {
+    pub(crate) fn output_channels(&self) -> impl Iterator<Item = (u8, &AnalogPin)> {
         numbered(&self.outputs)
     }
 

@@ -21,7 +21,7 @@ pub(super) struct Fitted {
 }
 
 /// A channel whose pin the board does not have: the module's number, the channel counted from 1, and the pin.
-pub type NoPin = (u16, u8, String);
+pub(crate) type NoPin = (u16, u8, String);
 
 /// Returns true if a program uses hardware, buffer memory included.
 fn asks_hardware(module: &Module) -> bool {

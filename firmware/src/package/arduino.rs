@@ -6,7 +6,7 @@ use crate::template;
 use rungc_emit::OutFile;
 
 /// The example in C++, for Arduino and for PlatformIO with Arduino's framework. Pins 0 and 1 are the serial port.
-pub const CPP: Style = Style {
+pub(crate) const CPP: Style = Style {
     template: template!("package/arduino.cpp"),
     edges: template!("package/arduino_edges.cpp"),
     pins: &[

@@ -43,7 +43,7 @@ pub fn size<'d>(file: &impl Object<'d>) -> Size {
 }
 
 /// Size of all objects of a static library together.
-pub fn library_size(data: &[u8]) -> object::Result<Size> {
+pub(crate) fn library_size(data: &[u8]) -> object::Result<Size> {
     let archive = ArchiveFile::parse(data)?;
     let mut sum = Size::default();
     for member in archive.members() {
@@ -56,7 +56,7 @@ pub fn library_size(data: &[u8]) -> object::Result<Size> {
 }
 
 /// Size of the data of this name.
-pub fn data_size(file: &Elf, name: &str) -> Option<u64> {
+pub(crate) fn data_size(file: &Elf, name: &str) -> Option<u64> {
     let named = |symbol: &object::read::elf::ElfSymbol32<'_, '_>| {
         symbol.kind() == SymbolKind::Data && symbol.name() == Ok(name)
     };

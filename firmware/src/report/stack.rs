@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Reason why there is no bound.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Unbounded {
+pub(crate) enum Unbounded {
     /// These functions call each other in a ring.
     Recursion(Vec<String>),
     /// This function takes as much as its data say.
@@ -146,7 +146,7 @@ impl Functions {
     }
 
     /// Returns true if any function calls through a register.
-    pub fn has_indirect_calls(&self) -> bool {
+    pub(crate) fn has_indirect_calls(&self) -> bool {
         self.by_address.values().any(|f| f.frame.indirect)
     }
 

@@ -23,7 +23,7 @@ impl Listing {
 
     /// Begins the line of this number, from 1, leaving empty those in between; a line that has passed means the next
     /// one.
-    pub fn go_to_line(&mut self, line: u32) {
+    pub(crate) fn go_to_line(&mut self, line: u32) {
         let line = line.max(self.line + 1);
         let first = u32::from(self.line == 0);
         self.text.extend(std::iter::repeat_n(

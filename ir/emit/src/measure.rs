@@ -47,7 +47,7 @@ impl Sizes {
     }
 
     /// Returns true if it is large enough that sharing inside matters.
-    pub fn is_large(&self, e: ExprId) -> bool {
+    pub(crate) fn is_large(&self, e: ExprId) -> bool {
         self.size[e] > LARGE
     }
 }

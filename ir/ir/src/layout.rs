@@ -7,7 +7,6 @@ use crate::node::{Module, Place};
 use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::statements;
 use rungc_models::Model;
-use rungc_models::runs::is_special;
 use rungc_rt::special::{D_FIRST_ERROR_STEP, M_FIRST_ERROR};
 use rungc_syntax::DeviceClass;
 
@@ -24,16 +23,6 @@ pub struct Area {
     pub array: bool,
     /// Kept over RUN/STOP and power-off. An area never mixes both.
     pub latched: bool,
-}
-
-impl Area {
-    /// Returns true if M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Action::Clear`]); devices that
-    /// M8031 clears are also cleared in STOP. Inputs and special devices are never cleared (h1u-h2u-programming §8.9).
-    /// Cleared timers and counters forget their coil, too.
-    pub fn is_cleared(&self, latched: bool) -> bool {
-        let special = is_special(self.class, self.first);
-        self.class != DeviceClass::X && !special && self.latched == latched
-    }
 }
 
 /// Devices that a [`Stmt::Repeat`](crate::node::Stmt::Repeat) goes through, as an array of columns: column 0 holds the

@@ -202,7 +202,7 @@ for_exprs! {
 }
 
 /// Calls `f` with the places that a statement itself names, in addition to those in its expressions, to replace them.
-pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
+pub(crate) fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
     if let Stmt::Do(action) = stmt {
         action_parts_mut(action, &mut |part| {
             if let ActionPart::Place(place) = part {

@@ -91,7 +91,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
 }
 
 /// As [`lower`], with marks in the module, which say where its parts come from.
-pub fn lower_marked(
+pub(crate) fn lower_marked(
     resolved: &Resolved,
     options: &LowerOptions,
 ) -> (Option<(Module, Marks)>, Diagnostics) {

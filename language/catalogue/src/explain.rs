@@ -421,7 +421,7 @@ pub fn special_table(model: ModelId) -> String {
 
 impl Inst {
     /// Returns true if it has a form on a model.
-    pub fn has_form_on(&self, form: Form, model: ModelId) -> bool {
+    pub(crate) fn has_form_on(&self, form: Form, model: ModelId) -> bool {
         let forms = self.forms_on(model);
         let width = if form.wide { Forms::W32 } else { Forms::W16 };
         forms.has(width) && (!form.pulse || forms.has(Forms::PULSE))

@@ -136,7 +136,7 @@ impl Special {
     }
 
     /// Returns true if the scan driver updates it.
-    pub fn is_kept_by_scan(&self) -> bool {
+    pub(crate) fn is_kept_by_scan(&self) -> bool {
         matches!(self.status, Status::Scan)
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// # Errors
 ///
 /// A file cannot be read, or does not have the contents that its key names.
-pub fn transport(connection: &Connection) -> Result<Option<Transport>, String> {
+pub(crate) fn transport(connection: &Connection) -> Result<Option<Transport>, String> {
     let option = |key: &str| connection.options.get(key);
     let Some(ca) = option("ca") else {
         return Ok(None);

@@ -56,7 +56,7 @@ impl Covered {
     }
 
     /// Returns true if a goal was reached.
-    pub fn is_reached(&self, goal: &Goal) -> bool {
+    pub(crate) fn is_reached(&self, goal: &Goal) -> bool {
         goal.is_reached(&self.seen)
     }
 

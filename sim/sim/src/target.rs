@@ -16,7 +16,7 @@ pub struct Channel {
 }
 
 /// Name of the analog board in the main unit.
-pub const BOARD_NAME: &str = "board";
+pub(crate) const BOARD_NAME: &str = "board";
 
 /// The letters of terminals.
 const TERMINALS: [(&str, Quantity); 2] = [

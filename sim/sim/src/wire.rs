@@ -67,7 +67,7 @@ impl Signal {
     }
 
     /// Duration in microseconds.
-    pub fn duration_us(self) -> u64 {
+    pub(crate) fn duration_us(self) -> u64 {
         let (count, hz) = match self {
             Signal::Pulses { count, hz, .. } => (count, hz),
             Signal::Encoder { count, hz, .. } => (count.unsigned_abs(), hz),

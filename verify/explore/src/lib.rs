@@ -18,7 +18,7 @@ pub mod shrink;
 pub mod task;
 pub mod trains;
 pub mod untried;
-pub mod vary;
+pub(crate) mod vary;
 pub mod wide;
 
 pub use search::{Limits, Report, search};

@@ -12,7 +12,7 @@ use rungc_verify::property::{Watcher, read};
 use std::collections::VecDeque;
 
 /// Number of successive scans in which an output changes before it counts as one that never comes to rest.
-pub const RESTLESS: u32 = 20;
+pub(crate) const RESTLESS: u32 = 20;
 
 /// In [`Step::set`] in place of an input: before all else, the power supply goes off and comes back. The value is how
 /// often it has done so.
@@ -140,7 +140,7 @@ impl<'t> Runner<'t> {
     }
 
     /// The properties, as far as the run has followed them.
-    pub fn watchers(&self) -> &[Watcher<'t>] {
+    pub(crate) fn watchers(&self) -> &[Watcher<'t>] {
         &self.watchers
     }
 
@@ -345,7 +345,7 @@ impl<'t> Runner<'t> {
 
     /// Returns true if an output changes in every scan from here on, however long scans are; the state of the run is
     /// restored.
-    pub fn never_rests(&mut self, output: u32) -> bool {
+    pub(crate) fn never_rests(&mut self, output: u32) -> bool {
         /// Times that no clock of a PLC follows both, in milliseconds.
         const SCAN_MS: [u32; 2] = [10, 7];
         let here = self.save();

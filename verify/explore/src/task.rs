@@ -195,7 +195,7 @@ impl<'a> Task<'a> {
     }
 
     /// Returns true if the effect of the hardware depends on more than the time.
-    pub fn uses_hal(&self) -> bool {
+    pub(crate) fn uses_hal(&self) -> bool {
         let mut calls = self.machine.is_some() || self.module.takes_events();
         for function in &self.module.functions {
             statements(&function.body, &mut |stmt| calls |= calls_runtime(stmt));

@@ -17,7 +17,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
 /// The most pulses in a millisecond: about what the fastest inputs of these PLCs count.
-pub const MOST_A_MS: u32 = 100;
+pub(crate) const MOST_A_MS: u32 = 100;
 /// As many pulses take about as long as a scan of a small machine's program.
 const PULSES_A_SCAN: u64 = 32;
 /// Longer trains come the less often the longer they are, or a search would do little else.
@@ -50,7 +50,7 @@ enum Goal {
 }
 
 /// Selection of the next pulses.
-pub struct Trains<'t> {
+pub(crate) struct Trains<'t> {
     sources: &'t [Source],
     /// By counter.
     goals: Vec<(u32, Goal)>,
@@ -99,7 +99,7 @@ pub fn hertz(count: i32, scan_ms: u32) -> u32 {
 
 /// Returns true if the pulses of a step fit in the time of its first scan, and a terminal has one train, a step of a
 /// test file one encoder.
-pub fn are_possible(task: &Task, step: &Step) -> bool {
+pub(crate) fn are_possible(task: &Task, step: &Step) -> bool {
     let most = step.scan_ms.saturating_mul(MOST_A_MS);
     let mut trains = step.pulses.iter().enumerate();
     trains.all(|(i, &(source, count))| {
@@ -177,7 +177,7 @@ pub fn changes(task: &Task, step: &Step, on: &dyn Fn(u32) -> bool) -> Vec<Change
 }
 
 /// The inputs of a search that are off once a step's pulses have come.
-pub fn left_off<'a>(
+pub(crate) fn left_off<'a>(
     task: &'a Task,
     pulses: &'a [(usize, i32)],
 ) -> impl Iterator<Item = usize> + 'a {

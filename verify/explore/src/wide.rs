@@ -143,7 +143,7 @@ impl Items {
 }
 
 /// A sweep, and what is judged by.
-pub struct Sweep<'r, 't> {
+pub(crate) struct Sweep<'r, 't> {
     /// The task.
     pub task: &'t Task<'t>,
     /// Values to evaluate.
@@ -227,7 +227,7 @@ impl<'t> Sweep<'_, 't> {
     }
 
     /// Executes it on the interpreter; `row` gets the changes of each scan.
-    pub fn interpret(&self, runner: &mut Runner<'t>, row: &mut dyn FnMut(&[Change])) {
+    pub(crate) fn interpret(&self, runner: &mut Runner<'t>, row: &mut dyn FnMut(&[Change])) {
         let scans = self.strides.iter().map(|stride| stride.time.0 as usize);
         let mut rows: Vec<Vec<Change>> = vec![Vec::new(); scans.sum()];
         for lane in 0..LANES {

@@ -18,7 +18,7 @@ impl Lit {
     }
 
     /// Returns true if it is the inversion of the node.
-    pub fn is_inverted(self) -> bool {
+    pub(crate) fn is_inverted(self) -> bool {
         self.0 & 1 == 1
     }
 
@@ -186,7 +186,7 @@ impl Aig {
     }
 
     /// `then` where `cond` is on, else `otherwise`.
-    pub fn mux(&mut self, cond: Lit, then: Lit, otherwise: Lit) -> Lit {
+    pub(crate) fn mux(&mut self, cond: Lit, then: Lit, otherwise: Lit) -> Lit {
         if then == otherwise {
             return then;
         }

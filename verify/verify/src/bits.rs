@@ -127,7 +127,7 @@ impl Aig {
     }
 
     /// The product's low bits, as many as `a` has.
-    pub fn mul(&mut self, a: &[Lit], b: &[Lit]) -> Bits {
+    pub(crate) fn mul(&mut self, a: &[Lit], b: &[Lit]) -> Bits {
         let width = a.len();
         let mut product = constant(0, width);
         for (i, &bit) in b.iter().enumerate().take(width) {
@@ -167,7 +167,7 @@ impl Aig {
     }
 
     /// Quotient and remainder, signed, truncated towards 0, wrapping.
-    pub fn divide_signed(&mut self, a: &[Lit], b: &[Lit]) -> (Bits, Bits) {
+    pub(crate) fn divide_signed(&mut self, a: &[Lit], b: &[Lit]) -> (Bits, Bits) {
         let ((ma, sa), (mb, sb)) = (self.magnitude(a), self.magnitude(b));
         let (quotient, rest) = self.divide(&ma, &mb);
         let differ = self.xor(sa, sb);

@@ -15,7 +15,7 @@ use std::collections::BinaryHeap;
 use web_time::Instant;
 
 /// States: latches by number with their values, in order.
-pub type Cube = Vec<(usize, bool)>;
+pub(crate) type Cube = Vec<(usize, bool)>;
 
 /// Result of the search.
 #[derive(Clone, PartialEq, Eq, Debug)]

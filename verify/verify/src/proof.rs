@@ -103,7 +103,7 @@ impl From<System> for Posed {
 impl Posed {
     /// Rests on this formula, too.
     #[must_use]
-    pub fn resting_on(mut self, apart: Formula) -> Self {
+    pub(crate) fn resting_on(mut self, apart: Formula) -> Self {
         self.apart = Some(apart);
         self
     }

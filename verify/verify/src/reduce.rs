@@ -18,7 +18,7 @@ const RUNS: u32 = 8;
 const SCANS: u32 = 60;
 
 /// A system without the bits that others stand for.
-pub struct Reduced {
+pub(crate) struct Reduced {
     /// The system.
     pub system: System,
     /// Proved facts about the original system.
@@ -49,7 +49,7 @@ impl Reduced {
 type Classes = Vec<Option<usize>>;
 
 /// The same system, smaller; `None` if the time is up before anything is proved.
-pub fn reduced(system: &System, deadline: Instant) -> Option<Reduced> {
+pub(crate) fn reduced(system: &System, deadline: Instant) -> Option<Reduced> {
     let mut classes = by_chance(system);
     loop {
         if Instant::now() > deadline {

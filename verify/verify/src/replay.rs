@@ -96,7 +96,7 @@ pub fn replay(
 }
 
 /// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile.
-pub fn stretched(trace: &Trace, most_ms: u32) -> Trace {
+pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Trace {
     let most_ms = most_ms.max(1);
     let mut scans: Vec<Scan> = Vec::new();
     for scan in &trace.scans {

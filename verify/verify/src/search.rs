@@ -29,7 +29,7 @@ pub struct Scan {
 }
 
 /// Searches from power-on, scan by scan.
-pub struct Bounded<'s> {
+pub(crate) struct Bounded<'s> {
     system: &'s System,
     unroller: Unroller<'s>,
     solver: Solver,

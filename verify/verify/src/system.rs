@@ -90,7 +90,7 @@ impl System {
     }
 
     /// The latches by their nodes.
-    pub fn latch_numbers(&self) -> FxHashMap<usize, usize> {
+    pub(crate) fn latch_numbers(&self) -> FxHashMap<usize, usize> {
         let latches = self.latches.iter().enumerate();
         latches.map(|(i, latch)| (latch.now.node(), i)).collect()
     }

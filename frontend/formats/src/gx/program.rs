@@ -38,7 +38,7 @@ pub(super) struct Chain {
 
 impl Chain {
     /// Returns true if it is certain to be part of a program: no other data has three known tokens in a row.
-    pub fn is_program(self) -> bool {
+    pub(crate) fn is_program(self) -> bool {
         self.complete || self.known >= 3
     }
 }

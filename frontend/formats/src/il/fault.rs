@@ -85,7 +85,7 @@ impl Faults {
     }
 
     /// Returns true if all of them are of this kind.
-    pub fn are_all(&self, kind: Kind) -> bool {
+    pub(crate) fn are_all(&self, kind: Kind) -> bool {
         self.0.iter().all(|fault| fault.kind == kind)
     }
 

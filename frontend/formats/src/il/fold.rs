@@ -36,7 +36,7 @@ impl Folded {
 
     /// Folds another line into the same buffers. Letters of other alphabets that look Latin are read as they look, and
     /// reported; not in texts and comments, and not in words that are whole words of another language.
-    pub fn fold_line(&mut self, line: &str, faults: &mut Faults) {
+    pub(crate) fn fold_line(&mut self, line: &str, faults: &mut Faults) {
         self.fold(line);
         if self.text.is_ascii() || self.text.trim_start().starts_with("ASC ") {
             return;

@@ -253,7 +253,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     /// Logic at the input of an element of a ladder.
-    pub fn flow_into(&mut self, node: Node<'a, 'i>) -> Result<Logic, Failure> {
+    pub(crate) fn flow_into(&mut self, node: Node<'a, 'i>) -> Result<Logic, Failure> {
         let points = children(node, "connectionPointIn");
         let from: Vec<_> = points.flat_map(Self::sources).collect();
         if from.is_empty() {
@@ -275,7 +275,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     /// Value at a point of an element.
-    pub fn value_into(
+    pub(crate) fn value_into(
         &mut self,
         point: Node<'a, 'i>,
         node: Node<'a, 'i>,

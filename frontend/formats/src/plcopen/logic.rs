@@ -79,7 +79,7 @@ impl Logic {
     }
 
     /// Returns true if it is nothing but a wire.
-    pub fn is_wire(&self) -> bool {
+    pub(crate) fn is_wire(&self) -> bool {
         matches!(self.only(), Logic::Series(items) if items.is_empty())
     }
 

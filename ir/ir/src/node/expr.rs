@@ -119,7 +119,7 @@ impl Expr {
     }
 
     /// The value of an integer constant.
-    pub fn as_int(&self) -> Option<i32> {
+    pub(crate) fn as_int(&self) -> Option<i32> {
         if let Expr::I16(value) = *self {
             Some(value.into())
         } else if let Expr::I32(value) = *self {

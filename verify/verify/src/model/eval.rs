@@ -153,7 +153,7 @@ impl Encoder<'_> {
     }
 
     /// A comparison of two signed numbers of one width.
-    pub fn compare_bits(&mut self, op: CmpOp, a: &[Lit], b: &[Lit]) -> Lit {
+    pub(crate) fn compare_bits(&mut self, op: CmpOp, a: &[Lit], b: &[Lit]) -> Lit {
         match op {
             CmpOp::Eq => self.aig.equal(a, b),
             CmpOp::Ne => !self.aig.equal(a, b),
@@ -310,7 +310,7 @@ impl Encoder<'_> {
     }
 
     /// Value read by an access without an index.
-    pub fn read_at(&mut self, kind: AccessKind, class: DeviceClass, number: u32) -> Bits {
+    pub(crate) fn read_at(&mut self, kind: AccessKind, class: DeviceClass, number: u32) -> Bits {
         match kind {
             AccessKind::Bit => vec![self.read_bit(class, number)],
             AccessKind::WordBit(bit) => vec![self.read_word(class, number)[usize::from(bit & 15)]],

@@ -228,12 +228,12 @@ impl<'m> Encoder<'m> {
     }
 
     /// Executes a scan of a module and notes what can happen in it.
-    pub fn scan_probed(module: &'m Module, world: World) -> Self {
+    pub(crate) fn scan_probed(module: &'m Module, world: World) -> Self {
         Self::executed(module, world, None, Some(Probes::default()))
     }
 
     /// Executes a scan of a module at the same time as another is executed.
-    pub fn scan_beside(module: &'m Module, world: World, beside: Beside) -> Self {
+    pub(crate) fn scan_beside(module: &'m Module, world: World, beside: Beside) -> Self {
         Self::executed(module, world, Some(beside), None)
     }
 
@@ -412,7 +412,7 @@ impl<'m> Encoder<'m> {
     }
 
     /// Returns true if it belongs to a device of [`World::free`].
-    pub fn is_named_free(&self, key: Key) -> bool {
+    pub(crate) fn is_named_free(&self, key: Key) -> bool {
         let is_free = |device| self.world.free.contains(&device);
         memory::is_settable(key) && memory::device_of(key).is_some_and(is_free)
     }
@@ -452,7 +452,7 @@ impl<'m> Encoder<'m> {
 
     /// Adds this program's part of a system of several programs: its memory, except that replaced by another's, and its
     /// inputs. An input of one of them is one for all.
-    pub fn add_to(
+    pub(crate) fn add_to(
         &self,
         system: &mut System,
         wanted: &dyn Fn(Key) -> bool,

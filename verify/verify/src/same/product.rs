@@ -135,7 +135,7 @@ impl<'m> Product<'m> {
     }
 
     /// Returns true if a memory of both, by its name in the old program, is proved to be equal after every scan.
-    pub fn is_equal(&self, name: Key) -> bool {
+    pub(crate) fn is_equal(&self, name: Key) -> bool {
         let after = |encoder: &Encoder| encoder.after(name).cloned();
         self.is_shared(name) && after(&self.old).is_some() && after(&self.new).is_some()
     }
