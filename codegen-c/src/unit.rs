@@ -3,7 +3,7 @@
 use crate::fields::{PrintField, PrintStorage};
 use crate::writer::{Writer, function_name};
 use crate::{events, header, lanes, table};
-use rungc_emit::cycle::{self, Asked, Budget, Latches, Shown, Shows};
+use rungc_emit::cycle::{self, Budget, Latches, Services, Shown, Shows};
 use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
@@ -57,7 +57,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Un
         }
     }
 
-    let asked = Asked::of(&plan);
+    let asked = Services::of(&plan);
     let helpers = std::mem::take(&mut writer.helpers);
     let mut internal = String::new();
     states(&mut internal, &writer, &plan);

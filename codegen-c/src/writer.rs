@@ -7,7 +7,7 @@ use crate::page::Page;
 use crate::text;
 use rungc_emit::areas::{self, Area};
 use rungc_emit::comments;
-use rungc_emit::edges::{Asker, asker};
+use rungc_emit::edges::{Asker, user_of_edge};
 use rungc_emit::parts::{self, Limits};
 use rungc_emit::plan::{Flow, Function, Node, Plan};
 use rungc_emit::stations::Device;
@@ -173,14 +173,14 @@ impl<'a, 'm> Writer<'a, 'm> {
             }
             // An edge within an expression would be a call whose result `&` joins, for which compilers warn.
             if let (Node::Stmt(Stmt::Do(Action::Edge(edge))), Some(next)) = (node, nodes.get(i))
-                && let Some(Asker::Whole(asker)) =
-                    asker(self.module, self.plan, self.fields, edge, next)
+                && let Some(Asker::Whole(user_of_edge)) =
+                    user_of_edge(self.module, self.plan, self.fields, edge, next)
             {
                 self.name_parts(page, &[edge.input]);
                 let mut code = Code::default();
                 self.edge_call(&mut code, edge);
                 self.named.clear();
-                self.named.insert(asker, Named { code, calls: true });
+                self.named.insert(user_of_edge, Named { code, calls: true });
                 self.node_with_names(page, next);
                 i += 1;
                 continue;

@@ -7,7 +7,7 @@ use crate::generate::Generator;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::comments;
-use rungc_emit::edges::{Asker, asker};
+use rungc_emit::edges::{Asker, user_of_edge};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
 use rungc_ir::node::{Action, Block, Edge, Expr, ExprId, LabelId, Place, SetEntry, Stmt};
@@ -29,13 +29,13 @@ impl Generator<'_> {
             self.named.clear();
             body.code(self.name_parts(&node.roots()));
             if let (Node::Stmt(Stmt::Do(Action::Edge(edge))), Some(next)) = (node, next)
-                && let Some(Asker::Whole(asker) | Asker::Operand(asker)) =
-                    asker(self.module, &plan, &self.storage, edge, next)
+                && let Some(Asker::Whole(user_of_edge) | Asker::Operand(user_of_edge)) =
+                    user_of_edge(self.module, &plan, &self.storage, edge, next)
             {
                 // The edge stands in what asks for it: `if plc.edges[0].rising(plc.x2) { … }`.
                 let edge = self.edge(edge);
                 self.named.clear();
-                self.named.insert(asker, edge);
+                self.named.insert(user_of_edge, edge);
                 body.code(self.name_parts(&next.roots()));
                 self.node(&mut body, next);
                 nodes.next();

@@ -67,7 +67,7 @@ pub fn main() -> ExitCode {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "rungc", &mut script);
-            commands::say(&String::from_utf8_lossy(&script))
+            commands::print_text(&String::from_utf8_lossy(&script))
                 .map(|()| Outcome::Success)
                 .map_err(Failure::from)
         }
@@ -83,7 +83,7 @@ pub fn main() -> ExitCode {
         Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),
         Err(failure) => {
-            commands::tell(&format!("rungc: {failure}"));
+            commands::eprint_line(&format!("rungc: {failure}"));
             ExitCode::from(2)
         }
     }

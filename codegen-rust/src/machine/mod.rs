@@ -11,7 +11,7 @@ use crate::generate::{Generator, Item};
 use crate::storage::{PrintField, type_name};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_emit::cycle::{self, Asked, Latches};
+use rungc_emit::cycle::{self, Latches, Services};
 use rungc_emit::storage::{Field, Keep, Kind, Section};
 
 impl Generator<'_> {
@@ -179,7 +179,7 @@ impl Generator<'_> {
         });
         let clear_general = self.clear(false);
         let lost = cycle::latches(self.module, &self.storage) != Latches::Kept;
-        let asked = Asked::of(&self.plan);
+        let asked = Services::of(&self.plan);
         let clear_latched = (asked.clears_latched || lost).then(|| self.clear(true));
         let forget = self.forget();
         let watchdog = self.module.has_watchdog().then(|| self.watchdog());

@@ -117,19 +117,24 @@ impl Candidate {
     }
 
     /// The instruction with each of these among its operands, in as few lines as that takes; those that the compiler
-    /// rejects with whatever stands beside them are missing. Without wishes it is one line.
-    pub fn draw_with(&self, rng: &mut Rng, model: ModelId, mut wishes: Vec<Wish>) -> Vec<String> {
+    /// rejects with whatever stands beside them are missing. Without goals it is one line.
+    pub fn draw_with(
+        &self,
+        rng: &mut Rng,
+        model: ModelId,
+        mut operand_goals: Vec<OperandGoal>,
+    ) -> Vec<String> {
         let lists = lists(self.inst, model);
         let mut drawn: Vec<String> = Vec::new();
-        while let Some(&first) = wishes.first() {
+        while let Some(&first) = operand_goals.first() {
             let list = &lists[first.list];
             let found = (0..WISHES).find_map(|time| {
                 let classes = (0..list.params.len()).map(|at| {
-                    let wish = wishes
+                    let goal = operand_goals
                         .iter()
-                        .find(|wish| wish.list == first.list && wish.at == at);
-                    match wish {
-                        Some(wish) if time < WISHES / 2 || *wish == first => Some(wish.class),
+                        .find(|goal| goal.list == first.list && goal.at == at);
+                    match goal {
+                        Some(goal) if time < WISHES / 2 || *goal == first => Some(goal.class),
                         _ => rng.pick(&list.classes(at, model, self.form)),
                     }
                 });
@@ -144,9 +149,9 @@ impl Candidate {
             let (text, classes) = found.unzip();
             drawn.extend(text);
             let classes = classes.unwrap_or_default();
-            wishes.retain(|wish| {
-                let is_met = wish.list == first.list && classes.get(wish.at) == Some(&wish.class);
-                *wish != first && !is_met
+            operand_goals.retain(|goal| {
+                let is_met = goal.list == first.list && classes.get(goal.at) == Some(&goal.class);
+                *goal != first && !is_met
             });
         }
         if drawn.is_empty() {
@@ -309,7 +314,7 @@ fn lists(inst: &Inst, model: ModelId) -> Vec<List> {
 
 /// An operand of a class that an instruction is to have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Wish {
+pub struct OperandGoal {
     /// Index of the list of operands that the instruction may have.
     list: usize,
     /// Index of the operand.
@@ -318,21 +323,25 @@ pub struct Wish {
 }
 
 /// The operands that an instruction may have on a model, of each class, by their names and classes.
-pub fn wishes(inst: &Inst, model: ModelId, form: Form) -> Vec<((&'static str, Classes), Wish)> {
-    let mut wishes = Vec::new();
+pub fn operand_goals(
+    inst: &Inst,
+    model: ModelId,
+    form: Form,
+) -> Vec<((&'static str, Classes), OperandGoal)> {
+    let mut operand_goals = Vec::new();
     for (number, list) in lists(inst, model).iter().enumerate() {
         for (at, param) in list.params.iter().enumerate() {
             for class in list.classes(at, model, form) {
-                let wish = Wish {
+                let goal = OperandGoal {
                     list: number,
                     at,
                     class,
                 };
-                wishes.push(((param.name, class), wish));
+                operand_goals.push(((param.name, class), goal));
             }
         }
     }
-    wishes
+    operand_goals
 }
 
 /// A special register that is another name of an index register, or precedes one.

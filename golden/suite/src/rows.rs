@@ -1,6 +1,6 @@
 //! The rows of the catalogue: rungs in which each occurs in every form, and what occurs in programs.
 
-use crate::operands::{Candidate, Wish, has_form, in_any_rung, wishes};
+use crate::operands::{Candidate, OperandGoal, has_form, in_any_rung, operand_goals};
 use crate::rng::Rng;
 use rungc_catalogue::{Form, Inst, Lower};
 use rungc_models::{Model, ModelId};
@@ -31,21 +31,21 @@ fn pairs(inst: &Inst) -> Vec<(ModelId, Form)> {
 
 /// The operands that this model and form are to show of an instruction: over all of them, each operand is of each class
 /// that it may be.
-fn share(inst: &Inst, pair: (ModelId, Form), seed: u64) -> Vec<Wish> {
+fn share(inst: &Inst, pair: (ModelId, Form), seed: u64) -> Vec<OperandGoal> {
     let all = pairs(inst);
     let mut able: BTreeMap<_, Vec<_>> = BTreeMap::new();
     let is_run = |model| !matches!(inst.lower_on_model(model), Lower::Todo(_));
     for &(model, form) in all.iter().filter(|(model, _)| is_run(*model)) {
-        for ((name, class), wish) in wishes(inst, model, form) {
+        for ((name, class), goal) in operand_goals(inst, model, form) {
             let able = able.entry((name, class.0)).or_default();
-            able.push(((model, form), wish));
+            able.push(((model, form), goal));
         }
     }
     let turns = able.values().zip(seed..);
     turns
         .filter_map(|(able, turn)| able.get((turn % able.len() as u64) as usize))
         .filter(|(able, _)| *able == pair)
-        .map(|&(_, wish)| wish)
+        .map(|&(_, goal)| goal)
         .collect()
 }
 
@@ -56,8 +56,8 @@ pub fn rungs(model: ModelId, seed: u64, hostile: u64) -> Vec<Rung> {
     let mut rungs = Vec::new();
     let mut later = Vec::new();
     for candidate in in_any_rung(model) {
-        let wishes = share(candidate.inst(), (model, candidate.form()), seed);
-        let lines = candidate.draw_with(&mut rng, model, wishes);
+        let operand_goals = share(candidate.inst(), (model, candidate.form()), seed);
+        let lines = candidate.draw_with(&mut rng, model, operand_goals);
         for (time, drawn) in lines.into_iter().enumerate() {
             let twins = (0..hostile).map(|_| spoilt(&mut rng, &drawn));
             let twins: Vec<String> = twins.collect();
@@ -166,7 +166,7 @@ impl Occurring {
                 if matches!(inst.lower_on_model(model), Lower::Todo(_)) {
                     continue;
                 }
-                for ((name, class), _) in wishes(inst, model, form) {
+                for ((name, class), _) in operand_goals(inst, model, form) {
                     if !self.operands.contains(&(inst.name, name, class.0)) {
                         missing.insert(format!("{} {name} {class:?}", inst.name));
                     }

@@ -16,7 +16,7 @@ use rungc_syntax::DeviceClass;
 
 /// Services that the statements of a program request.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
-pub struct Asked {
+pub struct Services {
     /// Clears the general devices ([`Action::Clear`]).
     pub clears_general: bool,
     /// Clears the latched devices.
@@ -25,10 +25,10 @@ pub struct Asked {
     pub faults: bool,
 }
 
-impl Asked {
+impl Services {
     /// Looks at all functions.
     pub fn of(plan: &Plan) -> Self {
-        let mut asked = Asked::default();
+        let mut asked = Services::default();
         for function in &plan.functions {
             statements(&function.body, &mut |stmt| {
                 asked.clears_general |= matches!(stmt, Stmt::Do(Action::Clear { latched: false }));

@@ -19,7 +19,7 @@ pub enum Asker {
 }
 
 /// The part of `next` that uses the edge before it, if nothing else does and `next` evaluates it exactly once.
-pub fn asker(
+pub fn user_of_edge(
     module: &Module,
     plan: &Plan,
     storage: &Storage,

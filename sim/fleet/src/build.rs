@@ -1,6 +1,6 @@
 //! Builds the executables that run the PLCs of a program in emitted C.
 
-use crate::engine::Trouble;
+use crate::engine::FleetError;
 use rungc_codegen_c::{Members, Options, emit, lanes};
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Call, Stmt};
@@ -71,10 +71,10 @@ fn any(module: &Module, is_so: impl Fn(&Stmt) -> bool) -> bool {
 ///
 /// # Errors
 /// A file that cannot be written, a C compiler (`cc`) that is not there or rejects what was emitted.
-pub(crate) fn build(module: &Module, folder: &Path, form: &Form) -> Result<PathBuf, Trouble> {
+pub(crate) fn build(module: &Module, folder: &Path, form: &Form) -> Result<PathBuf, FleetError> {
     let at = |what: &Path| {
         let what = what.display().to_string();
-        move |error| Trouble::Io { what, error }
+        move |error| FleetError::Io { what, error }
     };
     std::fs::create_dir_all(folder).map_err(at(folder))?;
     let options = Options {
@@ -122,7 +122,7 @@ pub(crate) fn build(module: &Module, folder: &Path, form: &Form) -> Result<PathB
     }
     let text = String::from_utf8_lossy(&output.stderr);
     let quoted: Vec<&str> = text.lines().take(QUOTED_LINES).collect();
-    Err(Trouble::Compiler {
+    Err(FleetError::Compiler {
         command: format!("cc in {}", folder.display()),
         output: quoted.join("\n"),
     })

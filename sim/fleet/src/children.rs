@@ -1,7 +1,7 @@
 //! Emitted C that runs PLCs in child processes: 64 at once, or one after the other.
 
 use crate::build::{CHUNK, Form, build};
-use crate::engine::{At, Engine, Failed, Trouble};
+use crate::engine::{At, Engine, Failed, FleetError};
 use rungc_codegen_c::Members;
 use rungc_codegen_c::lanes::LANES;
 use rungc_ir::Module;
@@ -38,7 +38,7 @@ pub struct Children<'m> {
     /// Bytes that a PLC takes.
     size: u64,
     /// The last error.
-    failed: Option<Trouble>,
+    failed: Option<FleetError>,
 }
 
 struct Running {
@@ -57,7 +57,7 @@ impl<'m> Children<'m> {
         count: u32,
         folder: &Path,
         form: Form,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, FleetError> {
         let executable = build(module, folder, &form)?;
         let together = match form {
             Form::Lanes => LANES,
@@ -153,10 +153,10 @@ impl<'m> Children<'m> {
 }
 
 impl Running {
-    fn start(executable: &Path, name: &str, count: u32) -> Result<Self, Trouble> {
+    fn start(executable: &Path, name: &str, count: u32) -> Result<Self, FleetError> {
         let count = count.to_string();
         let started = Piped::start(executable, &[count.as_ref()]);
-        let child = started.map_err(|error| Trouble::Io {
+        let child = started.map_err(|error| FleetError::Io {
             what: executable.display().to_string(),
             error,
         })?;
@@ -220,8 +220,8 @@ impl Running {
     }
 
     /// That it has ended.
-    fn ended(&mut self, error: &io::Error) -> Trouble {
-        Trouble::Ended(self.name.clone(), self.child.ended(error))
+    fn ended(&mut self, error: &io::Error) -> FleetError {
+        FleetError::Ended(self.name.clone(), self.child.ended(error))
     }
 }
 
@@ -249,7 +249,7 @@ impl Engine for Children<'_> {
         }
     }
 
-    fn end_scan(&mut self) -> Result<(), Trouble> {
+    fn end_scan(&mut self) -> Result<(), FleetError> {
         for child in 0..self.children.len() {
             self.with(child, |child| child.child.answers.read_exact(&mut [0]));
         }

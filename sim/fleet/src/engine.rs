@@ -72,7 +72,7 @@ impl At {
 
 /// Reason why PLCs do not run, or no longer.
 #[derive(Debug, thiserror::Error)]
-pub enum Trouble {
+pub enum FleetError {
     /// A file could not be written, or a process not be started.
     #[error("{what}: {error}")]
     Io {
@@ -119,7 +119,7 @@ pub trait Engine {
     ///
     /// # Errors
     /// What has gone wrong since the last time: the PLCs do not run any more.
-    fn end_scan(&mut self) -> Result<(), Trouble>;
+    fn end_scan(&mut self) -> Result<(), FleetError>;
 
     /// Announces devices to be read. An engine for which reading one by one is slow reads them together.
     fn fetch(&mut self, wanted: &mut dyn Iterator<Item = (u32, At)>) {

@@ -1,6 +1,6 @@
 //! One program and its PLCs.
 
-use crate::engine::{At, Engine, Failed, Trouble};
+use crate::engine::{At, Engine, Failed, FleetError};
 use crate::schedule::Schedule;
 use crate::served::Served;
 use rungc_rt::comm::service::Service;
@@ -108,7 +108,7 @@ impl<'m> Group<'m> {
     ///
     /// # Errors
     /// The PLCs do not run any more.
-    pub fn end_scan(&mut self) -> Result<(), Trouble> {
+    pub fn end_scan(&mut self) -> Result<(), FleetError> {
         self.engine.end_scan()
     }
 

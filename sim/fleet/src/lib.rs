@@ -33,7 +33,7 @@ mod served;
 pub use broker::Broker;
 pub use build::{Form, needs_runtime, refusal};
 pub use children::Children;
-pub use engine::{At, Engine, Failed, Trouble};
+pub use engine::{At, Engine, Failed, FleetError};
 pub use format::{Choice, Fleet, Plcs, Topics, Written};
 pub use group::Group;
 pub use machines::Machines;

@@ -1,6 +1,6 @@
 //! Interpreters, for programs that do not run in lanes.
 
-use crate::engine::{At, Engine, Failed, Trouble};
+use crate::engine::{At, Engine, Failed, FleetError};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32, Plc, Program, Stop, VirtualHal};
@@ -72,7 +72,7 @@ impl Engine for Machines<'_> {
         });
     }
 
-    fn end_scan(&mut self) -> Result<(), Trouble> {
+    fn end_scan(&mut self) -> Result<(), FleetError> {
         Ok(())
     }
 

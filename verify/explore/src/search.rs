@@ -65,7 +65,7 @@ pub struct Report {
 }
 
 /// A moment that the search continues from.
-struct Kept<'t> {
+struct Checkpoint<'t> {
     moment: Moment<'t>,
     run: Vec<Step>,
     chosen: u32,
@@ -73,9 +73,9 @@ struct Kept<'t> {
 
 /// Result of a part of a round.
 #[derive(Default)]
-struct Brought<'t> {
+struct PartResult<'t> {
     found: Vec<Found>,
-    moments: Vec<(Vec<Feature>, Kept<'t>)>,
+    moments: Vec<(Vec<Feature>, Checkpoint<'t>)>,
     scans: u64,
     /// Scans, those that do not end as many.
     spent: u64,
@@ -100,7 +100,7 @@ pub fn search(
     let begin = Instant::now();
     let (view, choices) = (View::new(task), Choices::new(task));
     let mut seen = Seen::default();
-    let mut kept = vec![Kept {
+    let mut kept = vec![Checkpoint {
         moment: Runner::new(task)?.save(),
         run: Vec::new(),
         chosen: 0,
@@ -163,7 +163,7 @@ pub fn search(
 }
 
 /// A moment to continue from: of some, the one that was chosen least.
-fn choose(kept: &mut [Kept], rng: &mut Rng) -> usize {
+fn choose(kept: &mut [Checkpoint], rng: &mut Rng) -> usize {
     const TRIED: usize = 3;
     let tried = (0..TRIED).map(|_| rng.usize(..kept.len()));
     let best = tried.min_by_key(|&i| (kept[i].chosen, kept[i].run.len()));
@@ -173,7 +173,7 @@ fn choose(kept: &mut [Kept], rng: &mut Rng) -> usize {
 }
 
 /// Keeps a moment; if there are too many, in place of one that was chosen often. The first, power-on, stays.
-fn keep<'t>(kept: &mut Vec<Kept<'t>>, moment: Kept<'t>, rng: &mut Rng) {
+fn keep<'t>(kept: &mut Vec<Checkpoint<'t>>, moment: Checkpoint<'t>, rng: &mut Rng) {
     if kept.len() < KEPT {
         kept.push(moment);
         return;
@@ -192,7 +192,7 @@ struct Round<'r, 't> {
     choices: &'r Choices<'t>,
     seen: &'r Seen,
     known: &'r BTreeSet<What>,
-    kept: &'r [Kept<'t>],
+    kept: &'r [Checkpoint<'t>],
     /// Of each part.
     scans: u32,
     /// Of a round with sweeps: what they look at.
@@ -217,7 +217,7 @@ impl<'t> Round<'_, 't> {
         &self,
         parts: &[(u64, usize)],
         workers: &mut [Worker<'t>],
-    ) -> Result<Vec<Brought<'t>>, String> {
+    ) -> Result<Vec<PartResult<'t>>, String> {
         let threads = workers.len();
         let of_thread = |thread: usize, worker: &mut Worker<'t>| {
             let own = parts.iter().enumerate().skip(thread).step_by(threads);
@@ -227,7 +227,7 @@ impl<'t> Round<'_, 't> {
             });
             brought.collect::<Vec<_>>()
         };
-        let mut all: Vec<(usize, Brought)> = Vec::new();
+        let mut all: Vec<(usize, PartResult)> = Vec::new();
         if let [only] = workers {
             all = of_thread(0, only);
         } else {
@@ -247,9 +247,9 @@ impl<'t> Round<'_, 't> {
     }
 
     /// Continues from a moment, and from it again when the run has become long or has ended.
-    fn part(&self, runner: &mut Runner<'t>, (seed, start): (u64, usize)) -> Brought<'t> {
+    fn part(&self, runner: &mut Runner<'t>, (seed, start): (u64, usize)) -> PartResult<'t> {
         let mut rng = Rng::with_seed(seed);
-        let mut brought = Brought::default();
+        let mut brought = PartResult::default();
         let mut own = Seen::default();
         while brought.spent < u64::from(self.scans) {
             let start = &self.kept[start];
@@ -281,9 +281,9 @@ impl<'t> Round<'_, 't> {
         worker: &mut Worker<'t>,
         items: &Items,
         (seed, start): (u64, usize),
-    ) -> Brought<'t> {
+    ) -> PartResult<'t> {
         let mut rng = Rng::with_seed(seed);
-        let mut brought = Brought::default();
+        let mut brought = PartResult::default();
         let mut own = Seen::default();
         let start = &self.kept[start];
         let mut scans = 0;
@@ -314,7 +314,7 @@ impl<'t> Round<'_, 't> {
         &self,
         sweep: &Sweep<'_, 't>,
         worker: &mut Worker<'t>,
-        (brought, own): (&mut Brought<'t>, &mut Seen),
+        (brought, own): (&mut PartResult<'t>, &mut Seen),
     ) -> Result<(), String> {
         let mut judge = sweep.judge(&mut worker.runner);
         let mut is_new = |feature| self.seen.lacks(feature) && own.add(feature);
@@ -338,7 +338,7 @@ impl<'t> Round<'_, 't> {
                 Event::Happened(_) => {}
                 Event::Moment(features) => {
                     let moment = worker.runner.save();
-                    let kept = Kept {
+                    let kept = Checkpoint {
                         moment,
                         run,
                         chosen: 0,
@@ -356,7 +356,7 @@ impl<'t> Round<'_, 't> {
         runner: &mut Runner<'t>,
         way: &mut Way,
         rng: &mut Rng,
-        (brought, own): (&mut Brought<'t>, &mut Seen),
+        (brought, own): (&mut PartResult<'t>, &mut Seen),
     ) -> bool {
         let step = self.choices.step(runner, rng, 4 * self.scans.max(64));
         runner.begin(&step);
@@ -394,7 +394,7 @@ impl<'t> Round<'_, 't> {
         }
         way.run.push(done);
         if scanned == Scanned::Next && !new.is_empty() && brought.moments.len() < BROUGHT {
-            let moment = Kept {
+            let moment = Checkpoint {
                 moment: runner.save(),
                 run: way.run.clone(),
                 chosen: 0,
@@ -409,7 +409,7 @@ impl<'t> Round<'_, 't> {
         runner: &mut Runner<'t>,
         way: &Way,
         done: &Step,
-        brought: &mut Brought<'t>,
+        brought: &mut PartResult<'t>,
     ) {
         /// After this many scans it is worth a closer look.
         const SUSPECT: u32 = 4;
@@ -426,12 +426,12 @@ impl<'t> Round<'_, 't> {
         }
     }
 
-    fn is_new(&self, brought: &Brought, what: &What) -> bool {
+    fn is_new(&self, brought: &PartResult, what: &What) -> bool {
         !self.known.contains(what) && brought.found.iter().all(|found| found.what != *what)
     }
 
     /// Notes what has happened in the scan that has just ended.
-    fn note(&self, brought: &mut Brought<'t>, way: &Way, done: &Step, what: What) {
+    fn note(&self, brought: &mut PartResult<'t>, way: &Way, done: &Step, what: What) {
         if self.is_new(brought, &what) {
             let mut run = way.run.clone();
             run.push(done.clone());

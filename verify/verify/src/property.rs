@@ -2,7 +2,7 @@
 
 mod parse;
 
-pub use parse::{Mistake, parse};
+pub use parse::{ParseError, parse};
 
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, signed};

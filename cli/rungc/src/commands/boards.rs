@@ -1,6 +1,6 @@
 //! `rungc boards`: the boards that rungc has descriptions of.
 
-use super::{Context, Failure, Outcome, Result, say, write_file};
+use super::{Context, Failure, Outcome, Result, print_text, write_file};
 use crate::args::BoardsArgs;
 use rungc_firmware::board::Board;
 use rungc_firmware::boards;
@@ -18,15 +18,15 @@ pub fn run(args: &BoardsArgs, cx: Context) -> Result {
             // Writing to a String does not fail.
             let _ = writeln!(text, "{:<18} {}", known.name, board.name);
         }
-        say(&text)?;
+        print_text(&text)?;
         return Ok(Outcome::Success);
     };
     let board = boards::named_or_described(name).map_err(|error| because(&error))?;
     if args.toml {
         let known = name.to_str().and_then(boards::find);
         match known {
-            Some(known) => say(known.text)?,
-            None => say(&std::fs::read_to_string(name)?)?,
+            Some(known) => print_text(known.text)?,
+            None => print_text(&std::fs::read_to_string(name)?)?,
         }
         return Ok(Outcome::Success);
     }
@@ -42,7 +42,7 @@ pub fn run(args: &BoardsArgs, cx: Context) -> Result {
         ));
         return Ok(Outcome::Success);
     }
-    say(&table(&board))?;
+    print_text(&table(&board))?;
     Ok(Outcome::Success)
 }
 

@@ -7,8 +7,9 @@ use super::setting::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
 use super::{
-    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
-    interruption, parent_dir, plain, ports, read, say, stem, tell, write_executable, write_file,
+    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, eprint_line,
+    file_name, findings, interruption, parent_dir, plain, ports, print_text, read, stem,
+    write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
 use crate::progress;
@@ -117,7 +118,7 @@ fn build(
         lines.chain(served).for_each(|line| cx.note(&line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
-        say(&takes.to_string())?;
+        print_text(&takes.to_string())?;
     }
     conclude(&findings, reporter, cx, || {
         let (what, path) = match &written {
@@ -262,12 +263,12 @@ impl ForImage {
         let unconnected = image.unconnected();
         if !unconnected.is_empty() {
             let (board, names) = (&self.board.name, unconnected.join(", "));
-            tell(&format!("rungc: no pins on {board}: {names}"));
+            eprint_line(&format!("rungc: no pins on {board}: {names}"));
         }
         let uncertain = image.uncertain();
         if !uncertain.is_empty() {
             let (id, names) = (codes::UNCERTAIN_PIN.id, uncertain.join(", "));
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: warning[{id}]: uncertain pins on {}: {names}\n       for more, run `rungc explain {id}`",
                 board.name
             ));
@@ -298,7 +299,7 @@ impl ForImage {
         let wears = |retain: &Retain| retain.memory != RetainMemory::Ram;
         if self.board.retain.as_ref().is_some_and(wears) {
             let a_day = 2 * u64::from(records) * ERASURES / TEN_YEARS;
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: {board}: latched devices take {length} bytes, {records} records a slot; flash of {ERASURES} erasures allows {a_day} \
                  saves a day for ten years"
             ));
@@ -477,7 +478,7 @@ impl Job<'_> {
     fn ir(&self) -> Built<Option<PathBuf>> {
         let text = dump::dump(self.module);
         match &self.plan.output {
-            None => say(&text)?,
+            None => print_text(&text)?,
             Some(path) => write_file(path, text.as_bytes(), self.plan.force)?,
         }
         Ok(self.plan.output.clone())
@@ -563,7 +564,7 @@ pub(super) fn announced(tools: Tools, cx: Context) -> Tools {
         return tools;
     }
     tools.announcing(|what| {
-        tell(&format!(
+        eprint_line(&format!(
             "    Building {what}; it is cached for the next time"
         ))
     })

@@ -4,7 +4,8 @@ mod ladder;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
+    Context, Failure, Outcome, Result, conclude, counted, eprint_line, print_text, read, stem,
+    write_file,
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::report::{Findings, Reporter};
@@ -50,7 +51,7 @@ fn convert(
     let comments = read.program.comments.len();
     if let (Some(what), 1..) = (args.to.without_comments(), comments) {
         let comments = counted(comments, "device comment");
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them, and `--to comments` writes them"
         ));
     }
@@ -58,7 +59,7 @@ fn convert(
     match outputs.place(args.output.as_deref(), reporter.many(), name, subject)? {
         Some(path) => write_file(&path, &bytes, args.force)?,
         None if args.to.is_text() && io::stdout().is_terminal() => {
-            say(&String::from_utf8_lossy(&bytes))?;
+            print_text(&String::from_utf8_lossy(&bytes))?;
         }
         None => io::stdout().write_all(&bytes)?,
     }

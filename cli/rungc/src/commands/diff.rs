@@ -7,7 +7,10 @@ mod text;
 
 use super::subject::{self, Subject};
 use super::view::PICTURE_WIDTH;
-use super::{Context, Failure, Outcome, Result, counted, read_as_written, say, tell, write_file};
+use super::{
+    Context, Failure, Outcome, Result, counted, eprint_line, print_text, read_as_written,
+    write_file,
+};
 use crate::args::{DiffArgs, DiffFormat, Input};
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::{Resolved, resolve};
@@ -146,7 +149,7 @@ fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, 
     };
     match &args.output {
         Some(path) => write_file(path, text.as_bytes(), true)?,
-        None => say(&text)?,
+        None => print_text(&text)?,
     }
     Ok(differs)
 }

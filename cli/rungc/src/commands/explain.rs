@@ -1,6 +1,6 @@
 //! `rungc explain`.
 
-use super::{Failure, Outcome, Result, say};
+use super::{Failure, Outcome, Result, print_text};
 use crate::args::ExplainArgs;
 use rungc_models::{Model, ModelId, Variant, plc_errors, special};
 use rungc_syntax::codes::{self, Code};
@@ -30,7 +30,7 @@ pub fn run(args: &ExplainArgs) -> Result {
             args.topic
         )));
     };
-    say(&format!("{}\n", page.trim_end()))?;
+    print_text(&format!("{}\n", page.trim_end()))?;
     Ok(Outcome::Success)
 }
 

@@ -7,10 +7,10 @@ mod report;
 mod test_file;
 
 use super::check::draw;
-use super::properties::{Asked, Reader, at_writes, module};
+use super::properties::{Reader, RequestedProperty, at_writes, module};
 use super::run::{because, hardware, recording::Recording};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, interruption, read, say, write_file};
+use super::{Context, Failure, Outcome, Result, interruption, print_text, read, write_file};
 use crate::args::{ExploreArgs, Latched};
 use crate::progress;
 use crate::report::{Findings, Reporter};
@@ -36,7 +36,7 @@ struct Searched<'a> {
     module: &'a Module,
     task: &'a Task<'a>,
     /// The properties as requested.
-    asked: &'a [Asked],
+    asked: &'a [RequestedProperty],
 }
 
 /// Something found, with its run as tests and reports have it.
@@ -127,7 +127,7 @@ impl Searched<'_> {
         let for_people = reporter.is_for_people();
         self.publish(&shown, &differing, reporter)?;
         if for_people {
-            say(&self.human(&shown, &report))?;
+            print_text(&self.human(&shown, &report))?;
         }
         for what in untried(self.task) {
             cx.note(&format!("   Not tried: {what}"));

@@ -4,7 +4,7 @@ mod port;
 mod probe;
 mod volume;
 
-use super::{Context, Failure, Outcome, Result, interruption, spare, tell, write_file};
+use super::{Context, Failure, Outcome, Result, eprint_line, interruption, spare, write_file};
 use crate::args::FlashArgs;
 use crate::progress;
 use indicatif::ProgressBar;
@@ -68,7 +68,7 @@ fn over(port: &LineEnd, args: &FlashArgs, payload: &Payload, cx: Context) -> Res
 /// Reports an error with its code.
 fn failed(code: &Code, why: &str) -> Outcome {
     let id = code.id;
-    tell(&format!(
+    eprint_line(&format!(
         "rungc: error[{id}]: {why}\n       for more, run `rungc explain {id}`"
     ));
     match interruption::is_asked() {
@@ -294,7 +294,7 @@ impl Board {
 
 /// Says what is lost, and asks whether to continue.
 fn ask(loss: &str, yes: bool) -> std::result::Result<(), Failure> {
-    tell(&format!("rungc: {loss}"));
+    eprint_line(&format!("rungc: {loss}"));
     if yes {
         return Ok(());
     }

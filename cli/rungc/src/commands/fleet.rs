@@ -8,7 +8,7 @@ mod running;
 use super::run::hardware;
 use super::setting;
 use super::subject::{self, Subject};
-use super::{Context, Failure, Result, conclude, findings, read, stem, tell};
+use super::{Context, Failure, Result, conclude, eprint_line, findings, read, stem};
 use crate::args::{FleetArgs, Input};
 use crate::report::Reporter;
 use engine::Chosen;
@@ -195,7 +195,7 @@ fn tell_ports(group: &Group<'_>, plcs: &Plcs, cx: Context) {
         Some(_) => ", each PLC by its unit number",
         None => "",
     };
-    tell(&match ports {
+    eprint_line(&match ports {
         1 => format!("rungc: {name}: Modbus TCP at {first}{units}"),
         _ => format!("rungc: {name}: Modbus TCP at {first} to {last}{units}"),
     });
@@ -203,7 +203,7 @@ fn tell_ports(group: &Group<'_>, plcs: &Plcs, cx: Context) {
         cx.detail(|| format!("    {name} at {address}"));
     }
     if !first.ip().is_loopback() {
-        tell(
+        eprint_line(
             "rungc: whoever reaches these addresses reads and writes every device: there is no password",
         );
     }

@@ -3,7 +3,8 @@
 use super::in_place::InPlace;
 use super::subject::{self, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, found_reading, read_as_written, say, tell,
+    Context, Failure, Outcome, Result, conclude, counted, eprint_line, found_reading, print_text,
+    read_as_written,
 };
 use crate::args::FmtArgs;
 use crate::report::Reporter;
@@ -40,7 +41,7 @@ fn format(args: &FmtArgs, subject: &Subject, reporter: &mut Reporter, cx: Contex
     let laid_out = lay_out(program);
     match (args.check, subject.is_stdin()) {
         (true, _) => return compare(&laid_out, subject),
-        (false, true) => say(&laid_out.text)?,
+        (false, true) => print_text(&laid_out.text)?,
         (false, false) if laid_out.changes.is_empty() => {}
         (false, false) => {
             InPlace::open(subject, &read, "fmt")?.write(&laid_out.text)?;
@@ -69,8 +70,8 @@ fn compare(laid_out: &LaidOut, subject: &Subject) -> Result {
     if laid_out.changes.is_empty() {
         return Ok(Outcome::Success);
     }
-    say(&listing)?;
+    print_text(&listing)?;
     let lines = counted(laid_out.changes.len(), "line");
-    tell(&format!("rungc: {path}: `rungc fmt` changes {lines}"));
+    eprint_line(&format!("rungc: {path}: `rungc fmt` changes {lines}"));
     Ok(Outcome::Failed)
 }

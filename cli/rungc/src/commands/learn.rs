@@ -1,7 +1,7 @@
 //! `rungc learn`.
 
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
+use super::{Context, Failure, Outcome, Result, counted, parent_dir, print_text, write_file};
 use crate::args::{FileKind, Input, LearnArgs, Reading, Reporting};
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::Basic;
@@ -48,7 +48,7 @@ pub fn run(args: &LearnArgs, cx: Context) -> Result {
         "     Learned {codes}: written to {}",
         path.display()
     ));
-    say(&letter(&lessons, &project))?;
+    print_text(&letter(&lessons, &project))?;
     Ok(Outcome::Success)
 }
 

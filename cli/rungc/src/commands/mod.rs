@@ -133,14 +133,14 @@ impl Context {
     /// Prints what was done, unless `--quiet` is given.
     pub fn note(self, line: &str) {
         if self.verbosity > Verbosity::Quiet {
-            tell(line);
+            eprint_line(line);
         }
     }
 
     /// Prints a detail, if `--verbose` is given.
     pub fn detail(self, line: impl FnOnce() -> String) {
         if self.verbosity == Verbosity::Verbose {
-            tell(&line());
+            eprint_line(&line());
         }
     }
 }
@@ -184,7 +184,7 @@ fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::
     };
     let id = code.id;
     if subject.reporting.format == Format::Human {
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: error[{id}]: {error}\n       for more, run `rungc explain {id}`"
         ));
     }
@@ -194,7 +194,7 @@ fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::
 }
 
 /// Writes a text to standard output, with all written out that a terminal would act on.
-pub fn say(text: &str) -> io::Result<()> {
+pub fn print_text(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(visible(text).as_bytes())?;
     out.flush()
@@ -208,7 +208,7 @@ pub fn put(
     cx: Context,
 ) -> std::result::Result<(), Failure> {
     let Some(path) = path else {
-        return say(text).map_err(Failure::from);
+        return print_text(text).map_err(Failure::from);
     };
     let file = AtomicFile::create(path)?;
     let written = file.writer()?.write_all(text.as_bytes());
@@ -219,7 +219,7 @@ pub fn put(
 }
 
 /// Prints a line to standard error; a closed standard error does not stop the command.
-pub fn tell(line: &str) {
+pub fn eprint_line(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 

@@ -15,7 +15,7 @@ use rungc_project::property::{Asks, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
 use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
-use rungc_verify::property::{Condition, Mistake, Property, parse};
+use rungc_verify::property::{Condition, ParseError, Property, parse};
 use std::collections::{BTreeMap, BTreeSet};
 
 type Result<T> = std::result::Result<T, Failure>;
@@ -25,14 +25,14 @@ const SCAN_MS: u64 = 200;
 
 /// Devices that may be written from outside the program, beside terminals.
 #[derive(Default)]
-pub struct Outside {
+pub struct ExternalWrites {
     /// Devices, with what says so: an option or a table of the settings.
     pub devices: BTreeMap<(DeviceClass, u32), &'static str>,
     /// True if the settings name servers, whose clients could write other devices, too.
     pub has_clients: bool,
 }
 
-impl Outside {
+impl ExternalWrites {
     /// Sources that name the devices, each once.
     pub fn sources(&self) -> Vec<&'static str> {
         BTreeSet::from_iter(self.devices.values().copied())
@@ -49,7 +49,7 @@ impl Outside {
 }
 
 /// A property as requested.
-pub struct Asked {
+pub struct RequestedProperty {
     /// As it is written: `never Y000 & Y001`.
     pub text: String,
     /// Meaning.
@@ -71,7 +71,7 @@ impl Reader<'_> {
     }
 
     /// The properties of the command line, else those of the settings.
-    pub fn properties(&self) -> Result<Vec<Asked>> {
+    pub fn properties(&self) -> Result<Vec<RequestedProperty>> {
         type Kind = fn(Condition) -> Property;
         let kinds: [(&str, &[String], Kind); 3] = [
             ("never", &self.args.never, Property::Never),
@@ -81,7 +81,7 @@ impl Reader<'_> {
         let mut asked = Vec::new();
         for (name, texts, kind) in kinds {
             for text in texts {
-                asked.push(Asked {
+                asked.push(RequestedProperty {
                     text: format!("{name} {text}"),
                     property: kind(self.given(&format!("--{name}"), text)?),
                 });
@@ -110,8 +110,8 @@ impl Reader<'_> {
     }
 
     /// Devices that may be written from outside the program, by the command line and the settings.
-    pub fn outside(&self) -> Outside {
-        let mut outside = Outside::default();
+    pub fn outside(&self) -> ExternalWrites {
+        let mut outside = ExternalWrites::default();
         let devices = &mut outside.devices;
         let mut add = |by: &'static str, class, numbers: std::ops::RangeInclusive<u32>| {
             for number in numbers.filter(|_| class != DeviceClass::X) {
@@ -156,7 +156,7 @@ impl Reader<'_> {
         Ok(assumed)
     }
 
-    fn parse(&self, text: &str) -> std::result::Result<Condition, Mistake> {
+    fn parse(&self, text: &str) -> std::result::Result<Condition, ParseError> {
         let plain = |text: &str| text.trim().to_lowercase();
         parse(text, &|name| {
             let named = self.program.comments.iter();
@@ -196,7 +196,7 @@ impl Reader<'_> {
         })
     }
 
-    fn row(&self, project: &Project, row: &Row) -> Result<Asked> {
+    fn row(&self, project: &Project, row: &Row) -> Result<RequestedProperty> {
         let condition = |named: &Named| self.condition(project, named);
         let (text, property) = match &row.asks {
             Asks::Never(a) => (format!("never {}", a.text), Property::Never(condition(a)?)),
@@ -244,7 +244,7 @@ impl Reader<'_> {
             Some(name) => format!("{name}: {text}"),
             None => text,
         };
-        Ok(Asked { text, property })
+        Ok(RequestedProperty { text, property })
     }
 }
 

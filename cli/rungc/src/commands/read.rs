@@ -3,7 +3,9 @@
 mod client;
 
 use super::convert::written;
-use super::{Context, Failure, Result, conclude, grouped, interruption, say, spare, write_file};
+use super::{
+    Context, Failure, Result, conclude, grouped, interruption, print_text, spare, write_file,
+};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
 use crate::progress;
 use crate::report::{Findings, Reporter};
@@ -69,7 +71,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
         match &args.output {
             Some(path) => write_file(path, &bytes, args.force)?,
             None if args.to.is_text() && io::stdout().is_terminal() => {
-                say(&String::from_utf8_lossy(&bytes))?;
+                print_text(&String::from_utf8_lossy(&bytes))?;
             }
             None => io::stdout().write_all(&bytes)?,
         }

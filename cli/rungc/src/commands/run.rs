@@ -24,13 +24,13 @@ use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};
 use super::view::title;
 use super::{
-    Context, Failure, Result, Verbosity, conclude, findings, parent_dir, read, stem, tell,
+    Context, Failure, Result, Verbosity, conclude, eprint_line, findings, parent_dir, read, stem,
 };
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use live::Live;
 use recorder::Recorder;
-use retaining::Kept;
+use retaining::RetainStorage;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::{Read, image};
 use rungc_interp::rt_class;
@@ -71,7 +71,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         .as_ref()
         .is_some_and(|project| project.asks_servers());
     if has_requests && !args.in_real_time() {
-        tell("rungc: servers of `[[modbus]]` are asked in real time only: add --real-time");
+        eprint_line("rungc: servers of `[[modbus]]` are asked in real time only: add --real-time");
     }
     let mut args = args.clone();
     args.serve.asks = has_requests && args.in_real_time();
@@ -234,14 +234,14 @@ fn machine(
 }
 
 /// File for the latched devices of a run: that of the command line, or that of the project.
-fn retained(args: &RunArgs, subject: &Subject) -> Option<Kept> {
+fn retained(args: &RunArgs, subject: &Subject) -> Option<RetainStorage> {
     let project = subject.project.as_ref();
     let usual = || {
         let project = project?;
         Some(project.at(project.retain.as_deref()?))
     };
     let fault = subject.unsaved();
-    Some(Kept {
+    Some(RetainStorage {
         path: args.retain.clone().or_else(usual)?,
         fault: fault.and_then(|(class, number)| Some((rt_class(class)?, number))),
     })
@@ -252,7 +252,7 @@ fn report_still_axes(plant: Option<&Plant>, module: &Module) {
     let axes = plant.map_or(&[][..], Plant::axes);
     for axis in axes.iter().filter(|axis| stands_still(axis, module)) {
         let name = axis.name();
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: the axis {name} never moves: the program sends no pulses to its output"
         ));
     }

@@ -1,7 +1,7 @@
 //! `rungc stats`.
 
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, conclude, findings, grouped, read, say};
+use super::{Context, Failure, Outcome, Result, conclude, findings, grouped, print_text, read};
 use crate::args::StatsArgs;
 use crate::report::Reporter;
 use rungc_analysis::resolve::{Resolved, resolve};
@@ -76,14 +76,14 @@ pub fn run(args: &StatsArgs, cx: Context) -> Result {
         let (stats, outcome) = stats(subject, reporter, cx)?;
         match args.json {
             true => programs.push(stats),
-            false => say(&stats.to_string())?,
+            false => print_text(&stats.to_string())?,
         }
         Ok(outcome)
     })?;
     if args.json {
         let text = serde_json::to_string_pretty(&Output { programs });
         let text = text.map_err(|error| Failure::Because(error.to_string()))?;
-        say(&format!("{text}\n"))?;
+        print_text(&format!("{text}\n"))?;
     }
     Ok(outcome)
 }

@@ -1,6 +1,6 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
-use super::{Context, Failure, Outcome, Result, counted, counts, interruption, tell};
+use super::{Context, Failure, Outcome, Result, counted, counts, eprint_line, interruption};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
@@ -283,7 +283,7 @@ pub fn each(
             Err(Failure::Because(_)) if interruption::is_asked() => Outcome::Interrupted,
             // One program that cannot be worked on does not hide the others.
             Err(Failure::Because(why)) => {
-                tell(&format!("rungc: {why}"));
+                eprint_line(&format!("rungc: {why}"));
                 Outcome::Unusable
             }
             Err(Failure::Reported) => Outcome::Unusable,

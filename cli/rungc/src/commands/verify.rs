@@ -7,7 +7,7 @@ mod same;
 pub(super) mod test_file;
 
 use super::check::draw;
-use super::properties::{Asked, Outside, Reader, at_writes, module};
+use super::properties::{ExternalWrites, Reader, RequestedProperty, at_writes, module};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, put, read, write_file};
 use crate::args::VerifyArgs;
@@ -99,7 +99,10 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
 }
 
 /// The runs that were found, to be shown on other engines.
-fn shown<'a>(asked: &'a [Asked], decided: &'a [(Decision, Duration)]) -> Vec<engines::Shown<'a>> {
+fn shown<'a>(
+    asked: &'a [RequestedProperty],
+    decided: &'a [(Decision, Duration)],
+) -> Vec<engines::Shown<'a>> {
     let pairs = asked.iter().zip(decided).enumerate();
     let found = pairs.filter_map(|(what, (asked, (decision, _)))| {
         let Verdict::Found(trace) = &decision.verdict else {
@@ -121,7 +124,7 @@ fn options(
     args: &VerifyArgs,
     reader: &Reader,
     assumed: &[(String, Condition)],
-    outside: &Outside,
+    outside: &ExternalWrites,
 ) -> std::result::Result<Options, Failure> {
     let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
     let timeout = reader.chosen(args.timeout, timeout, TIMEOUT_MS)?;

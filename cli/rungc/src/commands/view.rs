@@ -2,7 +2,7 @@
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
-    Context, Failure, Outcome, Result, found_reading, read_as_written, say, stem, write_file,
+    Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem, write_file,
 };
 use crate::args::ViewArgs;
 use crate::report::Reporter;
@@ -90,7 +90,7 @@ fn view(
                 Some(chart) => chart.text(style.width),
                 None => draw(&resolved, &networks, style),
             });
-            say(&page)?;
+            print_text(&page)?;
         }
     }
     Ok(Outcome::of(&findings))

@@ -5,7 +5,7 @@ mod table;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
-    Context, Failure, Outcome, Result, found_reading, read_as_written, say, stem, write_file,
+    Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem, write_file,
 };
 use crate::args::{XrefArgs, XrefTo};
 use crate::report::Reporter;
@@ -54,7 +54,7 @@ fn xref(
             true => format!("; {name}\n"),
             false => String::new(),
         };
-        say(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
+        print_text(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
     } else {
         let file = || format!("{}.{ending}", stem(subject, &read));
         match outputs.place(args.output.as_deref(), reporter.many(), file, subject)? {

@@ -60,7 +60,7 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
         }
     }
     match list.result {
-        Held::Flow(logic) => Ok(logic),
+        Accumulator::Flow(logic) => Ok(logic),
         _ => Err(Fault::at(
             body,
             "the list has no bit as its result",
@@ -71,7 +71,7 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
 
 /// Current result of the list.
 #[derive(Clone, Debug)]
-enum Held {
+enum Accumulator {
     Nothing,
     Flow(Logic),
     Word(Word),
@@ -83,15 +83,15 @@ enum Held {
 struct List<'a, 'i, 'r> {
     reader: &'r mut Reader,
     body: Node<'a, 'i>,
-    result: Held,
+    result: Accumulator,
     /// State pushed by parentheses: the operator, whether it negates, and the result before it.
-    held: Vec<(SmolStr, bool, Held)>,
+    deferred: Vec<(SmolStr, bool, Accumulator)>,
     /// Each instruction is a separate element.
     instructions: u32,
     /// Comments above the network that comes next.
     remarks: Vec<String>,
     /// Results that branches continue, by the names of their variables.
-    kept: BTreeMap<String, Kept>,
+    kept: BTreeMap<String, Branched>,
     /// Logic of the timers' inputs, by their instances.
     inputs: BTreeMap<String, Logic>,
     /// The label that skips what is read, and the condition that does not.
@@ -99,7 +99,7 @@ struct List<'a, 'i, 'r> {
 }
 
 /// A result that branches continue.
-struct Kept {
+struct Branched {
     logic: Logic,
     /// Number of parts of the program at that time.
     parts: usize,
@@ -110,8 +110,8 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         List {
             reader,
             body,
-            result: Held::Nothing,
-            held: Vec::new(),
+            result: Accumulator::Nothing,
+            deferred: Vec::new(),
             instructions: 0,
             remarks: Vec::new(),
             kept: BTreeMap::new(),
@@ -140,13 +140,13 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         if let Some((label, rest)) = label {
             let skips = self.skipped.take_if(|(skip, _)| skip == label.trim());
             if let Some((_, logic)) = skips {
-                self.result = Held::Flow(logic);
+                self.result = Accumulator::Flow(logic);
                 return self.line(rest);
             }
             self.remark();
             let pointer = self.reader.pointer(label.trim());
             self.reader.parts.push(Part::Line(pointer.into()));
-            self.result = Held::Nothing;
+            self.result = Accumulator::Nothing;
             code = rest.trim();
         }
         if code.is_empty() {
@@ -154,7 +154,8 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         }
         self.instructions += 1;
         if let Some(rest) = code.strip_prefix(')') {
-            let (operator, negated, before) = self.held.pop().ok_or_else(|| self.foreign(code))?;
+            let (operator, negated, before) =
+                self.deferred.pop().ok_or_else(|| self.foreign(code))?;
             let inner = self.flow(code)?;
             let inner = if negated { inner.changed("INV") } else { inner };
             self.result = before;
@@ -180,14 +181,14 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     /// The result so far, if it is a bit.
     fn flow(&self, code: &str) -> Result<Logic, Fault> {
         match &self.result {
-            Held::Flow(logic) => Ok(logic.clone()),
+            Accumulator::Flow(logic) => Ok(logic.clone()),
             _ => Err(self.foreign(code)),
         }
     }
 
     fn word(&self, code: &str) -> Result<Word, Fault> {
         match &self.result {
-            Held::Word(word) => Ok(word.clone()),
+            Accumulator::Word(word) => Ok(word.clone()),
             _ => Err(self.foreign(code)),
         }
     }
@@ -207,7 +208,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         match name {
             "LD" => {
                 if negated || !self.continues(operand)? {
-                    if self.held.is_empty() && self.skipped.is_none() {
+                    if self.deferred.is_empty() && self.skipped.is_none() {
                         self.remark();
                     }
                     self.load(operand, !negated)?;
@@ -216,18 +217,18 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             "CAL" => self.call(operand, code)?,
             "AND" | "&" | "OR" | "XOR" => {
                 if let Some(rest) = operand.strip_prefix('(') {
-                    if self.held.len() == DEEPEST {
+                    if self.deferred.len() == DEEPEST {
                         return Err(self.foreign(code));
                     }
-                    let before = std::mem::replace(&mut self.result, Held::Nothing);
-                    self.held.push((name.into(), negated, before));
+                    let before = std::mem::replace(&mut self.result, Accumulator::Nothing);
+                    self.deferred.push((name.into(), negated, before));
                     return self.parenthesis(rest.trim());
                 }
                 let next = bit(self.reader, self.body, element, !negated, operand)?;
                 self.combine(name, next, code)?;
             }
             "NOT" if operand.is_empty() => {
-                self.result = Held::Flow(self.flow(code)?.changed("INV"));
+                self.result = Accumulator::Flow(self.flow(code)?.changed("INV"));
             }
             "S" | "R" => {
                 let device = self.reader.bit(self.body, operand)?;
@@ -240,7 +241,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             "ADD" | "SUB" => {
                 let other = number(self.reader, self.body, operand)?;
                 let mnemonic = if name == "ADD" { "ADD" } else { "SUB" };
-                self.result = Held::Sum(mnemonic, self.word(code)?, other);
+                self.result = Accumulator::Sum(mnemonic, self.word(code)?, other);
             }
             "GT" | "GE" | "EQ" | "LE" | "LT" | "NE" => {
                 let sign = match name {
@@ -254,7 +255,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
                 let other = number(self.reader, self.body, operand)?;
                 let first = self.word(code)?;
                 let logic = comparison(self.body, element, sign, [&first, &other])?;
-                self.result = Held::Flow(logic);
+                self.result = Accumulator::Flow(logic);
             }
             "JMP" | "JMPC" | "RET" | "RETC" => self.jump(name, negated, operand, code)?,
             _ => return Err(self.foreign(code)),
@@ -280,8 +281,8 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         let is_number =
             super::variables::constant(&name).is_some() || self.reader.variables.is_number(&name);
         self.result = match is_number && on {
-            true => Held::Word(number(self.reader, self.body, operand)?),
-            false => Held::Flow(bit(self.reader, self.body, element, on, operand)?),
+            true => Accumulator::Word(number(self.reader, self.body, operand)?),
+            false => Accumulator::Flow(bit(self.reader, self.body, element, on, operand)?),
         };
         Ok(())
     }
@@ -296,12 +297,12 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         if logic.size() > MOST_CONTACTS {
             return Err(self.foreign(code));
         }
-        self.result = Held::Flow(logic);
+        self.result = Accumulator::Flow(logic);
         Ok(())
     }
 
     fn store(&mut self, operand: &str, negated: bool, code: &str) -> Result<(), Fault> {
-        if let Held::Flow(logic) = self.result.clone() {
+        if let Accumulator::Flow(logic) = self.result.clone() {
             if self.keep(operand, negated, &logic) {
                 return Ok(());
             }
@@ -315,12 +316,12 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         }
         let to = number(self.reader, self.body, operand)?;
         let line = match &self.result {
-            Held::Word(from) => {
+            Accumulator::Word(from) => {
                 let wide = functions::wide(self.body, &[from, &to])?;
                 let d = if wide { "D" } else { "" };
                 format_smolstr!("{d}MOV {} {}", from.operand, to.operand)
             }
-            Held::Sum(mnemonic, a, b) => {
+            Accumulator::Sum(mnemonic, a, b) => {
                 let wide = functions::wide(self.body, &[a, b, &to])?;
                 let d = if wide { "D" } else { "" };
                 format_smolstr!("{d}{mnemonic} {} {} {}", a.operand, b.operand, to.operand)
@@ -329,7 +330,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         };
         let enable = self.skipped.as_ref().map(|(_, logic)| logic.clone());
         self.reader.output(enable.unwrap_or_else(Logic::wire), line);
-        self.result = Held::Word(to);
+        self.result = Accumulator::Word(to);
         Ok(())
     }
 

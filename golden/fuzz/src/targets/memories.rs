@@ -10,7 +10,7 @@ use rungc_rt::Ports;
 use rungc_rt::comm::Protocol;
 use rungc_rt::comm::service::ServerProtocol;
 use rungc_rt::retain::{Flash, FlashFailed, Slots};
-use rungc_sim::serve::{Decoder, Direction, Speech};
+use rungc_sim::serve::{Decoder, Direction, LinkProtocol};
 use std::io;
 use std::time::Duration;
 
@@ -142,26 +142,26 @@ fn overheard(input: &[u8]) {
     };
     let (before, bytes) = frames.split_at(frames.len().min((*split).into()));
     let speeches = [
-        Speech::Client,
-        Speech::Tcp(ServerProtocol::ModbusTcp),
-        Speech::Tcp(ServerProtocol::Mc),
-        Speech::Tcp(ServerProtocol::ProgrammingPort),
-        Speech::Serial(Protocol::Free),
-        Speech::Serial(Protocol::ProgrammingPort),
-        Speech::Serial(Protocol::ModbusRtu),
-        Speech::Serial(Protocol::ModbusAscii),
-        Speech::Serial(Protocol::MasterRtu),
-        Speech::Serial(Protocol::MasterAscii),
-        Speech::Serial(Protocol::MasterTable),
-        Speech::Serial(Protocol::ComputerLink),
-        Speech::Serial(Protocol::ComputerLinkMaster),
-        Speech::Serial(Protocol::ParallelMaster),
-        Speech::Serial(Protocol::ParallelSlave),
-        Speech::Serial(Protocol::NnMaster),
-        Speech::Serial(Protocol::NnSlave),
-        Speech::Serial(Protocol::EnhancedMaster),
-        Speech::Serial(Protocol::EnhancedSlave),
-        Speech::Serial(Protocol::Can),
+        LinkProtocol::Client,
+        LinkProtocol::Tcp(ServerProtocol::ModbusTcp),
+        LinkProtocol::Tcp(ServerProtocol::Mc),
+        LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
+        LinkProtocol::Serial(Protocol::Free),
+        LinkProtocol::Serial(Protocol::ProgrammingPort),
+        LinkProtocol::Serial(Protocol::ModbusRtu),
+        LinkProtocol::Serial(Protocol::ModbusAscii),
+        LinkProtocol::Serial(Protocol::MasterRtu),
+        LinkProtocol::Serial(Protocol::MasterAscii),
+        LinkProtocol::Serial(Protocol::MasterTable),
+        LinkProtocol::Serial(Protocol::ComputerLink),
+        LinkProtocol::Serial(Protocol::ComputerLinkMaster),
+        LinkProtocol::Serial(Protocol::ParallelMaster),
+        LinkProtocol::Serial(Protocol::ParallelSlave),
+        LinkProtocol::Serial(Protocol::NnMaster),
+        LinkProtocol::Serial(Protocol::NnSlave),
+        LinkProtocol::Serial(Protocol::EnhancedMaster),
+        LinkProtocol::Serial(Protocol::EnhancedSlave),
+        LinkProtocol::Serial(Protocol::Can),
     ];
     let speech = speeches[usize::from(variant >> 1) % speeches.len()];
     let direction = [Direction::In, Direction::Out][usize::from(variant & 1)];

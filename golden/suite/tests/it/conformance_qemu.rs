@@ -13,7 +13,7 @@ use rungc_sim::protocol::{Answer, Request};
 use std::path::Path;
 
 /// An engine that is held to the interpreter.
-struct Held<'m> {
+struct Compared<'m> {
     engine: Box<dyn Engine + 'm>,
     interpreter: Interpreter<'m>,
     modules: &'m [Module],
@@ -23,9 +23,9 @@ struct Held<'m> {
     different: Vec<String>,
 }
 
-impl<'m> Held<'m> {
+impl<'m> Compared<'m> {
     fn new(engine: Box<dyn Engine + 'm>, modules: &'m [Module]) -> Self {
-        Held {
+        Compared {
             engine,
             interpreter: Interpreter::new(modules),
             modules,
@@ -45,7 +45,7 @@ impl<'m> Held<'m> {
     }
 }
 
-impl Engine for Held<'_> {
+impl Engine for Compared<'_> {
     fn name(&self) -> &str {
         self.engine.name()
     }
@@ -96,7 +96,7 @@ fn run(board: &Board, kind: EngineKind) {
     for batch in Conformance::load(&Part::one_in(8), most) {
         let engine = build_for(board, kind, batch.modules(), &target);
         let engine = engine.unwrap_or_else(|error| panic!("{error}"));
-        let mut engine = Held::new(engine, batch.modules());
+        let mut engine = Compared::new(engine, batch.modules());
         wrong.append(&mut batch.run(&mut engine));
         wrong.append(&mut engine.different);
     }

@@ -36,7 +36,7 @@ pub(super) struct Walk<'m> {
     /// Tracked words that each function may write, including those of its callees.
     writes: Vec<Mask>,
     /// Temporaries of which something is known at times.
-    told: FxHashSet<TempId>,
+    tracked: FxHashSet<TempId>,
     /// Statements that write tracked words, constrain them or go elsewhere, by address.
     matters: FxHashSet<*const Stmt>,
     /// Statements that have a [`Expr::Within`], by address.
@@ -65,7 +65,7 @@ impl<'m> Walk<'m> {
         let mut walk = Walk {
             thresholds: eval.thresholds(),
             writes: Vec::new(),
-            told: FxHashSet::default(),
+            tracked: FxHashSet::default(),
             matters: FxHashSet::default(),
             indexes: FxHashSet::default(),
             known: facts.clone(),
@@ -77,7 +77,7 @@ impl<'m> Walk<'m> {
             eval,
         };
         walk.writes = walk.written();
-        walk.told = walk.telling();
+        walk.tracked = walk.tracked_temporaries();
         for function in &walk.eval.module.functions {
             walk.sort(&function.body);
         }
@@ -141,19 +141,19 @@ impl<'m> Walk<'m> {
     }
 
     /// Temporaries that are assigned integers, or conditions over tracked words or over each other.
-    fn telling(&self) -> FxHashSet<TempId> {
-        let mut told = FxHashSet::default();
+    fn tracked_temporaries(&self) -> FxHashSet<TempId> {
+        let mut tracked = FxHashSet::default();
         for function in &self.eval.module.functions {
             statements(&function.body, &mut |stmt| {
                 if let Stmt::Do(Action::Let(temp, value)) = *stmt {
                     let integer = matches!(self.eval.module.ty(value), Ty::I16 | Ty::I32);
                     if integer || self.eval.reads(value) != (0, 0) {
-                        told.insert(temp);
+                        tracked.insert(temp);
                     }
                 }
             });
         }
-        told
+        tracked
     }
 
     /// Sorts statements by what is to be done with them; whether any of these matters, and whether any has an index.
@@ -181,8 +181,8 @@ impl<'m> Walk<'m> {
     /// Returns true if a statement itself changes the knowledge.
     fn matters(&self, stmt: &Stmt) -> bool {
         let leaves = matches!(stmt, Stmt::CallSub(_) | Stmt::Return | Stmt::Goto(_));
-        let told = assigned(stmt).is_some_and(|temp| self.told.contains(&temp));
-        leaves || told || self.writes_of(stmt, None) != 0
+        let tracked = assigned(stmt).is_some_and(|temp| self.tracked.contains(&temp));
+        leaves || tracked || self.writes_of(stmt, None) != 0
     }
 
     fn has_within(&self, id: ExprId) -> bool {

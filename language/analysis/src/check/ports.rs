@@ -156,10 +156,12 @@ fn port_of(code: &Code, i: usize, facts: &facts::Facts) -> Option<u8> {
     }
     if let Some(register) = port_register(code, i) {
         return match facts.held(register) {
-            facts::Held::Constant(port) => ports.named(port.into()),
+            facts::RegisterValue::Constant(port) => ports.named(port.into()),
             // Other registers than the special one may be written by an HMI.
-            facts::Held::Default(port) if function == RtFn::Adprw => ports.named(port.into()),
-            facts::Held::Default(_) | facts::Held::Unknown => None,
+            facts::RegisterValue::Default(port) if function == RtFn::Adprw => {
+                ports.named(port.into())
+            }
+            facts::RegisterValue::Default(_) | facts::RegisterValue::Unknown => None,
         };
     }
     let operand = code.instr(i).operands.last()?.kind.constant()?;

@@ -33,7 +33,7 @@ const NAK: u8 = 0x15;
 
 /// Protocol of a server or a port.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Speech {
+pub enum LinkProtocol {
     /// A protocol over TCP.
     Tcp(ServerProtocol),
     /// Modbus over TCP, whose client is the PLC.
@@ -80,19 +80,21 @@ impl Decoder {
     /// Decodes a frame; `before` is the last one in the other direction.
     pub fn decode(
         &self,
-        speech: Speech,
+        speech: LinkProtocol,
         direction: Direction,
         bytes: &[u8],
         before: Option<&[u8]>,
     ) -> Decoded {
         let asks = direction == Direction::In;
         match speech {
-            Speech::Tcp(ServerProtocol::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
-            Speech::Client => modbus::over_tcp(!asks, bytes, before),
-            Speech::Tcp(ServerProtocol::Mc) if asks => self.mc_request(bytes),
-            Speech::Tcp(ServerProtocol::Mc) => mc_reply(bytes),
-            Speech::Tcp(ServerProtocol::ProgrammingPort) => self.programming_port(asks, bytes),
-            Speech::Serial(protocol) => match protocol {
+            LinkProtocol::Tcp(ServerProtocol::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
+            LinkProtocol::Client => modbus::over_tcp(!asks, bytes, before),
+            LinkProtocol::Tcp(ServerProtocol::Mc) if asks => self.mc_request(bytes),
+            LinkProtocol::Tcp(ServerProtocol::Mc) => mc_reply(bytes),
+            LinkProtocol::Tcp(ServerProtocol::ProgrammingPort) => {
+                self.programming_port(asks, bytes)
+            }
+            LinkProtocol::Serial(protocol) => match protocol {
                 Protocol::ModbusRtu => self.modbus(Framing::Rtu, asks, bytes, before),
                 Protocol::ModbusAscii => self.modbus(Framing::Ascii, asks, bytes, before),
                 Protocol::MasterRtu | Protocol::MasterTable => {
@@ -278,22 +280,22 @@ fn fault_name(fault: LineFault) -> &'static str {
     }
 }
 
-impl Speech {
+impl LinkProtocol {
     /// Display name.
     pub fn name(self) -> &'static str {
         match self {
-            Speech::Tcp(protocol) => protocol.name(),
-            Speech::Client => ServerProtocol::ModbusTcp.name(),
-            Speech::Serial(protocol) => protocol.name(),
+            LinkProtocol::Tcp(protocol) => protocol.name(),
+            LinkProtocol::Client => ServerProtocol::ModbusTcp.name(),
+            LinkProtocol::Serial(protocol) => protocol.name(),
         }
     }
 
     /// Returns true if the PLC sends the requests, and the other end answers.
     pub fn asks(self) -> bool {
         match self {
-            Speech::Tcp(_) => false,
-            Speech::Client => true,
-            Speech::Serial(protocol) => protocol.is_master(),
+            LinkProtocol::Tcp(_) => false,
+            LinkProtocol::Client => true,
+            LinkProtocol::Serial(protocol) => protocol.is_master(),
         }
     }
 }

@@ -5,5 +5,5 @@ mod decode;
 mod probe;
 mod traffic;
 
-pub use decode::{Decoded, Decoder, Direction, Speech};
+pub use decode::{Decoded, Decoder, Direction, LinkProtocol};
 pub use traffic::{Place, Seen, Traffic};

@@ -1,6 +1,6 @@
 //! Traffic of a run's connections, for the table at its end.
 
-use super::decode::{Decoded, Decoder, Direction, Speech};
+use super::decode::{Decoded, Decoder, Direction, LinkProtocol};
 use super::probe::{Devices, ranges};
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub struct Seen<'a> {
     /// The place.
     pub place: &'a Place,
     /// Protocol there.
-    pub speech: Speech,
+    pub speech: LinkProtocol,
     /// Direction of the frame.
     pub direction: Direction,
     /// The frame.
@@ -29,7 +29,7 @@ pub struct Seen<'a> {
 /// One row of the table.
 #[derive(Clone, Debug)]
 struct Connection {
-    speech: Speech,
+    speech: LinkProtocol,
     received: u64,
     sent: u64,
     errors: u64,
@@ -58,11 +58,11 @@ impl Traffic {
     }
 
     /// A server or port that is open: it has a row, whether or not frames come.
-    pub fn open(&mut self, place: &Place, speech: Speech) {
+    pub fn open(&mut self, place: &Place, speech: LinkProtocol) {
         self.connection(place, speech);
     }
 
-    fn connection(&mut self, place: &Place, speech: Speech) -> &mut Connection {
+    fn connection(&mut self, place: &Place, speech: LinkProtocol) -> &mut Connection {
         let connection = self.connections.entry(place.clone()).or_insert(Connection {
             speech,
             received: 0,

@@ -6,7 +6,7 @@ use rungc_sim::Target;
 
 /// A mistake in a condition.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Mistake {
+pub struct ParseError {
     /// Offset in bytes.
     pub at: usize,
     /// Description, as a sentence without a full stop.
@@ -33,7 +33,7 @@ enum Token {
 /// # Errors
 ///
 /// The first mistake.
-pub fn parse(text: &str, names: &dyn Fn(&str) -> Vec<Target>) -> Result<Condition, Mistake> {
+pub fn parse(text: &str, names: &dyn Fn(&str) -> Vec<Target>) -> Result<Condition, ParseError> {
     let mut reader = Reader {
         tokens: tokens(text)?,
         next: 0,
@@ -43,21 +43,21 @@ pub fn parse(text: &str, names: &dyn Fn(&str) -> Vec<Target>) -> Result<Conditio
     let condition = reader.either()?;
     match reader.tokens.get(reader.next) {
         None => Ok(condition),
-        Some((at, Token::Close)) => Err(mistake(*at, "this `)` closes nothing")),
-        Some((at, _)) => Err(mistake(
+        Some((at, Token::Close)) => Err(error(*at, "this `)` closes nothing")),
+        Some((at, _)) => Err(error(
             *at,
             "expected `&`, `|`, a comparison or the end here",
         )),
     }
 }
 
-fn mistake(at: usize, why: impl Into<String>) -> Mistake {
+fn error(at: usize, why: impl Into<String>) -> ParseError {
     let why = why.into();
-    Mistake { at, why }
+    ParseError { at, why }
 }
 
 /// The words of a condition with their places.
-fn tokens(text: &str) -> Result<Vec<(usize, Token)>, Mistake> {
+fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
     const OPERATORS: [(&str, Token); 15] = [
         ("&&", Token::And),
         ("||", Token::Or),
@@ -88,7 +88,7 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, Mistake> {
             at += sign.len();
         } else if c == '"' {
             let Some(length) = rest[1..].find('"') else {
-                return Err(mistake(at, "this quote is not closed"));
+                return Err(error(at, "this quote is not closed"));
             };
             found.push((at, Token::Quoted(rest[1..=length].to_string())));
             at += length + 2;
@@ -136,7 +136,7 @@ impl Reader<'_> {
         self.tokens.get(self.next).map_or(self.end, |(at, _)| *at)
     }
 
-    fn either(&mut self) -> Result<Condition, Mistake> {
+    fn either(&mut self) -> Result<Condition, ParseError> {
         let mut left = self.both()?;
         while self.takes(&Token::Or) {
             left = Condition::Or(Box::new(left), Box::new(self.both()?));
@@ -144,7 +144,7 @@ impl Reader<'_> {
         Ok(left)
     }
 
-    fn both(&mut self) -> Result<Condition, Mistake> {
+    fn both(&mut self) -> Result<Condition, ParseError> {
         let mut left = self.single()?;
         while self.takes(&Token::And) {
             left = Condition::And(Box::new(left), Box::new(self.single()?));
@@ -152,14 +152,11 @@ impl Reader<'_> {
         Ok(left)
     }
 
-    fn single(&mut self) -> Result<Condition, Mistake> {
+    fn single(&mut self) -> Result<Condition, ParseError> {
         let nested = self.tokens[..self.next].iter();
         let nested = nested.filter(|(_, token)| matches!(token, Token::Open | Token::Not));
         if nested.count() > DEPTH {
-            return Err(mistake(
-                self.at(),
-                "more than 200 parentheses and inversions",
-            ));
+            return Err(error(self.at(), "more than 200 parentheses and inversions"));
         }
         if self.takes(&Token::Not) {
             return Ok(Condition::Not(Box::new(self.single()?)));
@@ -169,14 +166,14 @@ impl Reader<'_> {
             let inner = self.either()?;
             return match self.takes(&Token::Close) {
                 true => Ok(inner),
-                false => Err(mistake(open, "this `(` is not closed")),
+                false => Err(error(open, "this `(` is not closed")),
             };
         }
         self.term()
     }
 
     /// A bit, or a comparison.
-    fn term(&mut self) -> Result<Condition, Mistake> {
+    fn term(&mut self) -> Result<Condition, ParseError> {
         let (at, left) = self.operand()?;
         let Some(&Token::Compare(op)) = self.peek() else {
             return match left {
@@ -184,9 +181,7 @@ impl Reader<'_> {
                 Operand::Number(Number::Constant(value @ (0 | 1))) => {
                     Ok(Condition::Constant(value == 1))
                 }
-                Operand::Number(_) => {
-                    Err(mistake(at, "compare a number with something: `D0 > 100`"))
-                }
+                Operand::Number(_) => Err(error(at, "compare a number with something: `D0 > 100`")),
             };
         };
         self.next += 1;
@@ -203,25 +198,25 @@ impl Reader<'_> {
                     false => Condition::Not(Box::new(on)),
                 })
             }
-            (Operand::On(_), _) => Err(mistake(at, CONTACT)),
-            (_, Operand::On(_)) => Err(mistake(right_at, CONTACT)),
+            (Operand::On(_), _) => Err(error(at, CONTACT)),
+            (_, Operand::On(_)) => Err(error(right_at, CONTACT)),
         }
     }
 
-    fn operand(&mut self) -> Result<(usize, Operand), Mistake> {
+    fn operand(&mut self) -> Result<(usize, Operand), ParseError> {
         let at = self.at();
         let (word, quoted) = match self.peek() {
             Some(Token::Word(word)) => (word.clone(), false),
             Some(Token::Quoted(word)) => (word.clone(), true),
-            _ => return Err(mistake(at, "expected a device, a name or a number here")),
+            _ => return Err(error(at, "expected a device, a name or a number here")),
         };
         self.next += 1;
         if !quoted && let Some(value) = number(&word) {
             let value =
-                value.ok_or_else(|| mistake(at, format!("`{word}` does not fit in 32 bits")))?;
+                value.ok_or_else(|| error(at, format!("`{word}` does not fit in 32 bits")))?;
             return Ok((at, Operand::Number(Number::Constant(value))));
         }
-        let target = self.target(&word, quoted).map_err(|why| mistake(at, why))?;
+        let target = self.target(&word, quoted).map_err(|why| error(at, why))?;
         Ok((
             at,
             match target {

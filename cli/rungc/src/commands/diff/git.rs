@@ -1,7 +1,7 @@
 //! Being called by Git, as the diff driver of a path: `path old-file old-hex old-mode new-file new-hex new-mode`, and
 //! for a path that was renamed the new path and the messages about it (gitattributes(5), gitdiffcore(7)).
 
-use super::{Side, report, say, tell};
+use super::{Side, eprint_line, print_text, report};
 use crate::args::DiffArgs;
 use crate::commands::{Context, Failure, Outcome, Result};
 use std::path::{Path, PathBuf};
@@ -40,8 +40,8 @@ pub fn run(call: &Call, args: &DiffArgs, cx: Context) -> Result {
         (Ok(old), Ok(new)) => _ = report(&old, &new, args)?,
         (Err(failure), _) | (_, Err(failure)) => match failure {
             Failure::BrokenPipe => return Err(failure),
-            Failure::Because(why) => say(&format!("{}: {why}\n", call.paths[1].display()))?,
-            Failure::Reported => tell(&format!(
+            Failure::Because(why) => print_text(&format!("{}: {why}\n", call.paths[1].display()))?,
+            Failure::Reported => eprint_line(&format!(
                 "rungc: {} is not compared",
                 call.paths[1].display()
             )),

@@ -2,7 +2,7 @@
 
 use super::{Searched, Shown, What};
 use crate::commands::counted;
-use crate::commands::verify::report::tell;
+use crate::commands::verify::report::write_story;
 use rungc_explore::Report;
 use rungc_explore::trains::At;
 use rungc_syntax::DeviceClass;
@@ -65,7 +65,7 @@ impl Searched<'_> {
                 }
                 let mut change = change.clone();
                 change.set.extend(pulses.iter().map(named));
-                tell(&mut text, self.module, &[change]);
+                write_story(&mut text, self.module, &[change]);
             }
         }
         for (number, asked) in self.asked.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! A serial line to a boot loader.
 
 use crate::commands::run::lines::wire::{self, Wire};
-use crate::commands::{Failure, interruption, tell};
+use crate::commands::{Failure, eprint_line, interruption};
 use rungc_firmware::flash::loader::Line;
 use rungc_project::serve::LineEnd;
 use rungc_rt::comm::{LineFormat, Parity};
@@ -34,7 +34,7 @@ impl Port {
         };
         if let Err(error) = wire.set_format(format) {
             // A pseudo-terminal has no parity, and needs none.
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: {end} cannot be set to {baud} bit/s, 8 data bits, even parity: {error}"
             ));
         }

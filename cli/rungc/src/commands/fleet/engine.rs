@@ -5,7 +5,7 @@ use crate::commands::{Context, Failure};
 use rungc_codegen_c::lanes;
 use rungc_firmware::build::{BuildError, Tools};
 use rungc_firmware::target;
-use rungc_fleet::{Children, Choice, Engine, Form, Plcs, Trouble, needs_runtime, refusal};
+use rungc_fleet::{Children, Choice, Engine, FleetError, Form, Plcs, needs_runtime, refusal};
 use rungc_ir::Module;
 use std::path::{Path, PathBuf};
 
@@ -53,7 +53,7 @@ pub fn choose<'m>(
             engine: Some(Box::new(children)),
             why,
         }),
-        Err(Trouble::Io { what, error }) if what == "cc" => {
+        Err(FleetError::Io { what, error }) if what == "cc" => {
             none(Some(format!("the C compiler `cc` does not start: {error}")))
         }
         Err(error) => Err(Failure::Because(error.to_string())),

@@ -4,7 +4,9 @@ use super::failures::{self, About};
 use super::memory;
 use crate::args::FleetArgs;
 use crate::commands::run::pace::{self, Pace};
-use crate::commands::{Failure, Outcome, Result, counted, grouped, interruption, say, tell};
+use crate::commands::{
+    Failure, Outcome, Result, counted, eprint_line, grouped, interruption, print_text,
+};
 use rungc_fleet::{Broker, Group};
 use std::time::{Duration, Instant};
 
@@ -64,7 +66,7 @@ impl<'m> Fleets<'m> {
         }
         let plcs: u64 = self.groups.iter().map(|group| u64::from(group.count)).sum();
         let plcs = counted(plcs as usize, "PLC");
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: {plcs}, a scan of all every {} ms",
             self.cycle_ms
         ));
@@ -87,7 +89,7 @@ impl<'m> Fleets<'m> {
             self.scan()?;
             self.times.add(started.elapsed());
             if interruption::is_asked() {
-                tell(&format!("rungc: interrupted at {} ms", self.now_ms));
+                eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
             let next_ms = self.now_ms + self.cycle_ms;
@@ -173,7 +175,7 @@ impl<'m> Fleets<'m> {
                 "memory: {all:.1} MB of all processes, {each:.1} KB a PLC\n"
             ));
         }
-        Ok(say(&text)?)
+        Ok(print_text(&text)?)
     }
 }
 
@@ -228,5 +230,5 @@ fn milliseconds(us: u64) -> String {
 }
 
 fn report(line: &String) {
-    tell(&format!("rungc: {line}"));
+    eprint_line(&format!("rungc: {line}"));
 }

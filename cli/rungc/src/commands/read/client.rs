@@ -2,7 +2,7 @@
 
 use crate::args::ReadArgs;
 use crate::commands::run::lines::wire::{self, Wire};
-use crate::commands::{Failure, interruption, tell};
+use crate::commands::{Failure, eprint_line, interruption};
 use rungc_rt::comm::{LineFormat, Parity, fx_port};
 use std::time::{Duration, Instant};
 
@@ -50,7 +50,7 @@ impl Client {
         if let Err(error) = wire.set_format(format) {
             // A pseudo-terminal has no parity, and needs none.
             let rate = args.baud;
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: {name} cannot be set to {rate} bit/s, 7 data bits, even parity: {error}"
             ));
         }

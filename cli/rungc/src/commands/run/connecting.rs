@@ -1,7 +1,7 @@
 //! `[io]`: what terminals and registers of a running program are connected to.
 
 use super::super::subject::{self, Subject};
-use super::super::{Context, Failure, tell};
+use super::super::{Context, Failure, eprint_line};
 use crate::args::ServeArgs;
 use rungc_host::io::{Connection, Io};
 use rungc_interp::{Machine, rt_class};
@@ -102,6 +102,6 @@ impl Connecting {
 
 fn report(lines: Vec<String>) {
     for line in lines {
-        tell(&format!("rungc: {line}"));
+        eprint_line(&format!("rungc: {line}"));
     }
 }

@@ -1,6 +1,6 @@
 //! Errors as the PLC would show them while a program runs: the operation errors, and the reason why it stopped.
 
-use crate::commands::tell;
+use crate::commands::eprint_line;
 use rungc_interp::OperationError;
 use rungc_ir::Module;
 use rungc_models::plc_errors;
@@ -31,7 +31,8 @@ impl<'a> Errors<'a> {
         let new = errors.iter().skip(self.reported);
         let new: Vec<_> = new.map(|error| self.describe(error)).collect();
         if self.at_once {
-            new.iter().for_each(|text| tell(&format!("rungc: {text}")));
+            new.iter()
+                .for_each(|text| eprint_line(&format!("rungc: {text}")));
         }
         self.reported = errors.len();
         new
@@ -44,11 +45,11 @@ impl<'a> Errors<'a> {
                 1 => "once".to_string(),
                 times => format!("{times} times"),
             };
-            tell(&format!("rungc: {}, {times}", self.describe(error)));
+            eprint_line(&format!("rungc: {}, {times}", self.describe(error)));
         }
         if let Some(error) = errors.first() {
             let (code, relay) = (error.code, self.module.model.error_relay.number());
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: a PLC reports these errors in M{relay} and D{relay}; for more, run `rungc explain {code}`"
             ));
         }

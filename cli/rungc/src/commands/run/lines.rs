@@ -9,14 +9,14 @@ mod frames;
 pub mod wire;
 
 use super::watch::{Watch, Way};
-use crate::commands::{Failure, tell};
+use crate::commands::{Failure, eprint_line};
 use frames::{Frames, Whole};
 use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_project::serve;
 use rungc_rt::comm::{CAN_PORT, LineFormat, Protocol, Received};
 use rungc_rt::{Plc, VirtualHal};
-use rungc_sim::serve::{Direction, Place, Seen, Speech};
+use rungc_sim::serve::{Direction, LinkProtocol, Place, Seen};
 use std::io::ErrorKind;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
@@ -73,7 +73,7 @@ impl Lines {
         }
         let lines = lines.iter().map(|line| {
             let line = Line::open(line, model)?;
-            watch.open(&line.place, Speech::Serial(line.protocol));
+            watch.open(&line.place, LinkProtocol::Serial(line.protocol));
             Ok(line)
         });
         lines.collect::<Result<_, _>>().map(Lines)
@@ -138,7 +138,7 @@ impl Line {
         let (name, events) = wire::keep(&line.end).map_err(|error| {
             Failure::Because(format!("{option}: cannot open {}: {error}", line.end))
         })?;
-        tell(&format!("rungc: {port} at {name}"));
+        eprint_line(&format!("rungc: {port} at {name}"));
         let place = Place {
             port: port.clone(),
             peer: name.clone(),
@@ -173,7 +173,7 @@ impl Line {
         match event {
             Event::Up(wire) => {
                 if std::mem::take(&mut self.lost) {
-                    tell(&format!("rungc: {port}: {name} is back"));
+                    eprint_line(&format!("rungc: {port}: {name} is back"));
                 }
                 self.wire = Some(wire);
                 self.unsent = self.opening.clone().into_bytes();
@@ -188,7 +188,7 @@ impl Line {
                     Some(_) => "is gone",
                     None => "is not there",
                 };
-                tell(&format!(
+                eprint_line(&format!(
                     "rungc: {port}: {name} {what} ({why}); waiting for it"
                 ));
                 self.wire = None;
@@ -203,7 +203,7 @@ impl Line {
     fn seen(&self, whole: Whole, now_ms: u64, watch: &mut Watch) {
         let seen = Seen {
             place: &self.place,
-            speech: Speech::Serial(self.protocol),
+            speech: LinkProtocol::Serial(self.protocol),
             direction: whole.direction,
             bytes: &whole.bytes,
         };
@@ -220,7 +220,7 @@ impl Line {
                 self.seen(whole, now_ms, watch);
             }
             self.protocol = protocol;
-            watch.open(&self.place, Speech::Serial(protocol));
+            watch.open(&self.place, LinkProtocol::Serial(protocol));
         }
     }
 
@@ -235,7 +235,7 @@ impl Line {
         }
         self.format = format;
         if let Err(error) = wire.set_format(format) {
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: {}: the line cannot be set to {} bit/s, {} data bits: {error}",
                 self.port, format.bits_per_second, format.data_bits
             ));

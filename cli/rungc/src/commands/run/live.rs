@@ -1,7 +1,7 @@
 //! `rungc serve --page`: what the page shows of a run, and what it asks the run to do.
 
 use crate::commands::setting::{fits, target};
-use crate::commands::{Failure, tell};
+use crate::commands::{Failure, eprint_line};
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Machine;
 use rungc_ladder::build;
@@ -160,7 +160,7 @@ impl Live {
         let address = page.address;
         let server = Server::open(address, html, page.read_only)
             .map_err(|error| Failure::Because(format!("--page {address}: {error}")))?;
-        tell(&format!("rungc: page at {}", server.url()));
+        eprint_line(&format!("rungc: page at {}", server.url()));
         Ok(Live {
             server,
             scene,

@@ -1,6 +1,6 @@
 //! Runs in real time: when scans begin, how late, and with which priority.
 
-use crate::commands::{Failure, tell};
+use crate::commands::{Failure, eprint_line};
 use std::time::{Duration, Instant};
 
 /// A run that is later than this has stood still (a suspended machine, a debugger). It does not catch up.
@@ -39,7 +39,7 @@ impl Pace {
         let late = due.elapsed();
         if late > STANDSTILL {
             let seconds = late.as_secs_f64();
-            tell(&format!("rungc: the run stood still for {seconds:.1} s"));
+            eprint_line(&format!("rungc: the run stood still for {seconds:.1} s"));
             return begin + late;
         }
         let late_us = late.as_micros() as u64;
@@ -75,12 +75,12 @@ impl Pace {
 #[cfg(target_os = "linux")]
 pub fn raise(priority: u8) -> Result<(), Failure> {
     if let Err(why) = clock::raise(priority) {
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: --priority {priority}: {why}; it needs the capability CAP_SYS_NICE, or `LimitRTPRIO=` of systemd"
         ));
     }
     if let Err(why) = clock::lock_memory() {
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: --priority {priority}: memory is not locked: {why}; it needs CAP_IPC_LOCK, or `LimitMEMLOCK=infinity` of systemd"
         ));
     }

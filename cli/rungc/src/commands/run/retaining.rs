@@ -1,6 +1,6 @@
 //! `rungc run --retain`: latched devices that survive from run to run.
 
-use super::super::{Failure, tell};
+use super::super::{Failure, eprint_line};
 use rungc_host::retain::RetainFile;
 use rungc_interp::Machine;
 use rungc_rt::{Class, Plc, Program};
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 /// Storage of a run's latched devices.
 #[derive(Clone, Debug)]
-pub struct Kept {
+pub struct RetainStorage {
     /// The file.
     pub path: PathBuf,
     /// The bit that is on while they cannot be saved.
@@ -25,7 +25,7 @@ pub struct Retaining {
 impl Retaining {
     /// Opens a file, and gives a machine that was just switched on the values in it.
     pub fn begin(
-        Kept { path, fault }: &Kept,
+        RetainStorage { path, fault }: &RetainStorage,
         machine: &mut Machine,
     ) -> std::result::Result<Self, Failure> {
         let shown = path.display();
@@ -34,7 +34,7 @@ impl Retaining {
         if machine.retained().runs.is_empty() {
             return Err(because(&"the program has no latched devices"));
         }
-        let say = |text: String| tell(&format!("rungc: {text}"));
+        let say = |text: String| eprint_line(&format!("rungc: {text}"));
         let file = RetainFile::begin(path, machine, say).map_err(|why| because(&why))?;
         Ok(Retaining {
             file,
@@ -45,7 +45,7 @@ impl Retaining {
     /// Saves what has changed, once in a second. A disk that takes nothing does not stop the PLC: it is tried again.
     pub fn poll(&mut self, machine: &mut Machine, now_ms: u64) {
         if let Some(said) = self.file.keep(machine, now_ms as u32) {
-            tell(&format!("rungc: {said}"));
+            eprint_line(&format!("rungc: {said}"));
         }
         if let Some((class, number)) = self.fault {
             // Every model that the settings fit has it.
@@ -57,7 +57,7 @@ impl Retaining {
     pub fn end(self, machine: &Machine) -> bool {
         let saved = self.file.end(machine);
         if let Err(why) = &saved {
-            tell(&format!("rungc: {why}"));
+            eprint_line(&format!("rungc: {why}"));
         }
         saved.is_ok()
     }

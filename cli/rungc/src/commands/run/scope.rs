@@ -1,6 +1,6 @@
 //! `rungc run --scope`: what HM's oscilloscope has recorded (hm-motion-controller §5.6), as a diagram and as a table.
 
-use super::super::{AtomicFile, Failure, file_name, tell};
+use super::super::{AtomicFile, Failure, eprint_line, file_name};
 use rungc_interp::Machine;
 use rungc_rt::special::{
     D_SCOPE_CHANNELS, D_SCOPE_FIRST, D_SCOPE_MODE, D_SCOPE_PERIOD, D_SCOPE_STATE, D_SCOPE_TAKEN,
@@ -86,7 +86,7 @@ impl Scope {
         }
         let Some(record) = self.record.filter(|record| !record.rows.is_empty()) else {
             let path = self.path.display();
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: --scope: the oscilloscope has taken no sample (D8038 is {}); {path} is not written",
                 self.state
             ));

@@ -2,7 +2,7 @@
 
 use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
-use crate::commands::{Failure, tell};
+use crate::commands::{Failure, eprint_line};
 use rungc_host::servers::{Clients, Server};
 use rungc_interp::Machine;
 use rungc_ir::Module;
@@ -13,7 +13,7 @@ use rungc_rt::Program;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::modbus::client::ClientRow;
 use rungc_rt::comm::service::{ServerProtocol, Service};
-use rungc_sim::serve::{Direction, Place, Seen, Speech};
+use rungc_sim::serve::{Direction, LinkProtocol, Place, Seen};
 use rungc_syntax::NetworkRequest;
 use std::net::SocketAddr;
 
@@ -24,17 +24,17 @@ pub struct Servers {
 }
 
 /// Requests of a run to servers over TCP.
-pub struct Asked(Clients);
+pub struct NetworkRequests(Clients);
 
-impl Asked {
+impl NetworkRequests {
     /// The table of a program; nothing is asked unless the run keeps step with the clock.
     pub fn new(module: &Module, in_real_time: bool, watch: &mut Watch) -> Self {
         let requests = module.requests.iter().filter(|_| in_real_time);
         let clients = Clients::new(module.model.ports, requests.filter_map(row));
         for server in clients.servers() {
-            watch.open(&place(server), Speech::Client);
+            watch.open(&place(server), LinkProtocol::Client);
         }
-        Asked(clients)
+        NetworkRequests(clients)
     }
 
     /// Takes the answers that have come since the last scan, and asks what is next; `at_us` as for [`Servers::poll`].
@@ -47,7 +47,7 @@ impl Asked {
             };
             let seen = Seen {
                 place: &place(frame.server),
-                speech: Speech::Client,
+                speech: LinkProtocol::Client,
                 direction: match frame.request {
                     true => Direction::Out,
                     false => Direction::In,
@@ -109,7 +109,7 @@ impl Servers {
             let service = Service::new(protocol, model.ports, type_code);
             for &address in addresses(protocol) {
                 let open = open(service, address)?;
-                watch.open(&open.place(None), Speech::Tcp(protocol));
+                watch.open(&open.place(None), LinkProtocol::Tcp(protocol));
                 servers.push(open);
             }
         }
@@ -136,7 +136,7 @@ impl Servers {
                 for (direction, bytes) in frames.into_iter().filter(|frame| !frame.1.is_empty()) {
                     let seen = Seen {
                         place: &place,
-                        speech: Speech::Tcp(open.server.service().protocol),
+                        speech: LinkProtocol::Tcp(open.server.service().protocol),
                         direction,
                         bytes,
                     };
@@ -167,9 +167,9 @@ fn open(service: Service, address: SocketAddr) -> Result<Open, Failure> {
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));
     let (address, server) = server?;
-    tell(&format!("rungc: {name} at {address}"));
+    eprint_line(&format!("rungc: {name} at {address}"));
     if !address.ip().is_loopback() {
-        tell(
+        eprint_line(
             "rungc: whoever reaches this address reads and writes every device: there is no password",
         );
     }

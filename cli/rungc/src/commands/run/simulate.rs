@@ -10,15 +10,15 @@ use super::pace::{self, Pace};
 use super::plotting::Plotting;
 use super::recorder::Recorder;
 use super::recording::Recording;
-use super::retaining::{Kept, Retaining};
+use super::retaining::{RetainStorage, Retaining};
 use super::scope::Scope;
-use super::serving::{Asked, Servers};
+use super::serving::{NetworkRequests, Servers};
 use super::table::Table;
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
 use super::{Setting, hardware};
 use crate::args::RunArgs;
-use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
+use crate::commands::{Failure, Outcome, Result, eprint_line, interruption, print_text};
 use rungc_host::io::Connection;
 use rungc_host::wall::WallClock;
 use rungc_interp::Machine;
@@ -50,7 +50,7 @@ struct Simulation<'a> {
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
-    asked: Asked,
+    asked: NetworkRequests,
     lines: Lines,
     connecting: Connecting,
     pace: Pace,
@@ -75,7 +75,7 @@ pub struct Run<'a> {
     /// The command line.
     pub args: &'a RunArgs,
     /// Storage of latched devices from run to run.
-    pub retain: Option<Kept>,
+    pub retain: Option<RetainStorage>,
     /// The program.
     pub module: &'a Module,
     /// True if operation errors are reported as they occur.
@@ -135,7 +135,7 @@ impl Run<'_> {
         let plotting = self.plotting(seen)?;
         let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
         if live.is_some() {
-            watch.hear();
+            watch.record();
         }
         let mut simulation = Simulation {
             machine,
@@ -160,7 +160,7 @@ impl Run<'_> {
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
-            asked: Asked::new(module, args.in_real_time(), &mut watch),
+            asked: NetworkRequests::new(module, args.in_real_time(), &mut watch),
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
             pace: Pace::new(),
@@ -227,7 +227,7 @@ impl<'a> Simulation<'a> {
             let summary = self.pace.summary();
             summary
                 .iter()
-                .for_each(|text| tell(&format!("rungc: {text}")));
+                .for_each(|text| eprint_line(&format!("rungc: {text}")));
         }
         connected.end();
         let retaining = self.retaining.take();
@@ -235,7 +235,7 @@ impl<'a> Simulation<'a> {
         let table = self.watch.table();
         let said = match table.is_empty() {
             true => Ok(()),
-            false => say(&format!("\n{}\n", table.join("\n"))),
+            false => print_text(&format!("\n{}\n", table.join("\n"))),
         };
         let errors = self.machine.errors();
         self.errors.summarise(errors);
@@ -290,11 +290,11 @@ impl<'a> Simulation<'a> {
             if self.machine.watchdog_tripped() {
                 let error = self.machine.last_error();
                 let message = self.errors.watchdog(self.now_ms, error);
-                tell(&format!("rungc: {message}"));
+                eprint_line(&format!("rungc: {message}"));
                 return Ok(Outcome::Failed);
             }
             if interruption::is_asked() {
-                tell(&format!("rungc: interrupted at {} ms", self.now_ms));
+                eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
             if self.now_ms.saturating_add(scan_ms) > end_ms {
@@ -318,7 +318,7 @@ impl<'a> Simulation<'a> {
         self.out
             .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;
         for late in self.pending.by_ref() {
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: `{}` was not set: its time, {} ms, is after the last scan",
                 late.target, late.at_ms
             ));
@@ -332,7 +332,7 @@ impl<'a> Simulation<'a> {
             self.machine.set_running(running);
             self.history.disturb();
             let mode = if running { "RUN" } else { "STOP" };
-            tell(&format!("rungc: {mode} at {} ms", self.now_ms));
+            eprint_line(&format!("rungc: {mode} at {} ms", self.now_ms));
         }
     }
 
@@ -347,7 +347,7 @@ impl<'a> Simulation<'a> {
     /// Reports new operation errors, and shows them and frames on the page.
     fn note_events(&mut self) {
         let errors = self.errors.notice(self.machine.errors());
-        let frames = self.watch.heard();
+        let frames = self.watch.take_recorded();
         if let Some(live) = &mut self.live {
             let errors = errors.iter().map(|text| ("error", text));
             let frames = frames.iter().map(|text| ("frame", text));
@@ -519,7 +519,7 @@ impl<'a> Simulation<'a> {
         match self.machine.constant_scan_ms() {
             Some(constant_ms) if u64::from(constant_ms) < scan_ms && !self.overrun => {
                 self.overrun = true;
-                tell(&format!(
+                eprint_line(&format!(
                     "rungc: at {} ms: a scan takes {scan_ms} ms, longer than the constant scan time of {constant_ms} ms",
                     self.now_ms
                 ));
@@ -604,7 +604,7 @@ impl<'a> Simulation<'a> {
         if let Some(collision) = plant.collision()
             && before.as_ref() != Some(collision)
         {
-            tell(&format!("rungc: {collision}"));
+            eprint_line(&format!("rungc: {collision}"));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The table of a run on standard output.
 
-use crate::commands::{Failure, say, tell};
+use crate::commands::{Failure, eprint_line, print_text};
 use std::io;
 
 /// Standard output.
@@ -34,7 +34,7 @@ impl Table {
         if self.muted {
             return Ok(());
         }
-        let written = say(&format!("{line}\n"));
+        let written = print_text(&format!("{line}\n"));
         if self.serves {
             self.report(written.err());
             return Ok(());
@@ -53,11 +53,11 @@ impl Table {
         let fails = error.is_some();
         match error {
             Some(error) if !self.fails => {
-                tell(&format!(
+                eprint_line(&format!(
                     "rungc: standard output: {error}; the run continues"
                 ));
             }
-            None if self.fails => tell("rungc: standard output is written again"),
+            None if self.fails => eprint_line("rungc: standard output is written again"),
             _ => {}
         }
         self.fails = fails;

@@ -1,10 +1,10 @@
 //! Observation of a run's frames: the table of connections at its end, and `--trace-frames`.
 
 use super::capture::Capture;
-use crate::commands::{Failure, tell};
+use crate::commands::{Failure, eprint_line};
 use crate::report::visible;
 use rungc_models::Model;
-use rungc_sim::serve::{Decoder, Direction, Place, Seen, Speech, Traffic};
+use rungc_sim::serve::{Decoder, Direction, LinkProtocol, Place, Seen, Traffic};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
@@ -19,7 +19,7 @@ pub struct Watch {
     traffic: Traffic,
     log: Log,
     /// The last frames, until they are retrieved.
-    heard: Option<Vec<String>>,
+    recorded: Option<Vec<String>>,
 }
 
 /// Number of frames stored until they are retrieved.
@@ -74,22 +74,25 @@ impl Watch {
         Ok(Watch {
             traffic,
             log,
-            heard: None,
+            recorded: None,
         })
     }
 
-    /// Stores frames from now on until they are [retrieved](Self::heard).
-    pub fn hear(&mut self) {
-        self.heard = Some(Vec::new());
+    /// Stores frames from now on until they are [retrieved](Self::take_recorded).
+    pub fn record(&mut self) {
+        self.recorded = Some(Vec::new());
     }
 
     /// The frames since the last call, decoded and as bytes.
-    pub fn heard(&mut self) -> Vec<String> {
-        self.heard.as_mut().map(std::mem::take).unwrap_or_default()
+    pub fn take_recorded(&mut self) -> Vec<String> {
+        self.recorded
+            .as_mut()
+            .map(std::mem::take)
+            .unwrap_or_default()
     }
 
     /// A server or port is open.
-    pub fn open(&mut self, place: &Place, speech: Speech) {
+    pub fn open(&mut self, place: &Place, speech: LinkProtocol) {
         self.traffic.open(place, speech);
     }
 
@@ -117,21 +120,25 @@ impl Watch {
             line.push(']');
             line
         };
-        if let Some(heard) = self.heard.as_mut().filter(|heard| heard.len() < HEARD) {
-            heard.push(line());
+        if let Some(recorded) = self
+            .recorded
+            .as_mut()
+            .filter(|recorded| recorded.len() < HEARD)
+        {
+            recorded.push(line());
         }
         let timed = || format!("{:12.6} {}", at_us as f64 / 1e6, line());
         let logged = match &mut self.log {
             Log::Nowhere | Log::Failed => Ok(()),
             Log::StandardError => {
-                tell(&timed());
+                eprint_line(&timed());
                 Ok(())
             }
             Log::Text(file) => writeln!(file, "{}", visible(&timed())),
             Log::Capture(capture) => capture.frame(at_us, way, seen),
         };
         if let Err(error) = logged {
-            tell(&format!(
+            eprint_line(&format!(
                 "rungc: --trace-frames: {error}; no more frames are logged"
             ));
             self.log = Log::Failed;

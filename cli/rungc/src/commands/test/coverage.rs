@@ -1,6 +1,8 @@
 //! `rungc test --coverage` and `--mutants`.
 
-use super::super::{Context, Failure, Outcome, Result, counted, interruption, put, say, tell};
+use super::super::{
+    Context, Failure, Outcome, Result, counted, eprint_line, interruption, print_text, put,
+};
 use super::Chosen;
 use super::files::is_in;
 use super::report::{Results, human};
@@ -46,7 +48,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
         report: &report,
         elapsed: start.elapsed(),
     };
-    say(&human(&results))?;
+    print_text(&human(&results))?;
     if interruption::is_asked() {
         return Ok(Outcome::Interrupted);
     }
@@ -82,7 +84,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
 /// Says which programs have no lines that a tracefile could name.
 fn lines(programs: &[Covered]) {
     for program in programs.iter().filter(|program| !lcov::has_lines(program)) {
-        tell(&format!(
+        eprint_line(&format!(
             "rungc: {} is left out: lcov needs a program whose file is a list; use --coverage html or text",
             program.name
         ));

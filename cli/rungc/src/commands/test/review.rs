@@ -1,6 +1,6 @@
 //! Accepting and rejecting traces.
 
-use super::super::{Context, Failure, say, write_file};
+use super::super::{Context, Failure, print_text, write_file};
 use crate::args::TestArgs;
 use rungc_sim::plctest::{self, Outcome, Report, Suite, Trace};
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Decision about a trace that differs.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Wish {
+enum Decision {
     Accept,
     Reject,
     Later,
@@ -44,23 +44,23 @@ pub fn traces(
             continue;
         }
         let wish = match (args.accept, args.reject) {
-            (true, _) => Wish::Accept,
-            (_, true) => Wish::Reject,
+            (true, _) => Decision::Accept,
+            (_, true) => Decision::Reject,
             _ if args.review && !end => ask(outcome, suite, &mut end)?,
-            _ => Wish::Later,
+            _ => Decision::Later,
         };
         match wish {
-            Wish::Accept => {
+            Decision::Accept => {
                 write_file(&trace.path, actual.as_bytes(), true)?;
                 forget(trace);
                 cx.note(&format!("    Accepted {}", trace.path.display()));
                 outcome.failure = None;
             }
-            Wish::Reject => {
+            Decision::Reject => {
                 forget(trace);
                 cx.note(&format!("    Rejected {}", trace.path.display()));
             }
-            Wish::Later => write_file(&trace.pending(), actual.as_bytes(), true)?,
+            Decision::Later => write_file(&trace.pending(), actual.as_bytes(), true)?,
         }
     }
     Ok(())
@@ -74,23 +74,23 @@ fn forget(trace: &Trace) {
 
 /// Shows how a trace differs and asks what to do. An unknown answer is asked for again; the end of the input leaves
 /// all that follows.
-fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Wish, Failure> {
-    say(&format!("{}\n", outcome.describe(suite)))?;
+fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Decision, Failure> {
+    print_text(&format!("{}\n", outcome.describe(suite)))?;
     if let Some(plctest::Failure::Trace { actual, .. }) = &outcome.failure {
-        say(&format!("{actual}\n"))?;
+        print_text(&format!("{actual}\n"))?;
     }
     loop {
-        say("accept (a), reject (r) or leave (l) this run? ")?;
+        print_text("accept (a), reject (r) or leave (l) this run? ")?;
         let mut answer = String::new();
         if io::stdin().lock().read_line(&mut answer)? == 0 {
             *end = true;
-            say("\n")?;
-            return Ok(Wish::Later);
+            print_text("\n")?;
+            return Ok(Decision::Later);
         }
         match answer.trim() {
-            "a" | "accept" => return Ok(Wish::Accept),
-            "r" | "reject" => return Ok(Wish::Reject),
-            "l" | "leave" => return Ok(Wish::Later),
+            "a" | "accept" => return Ok(Decision::Accept),
+            "r" | "reject" => return Ok(Decision::Reject),
+            "l" | "leave" => return Ok(Decision::Later),
             _ => {}
         }
     }

@@ -3,7 +3,7 @@
 //! The files are looked at several times a second, which works on every file system, also on those of networks and
 //! containers, and with editors that replace a file.
 
-use super::super::{Context, Failure, Outcome, Result, interruption, tell};
+use super::super::{Context, Failure, Outcome, Result, eprint_line, interruption};
 use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
@@ -46,7 +46,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         if let Err(failure) = ran {
             match failure {
                 Failure::BrokenPipe => return Err(failure),
-                _ => tell(&format!("rungc: {failure}")),
+                _ => eprint_line(&format!("rungc: {failure}")),
             }
         }
         cx.note("    Watching for changes; Ctrl-C ends");

@@ -1,7 +1,7 @@
 //! Exports for other programs: the question, or the proof.
 
 use crate::args::VerifyArgs;
-use crate::commands::properties::Asked;
+use crate::commands::properties::RequestedProperty;
 use crate::commands::{Context, Failure, counted, spare, write_file};
 use rungc_ir::Module;
 use rungc_verify::certificate::Certificate;
@@ -20,7 +20,7 @@ use std::time::Duration;
 pub fn questions(
     args: &VerifyArgs,
     module: &Module,
-    asked: &[Asked],
+    asked: &[RequestedProperty],
     options: &Options,
     cx: Context,
 ) -> std::result::Result<(), Failure> {

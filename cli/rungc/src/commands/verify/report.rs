@@ -1,6 +1,6 @@
 //! Verdicts as text.
 
-use crate::commands::properties::Outside;
+use crate::commands::properties::ExternalWrites;
 use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
@@ -20,7 +20,7 @@ pub struct Result<'a> {
     pub property: &'a Property,
     pub decision: &'a Decision,
     /// Devices that may be written from outside the program.
-    pub outside: &'a Outside,
+    pub outside: &'a ExternalWrites,
     /// Duration.
     pub time: Duration,
 }
@@ -74,7 +74,7 @@ impl Result<'_> {
     /// Describes the grounds of the verdict, and its dependencies.
     fn describe(&self, text: &mut String, module: &Module) {
         if let Verdict::Found(trace) = &self.decision.verdict {
-            tell(text, module, &story(module, self.property, trace));
+            write_story(text, module, &story(module, self.property, trace));
         }
         gaps(text, &self.decision.gaps);
         let unwritten = &self.decision.unwritten;
@@ -149,7 +149,7 @@ pub fn human(
     results: &[Result],
     module: &Module,
     options: &Options,
-    (assumed, outside): (&[String], &Outside),
+    (assumed, outside): (&[String], &ExternalWrites),
 ) -> String {
     let mut text = String::new();
     for result in results {
@@ -192,7 +192,7 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
 }
 
 /// Assumptions of every proof.
-pub fn assumptions(options: &Options, assumed: &[String], outside: &Outside) -> Vec<String> {
+pub fn assumptions(options: &Options, assumed: &[String], outside: &ExternalWrites) -> Vec<String> {
     let ms = options.world.scan_ms;
     let mut lines = vec![
         "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
@@ -215,7 +215,7 @@ pub fn assumptions(options: &Options, assumed: &[String], outside: &Outside) -> 
 }
 
 /// Assumption about writers of devices that the program writes.
-fn untouched(outside: &Outside) -> String {
+fn untouched(outside: &ExternalWrites) -> String {
     let named = match outside.sources()[..] {
         [] => "`--free`".to_string(),
         [only] => format!("what `{only}` names"),
@@ -250,7 +250,7 @@ fn list(keys: &[Key]) -> String {
 }
 
 /// A run, a line for each scan in which something changes.
-pub fn tell(text: &mut String, module: &Module, story: &[Change]) {
+pub fn write_story(text: &mut String, module: &Module, story: &[Change]) {
     let settings = |settings: &[Setting]| -> String {
         let settings = settings.iter();
         let settings = settings.map(|set| setting(module, set));

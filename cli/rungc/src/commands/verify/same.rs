@@ -287,7 +287,7 @@ fn difference(
     let on = story
         .last()
         .is_some_and(|last| last.after.iter().any(|(.., value)| *value != 0));
-    report::tell(text, module, &story);
+    report::write_story(text, module, &story);
     let other = i32::from(!on);
     let _ = writeln!(text, "            {:<26}  in {new}; {other} in {old}", "");
 }

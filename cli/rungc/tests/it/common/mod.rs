@@ -207,11 +207,12 @@ pub fn normal(text: &str, folder: &Path) -> String {
     lines.join("\n")
 }
 
-/// The text with slashes in paths, as Unix has them; also in JSON, which doubles what Windows has.
+/// The text with slashes in paths, as on Unix. JSON doubles backslashes, and has others beside them.
 pub fn with_slashes(text: &str) -> String {
-    match cfg!(windows) {
-        true => text.replace(r"\\", "/").replace('\\', "/"),
-        false => text.to_owned(),
+    match (cfg!(windows), text.contains(r"\\")) {
+        (true, true) => text.replace(r"\\", "/"),
+        (true, false) => text.replace('\\', "/"),
+        (false, _) => text.to_owned(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::blocks;
 use super::source::Line;
-use super::{Fault, Held, KEPT, Kept, List};
+use super::{Accumulator, Branched, Fault, KEPT, List};
 use crate::plcopen::logic::{Contact, Logic, Part};
 use crate::plcopen::variables;
 use smol_str::format_smolstr;
@@ -101,7 +101,7 @@ impl List<'_, '_, '_> {
         code: &str,
     ) -> Result<(), Fault> {
         if let ("MEP" | "MEF", "") = (mnemonic, written) {
-            self.result = Held::Flow(self.flow(code)?.changed(mnemonic));
+            self.result = Accumulator::Flow(self.flow(code)?.changed(mnemonic));
             return Ok(());
         }
         if !written.starts_with('(') {
@@ -109,7 +109,7 @@ impl List<'_, '_, '_> {
             blocks::drive(self.reader, enable, mnemonic, &operands(written));
             return Ok(());
         }
-        if self.held.is_empty() {
+        if self.deferred.is_empty() {
             self.remark();
         }
         let Some(sense) = blocks::contact(mnemonic) else {
@@ -131,7 +131,7 @@ impl List<'_, '_, '_> {
         if words.is_empty() {
             return Err(self.foreign(code));
         }
-        self.result = Held::Flow(Logic::Contact(Contact {
+        self.result = Accumulator::Flow(Logic::Contact(Contact {
             element: self.element(),
             sense,
             operands: words.join(" ").into(),
@@ -145,7 +145,7 @@ impl List<'_, '_, '_> {
             return false;
         }
         if to.starts_with(KEPT) {
-            let kept = Kept {
+            let kept = Branched {
                 logic: logic.clone(),
                 parts: self.reader.parts.len(),
             };
@@ -178,7 +178,7 @@ impl List<'_, '_, '_> {
             let help = "use a variable with another name";
             return Err(Fault::at(self.body, what, help));
         }
-        self.result = Held::Flow(kept.logic.clone());
+        self.result = Accumulator::Flow(kept.logic.clone());
         Ok(true)
     }
 }

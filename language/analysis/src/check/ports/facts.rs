@@ -64,7 +64,7 @@ pub(super) struct Facts {
 
 /// Value of a register once the program has set it up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Held {
+pub(super) enum RegisterValue {
     /// The value at power-on.
     Default(u16),
     /// A constant.
@@ -73,11 +73,11 @@ pub(super) enum Held {
     Unknown,
 }
 
-impl Held {
+impl RegisterValue {
     pub(super) fn known(self) -> Option<u16> {
         match self {
-            Held::Default(value) | Held::Constant(value) => Some(value),
-            Held::Unknown => None,
+            RegisterValue::Default(value) | RegisterValue::Constant(value) => Some(value),
+            RegisterValue::Unknown => None,
         }
     }
 }
@@ -229,10 +229,10 @@ impl Facts {
     }
 
     /// Value of a device after the set-up; bits are 0 and 1.
-    pub(super) fn held(&self, device: Device) -> Held {
+    pub(super) fn held(&self, device: Device) -> RegisterValue {
         let writes = self.writes(device);
         let Some(last) = writes.last() else {
-            return Held::Default(self.at_power_on(device));
+            return RegisterValue::Default(self.at_power_on(device));
         };
         let same = writes.iter().all(|write| write.value == last.value);
         let ordered = writes.iter().all(|write| write.first_scan);
@@ -240,8 +240,8 @@ impl Facts {
             .value
             .filter(|_| same || ordered && writes.iter().all(|w| w.value.is_some()))
         {
-            Some(value) => Held::Constant(value),
-            None => Held::Unknown,
+            Some(value) => RegisterValue::Constant(value),
+            None => RegisterValue::Unknown,
         }
     }
 
@@ -267,7 +267,7 @@ impl Facts {
         let registers = chooses.filter(|&n| number.is_none_or(|number| n == number));
         let relays = wiring.setup_relays().map(m);
         let mut devices = registers.map(d).chain(relays);
-        if devices.any(|device| self.held(device) == Held::Unknown) {
+        if devices.any(|device| self.held(device) == RegisterValue::Unknown) {
             return None;
         }
         let uinit = self.uinit_words(wiring.number)?;
@@ -286,7 +286,7 @@ impl Facts {
     pub(super) fn format(&self, wiring: &PortWiring, protocol: Protocol) -> Option<LineFormat> {
         if wiring
             .format
-            .is_some_and(|word| self.held(d(word)) == Held::Unknown)
+            .is_some_and(|word| self.held(d(word)) == RegisterValue::Unknown)
         {
             return None;
         }

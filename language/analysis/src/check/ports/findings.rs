@@ -1,7 +1,7 @@
 //! Errors in the set-up of serial ports.
 
 use super::super::Code;
-use super::facts::{Facts, Held, Uinit, Write, d, m};
+use super::facts::{Facts, RegisterValue, Uinit, Write, d, m};
 use super::{Use, has_station, port_of, use_of};
 use crate::accesses;
 use rungc_catalogue::Lower;
@@ -113,14 +113,15 @@ impl Port<'_> {
         let Some(number) = self.wiring.protocol.map(d) else {
             return;
         };
-        let (Held::Constant(chosen @ 1..), Some(protocol)) =
+        let (RegisterValue::Constant(chosen @ 1..), Some(protocol)) =
             (self.facts.held(number), self.protocol)
         else {
             return;
         };
         let wanted = Protocol::from_number(chosen);
         let choosing = self.chooses().filter(|&device| device != number);
-        let set = |device: &Device| matches!(self.facts.held(*device), Held::Constant(1..));
+        let set =
+            |device: &Device| matches!(self.facts.held(*device), RegisterValue::Constant(1..));
         // On L01S, the relays do not override the number but let it count.
         let overrides = matches!(self.wiring.choice, Choice::Com1 | Choice::Number);
         let Some(other) = choosing.filter(set).last().filter(|_| overrides) else {
@@ -241,10 +242,10 @@ impl Port<'_> {
         let register = self.wiring.format.map(d);
         let word = match register.map(|register| self.facts.held(register)) {
             // 0 takes a format away.
-            Some(Held::Constant(word)) => {
+            Some(RegisterValue::Constant(word)) => {
                 (word != 0 && !LineFormat::has_rate(word)).then_some(word)
             }
-            Some(Held::Default(_) | Held::Unknown) => None,
+            Some(RegisterValue::Default(_) | RegisterValue::Unknown) => None,
             None => {
                 let uinits = self.facts.uinit.get(&self.wiring.number);
                 let words = uinits.into_iter().flatten().filter_map(Uinit::words);
@@ -304,7 +305,8 @@ impl Port<'_> {
         let format = self.wiring.format.map(d);
         let is_card = (self.code.model().id, self.wiring.number) == (ModelId::H2u, 3)
             && self.protocol == Some(Protocol::ModbusRtu)
-            && format.map(|register| self.facts.held(register)) == Some(Held::Constant(FORMAT))
+            && format.map(|register| self.facts.held(register))
+                == Some(RegisterValue::Constant(FORMAT))
             && self.facts.station(self.wiring) == Some(1);
         let Some(place) = self.place(format).filter(|_| is_card) else {
             return;

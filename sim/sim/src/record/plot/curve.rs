@@ -20,12 +20,12 @@ struct Column {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Curve {
     pub(super) shape: Shape,
-    kept: Kept,
+    kept: Points,
 }
 
 /// Stored points of a curve.
 #[derive(Clone, PartialEq, Debug)]
-enum Kept {
+enum Points {
     /// Over time: the columns that hold points, by their numbers.
     Columns {
         duration_ms: f64,
@@ -42,7 +42,7 @@ impl Curve {
         let columns = Vec::new();
         Curve {
             shape,
-            kept: Kept::Columns {
+            kept: Points::Columns {
                 duration_ms,
                 columns,
             },
@@ -53,7 +53,7 @@ impl Curve {
     pub(super) fn over_value(shape: Shape) -> Curve {
         Curve {
             shape,
-            kept: Kept::Way(Vec::new()),
+            kept: Points::Way(Vec::new()),
         }
     }
 
@@ -64,15 +64,15 @@ impl Curve {
         }
         let point = (at, value);
         match &mut self.kept {
-            Kept::Columns {
+            Points::Columns {
                 duration_ms,
                 columns,
             } => {
                 let number = at.min(*duration_ms) * COLUMNS / *duration_ms;
                 add(columns, number as u64, point);
             }
-            Kept::Way(points) if points.last() == Some(&point) => {}
-            Kept::Way(points) => points.push(point),
+            Points::Way(points) if points.last() == Some(&point) => {}
+            Points::Way(points) => points.push(point),
         }
     }
 
@@ -87,8 +87,8 @@ impl Curve {
     /// Its points in the order of their times.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> {
         let (columns, way) = match &self.kept {
-            Kept::Columns { columns, .. } => (&columns[..], &[][..]),
-            Kept::Way(points) => (&[][..], &points[..]),
+            Points::Columns { columns, .. } => (&columns[..], &[][..]),
+            Points::Way(points) => (&[][..], &points[..]),
         };
         let columns = columns.iter().flat_map(|(_, column)| {
             let mut points = [column.first, column.least, column.greatest, column.last];

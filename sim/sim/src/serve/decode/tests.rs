@@ -1,6 +1,6 @@
 //! Frames of each protocol as they are shown.
 
-use super::{Decoder, Direction, Speech};
+use super::{Decoder, Direction, LinkProtocol};
 use crate::serve::{Place, Seen, Traffic};
 use rungc_rt::Ports;
 use rungc_rt::comm::Protocol;
@@ -14,7 +14,7 @@ fn rtu(body: &[u8]) -> Vec<u8> {
 }
 
 /// A line of a log: what a frame says, after an earlier one in the other direction.
-fn line(speech: Speech, direction: Direction, bytes: &[u8], before: Option<&[u8]>) -> String {
+fn line(speech: LinkProtocol, direction: Direction, bytes: &[u8], before: Option<&[u8]>) -> String {
     let decoder = Decoder::new(Ports::Inovance, 24120);
     let decoded = decoder.decode(speech, direction, bytes, before);
     let mut line = format!("{} {direction:?}: {}", speech.name(), decoded.text);
@@ -29,7 +29,14 @@ fn line(speech: Speech, direction: Direction, bytes: &[u8], before: Option<&[u8]
 
 #[test]
 fn frames_on_can_are_shown_as_candump_does() {
-    let shown = |bytes| line(Speech::Serial(Protocol::Can), Direction::In, bytes, None);
+    let shown = |bytes| {
+        line(
+            LinkProtocol::Serial(Protocol::Can),
+            Direction::In,
+            bytes,
+            None,
+        )
+    };
     assert_eq!(shown(b"t20021234\r"), "CAN In: 200#1234");
     assert_eq!(shown(b"T000002001FF\r"), "CAN In: 00000200#FF");
     assert_eq!(shown(b"S6\r"), "CAN In: S6<CR>");
@@ -40,7 +47,7 @@ fn frames_as_they_are_shown() {
     use Direction::{In, Out};
     use Protocol::{ComputerLink, MasterRtu, ModbusAscii, ModbusRtu, NnMaster};
     let [slave, ascii, master, link, nn] =
-        [ModbusRtu, ModbusAscii, MasterRtu, ComputerLink, NnMaster].map(Speech::Serial);
+        [ModbusRtu, ModbusAscii, MasterRtu, ComputerLink, NnMaster].map(LinkProtocol::Serial);
     let read_coils = rtu(&[1, 1, 0, 8, 0, 10]);
     let mut damaged = read_coils.clone();
     damaged[3] = 9;
@@ -65,25 +72,30 @@ fn frames_as_they_are_shown() {
         line(link, In, b"\x0505FFBW0M00100210", None),
         line(link, Out, b"\x1505FF06", None),
         line(
-            Speech::Tcp(ServerProtocol::ProgrammingPort),
+            LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
             In,
             b"\x02110C8023412\x033C",
             None,
         ),
         line(
-            Speech::Tcp(ServerProtocol::ProgrammingPort),
+            LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
             In,
             b"\x020\x0399",
             None,
         ),
         line(
-            Speech::Tcp(ServerProtocol::ProgrammingPort),
+            LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
             Out,
             b"\x15",
             None,
         ),
-        line(Speech::Tcp(ServerProtocol::Mc), In, &mc_1e, None),
-        line(Speech::Tcp(ServerProtocol::Mc), Out, &[0x81, 0x56], None),
+        line(LinkProtocol::Tcp(ServerProtocol::Mc), In, &mc_1e, None),
+        line(
+            LinkProtocol::Tcp(ServerProtocol::Mc),
+            Out,
+            &[0x81, 0x56],
+            None,
+        ),
         line(nn, Out, b"\x02P11100\x0307", None),
     ];
     insta::assert_snapshot!("frames", shown.join("\n"));
@@ -99,7 +111,7 @@ fn what_is_not_carried_out_is_not_written() {
     let mut frame = |direction, bytes: &[u8], protocol| {
         traffic.frame(Seen {
             place: &place,
-            speech: Speech::Serial(protocol),
+            speech: LinkProtocol::Serial(protocol),
             direction,
             bytes,
         });
@@ -127,16 +139,16 @@ fn what_is_not_carried_out_is_not_written() {
 fn any_bytes_are_shown() {
     let decoder = Decoder::new(Ports::L01s, 24120);
     let speeches = [
-        Speech::Tcp(ServerProtocol::ModbusTcp),
-        Speech::Tcp(ServerProtocol::Mc),
-        Speech::Tcp(ServerProtocol::ProgrammingPort),
+        LinkProtocol::Tcp(ServerProtocol::ModbusTcp),
+        LinkProtocol::Tcp(ServerProtocol::Mc),
+        LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
     ];
     let serial = [
         Protocol::ModbusRtu,
         Protocol::ModbusAscii,
         Protocol::ComputerLink,
     ];
-    let speeches = speeches.into_iter().chain(serial.map(Speech::Serial));
+    let speeches = speeches.into_iter().chain(serial.map(LinkProtocol::Serial));
     let mut state = 1u32;
     for speech in speeches {
         for length in (0..64).chain([700, 9000]) {
