@@ -93,7 +93,7 @@ pub fn main() -> ExitCode {
 fn color(when: ColorWhen) -> bool {
     match when {
         ColorWhen::Always => {
-            // Also on a Windows whose standard output is no console.
+            // Also where the standard output of Windows is not a console.
             yansi::enable();
             true
         }

@@ -98,7 +98,7 @@ mod tests {
             assert!(!portable.contains(&name), "{name}");
         }
         for hosted in HOSTED {
-            assert!(crates.contains_key(hosted), "{hosted} is no crate");
+            assert!(crates.contains_key(hosted), "there is no {hosted}");
         }
     }
 }

@@ -87,7 +87,7 @@ pub fn raise(priority: u8) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses what only Linux has.
+/// Rejects what only Linux has.
 ///
 /// # Errors
 /// Always.
