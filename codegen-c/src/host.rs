@@ -314,11 +314,6 @@ fn features(ports: bool) -> &'static str {
     }
 }
 
-/// Time, signals and standard input.
-fn system() -> String {
-    by_system(template!("main_windows.c"), template!("main_posix.c")) + "\n"
-}
-
 /// Code for Windows, and for all other systems.
 fn by_system(windows: &str, posix: &str) -> String {
     format!("#ifdef _WIN32\n{windows}#else\n{posix}#endif\n")

@@ -607,21 +607,23 @@ fn device_access_is_for_emitted_c() {
 
 #[cfg(windows)]
 #[test]
-fn what_windows_lacks_is_refused_by_name() {
-    let folder = folder(&[("p.il", b"LD X000\nOUT Y000\nEND\n")]);
-    std::fs::write(
-        folder.path().join("rungc.toml"),
-        "[project]\nprogram = 'p.il'\n[io.pins]\ngpio = ''\nX000 = 17\n",
-    )
-    .unwrap();
-    let refused = |args: &[&str]| {
-        let shown = shown(folder.path(), &[&["serve", "p.il"], args].concat());
-        shown
-            .lines()
-            .filter(|line| line.contains("exist"))
-            .collect::<String>()
+fn what_windows_lacks_is_rejected_by_name() {
+    let io = b"[project]\nprogram = 'p.il'\n[io.pins]\ngpio = 'gpiochip0'\nX000 = 'read 17'\n";
+    let folder = folder(&[("p.il", b"LD X000\nOUT Y000\nEND\n"), ("io.toml", io)]);
+    let rejected = |args: &[&str]| {
+        let args = [
+            &["serve", "p.il", "--model", "h2u", "--fx", "127.0.0.1:0"],
+            args,
+        ]
+        .concat();
+        let output = rungc(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(2));
+        let printed = text(&output.stderr);
+        let line = printed.lines().find(|line| line.contains("only on"));
+        line.expect(&printed).to_owned()
     };
-    insta::assert_snapshot!(refused(&["--priority", "50"]), @"");
-    insta::assert_snapshot!(refused(&["--serial", "COM1=pty"]), @"");
-    insta::assert_snapshot!(refused(&[]), @"");
+    insta::assert_snapshot!(rejected(&["--priority", "50"]), @"rungc: --priority 50: real-time priorities (SCHED_FIFO) exist only on Linux; leave out this option");
+    insta::assert_snapshot!(rejected(&["--serial", "COM1=pty"]), @"rungc: --serial: cannot open a pseudo-terminal: pseudo-terminals exist only on Linux and macOS; name a serial port or `tcp-listen:PORT`");
+    insta::assert_snapshot!(rejected(&["--can", "can0"]), @"rungc: --can: cannot open can0: CAN interfaces (SocketCAN) exist only on Linux; an adapter is written `slcan:PORT`");
+    insta::assert_snapshot!(rejected(&["--io", "io.toml"]), @"rungc: [io.pins]: `gpio` exists only on Linux");
 }

@@ -207,13 +207,19 @@ pub fn normal(text: &str, folder: &Path) -> String {
     lines.join("\n")
 }
 
-/// The text with slashes in paths, as on Unix. JSON doubles backslashes, and has others beside them.
+/// The text with slashes in paths, as on Unix. JSON doubles backslashes; those of its line breaks stay.
 pub fn with_slashes(text: &str) -> String {
-    match (cfg!(windows), text.contains(r"\\")) {
-        (true, true) => text.replace(r"\\", "/"),
-        (true, false) => text.replace('\\', "/"),
-        (false, _) => text.to_owned(),
+    if cfg!(unix) {
+        return text.to_owned();
     }
+    let text = text.replace(r"\\", "/");
+    let mut parts = text.split('\\');
+    let mut slashed = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        slashed.push(if part.starts_with('n') { '\\' } else { '/' });
+        slashed += part;
+    }
+    slashed
 }
 
 /// Command, its output and its exit code.
