@@ -42,6 +42,7 @@ impl Process {
     }
 
     /// Lets an answer take this many seconds: a simulated machine is slow, and others may use this one.
+    #[cfg(feature = "cortex-m")]
     pub(crate) fn with_patience(mut self, patience: u32) -> Self {
         self.patience = patience;
         self
