@@ -2,6 +2,9 @@
 /// After how long it is tried again to open a line that has vanished.
 const RETRY: Duration = Duration::from_secs(1);
 
+/// Maximum number of characters that wait for a port; more stay in the line of the program.
+const UNSENT: usize = 4096;
+
 /// A serial port of the program, and the one of this computer that it is.
 struct Line {
     port: u8,
@@ -9,6 +12,8 @@ struct Line {
     /// `None`: it has vanished.
     serial: Option<SerialPort>,
     events: Receiver<Event>,
+    /// Characters that the port has no room for yet.
+    unsent: Vec<u8>,
     format: LineFormat,
     /// Time of the last received character.
     last_us: u32,
@@ -72,7 +77,7 @@ impl Line {
         let (path, kept) = (path.to_string(), path.to_string());
         std::thread::spawn(move || keep(&kept, reading, &sender));
         let format = LineFormat::new();
-        Ok(Line { port, path, serial: Some(writing), events, format, last_us: 0 })
+        Ok(Line { port, path, serial: Some(writing), events, unsent: Vec::new(), format, last_us: 0 })
     }
 
     /// Passes received characters to the program's port at their time, and sends those of the program. The characters
@@ -121,10 +126,15 @@ impl Line {
             }
         }
         let now_us = now_ms.wrapping_mul(1000);
-        let sent: Vec<u8> = std::iter::from_fn(|| line.take(now_us)).map(|sent| sent.byte).collect();
-        if let Some(serial) = &mut self.serial {
-            // A failure is one of reading, too, which is reported.
-            let _ = serial.send(&sent);
-        }
+        let Some(serial) = &mut self.serial else {
+            self.unsent.clear();
+            while line.take(now_us).is_some() {}
+            return;
+        };
+        let room = UNSENT - self.unsent.len();
+        self.unsent.extend(std::iter::from_fn(|| line.take(now_us)).map(|sent| sent.byte).take(room));
+        // A failure is one of reading, too, which is reported.
+        let sent = serial.send(&self.unsent).unwrap_or(0);
+        self.unsent.drain(..sent);
     }
 }

@@ -220,12 +220,19 @@ impl SerialPort {
         }
     }
 
-    /// Sends characters; those for which the port has no room are lost.
+    /// Sends the first characters, as many as the port has room for now, and returns their number.
     ///
     /// # Errors
-    /// The port has no room, or has vanished.
-    pub fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.0.write_all(bytes)
+    /// The port has vanished.
+    pub fn send(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.0.write(bytes) {
+            Err(error)
+                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) =>
+            {
+                Ok(0)
+            }
+            sent => sent,
+        }
     }
 }
 
