@@ -281,17 +281,12 @@ impl SerialLine for Line {
     fn send(&mut self, mut bytes: &[u8]) -> io::Result<()> {
         let until = Instant::now() + self.timeout;
         while !bytes.is_empty() {
-            match self.port.0.write(bytes) {
-                Ok(count) => bytes = &bytes[count..],
-                Err(error) if error.kind() == ErrorKind::WouldBlock => {
-                    let left = until.saturating_duration_since(Instant::now());
-                    if left.is_zero() || !wait(&self.port.0, POLLOUT, left)? {
-                        let why = "the line takes no characters";
-                        return Err(io::Error::new(ErrorKind::TimedOut, why));
-                    }
-                }
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
+            let sent = self.port.send(bytes)?;
+            bytes = &bytes[sent..];
+            let left = until.saturating_duration_since(Instant::now());
+            if sent == 0 && (left.is_zero() || !wait(&self.port.0, POLLOUT, left)?) {
+                let why = "the line takes no characters";
+                return Err(io::Error::new(ErrorKind::TimedOut, why));
             }
         }
         Ok(())
