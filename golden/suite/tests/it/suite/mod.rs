@@ -19,6 +19,7 @@ const PARTS: [&str; 8] = [
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct List {
+    #[serde(default)]
     disputed: Vec<Disputed>,
 }
 
