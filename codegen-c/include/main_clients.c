@@ -145,7 +145,7 @@ static void print_clients(void)
         const rungc_tally *const tally = &link->client.tally;
         char address[80];
         (void)snprintf(address, sizeof address, strchr(link->host, ':') == NULL ? "%s:%s" : "[%s]:%s", link->host, link->port);
-        print(stderr, ROW, address, "asked by PLC", "MODBUS_TCP", (unsigned long)tally->requests, (unsigned long)tally->answers,
+        print(stderr, ROW, address, "by PLC", "MODBUS_TCP", (unsigned long)tally->requests, (unsigned long)tally->answers,
                 (unsigned long)tally->rejected);
     }
 }

@@ -40,7 +40,7 @@ typedef struct plc_area {
     uint16_t first;   /* first number */
     uint16_t count;   /* number of devices */
     uint16_t columns; /* numbers from a device to the next one in memory */
-    uint16_t kept;    /* number of stored columns: the first ones */
+    uint16_t stored;  /* number of stored columns: the first ones */
     uint32_t offset;  /* offset in the struct, in bytes */
 } plc_area;
 
@@ -53,7 +53,7 @@ static inline const plc_area *plc_find_area(const plc_area *areas, size_t count,
         if ((areas[i].device == (uint8_t)device) && (number >= areas[i].first)) {
             const uint32_t n = number - areas[i].first;
 
-            if ((n < areas[i].count) && ((n % areas[i].columns) < areas[i].kept)) {
+            if ((n < areas[i].count) && ((n % areas[i].columns) < areas[i].stored)) {
                 found = &areas[i];
             }
         }

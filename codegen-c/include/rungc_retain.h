@@ -188,7 +188,7 @@ static inline plc_class rungc_contacts(uint8_t device)
 /* Writes the values of a program's latched devices. On models with a latch key they are 0 without it. */
 static inline bool rungc_put_values(const rungc_retained *retained, const void *plc, const rungc_sink *sink)
 {
-    const bool kept =
+    const bool valid =
         (retained->key_number == 0u) || (rungc_read_retained(retained, plc, PLC_CLASS_D, retained->key_number) == retained->key);
     bool done = true;
 
@@ -203,7 +203,7 @@ static inline bool rungc_put_values(const rungc_retained *retained, const void *
             const uint32_t length = rungc_form_bytes(form, 1u);
             uint8_t bytes[5] = {0};
 
-            if (!kept) {
+            if (!valid) {
                 /* All are 0. */
             } else if (form == RUNGC_FORM_BIT) {
                 for (uint32_t bit = 0; (bit < 8u) && ((n + bit) < run->count); bit++) {

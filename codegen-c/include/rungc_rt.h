@@ -669,7 +669,7 @@ typedef struct rungc_area {
     /**
      * Number of columns stored: the first ones.
      */
-    uint32_t kept;
+    uint32_t stored_columns;
     /**
      * Offset in the struct, in bytes.
      */

@@ -88,8 +88,8 @@ pub fn source(module: &Module) -> String {
         let mut member = String::new();
         field.name(&mut member);
         let grid = field.grid.map(|grid| (grid.columns, grid.stored_columns));
-        let (columns, kept) = grid.unwrap_or((1, 1));
-        let sizes = format!("{}, {count}, {columns}, {kept}", field.first);
+        let (columns, stored) = grid.unwrap_or((1, 1));
+        let sizes = format!("{}, {count}, {columns}, {stored}", field.first);
         row(
             &mut out,
             name,

@@ -28,7 +28,7 @@ pub trait PrintField {
     /// Writes where in an array the device is whose number is in a variable: `[n]`, `[n - 16]`.
     fn element(&self, out: &mut String, number: &str, unsigned: &str);
     /// That it holds one of its numbers, which is in a variable, if it does not hold all: `(n - 16) % 10 < 8`.
-    fn column_is_kept(&self, number: &str, unsigned: &str) -> Option<String>;
+    fn column_is_stored(&self, number: &str, unsigned: &str) -> Option<String>;
 }
 
 impl PrintField for Field {
@@ -76,15 +76,15 @@ impl PrintField for Field {
         };
     }
 
-    fn column_is_kept(&self, number: &str, unsigned: &str) -> Option<String> {
+    fn column_is_stored(&self, number: &str, unsigned: &str) -> Option<String> {
         let grid = self.trimmed()?;
         let distance = match self.first {
             0 => number.to_string(),
             first => format!("({number} - {first}{unsigned})"),
         };
-        let (columns, kept) = (grid.columns, grid.stored_columns);
+        let (columns, stored) = (grid.columns, grid.stored_columns);
         Some(format!(
-            "{distance} % {columns}{unsigned} < {kept}{unsigned}"
+            "{distance} % {columns}{unsigned} < {stored}{unsigned}"
         ))
     }
 }

@@ -231,13 +231,13 @@ fn field_line(out: &mut String, storage: &Storage, field: &Field) {
         }
         if let Some(grid) = field.columns() {
             let n = class.number(first + 1);
-            let (columns, kept) = (grid.columns, grid.stored_columns);
-            let _ = match kept {
+            let (columns, stored) = (grid.columns, grid.stored_columns);
+            let _ = match stored {
                 1 => write!(comment, ", {columns} apart"),
-                _ if kept < columns => {
+                _ if stored < columns => {
                     write!(
                         comment,
-                        ", in {columns} columns, {kept} stored: [1][0] is {n}"
+                        ", in {columns} columns, {stored} stored: [1][0] is {n}"
                     )
                 }
                 _ => write!(comment, ", in {columns} columns: [1][0] is {n}"),

@@ -1,7 +1,7 @@
 //! The host program: scans in real time on a system with POSIX, or on Windows.
 
 mod clients;
-mod outside;
+mod environment;
 
 use crate::fields::PrintStorage;
 use crate::{Options, template, text};
@@ -106,13 +106,13 @@ const OVERRUN: &str = "\
 /* Reports once that a scan takes longer than the program wants. */
 static void print_overrun(uint32_t scan_us, uint32_t constant_us)
 {
-    static bool told;
+    static bool reported;
 
-    if (!told) {
+    if (!reported) {
         print(stderr, \"PROGRAM: a scan took %lu us, longer than the constant scan time of %lu us\\n\", (unsigned long)scan_us,
               (unsigned long)constant_us);
     }
-    told = true;
+    reported = true;
 }
 
 ";
@@ -122,16 +122,16 @@ const PRINT_ERROR: &str = "\
 /* Reports an operation error as it happens, once for each instruction. */
 static void print_error(const void *program, uint16_t code, uint16_t step)
 {
-    static bool told[sizeof instructions / sizeof instructions[0]];
+    static bool reported[sizeof instructions / sizeof instructions[0]];
     const PROGRAM_plc *const plc = program;
     const size_t i = instruction_at(step);
     char device[40];
     const bool is_missing_device = missing_device(plc, step, device, sizeof device);
 
-    if (told[i]) {
+    if (reported[i]) {
         return;
     }
-    told[i] = true;
+    reported[i] = true;
     print(stderr, \"PROGRAM: at %lu ms, step %u: %s: error %u, %s%s\\n\", (unsigned long)plc->sys.now_ms, step,
           instructions[i].text, code, is_missing_device ? device : meaning(code), is_missing_device ? \" does not exist\" : \"\");
 }
@@ -163,19 +163,19 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         Some(_) => (CONSTANT_PERIOD, OVERRUN),
         None => (PERIOD, ""),
     };
-    let asks_clock = rungc_emit::cycle::asks_clock(module);
-    let hardware = hardware(asks_clock, module.has_ports());
+    let uses_clock = rungc_emit::cycle::uses_clock(module);
+    let hardware = hardware(uses_clock, module.has_ports());
     let hal = match hardware.is_empty() {
         true => "",
         false => "    plc->hal = &hardware;\n",
     };
-    let clock = if asks_clock { CLOCK } else { "" };
+    let clock = if uses_clock { CLOCK } else { "" };
     let host = Host {
         lines: &["/dev/ttyUSB0", "pty"],
         servers,
         io,
     };
-    let outside = outside::parts(module, io);
+    let environment = environment::parts(module, io);
     let (serve, connections) = match servers {
         true => ("        poll_servers(plc);\n", "    print_connections();\n"),
         false => ("", ""),
@@ -186,7 +186,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let record = format!("{}_RECORD_LENGTH", name.to_ascii_uppercase());
     let (lines, serving) = (lines(module), server_code(module, servers));
     let parts = [clock, &lines, &retain.functions, &hardware, &serving];
-    outside
+    environment
         .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
         .replace("/* SYSTEM */\n", &system())
@@ -368,8 +368,8 @@ fn valued(module: &Module, host: &Host) -> String {
         let call = match option.takes {
             Takes::Line => "open_line(argv[++i])".to_string(),
             Takes::Retained => "keep_in(argv[++i])".to_string(),
-            Takes::Io => outside::option(module, "describe"),
-            Takes::Log => outside::option(module, "open_log"),
+            Takes::Io => environment::option(module, "describe"),
+            Takes::Log => environment::option(module, "open_log"),
             Takes::Address(protocol) => open_server(protocol),
             Takes::AddressOrLine(protocol, port) => {
                 let open = open_server(protocol);

@@ -115,8 +115,8 @@ pub fn source(module: &Module) -> String {
         );
     }
     let (register, key) = match cycle::latches(module, &Storage::new(module)) {
-        Latches::KeptIf(register, key) => (register, key),
-        Latches::Kept | Latches::Lost(..) => (0, 0),
+        Latches::RetainedIf(register, key) => (register, key),
+        Latches::Retained | Latches::Lost(..) => (0, 0),
     };
     SOURCE
         .replace("NAME", &module.name)

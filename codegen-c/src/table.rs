@@ -197,9 +197,9 @@ fn areas(name: &str, storage: &Storage) -> Vec<String> {
             let mut member = String::new();
             field.name(&mut member);
             let grid = field.grid.map(|grid| (grid.columns, grid.stored_columns));
-            let (columns, kept) = grid.unwrap_or((1, 1));
+            let (columns, stored) = grid.unwrap_or((1, 1));
             format!(
-                "{{{}, {}, {}, {count}, {columns}, {kept}, offsetof({name}_plc, {member})}}",
+                "{{{}, {}, {}, {count}, {columns}, {stored}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),
                 kind_name(field.kind),
                 field.first,

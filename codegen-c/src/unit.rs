@@ -76,7 +76,7 @@ pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Un
         printer.watchdog(&mut internal);
     }
     // If the program itself clears devices, the functions precede it, otherwise they are with those of the API.
-    let clearing = printer.clear_functions(asked.clears_latched || latches != Latches::Kept);
+    let clearing = printer.clear_functions(asked.clears_latched || latches != Latches::Retained);
     if asked.clears_general || asked.clears_latched {
         internal.push_str(&clearing);
     } else {
@@ -319,7 +319,7 @@ impl Printer<'_> {
                             format!("        (void)memset(&{array}, 0, sizeof {array});\n")
                         }
                     };
-                    if let Some(is_kept) = field.column_is_kept("n", "u") {
+                    if let Some(is_kept) = field.column_is_stored("n", "u") {
                         clear = format!("        if ({is_kept}) {{\n    {clear}        }}\n");
                     }
                     let _ = writeln!(
@@ -538,8 +538,8 @@ impl Printer<'_> {
     fn lost_latches(&self) -> String {
         let name = self.name();
         match cycle::latches(self.module, self.fields) {
-            Latches::Kept => String::new(),
-            Latches::KeptIf(register, key) => {
+            Latches::Retained => String::new(),
+            Latches::RetainedIf(register, key) => {
                 let device = self.stored(DeviceClass::D, register).unwrap_or_default();
                 format!(
                     "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"
@@ -588,7 +588,7 @@ impl Printer<'_> {
                 0 => format!("terminal < {end}u"),
                 first => format!("terminal >= {first}u && terminal < {end}u"),
             };
-            if let Some(is_kept) = field.column_is_kept("terminal", "u") {
+            if let Some(is_kept) = field.column_is_stored("terminal", "u") {
                 let _ = write!(condition, " && {is_kept}");
             }
             let _ = write!(

@@ -83,7 +83,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     generator.functions();
     let functions = std::mem::take(&mut generator.items);
     let crate_name = crate_name(&module.name);
-    let asks = cycle::keeps_any(module) || cycle::asks_clock(module);
+    let asks = cycle::keeps_any(module) || cycle::uses_clock(module);
     let ports = module.has_ports();
     let needs_host = options.main && (options.servers || options.io || asks || ports);
     let mut dependencies = match needs_host {

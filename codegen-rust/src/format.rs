@@ -29,7 +29,7 @@ pub struct Body {
 enum Piece {
     Code(TokenStream),
     Comment(String),
-    Beside(String),
+    Trailing(String),
     Block {
         head: TokenStream,
         body: Body,
@@ -56,7 +56,7 @@ impl Body {
             match piece {
                 Piece::Code(code) => self.code(code),
                 piece @ (Piece::Comment(_)
-                | Piece::Beside(_)
+                | Piece::Trailing(_)
                 | Piece::Block { .. }
                 | Piece::Branches { .. }) => self.pieces.push(piece),
             }
@@ -69,8 +69,8 @@ impl Body {
     }
 
     /// Adds a comment after the statement before it, on its line.
-    pub fn beside(&mut self, text: &str) {
-        self.pieces.push(Piece::Beside(clean(text)));
+    pub fn trailing_comment(&mut self, text: &str) {
+        self.pieces.push(Piece::Trailing(clean(text)));
     }
 
     /// Adds a block with this head: `for i in 0..3`.
@@ -93,7 +93,7 @@ impl Body {
     pub fn tokens(&self) -> TokenStream {
         let tokens = self.pieces.iter().map(|piece| match piece {
             Piece::Code(code) => code.clone(),
-            Piece::Comment(_) | Piece::Beside(_) => TokenStream::new(),
+            Piece::Comment(_) | Piece::Trailing(_) => TokenStream::new(),
             Piece::Block { head, body } => {
                 let body = body.tokens();
                 quote!(#head { #body })
@@ -200,7 +200,7 @@ impl Printer {
                     }
                     self.wrapped(text, depth);
                 }
-                Piece::Beside(text) => {
+                Piece::Trailing(text) => {
                     self.out.truncate(self.out.trim_end().len());
                     self.out.push_str(" // ");
                     self.out.push_str(text);
@@ -303,7 +303,7 @@ mod tests {
         body.comment("step 0: start\nand stop");
         body.code(quote!(plc.a = true;));
         body.code(quote!(plc.m0 = plc.x0;));
-        body.beside("motor latch");
+        body.trailing_comment("motor latch");
         body.comment("step 0: start\nand stop");
         body.branches(quote!(plc.m0), then, Body::default());
         let lines = [

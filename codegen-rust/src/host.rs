@@ -42,7 +42,7 @@ const MUTEX: &str = "std::sync::Mutex";
 
 /// Imports of connections.
 const OUTSIDE_USES: [&str; 2] = [
-    "rungc_host::io::{Of, Outside}",
+    "rungc_host::io::{Environment, Of}",
     "std::sync::{LazyLock, MutexGuard, PoisonError}",
 ];
 
@@ -72,7 +72,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
         None => (PERIOD, ""),
     };
-    let [set, follow] = match cycle::asks_clock(module) {
+    let [set, follow] = match cycle::uses_clock(module) {
         true => CLOCK,
         false => [""; 2],
     };
@@ -99,7 +99,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         true => (REPORT, template!("host_errors.rs")),
         false => ("", ""),
     };
-    let mut code = outside(io)
+    let mut code = environment(io)
         .replace("USES;\n", &uses(generator, crate_name, options))
         .replace("    REPORT;\n", report)
         .replace("ON_ERROR;\n", on_error);
@@ -109,7 +109,7 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     let parts = [
         (module.has_ports(), template!("lines.rs")),
         (servers, template!("servers.rs")),
-        (io, template!("outside.rs")),
+        (io, template!("environment.rs")),
         (in_order, template!("signals.rs")),
     ];
     code.extend(parts.iter().filter(|part| part.0).map(|part| part.1));
@@ -148,7 +148,7 @@ fn errors(module: &Module) -> String {
 }
 
 /// The program around a PLC, with what it does for connections.
-fn outside(io: bool) -> String {
+fn environment(io: bool) -> String {
     let [commands, take, give, leave, report_line, show_line] = match io {
         true => CONNECTED,
         false => ALONE,
@@ -193,7 +193,7 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
     let Options { servers, io, .. } = *options;
     let module = generator.module;
     let wall = "rungc_host::wall::WallClock";
-    let of_clock = cycle::asks_clock(module).then_some(&wall);
+    let of_clock = cycle::uses_clock(module).then_some(&wall);
     let ports = module.has_ports();
     let usual = USES.iter().filter(|_| !ports);
     let of_lines = LINES_USES.iter().filter(|_| ports);
@@ -227,7 +227,7 @@ fn open(module: &Module, host: &Host) -> String {
     }
     let mut text = String::new();
     if cycle::keeps_any(module) {
-        text.push_str("    let mut kept: Option<RetainFile> = None;\n");
+        text.push_str("    let mut retained: Option<RetainFile> = None;\n");
     }
     if module.has_ports() {
         text.push_str("    let mut lines = Vec::new();\n");
@@ -244,10 +244,10 @@ fn open(module: &Module, host: &Host) -> String {
                 "Line::connect(&mut plc, &value).map(|line| lines.push(line))".to_string()
             }
             Takes::Retained => {
-                "RetainFile::begin(&value, &mut plc, |text| report(&text)).map(|file| kept = Some(file))".to_string()
+                "RetainFile::begin(&value, &mut plc, |text| report(&text)).map(|file| retained = Some(file))".to_string()
             }
-            Takes::Io => "outside().describe(&value)".to_string(),
-            Takes::Log => "outside().log(&value)".to_string(),
+            Takes::Io => "environment().describe(&value)".to_string(),
+            Takes::Log => "environment().log(&value)".to_string(),
             Takes::Address(protocol) => open_server(protocol),
             Takes::AddressOrLine(protocol, port) => {
                 let open = open_server(protocol);
@@ -289,7 +289,7 @@ const OPENED: &str = "            _ => Ok(()),
 ";
 
 /// Start of a host with connections.
-const BEGUN: &str = "    let begun = outside().begin(&plc);
+const BEGUN: &str = "    let begun = environment().begin(&plc);
     if let Err(why) = begun {
         report!(\"{why}\");
         std::process::exit(2);
@@ -309,15 +309,15 @@ const ALONE: [&str; 6] = [
 
 /// The same with connections.
 const CONNECTED: [&str; 6] = [
-    "match outside().takes_input() {
+    "match environment().takes_input() {
         true => mpsc::sync_channel(0).1,
         false => commands(),
     };",
-    "        outside().take(&mut Of(&mut plc, &mut hal));\n",
-    "        outside().give(&mut Of(&mut plc, &mut hal));\n",
-    "    outside().end();\n",
-    "    outside().say(line);\n",
-    "    let _ = writeln!(io::stdout(), \"{line}\");\n    outside().note(line);\n",
+    "        environment().read_inputs(&mut Of(&mut plc, &mut hal));\n",
+    "        environment().write_outputs(&mut Of(&mut plc, &mut hal));\n",
+    "    environment().end();\n",
+    "    environment().report(line);\n",
+    "    let _ = writeln!(io::stdout(), \"{line}\");\n    environment().log_line(line);\n",
 ];
 
 /// Latched devices are saved after a scan; a device shows that they cannot be.
@@ -332,9 +332,9 @@ fn save(keeps: bool, unsaved: Option<(DeviceClass, u32)>) -> String {
     SAVE.replace("            SHOW;\n", &show.unwrap_or_default())
 }
 
-const SAVE: &str = "        if let Some(file) = &mut kept {
-            if let Some(said) = file.keep(&plc, now_ms) {
-                report(&said);
+const SAVE: &str = "        if let Some(file) = &mut retained {
+            if let Some(message) = file.keep(&plc, now_ms) {
+                report(&message);
             }
             SHOW;
         }
@@ -342,12 +342,12 @@ const SAVE: &str = "        if let Some(file) = &mut kept {
 
 /// After the last scan, and at the very end.
 const END: [&str; 2] = [
-    "    let kept = kept.map_or(Ok(()), |file| file.end(&plc));
-    if let Err(why) = &kept {
+    "    let retained = retained.map_or(Ok(()), |file| file.end(&plc));
+    if let Err(why) = &retained {
         report(why);
     }
 ",
-    "    if kept.is_err() {
+    "    if retained.is_err() {
         std::process::exit(1);
     }
 ",

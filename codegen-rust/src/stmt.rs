@@ -60,7 +60,7 @@ impl Generator<'_> {
                 let beside = comments::written(stmt).filter(|_| !tokens.is_empty());
                 body.code(tokens);
                 if let Some(text) = beside.and_then(|(class, n)| self.device_comment(class, n)) {
-                    body.beside(text);
+                    body.trailing_comment(text);
                 }
             }
             Node::If {

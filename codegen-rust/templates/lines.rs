@@ -74,8 +74,8 @@ impl Line {
     fn open(port: u8, path: &str) -> io::Result<Line> {
         let (reading, writing) = ends(path)?;
         let (sender, events) = mpsc::channel();
-        let (path, kept) = (path.to_string(), path.to_string());
-        std::thread::spawn(move || keep(&kept, reading, &sender));
+        let (path, tried) = (path.to_string(), path.to_string());
+        std::thread::spawn(move || keep(&tried, reading, &sender));
         let format = LineFormat::new();
         Ok(Line { port, path, serial: Some(writing), events, unsent: Vec::new(), format, last_us: 0 })
     }

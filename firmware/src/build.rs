@@ -21,12 +21,12 @@ pub enum BuildError {
     #[error("{0}")]
     Missing(String),
     /// A compiler or `make` failed.
-    #[error("{what} failed:\n{said}")]
+    #[error("{what} failed:\n{output}")]
     Failed {
         /// The tool.
         what: String,
         /// Its output.
-        said: String,
+        output: String,
     },
     /// Files could not be written or read.
     #[error("{}: {error}", path.display())]
@@ -174,9 +174,9 @@ impl Tools {
         library::build(&cache, &self.recipe(&cargo), || self.announce()).map_err(
             |error| match error {
                 library::Error::Cargo { .. } => BuildError::Missing(error.to_string()),
-                library::Error::Failed { said } => BuildError::Failed {
+                library::Error::Failed { output } => BuildError::Failed {
                     what: "cargo".to_string(),
-                    said,
+                    output,
                 },
                 library::Error::Io { path, error } => BuildError::Io { path, error },
             },
@@ -409,7 +409,7 @@ fn succeeded(what: &str, output: Output) -> Result<(), BuildError> {
     }
     Err(BuildError::Failed {
         what: what.to_string(),
-        said: String::from_utf8_lossy(&output.stderr).into_owned(),
+        output: String::from_utf8_lossy(&output.stderr).into_owned(),
     })
 }
 

@@ -168,7 +168,7 @@ pub struct Plan {
     /// Numbers and addresses of the pages that the image takes.
     pub pages: Vec<(u32, Range<u32>)>,
     /// The pages that already hold what they should.
-    pub kept: Vec<u32>,
+    pub unchanged: Vec<u32>,
 }
 
 impl Plan {
@@ -176,7 +176,7 @@ impl Plan {
     pub fn changed(&self) -> impl Iterator<Item = &(u32, Range<u32>)> {
         self.pages
             .iter()
-            .filter(|(page, _)| !self.kept.contains(page))
+            .filter(|(page, _)| !self.unchanged.contains(page))
     }
 }
 
@@ -213,7 +213,7 @@ impl<L: Line> Writer<'_, L> {
         let pages = (0..).zip(chip.pages(flash)).filter(|(_, page)| meets(page));
         Ok(Plan {
             pages: pages.collect(),
-            kept: Vec::new(),
+            unchanged: Vec::new(),
         })
     }
 
@@ -235,15 +235,15 @@ impl<L: Line> Writer<'_, L> {
                 }
             }
             if equal {
-                plan.kept.push(*number);
+                plan.unchanged.push(*number);
             }
             done += page.len();
             (self.progress)(Step::Compare, done, total);
         }
-        if plan.kept.len() < plan.pages.len()
+        if plan.unchanged.len() < plan.pages.len()
             && let Some((first, _)) = plan.pages.first()
         {
-            plan.kept.retain(|page| page != first);
+            plan.unchanged.retain(|page| page != first);
         }
         Ok(())
     }

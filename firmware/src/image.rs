@@ -69,7 +69,7 @@ impl Image<'_> {
     /// or looks at those that show the supply.
     fn supply(&self) -> Option<&InputPin> {
         let pin = self.board.retain.as_ref()?.power_fail.as_ref()?;
-        let asks = rungc_emit::cycle::asks_supply(self.module);
+        let asks = rungc_emit::cycle::uses_supply(self.module);
         (asks || self.retain().is_some()).then_some(pin)
     }
 

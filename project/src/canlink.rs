@@ -215,7 +215,7 @@ impl Project {
             let message = format!("{} has no CANlink", model.title);
             let why = codes::PROJECT_VALUE.at(station.span, message);
             let help = "remove `[canlink]`, or choose the model h1u or h2u";
-            return Err(self.mistake(why.help(help)));
+            return Err(self.error(why.help(help)));
         }
         self.add_at_end(program, |span| station.instrs(span));
         Ok(())

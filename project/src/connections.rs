@@ -42,17 +42,17 @@ impl Project {
 
     /// Shows a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
     /// device of `[retain]`.
-    pub(crate) fn add_outside(&self, program: &mut Program) {
+    pub(crate) fn add_external(&self, program: &mut Program) {
         let rows = self.io.iter().flat_map(|row| &row.connection.rows);
         let rows = rows.filter(|row| !row.reads);
         let read = rows.map(|row| run(row.class, row.first, row.count));
         let read: Vec<DeviceRun> = read.chain(self.served()).collect();
-        let written = self.written_outside().into_iter();
+        let written = self.written_externally().into_iter();
         let written: Vec<DeviceRun> = written.map(|(_, run)| run).collect();
         if !read.is_empty() || !written.is_empty() {
             let parameters = program.parameters.get_or_insert_default();
-            parameters.read_outside = read;
-            parameters.written_outside = written;
+            parameters.read_externally = read;
+            parameters.written_externally = written;
         }
     }
 
@@ -67,7 +67,7 @@ impl Project {
 
     /// Devices that are written from outside the program while it runs, with the table of the settings that states it:
     /// those that connections read, fault devices, and those named by `[serve]`.
-    pub fn written_outside(&self) -> Vec<(&'static str, DeviceRun)> {
+    pub fn written_externally(&self) -> Vec<(&'static str, DeviceRun)> {
         let mut written = Vec::new();
         for Connected { connection, .. } in &self.io {
             let rows = connection.rows.iter().filter(|row| row.reads);
@@ -108,7 +108,7 @@ impl Project {
                 if let Some(missing) = numbers.find(|&number| !model.has(of, number)) {
                     let device = of.number(missing);
                     let message = format!("{device} does not exist on {}", model.title);
-                    return Err(self.mistake(codes::IO_CONNECTION.at(span, message)));
+                    return Err(self.error(codes::IO_CONNECTION.at(span, message)));
                 }
             }
         }
@@ -116,7 +116,7 @@ impl Project {
             Some(fault) if !model.has(fault.class, fault.first) => {
                 let device = fault.class.number(fault.first);
                 let message = format!("{device} does not exist on {}", model.title);
-                Err(self.mistake(codes::PROJECT_VALUE.at(fault.span, message)))
+                Err(self.error(codes::PROJECT_VALUE.at(fault.span, message)))
             }
             _ => Ok(()),
         }

@@ -171,7 +171,7 @@ pub enum Error {
     },
     /// The file has mistakes.
     #[error("`{}` has errors", path.display())]
-    Mistakes {
+    Invalid {
         /// The file.
         path: PathBuf,
         /// Its text.
@@ -222,7 +222,7 @@ impl Project {
         let source = Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
         let (project, diagnostics) = reader::read(&source.text);
         if diagnostics.has_errors() {
-            return Err(Error::Mistakes {
+            return Err(Error::Invalid {
                 path: path.to_owned(),
                 text: Box::new(source),
                 diagnostics,
@@ -236,10 +236,10 @@ impl Project {
     }
 
     /// That a value does not fit, for what only the caller can know.
-    pub fn mistake(&self, why: Diagnostic) -> Error {
+    pub fn error(&self, why: Diagnostic) -> Error {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(why);
-        Error::Mistakes {
+        Error::Invalid {
             path: self.path.clone(),
             text: Box::new(self.source.clone()),
             diagnostics,
@@ -276,7 +276,7 @@ impl Project {
 
 impl Named {
     /// That it does not fit its key.
-    pub fn mistake(&self, why: impl Into<String>) -> Diagnostic {
+    pub fn error(&self, why: impl Into<String>) -> Diagnostic {
         codes::PROJECT_VALUE.at(self.span, why)
     }
 }

@@ -177,7 +177,7 @@ impl Row {
 
 impl Project {
     /// Returns true if its program sends requests to servers over TCP.
-    pub fn asks_servers(&self) -> bool {
+    pub fn has_server_requests(&self) -> bool {
         let mut rows = self.modbus.iter();
         rows.any(|row| matches!(row.line, Line::Host(_)))
     }
@@ -197,7 +197,7 @@ impl Project {
             let message = format!("{} has no Modbus table", model.title);
             let why = codes::PROJECT_VALUE.at(first.span, message);
             let help = "choose the model h1u or h2u, or name a Modbus TCP server: `host = \"192.168.1.5\"`";
-            return Err(self.mistake(why.help(help)));
+            return Err(self.error(why.help(help)));
         }
         let rows = self.modbus.iter();
         self.add_at_end(program, |span| {
@@ -223,7 +223,7 @@ impl Project {
             let mut missing = named.filter(|device| !model.has(device.class, device.number));
             if let Some(device) = missing.next() {
                 let message = format!("{device} does not exist on {}", model.title);
-                return Err(self.mistake(codes::PROJECT_VALUE.at(row.span, message)));
+                return Err(self.error(codes::PROJECT_VALUE.at(row.span, message)));
             }
         }
         Ok(())

@@ -45,7 +45,7 @@ impl Project {
             } else {
                 continue;
             };
-            return Err(self.mistake(why));
+            return Err(self.error(why));
         }
         let fitted = self.modules.iter().map(|row| FittedModule {
             unit: row.unit,

@@ -33,7 +33,7 @@ impl Project {
         if self.is_about(file) {
             self.add_table(program, model)?;
             self.add_station(program, model)?;
-            self.add_outside(program);
+            self.add_external(program);
         }
         if self.latched.is_empty() {
             return Ok(());
@@ -93,7 +93,7 @@ impl Project {
             false => format!("choose among {}", choices.join(", ")),
         };
         let why = codes::PROJECT_VALUE.at(run.span, message);
-        Err(self.mistake(why.help(help)))
+        Err(self.error(why.help(help)))
     }
 }
 

@@ -9,14 +9,14 @@ pub struct Row {
     /// Name, if it has one.
     pub name: Option<String>,
     /// The property.
-    pub asks: Asks,
+    pub kind: PropertyKind,
     /// Position in the file.
     pub span: Span,
 }
 
 /// Kind of a property.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Asks {
+pub enum PropertyKind {
     /// `never = "…"`
     Never(Named),
     /// `always = "…"`

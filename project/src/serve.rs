@@ -305,7 +305,7 @@ impl Project {
         for SerialLine { line, span } in &self.serve.serial {
             if let Some((message, help)) = line.missing(model) {
                 let why = codes::PROJECT_VALUE.at(*span, message);
-                return Err(self.mistake(why.help(help)));
+                return Err(self.error(why.help(help)));
             }
         }
         for range in &self.serve.devices {
@@ -313,7 +313,7 @@ impl Project {
             if let Some(missing) = numbers.find(|&number| !model.has(range.class, number)) {
                 let device = range.class.number(missing);
                 let message = format!("{device} does not exist on {}", model.title);
-                return Err(self.mistake(codes::PROJECT_VALUE.at(range.span, message)));
+                return Err(self.error(codes::PROJECT_VALUE.at(range.span, message)));
             }
         }
         Ok(())

@@ -108,8 +108,8 @@ fn libm(here: &Path, out: &Path) -> io::Result<PathBuf> {
         .current_dir(here)
         .output()?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(io::Error::other(format!("cargo metadata: {said}")));
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        return Err(io::Error::other(format!("cargo metadata: {stderr}")));
     }
     let metadata: Value = serde_json::from_slice(&output.stdout)?;
     let packages = metadata["packages"].as_array().into_iter().flatten();

@@ -10,7 +10,7 @@ export async function send(command) {
       error = response.status === 422 ? JSON.parse(text).error : text;
     }
   } catch {
-    error = "The run does not answer.";
+    error = "rungc is not responding.";
   }
   problem.textContent = error;
 }

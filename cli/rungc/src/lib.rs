@@ -74,7 +74,7 @@ pub fn main() -> ExitCode {
     };
     match result {
         // An error caused by an interruption is not reported separately.
-        Err(Failure::Because(_)) if interruption::is_asked() => {
+        Err(Failure::Because(_)) if interruption::is_requested() => {
             ExitCode::from(interruption::EXIT_CODE)
         }
         Ok(Outcome::Success) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,

@@ -179,7 +179,7 @@ impl Generator<'_> {
         };
         if with_class {
             let class = self.class(field.class);
-            let guard = Self::column_is_kept(field).map(|is_kept| quote!(if #is_kept));
+            let guard = Self::column_is_stored(field).map(|is_kept| quote!(if #is_kept));
             quote!((#class, #numbers) #guard)
         } else {
             numbers
@@ -219,11 +219,11 @@ impl Generator<'_> {
     }
 
     /// That a field holds one of its numbers, if it does not hold all.
-    pub(super) fn column_is_kept(field: &Field) -> Option<TokenStream> {
+    pub(super) fn column_is_stored(field: &Field) -> Option<TokenStream> {
         let grid = field.trimmed()?;
         let n = Self::distance(field);
-        let [columns, kept] = [grid.columns, grid.stored_columns].map(Literal::u32_unsuffixed);
-        Some(quote!(#n % #columns < #kept))
+        let [columns, stored] = [grid.columns, grid.stored_columns].map(Literal::u32_unsuffixed);
+        Some(quote!(#n % #columns < #stored))
     }
 
     fn arms(&mut self, access: Access, set: bool) -> TokenStream {

@@ -56,7 +56,7 @@ impl Generator<'_> {
                 let [first, end] = numbers.map(|number| number_literal(field.class, number));
                 let cell = Self::matched(field);
                 let clear = quote!(#cell = #zero;);
-                let clear = match Self::column_is_kept(field) {
+                let clear = match Self::column_is_stored(field) {
                     Some(is_kept) => quote!(if #is_kept { #clear }),
                     None => clear,
                 };
@@ -136,8 +136,8 @@ impl Generator<'_> {
     pub(super) fn power_cycle(&mut self) -> TokenStream {
         let plc = quote!(self);
         let latched = match cycle::latches(self.module, &self.storage) {
-            Latches::Kept => TokenStream::new(),
-            Latches::KeptIf(register, key) => {
+            Latches::Retained => TokenStream::new(),
+            Latches::RetainedIf(register, key) => {
                 let cell = self.storage.word(&plc, DeviceClass::D, register);
                 let key = literal32(i32::from(key), false);
                 quote!(if #cell != #key { self.clear_latched(); })

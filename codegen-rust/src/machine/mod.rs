@@ -71,11 +71,11 @@ impl Generator<'_> {
             }
             if let Some(grid) = field.columns() {
                 let second = class.number(first + 1);
-                let (columns, kept) = (grid.columns, grid.stored_columns);
-                text.push_str(&match kept {
+                let (columns, stored) = (grid.columns, grid.stored_columns);
+                text.push_str(&match stored {
                     1 => format!(", {columns} apart"),
-                    _ if kept < columns => {
-                        format!(" in {columns} columns, {kept} stored, [1][0] is {second}")
+                    _ if stored < columns => {
+                        format!(" in {columns} columns, {stored} stored, [1][0] is {second}")
                     }
                     _ => format!(" in {columns} columns, [1][0] is {second}"),
                 });
@@ -178,7 +178,7 @@ impl Generator<'_> {
             quote!(#doc const fn preset(&mut self) { #preset })
         });
         let clear_general = self.clear(false);
-        let lost = cycle::latches(self.module, &self.storage) != Latches::Kept;
+        let lost = cycle::latches(self.module, &self.storage) != Latches::Retained;
         let asked = Services::of(&self.plan);
         let clear_latched = (asked.clears_latched || lost).then(|| self.clear(true));
         let forget = self.forget();

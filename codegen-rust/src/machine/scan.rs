@@ -141,8 +141,8 @@ impl Generator<'_> {
     /// The method that names what the program keeps over power-off.
     fn retained(&mut self) -> Option<TokenStream> {
         let key = match cycle::latches(self.module, &self.storage) {
-            Latches::Kept => quote!(None),
-            Latches::KeptIf(register, key) => {
+            Latches::Retained => quote!(None),
+            Latches::RetainedIf(register, key) => {
                 let register = Literal::u32_unsuffixed(register);
                 let key = Literal::i16_unsuffixed(key);
                 quote!(Some((#register, #key)))

@@ -148,7 +148,7 @@ impl<L: Line> Loader<L> {
         };
         loader.synchronise(patience)?;
         let get = Command::Get;
-        let answer = loader.again(|loader| loader.asked(get))?;
+        let answer = loader.again(|loader| loader.query(get))?;
         let Some((version, commands)) = answer.split_first() else {
             return Err(LoaderError::Odd(get));
         };
@@ -162,7 +162,7 @@ impl<L: Line> Loader<L> {
     /// # Errors
     /// As all commands.
     pub fn id(&mut self) -> Answer<u16> {
-        let answer = self.again(|loader| loader.asked(Command::GetId))?;
+        let answer = self.again(|loader| loader.query(Command::GetId))?;
         match answer.as_slice() {
             [high, low] => Ok(u16::from_be_bytes([*high, *low])),
             _ => Err(LoaderError::Odd(Command::GetId)),
@@ -331,7 +331,7 @@ impl<L: Line> Loader<L> {
     }
 
     /// A command whose answer says how long it is.
-    fn asked(&mut self, command: Command) -> Answer<Vec<u8>> {
+    fn query(&mut self, command: Command) -> Answer<Vec<u8>> {
         self.command(command, ANSWER)?;
         let mut last = [0];
         self.exactly(command, &mut last, ANSWER)?;

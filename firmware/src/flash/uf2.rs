@@ -39,12 +39,12 @@ pub enum Uf2Error {
     #[error("block {0} is not one of UF2")]
     Block(usize),
     /// There is another number of blocks than each of them says.
-    #[error("block {block} says that there are {said} blocks, the file has {found}")]
+    #[error("block {block} declares {declared} blocks, the file has {found}")]
     Count {
         /// Number of the block, from 0.
         block: usize,
         /// Stated number of blocks.
-        said: u32,
+        declared: u32,
         /// Actual number of blocks.
         found: usize,
     },
@@ -107,10 +107,14 @@ pub fn read(file: &[u8]) -> Result<Payload, Uf2Error> {
         let (true, Some(data), END) = (begins, data, word(block, BLOCK - 4)) else {
             return Err(Uf2Error::Block(*number));
         };
-        let (flags, said) = (word(block, 8), word(block, 24));
-        if said as usize != blocks.len() {
+        let (flags, declared) = (word(block, 8), word(block, 24));
+        if declared as usize != blocks.len() {
             let (block, found) = (*number, blocks.len());
-            return Err(Uf2Error::Count { block, said, found });
+            return Err(Uf2Error::Count {
+                block,
+                declared,
+                found,
+            });
         }
         let family = word(block, 28);
         if flags & HAS_FAMILY != 0 && family != RP2040 {
@@ -170,7 +174,7 @@ mod tests {
         let short = read(&file[..2 * BLOCK]);
         assert_eq!(
             short.unwrap_err().to_string(),
-            "block 0 says that there are 3 blocks, the file has 2"
+            "block 0 declares 3 blocks, the file has 2"
         );
         let mut other = file.clone();
         other[28] = 0;

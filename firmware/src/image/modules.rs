@@ -24,7 +24,7 @@ pub(super) struct Fitted {
 pub(crate) type NoPin = (u16, u8, String);
 
 /// Returns true if a program uses hardware, buffer memory included.
-fn asks_hardware(module: &Module) -> bool {
+fn uses_hardware(module: &Module) -> bool {
     let mut asks = false;
     for function in &module.functions {
         walk::statements(&function.body, &mut |stmt| {
@@ -63,7 +63,7 @@ impl Image<'_> {
 
     /// The modules whose channels are pins, if the program reaches any.
     pub(super) fn modules(&self) -> Vec<Fitted> {
-        if !asks_hardware(self.module) {
+        if !uses_hardware(self.module) {
             return Vec::new();
         }
         let fitted = self.modules.iter().filter(|module| !module.pins.is_empty());

@@ -50,9 +50,9 @@ pub struct Parameters {
     /// Requests of the PLC to servers over TCP; empty if none are stated.
     pub requests: Vec<NetworkRequest>,
     /// Devices that something outside the program reads, as the settings say.
-    pub read_outside: Vec<DeviceRun>,
+    pub read_externally: Vec<DeviceRun>,
     /// Devices that something outside the program writes.
-    pub written_outside: Vec<DeviceRun>,
+    pub written_externally: Vec<DeviceRun>,
     /// True if a keyword protects the program from being read.
     pub protected: bool,
 }

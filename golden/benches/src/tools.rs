@@ -44,7 +44,7 @@ pub fn table() -> Table {
     if cfg!(debug_assertions) {
         table.row([
             "rungc".into(),
-            "a debug build: times of rungc itself say nothing".into(),
+            "a debug build: times of rungc itself mean nothing".into(),
         ]);
     }
     table
@@ -186,9 +186,9 @@ pub fn runtime(target: Option<&Target>) -> Result<PathBuf> {
     let announce = || eprintln!("building the runtime ...");
     library::build(&cache, &recipe, announce).map_err(|error| match error {
         library::Error::Cargo { cargo, .. } => Problem::Missing(cargo.display().to_string()),
-        library::Error::Failed { said } => Problem::Failed {
+        library::Error::Failed { output } => Problem::Failed {
             command: "cargo".to_string(),
-            output: said,
+            output,
         },
         library::Error::Io { path, error } => Problem::File { path, error },
     })

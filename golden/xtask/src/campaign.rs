@@ -320,20 +320,20 @@ fn compare(executable: &Path, args: &Args, batch: &Batch) -> Result<Outcome, Pro
         .envs(variables(args, batch))
         .current_dir(root().join("golden"))
         .output()?;
-    let said = String::from_utf8_lossy(&output.stdout);
+    let stdout = String::from_utf8_lossy(&output.stdout);
     let why = String::from_utf8_lossy(&output.stderr);
-    let extent = extent(&said);
+    let extent = extent(&stdout);
     let failed = !output.status.success() || extent.is_none();
     Ok(Outcome {
         extent,
         differing: differing(&why),
-        failure: failed.then(|| format!("{said}\n{why}")),
+        failure: failed.then(|| format!("{stdout}\n{why}")),
     })
 }
 
 /// Extent of comparisons, from the test's report: `compared with 1 engines: 7 programs, 70 scans, 900 instructions`.
-fn extent(said: &str) -> Option<Extent> {
-    let (_, after) = said.split_once("compared with ")?;
+fn extent(stdout: &str) -> Option<Extent> {
+    let (_, after) = stdout.split_once("compared with ")?;
     let (_, counts) = after.lines().next()?.split_once(": ")?;
     let count = |name: &str| {
         let mut counts = counts.split(", ");
@@ -459,9 +459,9 @@ mod tests {
 
     #[test]
     fn what_the_test_says_is_read() {
-        let said = "running 1 test\ntest a ... hostile operands: 9 compile, 3 do not\n\
+        let stdout = "running 1 test\ntest a ... hostile operands: 9 compile, 3 do not\n\
             compared with 1 engines: 7 programs, 70 scans, 900 instructions\nok\n";
-        assert_eq!(extent(said), Some(SOME));
+        assert_eq!(extent(stdout), Some(SOME));
         assert_eq!(extent("error: no compiler"), None);
         assert_eq!(
             differing("panicked at differential.rs:\n3 programs differ:\nseed 1"),

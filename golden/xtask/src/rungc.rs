@@ -100,8 +100,8 @@ fn draw(rungc: &Path, folder: &Path, page: &str, made: &mut Made) -> Result<(), 
             .output()?;
         // A comparison that finds a difference ends with 1.
         if ran.status.code() > Some(1) {
-            let said = String::from_utf8_lossy(&ran.stderr);
-            return Err(format!("{command}: {}\n{said}", ran.status).into());
+            let stderr = String::from_utf8_lossy(&ran.stderr);
+            return Err(format!("{command}: {}\n{stderr}", ran.status).into());
         }
         let drawn = fs::read_to_string(folder.join(file))?;
         made.files.push((Path::new("docs/src").join(file), drawn));

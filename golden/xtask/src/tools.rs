@@ -20,8 +20,8 @@ pub fn cargo(args: &[&str]) -> Command {
 pub fn output(command: &mut Command) -> Result<String, Problem> {
     let output = command.output()?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(format!("{command:?}: {}\n{said}", output.status).into());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("{command:?}: {}\n{stderr}", output.status).into());
     }
     Ok(String::from_utf8(output.stdout)?)
 }

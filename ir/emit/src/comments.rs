@@ -8,8 +8,8 @@ use rungc_syntax::DeviceClass;
 /// The heading of a network. `clean` makes a user's text safe in a comment.
 pub fn heading(network: &Network, clean: impl Fn(&str) -> String) -> String {
     let step = network.step;
-    let said = |text: &Option<String>| text.as_deref().map(&clean).filter(|text| !text.is_empty());
-    match (said(&network.statement), said(&network.note)) {
+    let words = |text: &Option<String>| text.as_deref().map(&clean).filter(|text| !text.is_empty());
+    match (words(&network.statement), words(&network.note)) {
         (Some(statement), Some(note)) => format!("step {step}: {statement} ({note})"),
         (Some(text), None) | (None, Some(text)) => format!("step {step}: {text}"),
         (None, None) => format!("step {step}"),

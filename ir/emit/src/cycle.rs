@@ -28,15 +28,17 @@ pub struct Services {
 impl Services {
     /// Looks at all functions.
     pub fn of(plan: &Plan) -> Self {
-        let mut asked = Services::default();
+        let mut services = Services::default();
         for function in &plan.functions {
             statements(&function.body, &mut |stmt| {
-                asked.clears_general |= matches!(stmt, Stmt::Do(Action::Clear { latched: false }));
-                asked.clears_latched |= matches!(stmt, Stmt::Do(Action::Clear { latched: true }));
-                asked.faults |= matches!(stmt, Stmt::Do(Action::Fault { .. }));
+                services.clears_general |=
+                    matches!(stmt, Stmt::Do(Action::Clear { latched: false }));
+                services.clears_latched |=
+                    matches!(stmt, Stmt::Do(Action::Clear { latched: true }));
+                services.faults |= matches!(stmt, Stmt::Do(Action::Fault { .. }));
             });
         }
-        asked
+        services
     }
 }
 
@@ -47,9 +49,9 @@ pub fn keeps(module: &Module, storage: &Storage, relay: Relay) -> bool {
 
 /// Devices that request scans of constant length, if all of them are stored.
 pub fn constant_scan(module: &Module, storage: &Storage) -> Option<ConstantScan> {
-    let asks = module.model.constant_scan()?;
-    let relay = asks.relay.is_none_or(|relay| is_stored(storage, relay));
-    (relay && is_stored(storage, asks.register)).then_some(asks)
+    let devices = module.model.constant_scan()?;
+    let relay = devices.relay.is_none_or(|relay| is_stored(storage, relay));
+    (relay && is_stored(storage, devices.register)).then_some(devices)
 }
 
 /// Devices that put the PLC in RUN and STOP other than its switch, if all of them are stored.
@@ -70,12 +72,12 @@ fn is_stored<D: SpecialDevice>(storage: &Storage, device: D) -> bool {
 }
 
 /// Returns true if a program reads or sets the real-time clock.
-pub fn asks_clock(module: &Module) -> bool {
+pub fn uses_clock(module: &Module) -> bool {
     calls_any(module, &CLOCK_FUNCTIONS)
 }
 
 /// Returns true if a program reads the state of the power supply or the battery.
-pub fn asks_supply(module: &Module) -> bool {
+pub fn uses_supply(module: &Module) -> bool {
     calls_any(module, &[RtFn::PowerSupply])
 }
 
@@ -105,9 +107,9 @@ const CLOCK_FUNCTIONS: [RtFn; 6] = [
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Latches {
     /// They keep their values.
-    Kept,
+    Retained,
     /// They are cleared unless this register D holds this key.
-    KeptIf(u32, i16),
+    RetainedIf(u32, i16),
     /// They are cleared, since this register D, which is not stored, does not hold this key.
     Lost(u32, i16),
 }
@@ -115,12 +117,12 @@ pub enum Latches {
 /// Treatment of a program's latched devices at power-on.
 pub fn latches(module: &Module, storage: &Storage) -> Latches {
     let Some((register, key)) = module.model.latch_key else {
-        return Latches::Kept;
+        return Latches::Retained;
     };
     if is_stored(storage, register) {
-        Latches::KeptIf(register.number(), key)
+        Latches::RetainedIf(register.number(), key)
     } else if module.model.word_at_power_on(register) == key {
-        Latches::Kept
+        Latches::Retained
     } else {
         Latches::Lost(register.number(), key)
     }

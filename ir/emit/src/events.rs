@@ -37,7 +37,7 @@ pub fn follows_time(module: &Module) -> bool {
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.
-pub(crate) fn set_outside(module: &Module) -> BTreeSet<usize> {
+pub(crate) fn set_between_scans(module: &Module) -> BTreeSet<usize> {
     let mut found: BTreeSet<usize> = BTreeSet::new();
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {

@@ -1,6 +1,6 @@
 //! The private fields of a program's struct: what it remembers from scan to scan in addition to its devices.
 
-use crate::events::set_outside;
+use crate::events::set_between_scans;
 use crate::plan::Plan;
 use crate::temps::{Home, Temp};
 use rungc_ir::Module;
@@ -61,7 +61,7 @@ impl Private<'_> {
 
 /// The private fields of a program, in order.
 pub fn fields<'m>(module: &'m Module, plan: &Plan) -> Vec<Private<'m>> {
-    let outside = set_outside(module);
+    let outside = set_between_scans(module);
     let mut fields = vec![Private::Sys];
     fields.extend((module.edges > 0).then_some(Private::Edges(module.edges)));
     let flags = module.flags.iter().enumerate();

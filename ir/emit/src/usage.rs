@@ -116,7 +116,7 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
             ),
             Takes::Io => option(
                 &format!("{name} FILE"),
-                "connect terminals and registers as [io.NAME] in this file says",
+                "connect terminals and registers by the tables [io.NAME] of this file",
             ),
             Takes::Log => option(
                 &format!("{name} FILE"),

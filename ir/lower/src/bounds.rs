@@ -99,7 +99,7 @@ fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
 
 /// Reports operands that make a program store many devices because little is known about their index.
 pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagnostics) {
-    let mut told: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
+    let mut reported: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
     for used in uses {
         let footprint = Footprint {
             place: Place {
@@ -115,7 +115,7 @@ pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagno
         let bytes: u64 = runs.iter().map(|run| size(module.model, class, *run)).sum();
         let index = used.index;
         let key = (class, used.device.number, index.class, index.number);
-        if bytes <= MUCH || told.insert(key, ()).is_some() {
+        if bytes <= MUCH || reported.insert(key, ()).is_some() {
             continue;
         }
         let devices: u32 = runs.iter().map(|run| run.1 - run.0 + 1).sum();

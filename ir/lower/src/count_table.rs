@@ -88,8 +88,12 @@ impl Lowerer<'_> {
             begins: None,
             row: self.cell(format!("table{n}_row"), "the row that waits for its count"),
             rows: self.cell(format!("table{n}_rows"), "how many rows the table has"),
-            counts: self.new_table(format!("table{n}_counts"), "what the rows wait for", length),
-            words: self.new_table(format!("table{n}_words"), "what the rows say", length),
+            counts: self.new_table(
+                format!("table{n}_counts"),
+                "counts at which the rows act",
+                length,
+            ),
+            words: self.new_table(format!("table{n}_words"), "words of the rows", length),
             target: None,
         };
         if mode.fixed {

@@ -97,7 +97,7 @@ impl Lowerer<'_> {
             return u16::MAX;
         }
         let instrs = self.resolved.program.instrs.iter();
-        let said = instrs
+        let named = instrs
             .zip(&self.resolved.instrs)
             .filter_map(|(instr, resolution)| {
                 let (axis, operands) = instr.operands.split_first()?;
@@ -107,8 +107,9 @@ impl Lowerer<'_> {
                 let own = output_of(&axis.kind) == Some(number);
                 own.then(|| places.iter().zip(operands))
             });
-        let said = said.flatten();
-        said.filter(|(place, _)| INPUTS.contains(place))
+        let named = named.flatten();
+        named
+            .filter(|(place, _)| INPUTS.contains(place))
             .fold(0, |mask, (_, operand)| mask | mask_of(&operand.kind))
     }
 

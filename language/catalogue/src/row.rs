@@ -87,7 +87,7 @@ pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(Mode
 pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without(ModelSet::FX3S);
 
 /// Reason of a row without an implementation; a test finds none.
-pub(super) const UNSAID: &str = "the row does not say what implements it";
+pub(super) const NO_LOWERING: &str = "the row does not say what implements it";
 
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
 pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {
@@ -110,7 +110,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         errors: &[],
         models: ModelSet::ALL,
         twin: None,
-        lower: Lower::Todo(UNSAID),
+        lower: Lower::Todo(NO_LOWERING),
         lower_on: &[],
     }
 }

@@ -65,10 +65,10 @@ impl Reader {
                     fault: faults.next().map_or(at, |(_, place)| place.1),
                 })
             }
-            Err(mistakes) => {
-                for mistake in mistakes {
-                    let at = mistake.pair.map_or(at, |pair| places[pair].1);
-                    self.misconnected(at, mistake.message, &mistake.help);
+            Err(errors) => {
+                for error in errors {
+                    let at = error.pair.map_or(at, |pair| places[pair].1);
+                    self.misconnected(at, error.message, &error.help);
                 }
                 None
             }
@@ -76,10 +76,10 @@ impl Reader {
     }
 
     fn misconnected(&mut self, at: Span, message: String, help: &str) {
-        let mistake = codes::IO_CONNECTION.at(at, message);
+        let error = codes::IO_CONNECTION.at(at, message);
         self.found.push(match help {
-            "" => mistake,
-            help => mistake.help(help.to_owned()),
+            "" => error,
+            help => error.help(help.to_owned()),
         });
     }
 }

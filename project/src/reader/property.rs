@@ -1,7 +1,7 @@
 //! `[[property]]` and `[verify]`.
 
 use super::{Reader, Value, listed};
-use crate::property::{Asks, Row};
+use crate::property::{PropertyKind, Row};
 use crate::{Project, Range, device};
 use rungc_syntax::Span;
 use toml::de::DeTable;
@@ -38,28 +38,28 @@ impl Reader {
         let keys = [&["name", *kind], *others].concat();
         self.known(PROPERTY, table, &keys);
         let first = self.get(table, kind)?;
-        let asks = match *kind {
-            "never" => Asks::Never(first),
-            "always" => Asks::Always(first),
-            "reachable" => Asks::Reachable(first),
+        let kind = match *kind {
+            "never" => PropertyKind::Never(first),
+            "always" => PropertyKind::Always(first),
+            "reachable" => PropertyKind::Reachable(first),
             "whenever" => {
                 if !table.contains_key("then") {
                     self.wrong(at, "`whenever` requires `then`", "add `then = \"…\"`");
                 }
-                Asks::Whenever {
+                PropertyKind::Whenever {
                     when: first,
                     then: self.get(table, "then")?,
                     within: self.get(table, "within"),
                 }
             }
-            _ => Asks::Stays {
+            _ => PropertyKind::Stays {
                 holds: first,
                 until: self.get(table, "until"),
             },
         };
         Some(Row {
             name: self.get(table, "name").map(|name| name.text),
-            asks,
+            kind,
             span: at,
         })
     }

@@ -32,7 +32,7 @@ X007-X010 = "read b"
         )
     );
     let project = parse("[io.a]\nfiles = '.'\nX000 = 'read a'\nX777 = 'read b'\n").unwrap();
-    let Err(Error::Mistakes { diagnostics, .. }) = project.check_io(Model::get(ModelId::Fx1s))
+    let Err(Error::Invalid { diagnostics, .. }) = project.check_io(Model::get(ModelId::Fx1s))
     else {
         panic!("X777 is taken");
     };

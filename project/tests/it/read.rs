@@ -139,7 +139,7 @@ K = "K0"
         let mut program = rungc_syntax::Program::default();
         let path = Path::new("p.il");
         match project.complete(path, &mut program, Model::get(model)) {
-            Err(Error::Mistakes {
+            Err(Error::Invalid {
                 text, diagnostics, ..
             }) => {
                 let d = diagnostics.sorted().remove(0);
@@ -260,7 +260,7 @@ fn latched_devices_are_those_that_can_be() {
     assert_eq!(of(DeviceClass::M), [(500, 524)], "as usual");
     let why = |text: &str, model| {
         let project = parse(text).unwrap();
-        let Err(Error::Mistakes {
+        let Err(Error::Invalid {
             text, diagnostics, ..
         }) = project.complete(
             Path::new("p.il"),
@@ -363,7 +363,7 @@ proptest! {
 
     #[test]
     fn no_pieces_make_it_panic(pieces in prop::collection::vec(piece(), 0..40)) {
-        if let Err(Error::Mistakes { text, diagnostics, .. }) = parse(&pieces.concat()) {
+        if let Err(Error::Invalid { text, diagnostics, .. }) = parse(&pieces.concat()) {
             for d in diagnostics.iter() {
                 prop_assert!(d.span.start <= d.span.end && d.span.end as usize <= text.text.len());
             }
@@ -426,7 +426,7 @@ trigger = "M10"
     project.complete(&other, &mut program, model).unwrap();
     assert_eq!(program.instrs.len(), shown.len());
     let fx3u = project.complete(&file, &mut program, Model::get(ModelId::Fx3u));
-    let Err(Error::Mistakes { diagnostics, .. }) = fx3u else {
+    let Err(Error::Invalid { diagnostics, .. }) = fx3u else {
         panic!("FX3U has no Modbus table");
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
@@ -456,7 +456,7 @@ fn mistakes_in_rows_of_the_modbus_table() {
     for row in rows {
         let text = format!("[project]\nprogram = \"p.il\"\n\n[[modbus]]\n{row}\n");
         let parsed = Project::parse(Path::new("rungc.toml"), &text);
-        let Err(Error::Mistakes { diagnostics, .. }) = parsed else {
+        let Err(Error::Invalid { diagnostics, .. }) = parsed else {
             panic!("{row}: no mistake");
         };
         for diagnostic in diagnostics.iter() {
@@ -468,8 +468,7 @@ fn mistakes_in_rows_of_the_modbus_table() {
         "modbus = [1]",
         "[[modbus]]\nstation = 1\nread = \"coils\"\naddress = 0\nbuffer = \"D0\"",
     ] {
-        let Err(Error::Mistakes { diagnostics, .. }) =
-            Project::parse(Path::new("rungc.toml"), text)
+        let Err(Error::Invalid { diagnostics, .. }) = Project::parse(Path::new("rungc.toml"), text)
         else {
             panic!("{text}: no mistake");
         };
@@ -496,7 +495,7 @@ fn modules_are_fitted_to_the_plc() {
     assert_eq!(fitted, [(0, "FX2N-4AD", 0), (101, "H2U-4DA", 20)]);
     let mut program = rungc_frontend::read_text("p.il", "END\n").program;
     let of_fx = project.complete(path, &mut program, Model::get(ModelId::Fx3u));
-    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+    let Err(Error::Invalid { diagnostics, .. }) = of_fx else {
         panic!("FX3U has no remote modules");
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
@@ -521,7 +520,7 @@ fn modules_are_fitted_to_the_plc() {
         let mut program = rungc_frontend::read_text("p.il", "END\n").program;
         let fits = project.complete(path, &mut program, Model::get(id));
         let why = match fits {
-            Err(Error::Mistakes { diagnostics, .. }) => {
+            Err(Error::Invalid { diagnostics, .. }) => {
                 diagnostics.iter().next().map(|d| d.message.clone())
             }
             _ => None,
@@ -632,7 +631,7 @@ fn mistakes_in_a_network_of_canlink() {
         &mut program,
         Model::get(ModelId::Fx3u),
     );
-    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+    let Err(Error::Invalid { diagnostics, .. }) = of_fx else {
         panic!("FX3U has no CANlink");
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();

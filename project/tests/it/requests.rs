@@ -50,7 +50,7 @@ trigger = "S5"
     }
     let mut program = rungc_frontend::read_text("p.il", "LD X000\nEND\n").program;
     let fx1s = project.complete(&file, &mut program, Model::get(ModelId::Fx1s));
-    let Err(Error::Mistakes { diagnostics, .. }) = fx1s else {
+    let Err(Error::Invalid { diagnostics, .. }) = fx1s else {
         panic!("FX1S has no D205");
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();

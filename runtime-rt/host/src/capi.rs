@@ -1,18 +1,19 @@
 //! Connections and log of a program on a computer, for hosts in C: one instance per process.
 
-use crate::io::{Outside, Terminals};
+use crate::io::{Environment, Terminals};
 use rungc_rt::Plc;
 use rungc_rt::capi::Map;
 use std::borrow::Cow;
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-static OUTSIDE: Mutex<Option<Outside>> = Mutex::new(None);
+static ENVIRONMENT: Mutex<Option<Environment>> = Mutex::new(None);
 
 /// The one that there is.
-fn with<T>(does: impl FnOnce(&mut Outside) -> T) -> T {
-    let mut outside: MutexGuard<'_, _> = OUTSIDE.lock().unwrap_or_else(PoisonError::into_inner);
-    does(outside.get_or_insert_with(Outside::new))
+fn with<T>(does: impl FnOnce(&mut Environment) -> T) -> T {
+    let mut environment: MutexGuard<'_, _> =
+        ENVIRONMENT.lock().unwrap_or_else(PoisonError::into_inner);
+    does(environment.get_or_insert_with(Environment::new))
 }
 
 fn text<'a>(text: *const c_char) -> Cow<'a, str> {
@@ -27,7 +28,7 @@ fn text<'a>(text: *const c_char) -> Cow<'a, str> {
 fn check(program: &str, option: &str, value: &str, result: Result<(), String>) -> bool {
     let wrong = result.err();
     if let Some(why) = &wrong {
-        with(|outside| outside.say(&format!("{program}: {option} {value}: {why}")));
+        with(|environment| environment.report(&format!("{program}: {option} {value}: {why}")));
     }
     wrong.is_none()
 }
@@ -36,7 +37,7 @@ fn check(program: &str, option: &str, value: &str, result: Result<(), String>) -
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_describe(program: *const c_char, path: *const c_char) -> bool {
     let (program, path) = (text(program), text(path));
-    let described = with(|outside| outside.describe(&path));
+    let described = with(|environment| environment.describe(&path));
     check(&program, "--io", &path, described)
 }
 
@@ -44,29 +45,29 @@ pub extern "C" fn rungc_io_describe(program: *const c_char, path: *const c_char)
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_open_log(program: *const c_char, path: *const c_char) -> bool {
     let (program, path) = (text(program), text(path));
-    let begun = with(|outside| outside.log(&path));
+    let begun = with(|environment| environment.log(&path));
     check(&program, "--log", &path, begun)
 }
 
 /// Adds a line to the log, if there is one.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_log(line: *const c_char) {
-    with(|outside| outside.note(text(line).trim_end_matches('\n')));
+    with(|environment| environment.log_line(text(line).trim_end_matches('\n')));
 }
 
 /// Returns true if a connection reads standard input, which leaves none for commands.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_uses_stdin() -> bool {
-    with(|outside| outside.takes_input())
+    with(|environment| environment.takes_input())
 }
 
 /// Starts the connections, before the first scan; false after a message if that cannot be done.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_begin(program: *const c_char, map: &Map) -> bool {
-    let begun = with(|outside| outside.begin(map));
+    let begun = with(|environment| environment.begin(map));
     if let Err(why) = &begun {
         let program = text(program);
-        with(|outside| outside.say(&format!("{program}: {why}")));
+        with(|environment| environment.report(&format!("{program}: {why}")));
     }
     begun.is_ok()
 }
@@ -97,8 +98,8 @@ impl Terminals for InC<'_> {
     }
 
     fn input_edge(&mut self, number: u32, on: bool) {
-        if let Some(tell) = self.1.input_edge {
-            tell(self.1.context, number, on);
+        if let Some(notify) = self.1.input_edge {
+            notify(self.1.context, number, on);
         }
     }
 }
@@ -106,17 +107,17 @@ impl Terminals for InC<'_> {
 /// Before a scan: devices take what the other ends have given, or what they are to be while an end is lost.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_read_inputs(map: &mut Map, terminal: &Terminal) {
-    with(|outside| outside.take(&mut InC(map, terminal)));
+    with(|environment| environment.read_inputs(&mut InC(map, terminal)));
 }
 
 /// After a scan: the other ends are given what the devices are.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_write_outputs(map: &mut Map, terminal: &Terminal) {
-    with(|outside| outside.give(&mut InC(map, terminal)));
+    with(|environment| environment.write_outputs(&mut InC(map, terminal)));
 }
 
 /// The run is over: outputs are turned off, and the log is written.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_io_end() {
-    with(Outside::end);
+    with(Environment::end);
 }

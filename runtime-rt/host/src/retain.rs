@@ -103,19 +103,19 @@ impl RetainFile {
         Ok((file, loaded))
     }
 
-    /// Opens a file as a host does, which passes the messages for the user to `tell`.
+    /// Opens a file as a host does, which passes the messages for the user to `report`.
     ///
     /// # Errors
     /// Why the file cannot be used. One that holds the latched devices of another program is left as it is.
     pub fn begin(
         path: impl Into<PathBuf>,
         program: &mut dyn Program,
-        tell: impl FnOnce(String),
+        report: impl FnOnce(String),
     ) -> Result<Self, String> {
         let (file, loaded) = Self::open(path, program).map_err(|error| error.to_string())?;
         let path = file.path.display();
         match loaded {
-            Loaded::Nothing => tell(format!(
+            Loaded::Nothing => report(format!(
                 "{path} does not exist yet: latched devices begin as the PLC leaves the factory"
             )),
             Loaded::Foreign(owner) => {
@@ -125,7 +125,7 @@ impl RetainFile {
                 ));
             }
             Loaded::Restored { dropped: 0 } => {}
-            Loaded::Restored { dropped } => tell(format!(
+            Loaded::Restored { dropped } => report(format!(
                 "{path}: {dropped} of its devices are dropped: \
                  the program does not use them as latched devices any more"
             )),

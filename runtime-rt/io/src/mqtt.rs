@@ -5,7 +5,7 @@ use crate::tls::explained;
 #[cfg(not(feature = "tls"))]
 use rumqttc::ConnectionError;
 use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
-use rungc_host::io::{Connection, Driver, Opener, Trouble, address, password, take, topics};
+use rungc_host::io::{Connection, Driver, ExchangeError, Opener, address, password, take, topics};
 use std::collections::BTreeMap;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::thread::{self, JoinHandle};
@@ -171,7 +171,7 @@ impl Driver for Broker {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ExchangeError> {
         for row in connection.directed(false) {
             let values = &outputs[row.place.clone()];
             for topic in topics(row) {
@@ -185,10 +185,10 @@ impl Driver for Broker {
                     take(connection, &publish.topic, &publish.payload, inputs);
                 }
                 Ok(News::Connected) => {}
-                Ok(News::Lost(why)) => return Err(Trouble::Lost(why)),
+                Ok(News::Lost(why)) => return Err(ExchangeError::Lost(why)),
                 Err(TryRecvError::Empty) => return Ok(()),
                 Err(TryRecvError::Disconnected) => {
-                    return Err(Trouble::Lost("the connection has ended".to_string()));
+                    return Err(ExchangeError::Lost("the connection has ended".to_string()));
                 }
             }
         }

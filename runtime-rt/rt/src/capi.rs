@@ -63,7 +63,7 @@ pub struct Area {
     /// long as the longest has to be.
     pub columns: u32,
     /// Number of columns stored: the first ones.
-    pub kept: u32,
+    pub stored_columns: u32,
     /// Offset in the struct, in bytes.
     pub offset: usize,
 }

@@ -61,10 +61,10 @@ pub enum Error {
         error: io::Error,
     },
     /// Cargo failed.
-    #[error("cargo failed:\n{said}")]
+    #[error("cargo failed:\n{output}")]
     Failed {
         /// Its output.
-        said: String,
+        output: String,
     },
     /// Files cannot be written.
     #[error("{}: {error}", path.display())]
@@ -213,7 +213,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf,
     })?;
     if !output.status.success() {
         return Err(Error::Failed {
-            said: String::from_utf8_lossy(&output.stderr).into_owned(),
+            output: String::from_utf8_lossy(&output.stderr).into_owned(),
         });
     }
     let built = match recipe.target {

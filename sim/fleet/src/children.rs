@@ -82,11 +82,11 @@ impl<'m> Children<'m> {
         };
         let mut size = [0; 8];
         let first = &mut started.children[0];
-        let asked = first
-            .ask(b'M', (0, 0, 0), 0, 0)
+        let received = first
+            .request(b'M', (0, 0, 0), 0, 0)
             .and_then(|()| first.child.requests.flush())
             .and_then(|()| first.child.answers.read_exact(&mut size));
-        match asked {
+        match received {
             Ok(()) => started.size = u64::from_ne_bytes(size),
             Err(error) => return Err(first.ended(&error)),
         }
@@ -132,13 +132,13 @@ impl<'m> Children<'m> {
             for &(plc, device, first) in some {
                 let (child, plc) = self.place(plc);
                 self.with(child, |child| {
-                    child.ask(b'R', (plc, device, first), CHUNK as u16, 0)
+                    child.request(b'R', (plc, device, first), CHUNK as u16, 0)
                 });
             }
             for child in 0..self.children.len() {
                 if some.iter().any(|chunk| self.place(chunk.0).0 == child) {
                     self.with(child, |child| {
-                        child.ask(b'F', (0, 0, 0), 0, 0)?;
+                        child.request(b'F', (0, 0, 0), 0, 0)?;
                         child.child.requests.flush()
                     });
                 }
@@ -166,15 +166,15 @@ impl Running {
         })
     }
 
-    fn ask(
+    fn request(
         &mut self,
-        asks: u8,
+        code: u8,
         (plc, device, number): Chunk,
         count: u16,
         value: i32,
     ) -> io::Result<()> {
         let mut request = [0; 16];
-        request[0] = asks;
+        request[0] = code;
         request[1] = device;
         request[2..4].copy_from_slice(&count.to_ne_bytes());
         request[4..8].copy_from_slice(&plc.to_ne_bytes());
@@ -196,7 +196,7 @@ impl Running {
 
     /// Errors in its PLCs, the first of which has this number.
     fn failures(&mut self, first: u32) -> io::Result<Vec<Failed>> {
-        self.ask(b'E', (0, 0, 0), 0, 0)?;
+        self.request(b'E', (0, 0, 0), 0, 0)?;
         self.child.requests.flush()?;
         let mut count = [0; 4];
         self.child.answers.read_exact(&mut count)?;
@@ -243,7 +243,7 @@ impl Engine for Children<'_> {
         self.known.clear();
         for child in 0..self.children.len() {
             self.with(child, |child| {
-                child.ask(b'S', (0, 0, now_ms), 0, scan_us as i32)?;
+                child.request(b'S', (0, 0, now_ms), 0, scan_us as i32)?;
                 child.child.requests.flush()
             });
         }
@@ -273,7 +273,7 @@ impl Engine for Children<'_> {
         self.known.remove(&chunk(plc, at));
         let (child, plc) = self.place(plc);
         self.with(child, |child| {
-            child.ask(b'W', (plc, device(at), at.number), 0, value)
+            child.request(b'W', (plc, device(at), at.number), 0, value)
         })
     }
 
@@ -296,10 +296,10 @@ impl Engine for Children<'_> {
         }
         self.known.remove(&(plc, RUNNING, 0));
         let (child, plc) = self.place(plc);
-        let asked = self.with(child, |child| {
-            child.ask(b'T', (plc, 0, 0), 0, running.into())
+        let received = self.with(child, |child| {
+            child.request(b'T', (plc, 0, 0), 0, running.into())
         });
-        asked.is_some()
+        received.is_some()
     }
 
     fn failures(&mut self) -> Vec<Failed> {

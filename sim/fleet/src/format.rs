@@ -2,7 +2,7 @@
 //! place.
 
 use crate::broker::{Broker, NUMBER, Rows};
-use rungc_host::io::{Connection, Kind, Mistake, Row, time};
+use rungc_host::io::{Connection, Kind, Row, SettingError, time};
 use rungc_models::Model;
 use rungc_models::runs::name_class;
 use rungc_project::{Error, device};
@@ -158,13 +158,13 @@ impl Fleet {
             reader.document(document.get_ref(), &mut fleet);
         }
         match reader.found.has_errors() {
-            true => Err(fleet.mistakes(reader.found)),
+            true => Err(fleet.invalid(reader.found)),
             false => Ok(fleet),
         }
     }
 
-    fn mistakes(&self, diagnostics: Diagnostics) -> Error {
-        Error::Mistakes {
+    fn invalid(&self, diagnostics: Diagnostics) -> Error {
+        Error::Invalid {
             path: self.path.clone(),
             text: Box::new(self.source.clone()),
             diagnostics,
@@ -172,10 +172,10 @@ impl Fleet {
     }
 
     /// That something does not fit, for what only the caller can know.
-    pub fn mistake(&self, why: Diagnostic) -> Error {
+    pub fn error(&self, why: Diagnostic) -> Error {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(why);
-        self.mistakes(diagnostics)
+        self.invalid(diagnostics)
     }
 
     /// The program of PLCs, as seen from the caller's folder.
@@ -344,12 +344,12 @@ impl Reader {
         let texts: Vec<_> = pairs.iter().map(|(key, text)| (&**key, &**text)).collect();
         match Connection::read(name, &texts) {
             Ok(connection) => Some(connection),
-            Err(mistakes) => {
-                for Mistake {
+            Err(invalid) => {
+                for SettingError {
                     pair,
                     message,
                     help,
-                } in mistakes
+                } in invalid
                 {
                     let at = pair.and_then(|pair| spans.get(pair)).copied();
                     self.help(at.unwrap_or_default(), message, help);

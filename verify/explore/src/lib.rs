@@ -17,7 +17,7 @@ pub mod search;
 pub mod shrink;
 pub mod task;
 pub mod trains;
-pub mod untried;
+pub mod unvaried;
 pub(crate) mod vary;
 pub mod wide;
 

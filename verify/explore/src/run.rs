@@ -318,8 +318,8 @@ impl<'t> Runner<'t> {
         }
         let outputs = self.task.notes.coils.iter();
         let doubled = outputs.filter(|(_, coils)| {
-            let said = coils.iter().filter(|coil| machine.flag(coil.executed));
-            differ(said.map(|coil| machine.flag(coil.on)))
+            let driven = coils.iter().filter(|coil| machine.flag(coil.executed));
+            differ(driven.map(|coil| machine.flag(coil.on)))
         });
         found.extend(doubled.map(|(output, _)| What::Doubled(*output)));
         for (output, was, times) in &mut self.outputs {
@@ -398,9 +398,9 @@ impl<'t> Runner<'t> {
 }
 
 /// Returns true if the last of the coils of an output that a scan has executed is off, and one before it is on.
-pub fn differ(said: impl DoubleEndedIterator<Item = bool>) -> bool {
-    let mut said = said.rev();
-    said.next() == Some(false) && said.any(|on| on)
+pub fn differ(driven: impl DoubleEndedIterator<Item = bool>) -> bool {
+    let mut driven = driven.rev();
+    driven.next() == Some(false) && driven.any(|on| on)
 }
 
 /// Runs these steps from power-on; the run until what is searched for has happened, if it does.

@@ -72,7 +72,7 @@ impl At {
     }
 
     /// Returns true if pulses may come to both in one step.
-    fn comes_beside(self, other: At) -> bool {
+    fn may_coincide(self, other: At) -> bool {
         let both = matches!((self, other), (At::Encoder(..), At::Encoder(..)));
         let mut inputs = other.inputs();
         !both && inputs.all(|input| self.inputs().all(|own| own != input))
@@ -106,7 +106,7 @@ pub(crate) fn are_possible(task: &Task, step: &Step) -> bool {
         let at = task.sources[source].at;
         let before = step.pulses[..i].iter();
         let mut before = before.map(|&(other, _)| task.sources[other].at);
-        count.unsigned_abs() <= most && before.all(|other| at.comes_beside(other))
+        count.unsigned_abs() <= most && before.all(|other| at.may_coincide(other))
     })
 }
 
@@ -226,7 +226,7 @@ impl<'t> Trains<'t> {
             let source = rng.usize(..self.sources.len());
             let at = self.sources[source].at;
             let mut others = pulses.iter().map(|&(other, _)| self.sources[other].at);
-            if others.all(|other| at.comes_beside(other)) {
+            if others.all(|other| at.may_coincide(other)) {
                 let count = self.count(&self.sources[source], machine, rng, (scan_ms, most_ms));
                 pulses.push((source, count));
             }

@@ -221,8 +221,8 @@ mod tests {
                 (other_gap, Input::Gap(0)),
             ],
             constraints: vec![either],
-            wishes: vec![!gap],
-            first_wishes: Vec::new(),
+            replay_assumptions: vec![!gap],
+            first_replay_assumptions: Vec::new(),
             bad,
             aig,
         };

@@ -5,10 +5,10 @@
 //! a run that the interpreter has confirmed.
 
 use crate::aig::Lit;
-use crate::chance::{Chance, Lanes};
 use crate::model::{Encoder, Key, Probes, World};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
+use crate::random::{Lanes, Random};
 use crate::replay::{Run, plain};
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
@@ -248,7 +248,7 @@ fn simulate(
     (candidates, report): (&mut [Candidate], &mut Report),
     deadline: Instant,
 ) {
-    let mut chance = Chance::new();
+    let mut random = Random::new();
     let written = encoder.probes.iter().flat_map(|probes| &probes.bits);
     let set_up = timers_that_are_set_up(module);
     let mut outputs: Vec<(u32, u32, Lit)> = written
@@ -264,7 +264,7 @@ fn simulate(
         })
         .collect();
     for run in 0..RUNS {
-        let mut lanes = Lanes::new(system, &mut chance);
+        let mut lanes = Lanes::new(system, &mut random);
         // Some runs wait for all timers; in the others scans are short.
         let waits = run % 2 == 1;
         for phase in 0..4 {
@@ -273,14 +273,14 @@ fn simulate(
                 let quiet = scan >= PHASE;
                 let ms = match (run + phase + scan, scan) {
                     (0, _) => 0,
-                    _ if waits && chance.below(3) == 0 => FOREVER_MS,
-                    _ => [1, 10, 100, 30][chance.below(4) as usize],
+                    _ if waits && random.below(3) == 0 => FOREVER_MS,
+                    _ => [1, 10, 100, 30][random.below(4) as usize],
                 };
                 let ms = if phase + scan == 0 { 0 } else { ms };
                 lanes.scan(
                     if quiet && !waits { ms.min(1) } else { ms },
                     !quiet,
-                    &mut chance,
+                    &mut random,
                 );
                 for candidate in candidates.iter_mut() {
                     candidate.happened |= lanes.value(candidate.happens) != 0;

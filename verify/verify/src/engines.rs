@@ -43,7 +43,7 @@ pub fn compare(
     devices: &[(DeviceClass, u32)],
     trace: &Trace,
 ) -> Result<(), Mismatch> {
-    engine.ask(Request::Case(number))?;
+    engine.execute(Request::Case(number))?;
     let mut run = Run::new(module, trace);
     for (&key, &value) in &trace.start {
         set(engine, key, value)?;
@@ -54,7 +54,7 @@ pub fn compare(
             set(engine, key, value)?;
         }
         now_ms = now_ms.wrapping_add(scan.ms);
-        engine.ask(Request::Scan {
+        engine.execute(Request::Scan {
             now_ms,
             scan_us: scan.scan_time * 100,
         })?;
@@ -63,7 +63,7 @@ pub fn compare(
             .iter()
             .filter_map(|&device| Some((device, question(device)?)));
         for ((class, number), request) in asked {
-            let (here, there) = (value(&run.machine, request), engine.ask(request)?);
+            let (here, there) = (value(&run.machine, request), engine.execute(request)?);
             if let (Some(here), Answer::Value(there)) = (here, there)
                 && here != there
             {
@@ -103,7 +103,7 @@ fn set(engine: &mut dyn Engine, key: Key, value: i64) -> Result<(), EngineError>
         }
         _ => None,
     };
-    request.map_or(Ok(()), |request| engine.ask(request).map(|_| ()))
+    request.map_or(Ok(()), |request| engine.execute(request).map(|_| ()))
 }
 
 /// Request for a device's value.

@@ -1,10 +1,10 @@
 //! From a program and a property to a verdict.
 
-use crate::chance::LongRuns;
 use crate::model::{Encoder, Gap, Input, Key, World};
 use crate::pdr;
 use crate::proof::{Method, Posed, Proof};
 use crate::property::{Condition, Property};
+use crate::random::LongRuns;
 use crate::replay;
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
@@ -362,14 +362,14 @@ impl<'a> Ways<'a> {
         }
         // Runs by chance continue where they were; the others begin anew.
         let longer = (Instant::now() + 2 * time).min(end);
-        if let Some(found) = self.by_chance(longer) {
+        if let Some(found) = self.random_runs(longer) {
             return Some(found.into());
         }
         self.as_it_is.invariant(time, end).map(Answer::from)
     }
 
     /// Continues the search over long runs.
-    fn by_chance(&mut self, until: Instant) -> Option<Verdict> {
+    fn random_runs(&mut self, until: Instant) -> Option<Verdict> {
         /// Long enough for what shortens a run.
         const MOST: Duration = Duration::from_secs(3);
         let happens = |trace: &Trace| self.question.happens(trace);

@@ -5,8 +5,8 @@
 //! question about a system whose classes are one bit each is simpler, and often answered by that.
 
 use crate::aig::{Aig, Lit, Node};
-use crate::chance::{Chance, Lanes};
 use crate::proof::Fact;
+use crate::random::{Lanes, Random};
 use crate::sat::{Answer, Solver};
 use crate::system::{Latch, System};
 use rustc_hash::FxHashMap;
@@ -50,7 +50,7 @@ type Classes = Vec<Option<usize>>;
 
 /// The same system, smaller; `None` if the time is up before anything is proved.
 pub(crate) fn reduced(system: &System, deadline: Instant) -> Option<Reduced> {
-    let mut classes = by_chance(system);
+    let mut classes = random_runs(system);
     loop {
         if Instant::now() > deadline {
             return None;
@@ -63,18 +63,18 @@ pub(crate) fn reduced(system: &System, deadline: Instant) -> Option<Reduced> {
 }
 
 /// Latches that have behaved in the same way in all runs by chance, as seen from what they begin with.
-fn by_chance(system: &System) -> Classes {
+fn random_runs(system: &System) -> Classes {
     let known = |latch: &Latch| latch.init.map(|_| 0);
     let mut classes: Classes = system.latches.iter().map(known).collect();
-    let mut chance = Chance::new();
+    let mut random = Random::new();
     for run in 0..RUNS {
-        let mut lanes = Lanes::new(system, &mut chance);
+        let mut lanes = Lanes::new(system, &mut random);
         for scan in 0..SCANS {
             let ms = match scan {
                 0 => 0,
-                _ => [1, 10, 100, 30][chance.below(4) as usize],
+                _ => [1, 10, 100, 30][random.below(4) as usize],
             };
-            lanes.scan(ms, (run + scan) % 3 != 2, &mut chance);
+            lanes.scan(ms, (run + scan) % 3 != 2, &mut random);
             let alive = lanes.alive;
             let held = lanes.latches().iter();
             split(system, &mut classes, held.map(|bits| bits & alive), alive);
@@ -152,8 +152,8 @@ fn substituted(system: &System, classes: &Classes) -> Reduced {
             latches: kept.iter().map(latch).collect(),
             inputs: system.inputs.iter().map(|&(l, i)| (of(l), i)).collect(),
             constraints: all(&system.constraints),
-            wishes: all(&system.wishes),
-            first_wishes: all(&system.first_wishes),
+            replay_assumptions: all(&system.replay_assumptions),
+            first_replay_assumptions: all(&system.first_replay_assumptions),
             bad: of(system.bad),
             aig,
         },
@@ -295,8 +295,8 @@ mod tests {
             latches,
             inputs: Vec::new(),
             constraints: Vec::new(),
-            wishes: Vec::new(),
-            first_wishes: Vec::new(),
+            replay_assumptions: Vec::new(),
+            first_replay_assumptions: Vec::new(),
             bad: Lit::FALSE,
         };
         (system, now)

@@ -42,7 +42,7 @@ pub struct Compared {
     /// All outputs that one of them has.
     pub outputs: Vec<Output>,
     /// True if modules, serial ports and pulse outputs are proved to be used in the same way.
-    pub same_outside: bool,
+    pub same_environment: bool,
     /// Operations not modelled in either, assumed to be the same function in both.
     pub functions: Vec<Gap>,
     /// Formula that is never satisfied: a scan begins with equal values in all memory that both have in common, and
@@ -100,7 +100,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     });
     Compared {
         outputs: outputs.collect(),
-        same_outside: product.same_outside(),
+        same_environment: product.same_environment(),
         apart: product.apart(&names),
         functions: BTreeSet::from_iter(product.encoder().gaps.iter().cloned())
             .into_iter()

@@ -182,13 +182,13 @@ mod tests {
     fn both_solvers_give_the_same_answers() {
         use super::{Engine, SatLit};
         let deadline = Instant::now() + Duration::from_secs(60);
-        let mut chance = 1u64;
+        let mut random = 1u64;
         let mut lit = || {
-            chance = chance
+            random = random
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1);
-            let variable = (chance >> 33) as i32 % 20 + 1;
-            SatLit(if chance >> 63 == 1 {
+            let variable = (random >> 33) as i32 % 20 + 1;
+            SatLit(if random >> 63 == 1 {
                 variable
             } else {
                 -variable

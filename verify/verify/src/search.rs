@@ -34,17 +34,17 @@ pub(crate) struct Bounded<'s> {
     unroller: Unroller<'s>,
     solver: Solver,
     /// Supposes what a replay needs: scans of at least a millisecond and the like.
-    wishes: bool,
+    replay_assumptions: bool,
 }
 
 impl<'s> Bounded<'s> {
-    /// A search; `wishes` leaves out what a replay cannot show.
-    pub fn new(system: &'s System, wishes: bool, deadline: Instant) -> Self {
+    /// A search; `replay_assumptions` leaves out what a replay cannot show.
+    pub fn new(system: &'s System, replay_assumptions: bool, deadline: Instant) -> Self {
         Bounded {
             system,
             unroller: Unroller::new(system, true),
             solver: Solver::new(deadline),
-            wishes,
+            replay_assumptions,
         }
     }
 
@@ -57,10 +57,20 @@ impl<'s> Bounded<'s> {
     pub fn step(&mut self) -> Step {
         self.unroller.extend();
         let scan = self.unroller.len() - 1;
-        let wishes = self.system.wishes.iter().filter(|_| self.wishes);
-        let first = self.system.first_wishes.iter();
-        let first = first.filter(|_| self.wishes && scan == 0);
-        for &holds in self.system.constraints.iter().chain(wishes).chain(first) {
+        let replay_assumptions = self
+            .system
+            .replay_assumptions
+            .iter()
+            .filter(|_| self.replay_assumptions);
+        let first = self.system.first_replay_assumptions.iter();
+        let first = first.filter(|_| self.replay_assumptions && scan == 0);
+        for &holds in self
+            .system
+            .constraints
+            .iter()
+            .chain(replay_assumptions)
+            .chain(first)
+        {
             let holds = self.unroller.at(scan, holds);
             let holds = self.solver.lit(&self.unroller.aig, holds);
             self.solver.clause(&[holds]);

@@ -31,9 +31,9 @@ pub struct System {
     /// Conditions that hold in every scan.
     pub constraints: Vec<Lit>,
     /// Additional assumptions for a counterexample, so that it can be replayed.
-    pub wishes: Vec<Lit>,
+    pub replay_assumptions: Vec<Lit>,
     /// The same, of the first scan.
-    pub first_wishes: Vec<Lit>,
+    pub first_replay_assumptions: Vec<Lit>,
     /// Event that must not happen.
     pub bad: Lit,
 }
@@ -85,8 +85,11 @@ impl System {
 
     /// The constraints and the wishes.
     fn conditions(&self) -> impl Iterator<Item = Lit> {
-        let wishes = self.wishes.iter().chain(&self.first_wishes);
-        self.constraints.iter().chain(wishes).copied()
+        let replay_assumptions = self
+            .replay_assumptions
+            .iter()
+            .chain(&self.first_replay_assumptions);
+        self.constraints.iter().chain(replay_assumptions).copied()
     }
 
     /// The latches by their nodes.
@@ -151,8 +154,8 @@ impl System {
                 .filter_map(|&(lit, input)| Some((new(&map, lit)?, input)))
                 .collect(),
             constraints: lits(&self.constraints),
-            wishes: lits(&self.wishes),
-            first_wishes: lits(&self.first_wishes),
+            replay_assumptions: lits(&self.replay_assumptions),
+            first_replay_assumptions: lits(&self.first_replay_assumptions),
             bad: new(&map, bad).unwrap_or(Lit::FALSE),
             aig,
         }

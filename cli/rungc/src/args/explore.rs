@@ -11,7 +11,7 @@ pub struct ExploreArgs {
     #[command(flatten)]
     pub input: Input,
     #[command(flatten)]
-    pub asked: Properties,
+    pub properties: Properties,
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,

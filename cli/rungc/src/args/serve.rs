@@ -52,7 +52,7 @@ pub struct ServeArgs {
     pub of_project: bool,
     /// The program asks servers over TCP, which its settings name.
     #[arg(skip)]
-    pub asks: bool,
+    pub sends_requests: bool,
     #[command(flatten)]
     pub page: PageArgs,
 }
@@ -78,7 +78,7 @@ impl ServeArgs {
             && self.named_lines().next().is_none()
             && self.io.is_none()
             && !self.of_project
-            && !self.asks
+            && !self.sends_requests
             && self.page.page.is_none())
     }
 

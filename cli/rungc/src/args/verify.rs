@@ -10,7 +10,7 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub input: Input,
     #[command(flatten)]
-    pub asked: Properties,
+    pub properties: Properties,
     /// Compare with this older program instead: can an output differ, given the same inputs at the same times?
     #[arg(
         long,

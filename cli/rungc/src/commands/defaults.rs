@@ -22,7 +22,7 @@ fn unknown(project: &Project, name: &Named, what: &str, names: &[String]) -> Err
         None => format!("available: {}", names.join(", ")),
     };
     let message = format!("unknown {what} `{}`", name.text);
-    project.mistake(name.mistake(message).help(help))
+    project.error(name.error(message).help(help))
 }
 
 /// A choice of the command line, by its name there.

@@ -16,7 +16,7 @@ use crate::progress;
 use crate::report::{Findings, Reporter};
 use rungc_explore::run::{POWER, Runner};
 use rungc_explore::trains::At;
-use rungc_explore::untried::untried;
+use rungc_explore::unvaried::unvaried;
 use rungc_explore::{Found, Limits, Task, What, search, shrink};
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -36,7 +36,7 @@ struct Searched<'a> {
     module: &'a Module,
     task: &'a Task<'a>,
     /// The properties as requested.
-    asked: &'a [RequestedProperty],
+    requested: &'a [RequestedProperty],
 }
 
 /// Something found, with its run as tests and reports have it.
@@ -55,14 +55,16 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = read(&subject, &mut reporter)?;
     let reader = Reader {
-        args: &args.asked,
+        args: &args.properties,
         subject: &subject,
         program: &read.program,
         cx,
     };
-    let (asked, assumed) = (reader.properties()?, reader.assumed()?);
+    let (requested, assumed) = (reader.properties()?, reader.assumed()?);
     let assumed: Vec<Condition> = assumed.into_iter().map(|(_, a)| a).collect();
-    let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
+    let conditions = requested
+        .iter()
+        .flat_map(|requested| requested.property.conditions());
     let conditions = conditions.chain(&assumed);
     let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
         reporter.finish()?;
@@ -73,15 +75,18 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     if let Some(machine) = &machine {
         machine.check(module.model).map_err(because)?;
     }
-    let properties: Vec<Property> = asked.iter().map(|asked| asked.property.clone()).collect();
+    let properties: Vec<Property> = requested
+        .iter()
+        .map(|requested| requested.property.clone())
+        .collect();
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
     let hal = Box::new(hardware::of(fitted));
-    let outside: Vec<_> = reader.outside().devices.into_keys().collect();
+    let external: Vec<_> = reader.external().devices.into_keys().collect();
     let mut task = Task::new(
         &module,
         (&properties, &assumed),
-        &outside,
+        &external,
         reader.scan_ms()?,
         (machine.as_ref(), hal),
     );
@@ -95,7 +100,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         read: &read,
         module: &module,
         task: &task,
-        asked: &asked,
+        requested: &requested,
     };
     searched.run(reporter, cx)
 }
@@ -114,7 +119,7 @@ impl Searched<'_> {
         interruption::note();
         let report = progress::spin("searching", || {
             search(self.task, &limits, &mut |report| {
-                interruption::is_asked() || args.first && !report.found.is_empty()
+                interruption::is_requested() || args.first && !report.found.is_empty()
             })
         });
         let report = report.map_err(Failure::Because)?;
@@ -129,13 +134,13 @@ impl Searched<'_> {
         if for_people {
             print_text(&self.human(&shown, &report))?;
         }
-        for what in untried(self.task) {
+        for what in unvaried(self.task) {
             cx.note(&format!("   Not tried: {what}"));
         }
         self.write(&shown, cx)?;
         Ok(
             match shown.iter().any(|shown| self.is_fault(&shown.found)) {
-                _ if interruption::is_asked() => Outcome::Interrupted,
+                _ if interruption::is_requested() => Outcome::Interrupted,
                 true => Outcome::Failed,
                 false => Outcome::Success,
             },
@@ -175,7 +180,7 @@ impl Searched<'_> {
     /// Returns true if this is a fault of the program: all but the goals of `--reachable`.
     fn is_fault(&self, found: &Found) -> bool {
         match found.what {
-            What::Property(number) => !self.asked[number].property.is_wanted(),
+            What::Property(number) => !self.requested[number].property.is_wanted(),
             _ => true,
         }
     }
@@ -278,7 +283,7 @@ impl Searched<'_> {
         let message = self.sentence(&found.what);
         let (code, devices, step) = match &found.what {
             What::Property(number) => {
-                let conditions = self.asked[*number].property.conditions();
+                let conditions = self.requested[*number].property.conditions();
                 let devices = conditions.into_iter().flat_map(Condition::devices);
                 (&codes::PROPERTY_VIOLATED, devices.collect(), None)
             }
@@ -309,6 +314,6 @@ fn seen<'a>(runner: &'a Runner<'_>) -> Seen<'a> {
 }
 
 /// A path in a test file's folder, for what the file names.
-fn beside(test: &Path, path: &Path) -> PathBuf {
+fn relative_to(test: &Path, path: &Path) -> PathBuf {
     super::verify::test_file::relative(path, test).into()
 }

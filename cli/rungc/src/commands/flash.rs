@@ -71,7 +71,7 @@ fn failed(code: &Code, why: &str) -> Outcome {
     eprint_line(&format!(
         "rungc: error[{id}]: {why}\n       for more, run `rungc explain {id}`"
     ));
-    match interruption::is_asked() {
+    match interruption::is_requested() {
         true => Outcome::Interrupted,
         false => Outcome::Failed,
     }
@@ -157,7 +157,7 @@ impl Board {
         let misfit = |error: FlashError| Stop::Failed(&codes::IMAGE_MISFIT, error.to_string());
         let mut plan = Writer::<Port>::fit(self.chip, self.flash, payload).map_err(misfit)?;
         if !self.is_readable && !args.unprotect {
-            let why = "the part is read protected: its firmware and program cannot be read or saved, only erased for ever, \
+            let why = "the part is read protected: its firmware and program cannot be read or saved, only erased permanently, \
                        with --unprotect";
             return Err(Stop::Failed(&codes::CHIP_PROTECTED, why.to_string()));
         }
@@ -173,7 +173,7 @@ impl Board {
             cx.note("   Unchanged: flash already holds the image");
             return self.finish(args, payload, cx);
         }
-        ask(&self.loss(&plan, args), args.yes)?;
+        confirm(&self.loss(&plan, args), args.yes)?;
         interruption::note();
         if !self.is_readable {
             self.lift(Loader::unprotect)?;
@@ -232,10 +232,10 @@ impl Board {
         Ok(())
     }
 
-    /// Warning about the data that are lost for ever.
+    /// Warning about the data that are lost permanently.
     fn loss(&self, plan: &Plan, args: &FlashArgs) -> String {
         if !self.is_readable {
-            return "All of flash is erased: the firmware and the PLC program in it are lost for ever. The part is read protected: they cannot \
+            return "All of flash is erased: the firmware and the PLC program in it are lost permanently. The part is read protected: they cannot \
                     be saved before or restored afterwards."
                 .to_string();
         }
@@ -259,7 +259,7 @@ impl Board {
             _ => format!("{} of ", pages.len()),
         };
         format!(
-            "Erases {some}{unit}s {first} to {last} (0x{:08X} to 0x{:08X}): the firmware and the PLC program in them are lost for ever. {saved}",
+            "Erases {some}{unit}s {first} to {last} (0x{:08X} to 0x{:08X}): the firmware and the PLC program in them are lost permanently. {saved}",
             start.start,
             end.end - 1,
         )
@@ -293,7 +293,7 @@ impl Board {
 }
 
 /// Says what is lost, and asks whether to continue.
-fn ask(loss: &str, yes: bool) -> std::result::Result<(), Failure> {
+fn confirm(loss: &str, yes: bool) -> std::result::Result<(), Failure> {
     eprint_line(&format!("rungc: {loss}"));
     if yes {
         return Ok(());

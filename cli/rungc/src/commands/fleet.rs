@@ -40,7 +40,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             Err(outcome) => return Ok(outcome),
         }
     }
-    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.mistake(*why), reporting, cx);
+    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.error(*why), reporting, cx);
     memory::allow_files(&fleet);
     let folder = tempfile::tempdir()?;
     let mut groups = Vec::new();
@@ -74,7 +74,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
                 let why = format!("cannot serve Modbus TCP at {address}: {error}");
                 refuse(FLEET_PORT.at(plcs.modbus_span, why).into())
             })?;
-            tell_ports(&group, plcs, cx);
+            print_ports(&group, plcs, cx);
         }
         let about = About {
             module: &compiled.module,
@@ -95,7 +95,7 @@ fn compile(
     cx: Context,
 ) -> std::result::Result<std::result::Result<Compiled, super::Outcome>, Failure> {
     let reporting = &args.reading.reporting;
-    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.mistake(*why), reporting, cx);
+    let refuse = |why: Box<Diagnostic>| subject::refuse(fleet.error(*why), reporting, cx);
     let input = Input {
         file: Some(subject::near(fleet.program(plcs))),
         reading: args.reading.clone(),
@@ -186,7 +186,7 @@ fn check_settings(
 }
 
 /// Says where clients reach the PLCs of a group.
-fn tell_ports(group: &Group<'_>, plcs: &Plcs, cx: Context) {
+fn print_ports(group: &Group<'_>, plcs: &Plcs, cx: Context) {
     let Some((first, last, ports)) = group.ports() else {
         return;
     };

@@ -12,7 +12,7 @@ pub const EXIT_CODE: u8 = 130;
 /// Time allowed for a command to react.
 const GRACE: Duration = Duration::from_secs(2);
 
-static ASKED: AtomicBool = AtomicBool::new(false);
+static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// From now an interruption is noted, and the command ends when it comes to notice; a second one ends it at once.
 pub fn note() {
@@ -28,7 +28,7 @@ pub fn note_for_a_while() {
 fn install(grace: Option<Duration>) {
     // If the system accepts no handler, it ends the process as if there were none.
     let _ = ctrlc::set_handler(move || {
-        if ASKED.swap(true, Ordering::Relaxed) {
+        if REQUESTED.swap(true, Ordering::Relaxed) {
             process::exit(EXIT_CODE.into());
         }
         if let Some(grace) = grace {
@@ -41,6 +41,6 @@ fn install(grace: Option<Duration>) {
 }
 
 /// Returns true if the command has been interrupted.
-pub fn is_asked() -> bool {
-    ASKED.load(Ordering::Relaxed)
+pub fn is_requested() -> bool {
+    REQUESTED.load(Ordering::Relaxed)
 }

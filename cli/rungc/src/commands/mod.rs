@@ -167,7 +167,7 @@ pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<R
         };
         let model = compile::model(&read.program, &options);
         if let Err(error) = project.complete(&subject.file, &mut read.program, model) {
-            subject::report_mistakes(error, &subject.reporting, reporter)?;
+            subject::report_invalid(error, &subject.reporting, reporter)?;
             return Err(Failure::Reported);
         }
     }

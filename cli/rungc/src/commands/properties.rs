@@ -11,7 +11,7 @@ use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::Model;
-use rungc_project::property::{Asks, Row};
+use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
 use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
@@ -78,22 +78,22 @@ impl Reader<'_> {
             ("always", &self.args.always, Property::Always),
             ("reachable", &self.args.reachable, Property::Reachable),
         ];
-        let mut asked = Vec::new();
+        let mut requested = Vec::new();
         for (name, texts, kind) in kinds {
             for text in texts {
-                asked.push(RequestedProperty {
+                requested.push(RequestedProperty {
                     text: format!("{name} {text}"),
                     property: kind(self.given(&format!("--{name}"), text)?),
                 });
             }
         }
-        if let (true, Some(project)) = (asked.is_empty(), self.project()) {
+        if let (true, Some(project)) = (requested.is_empty(), self.project()) {
             let rows = project.properties.iter();
-            asked = rows
+            requested = rows
                 .map(|row| self.row(project, row))
                 .collect::<Result<_>>()?;
         }
-        Ok(asked)
+        Ok(requested)
     }
 
     /// The longest time from one scan to the next, in milliseconds.
@@ -110,9 +110,9 @@ impl Reader<'_> {
     }
 
     /// Devices that may be written from outside the program, by the command line and the settings.
-    pub fn outside(&self) -> ExternalWrites {
-        let mut outside = ExternalWrites::default();
-        let devices = &mut outside.devices;
+    pub fn external(&self) -> ExternalWrites {
+        let mut external = ExternalWrites::default();
+        let devices = &mut external.devices;
         let mut add = |by: &'static str, class, numbers: std::ops::RangeInclusive<u32>| {
             for number in numbers.filter(|_| class != DeviceClass::X) {
                 devices.entry((class, number)).or_insert(by);
@@ -125,12 +125,12 @@ impl Reader<'_> {
             for range in &project.verify.free {
                 add("[verify]", range.class, range.first..=range.last);
             }
-            for (by, run) in project.written_outside() {
+            for (by, run) in project.written_externally() {
                 add(by, run.class, run.first..=run.first + run.count - 1);
             }
-            outside.has_clients = project.serve.any();
+            external.has_clients = project.serve.any();
         }
-        outside
+        external
     }
 
     /// A time in milliseconds: that of the command line, else that of the settings, else the usual one.
@@ -169,10 +169,10 @@ impl Reader<'_> {
 
     /// A condition of the command line.
     fn given(&self, option: &str, text: &str) -> Result<Condition> {
-        self.parse(text).map_err(|mistake| {
-            let before = text[..mistake.at.min(text.len())].chars().count();
+        self.parse(text).map_err(|error| {
+            let before = text[..error.at.min(text.len())].chars().count();
             let marker = " ".repeat(before);
-            let why = mistake.why;
+            let why = error.why;
             Failure::Because(format!("{option}: {why}\n  {text}\n  {marker}^"))
         })
     }
@@ -180,11 +180,11 @@ impl Reader<'_> {
     /// A condition of the settings.
     fn condition(&self, project: &Project, named: &Named) -> Result<Condition> {
         self.parse(&named.text)
-            .map_err(|mistake| self.refused(project, named, mistake.why))
+            .map_err(|error| self.refused(project, named, error.why))
     }
 
     fn refused(&self, project: &Project, named: &Named, why: String) -> Failure {
-        let error = project.mistake(named.mistake(why));
+        let error = project.error(named.error(why));
         subject::refuse(error, &self.subject.reporting, self.cx)
     }
 
@@ -198,17 +198,17 @@ impl Reader<'_> {
 
     fn row(&self, project: &Project, row: &Row) -> Result<RequestedProperty> {
         let condition = |named: &Named| self.condition(project, named);
-        let (text, property) = match &row.asks {
-            Asks::Never(a) => (format!("never {}", a.text), Property::Never(condition(a)?)),
-            Asks::Always(a) => (
+        let (text, property) = match &row.kind {
+            PropertyKind::Never(a) => (format!("never {}", a.text), Property::Never(condition(a)?)),
+            PropertyKind::Always(a) => (
                 format!("always {}", a.text),
                 Property::Always(condition(a)?),
             ),
-            Asks::Reachable(a) => (
+            PropertyKind::Reachable(a) => (
                 format!("reachable {}", a.text),
                 Property::Reachable(condition(a)?),
             ),
-            Asks::Whenever { when, then, within } => {
+            PropertyKind::Whenever { when, then, within } => {
                 let soon = within
                     .as_ref()
                     .map_or_else(String::new, |w| format!(" within {}", w.text));
@@ -226,7 +226,7 @@ impl Reader<'_> {
                     property,
                 )
             }
-            Asks::Stays { holds, until } => {
+            PropertyKind::Stays { holds, until } => {
                 let end = until
                     .as_ref()
                     .map_or_else(String::new, |u| format!(" until {}", u.text));

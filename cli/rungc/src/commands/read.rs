@@ -107,7 +107,7 @@ impl Plc {
             return Err(client.failure(why));
         };
         let type_code = u16::from_le_bytes([*low, *high]);
-        let is_fx3 = matches!(client.ask(FX3_ONLY)?, Reply::Data(_));
+        let is_fx3 = matches!(client.request(FX3_ONLY)?, Reply::Data(_));
         let known = TYPES.iter();
         let mut known = known.filter(|(code, ..)| *code == type_code / 1000);
         let exact = known.clone().find(|(_, fx3, _)| *fx3 == is_fx3);
@@ -166,7 +166,7 @@ impl Plc {
 
     /// Length of the memory up to `END`, where the PLC finds it.
     fn end(&mut self) -> std::result::Result<Option<usize>, Failure> {
-        let reply = self.client.ask(b"E41805C0F00")?;
+        let reply = self.client.request(b"E41805C0F00")?;
         let address = match &reply {
             Reply::Data(text) => text.strip_prefix(b"1").and_then(client::number),
             _ => None,

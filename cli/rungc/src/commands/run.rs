@@ -56,7 +56,7 @@ pub enum Table {
     /// Devices that the program writes.
     Usual,
     /// None.
-    Asked,
+    Empty,
 }
 
 /// Runs a program in the interpreter, showing the watched devices.
@@ -69,12 +69,12 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let has_requests = subject
         .project
         .as_ref()
-        .is_some_and(|project| project.asks_servers());
+        .is_some_and(|project| project.has_server_requests());
     if has_requests && !args.in_real_time() {
         eprint_line("rungc: servers of `[[modbus]]` are asked in real time only: add --real-time");
     }
     let mut args = args.clone();
-    args.serve.asks = has_requests && args.in_real_time();
+    args.serve.sends_requests = has_requests && args.in_real_time();
     program(&args, &subject, Table::Usual, cx)
 }
 
@@ -104,7 +104,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let used = used.chain(watched.clone()).chain(over);
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
-        observe: kept(args, used, described.as_ref()),
+        observe: observed_devices(args, used, described.as_ref()),
         ..args.serve.opened(subject.options())
     };
     let compiled = compile(&read.program, &options);
@@ -186,7 +186,7 @@ fn settings(args: &RunArgs) -> std::result::Result<Vec<Setting>, Failure> {
 
 /// The devices that are kept though the program may not use them: those that are set, watched or drawn, the terminals
 /// of the simulated machine, and what `--scope` samples.
-fn kept(
+fn observed_devices(
     args: &RunArgs,
     used: impl Iterator<Item = Target>,
     described: Option<&Description>,

@@ -15,7 +15,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         None => args.serve.clone(),
     };
     serve.of_project = project.is_some_and(|project| !project.io.is_empty());
-    serve.asks = project.is_some_and(|project| project.asks_servers());
+    serve.sends_requests = project.is_some_and(|project| project.has_server_requests());
     if !serve.any() {
         let place = match project {
             Some(project) => format!("`[serve]` of {}", project.path.display()),
@@ -31,7 +31,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         serve,
         ..args.clone()
     };
-    run::program(&args, &subject, Table::Asked, cx)
+    run::program(&args, &subject, Table::Empty, cx)
 }
 
 impl ServeArgs {
@@ -56,7 +56,7 @@ impl ServeArgs {
             priority: self.priority,
             of_project: self.of_project,
             page: self.page.clone(),
-            asks: self.asks,
+            sends_requests: self.sends_requests,
         }
     }
 }

@@ -103,7 +103,7 @@ impl Projects<'_> {
         let mut reporting = self.reading.reporting.clone();
         if let Some(project) = &project {
             reporting.rules = project.check.clone();
-            if !project.serve.modbus_tcp.is_empty() || project.asks_servers() {
+            if !project.serve.modbus_tcp.is_empty() || project.has_server_requests() {
                 reporting.rules.allow.push(codes::ETHERNET_CARD.id);
             }
         }
@@ -176,7 +176,7 @@ pub fn load(
 /// Reports what is wrong with settings, where nothing else is reported.
 pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
     let mut reporter = Reporter::new(reporting, cx, false);
-    let reported = report_mistakes(error, reporting, &mut reporter);
+    let reported = report_invalid(error, reporting, &mut reporter);
     match reported.and_then(|()| Ok(reporter.finish()?)) {
         Ok(()) => Failure::Reported,
         Err(failure) => failure,
@@ -184,12 +184,12 @@ pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
 }
 
 /// Reports what is wrong with settings.
-pub fn report_mistakes(
+pub fn report_invalid(
     error: Error,
     reporting: &Reporting,
     reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
-    let Error::Mistakes {
+    let Error::Invalid {
         path,
         text,
         diagnostics,
@@ -280,7 +280,7 @@ pub fn each(
     for subject in &subjects {
         let outcome = match work(subject, &mut reporter) {
             Ok(outcome) => outcome,
-            Err(Failure::Because(_)) if interruption::is_asked() => Outcome::Interrupted,
+            Err(Failure::Because(_)) if interruption::is_requested() => Outcome::Interrupted,
             // One program that cannot be worked on does not hide the others.
             Err(Failure::Because(why)) => {
                 eprint_line(&format!("rungc: {why}"));

@@ -115,7 +115,7 @@ fn run_files(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context
             report.extend(run_on(kind, &suite, folder.path())?);
         }
     }
-    if !interruption::is_asked() {
+    if !interruption::is_requested() {
         // A verdict is about the files as they were when the cases ran.
         verdicts.keep(&suite, &report);
         review::traces(args, &suite, &mut report, cx)?;
@@ -127,7 +127,7 @@ fn run_files(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context
     };
     publish(args, &results, cx)?;
     Ok(match report.is_success() {
-        _ if interruption::is_asked() => Outcome::Interrupted,
+        _ if interruption::is_requested() => Outcome::Interrupted,
         true => Outcome::Success,
         false => Outcome::Failed,
     })
@@ -144,7 +144,7 @@ fn run_on(kind: EngineKind, suite: &Suite, folder: &Path) -> std::result::Result
     let bar = progress::bar(suite.len() as u64).with_message(kind.name());
     let report = plctest::run(suite, engine.as_mut(), &mut |_| {
         bar.inc(1);
-        match interruption::is_asked() {
+        match interruption::is_requested() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -174,7 +174,7 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
 /// Folder in which engines are built: one of the cache, where the runtime is compiled already the next time, or without
 /// a cache a temporary one.
 pub(super) enum BuildFolder {
-    Kept(Slot),
+    Cached(Slot),
     Temporary(tempfile::TempDir),
     /// The interpreter is there already.
     None,
@@ -182,16 +182,16 @@ pub(super) enum BuildFolder {
 
 impl BuildFolder {
     pub(super) fn take() -> std::io::Result<Self> {
-        let kept = cache::folder().and_then(|cache| Slot::take(&cache, "engines"));
-        match kept {
-            Ok(slot) => Ok(BuildFolder::Kept(slot)),
+        let cached = cache::folder().and_then(|cache| Slot::take(&cache, "engines"));
+        match cached {
+            Ok(slot) => Ok(BuildFolder::Cached(slot)),
             Err(_) => Ok(BuildFolder::Temporary(tempfile::tempdir()?)),
         }
     }
 
     pub(super) fn path(&self) -> &Path {
         match self {
-            BuildFolder::Kept(slot) => slot.path(),
+            BuildFolder::Cached(slot) => slot.path(),
             BuildFolder::Temporary(folder) => folder.path(),
             BuildFolder::None => Path::new(""),
         }

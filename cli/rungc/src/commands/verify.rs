@@ -36,53 +36,58 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         Err(failure) => return unread(args, failure, reporter, cx),
     };
     let reader = Reader {
-        args: &args.asked,
+        args: &args.properties,
         subject: &subject,
         program: &read.program,
         cx,
     };
-    let (asked, assumed) = (reader.properties()?, reader.assumed()?);
-    if asked.is_empty() {
+    let (requested, assumed) = (reader.properties()?, reader.assumed()?);
+    if requested.is_empty() {
         let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
         return Err(Failure::Because(why.to_string()));
     }
-    let outside = reader.outside();
-    let options = options(args, &reader, &assumed, &outside)?;
+    let external = reader.external();
+    let options = options(args, &reader, &assumed, &external)?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    let conditions = asked.iter().flat_map(|asked| asked.property.conditions());
+    let conditions = requested
+        .iter()
+        .flat_map(|requested| requested.property.conditions());
     let conditions = conditions.chain(&options.assumed);
     let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
         deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
-    export::questions(args, &module, &asked, &options, cx)?;
-    let mut decided: Vec<(Decision, Duration)> = asked
+    export::questions(args, &module, &requested, &options, cx)?;
+    let mut decided: Vec<(Decision, Duration)> = requested
         .iter()
-        .map(|asked| {
+        .map(|requested| {
             let begin = Instant::now();
-            (decide(&module, &asked.property, &options), begin.elapsed())
+            (
+                decide(&module, &requested.property, &options),
+                begin.elapsed(),
+            )
         })
         .collect();
     let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
     export::proofs(args, proof.map(certificate), options.time, cx)?;
-    let runs = shown(&asked, &decided);
+    let runs = shown(&requested, &decided);
     let differing = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
     for (number, why) in differing {
         decided[number].0.verdict = Verdict::Undecided(why);
     }
-    let results: Vec<report::Result> = asked
+    let results: Vec<report::Result> = requested
         .iter()
         .zip(&decided)
-        .map(|(asked, (decision, time))| report::Result {
-            asked: &asked.text,
-            property: &asked.property,
+        .map(|(requested, (decision, time))| report::Result {
+            requested: &requested.text,
+            property: &requested.property,
             decision,
-            outside: &outside,
+            external: &external,
             time: *time,
         })
         .collect();
     publish(&subject, &read, &module, &results, &mut reporter)?;
-    let text = || report::human(&results, &module, &options, (&assumed, &outside));
+    let text = || report::human(&results, &module, &options, (&assumed, &external));
     deliver(args, reporter, text, &report::summary(&results), cx)?;
     if let Some(path) = &args.write_test {
         let text = test_file::text(&subject.file, path, &module, &results);
@@ -100,15 +105,15 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
 
 /// The runs that were found, to be shown on other engines.
 fn shown<'a>(
-    asked: &'a [RequestedProperty],
+    requested: &'a [RequestedProperty],
     decided: &'a [(Decision, Duration)],
 ) -> Vec<engines::Shown<'a>> {
-    let pairs = asked.iter().zip(decided).enumerate();
-    let found = pairs.filter_map(|(what, (asked, (decision, _)))| {
+    let pairs = requested.iter().zip(decided).enumerate();
+    let found = pairs.filter_map(|(what, (requested, (decision, _)))| {
         let Verdict::Found(trace) = &decision.verdict else {
             return None;
         };
-        let conditions = asked.property.conditions().into_iter();
+        let conditions = requested.property.conditions().into_iter();
         Some(engines::Shown {
             what,
             program: 0,
@@ -124,7 +129,7 @@ fn options(
     args: &VerifyArgs,
     reader: &Reader,
     assumed: &[(String, Condition)],
-    outside: &ExternalWrites,
+    external: &ExternalWrites,
 ) -> std::result::Result<Options, Failure> {
     let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
     let timeout = reader.chosen(args.timeout, timeout, TIMEOUT_MS)?;
@@ -132,7 +137,7 @@ fn options(
         world: World {
             scan_ms: reader.scan_ms()?,
             fresh: args.cleared,
-            free: outside.devices.keys().copied().collect(),
+            free: external.devices.keys().copied().collect(),
             ..World::default()
         },
         assumed: assumed.iter().map(|(_, a)| a.clone()).collect(),

@@ -185,8 +185,8 @@ fn reported(args: &ViewArgs, subject: &Subject, read: &Read) -> Vec<Span> {
     }
     let checked = compile::check(&read.program, &subject.options());
     let diagnostics = read.diagnostics.iter().chain(checked.diagnostics.iter());
-    let asked = diagnostics.filter(|diagnostic| args.around.contains(&diagnostic.code));
-    asked
+    let requested = diagnostics.filter(|diagnostic| args.around.contains(&diagnostic.code));
+    requested
         .flat_map(|diagnostic| {
             let others = diagnostic.others.iter().map(|label| label.span);
             std::iter::once(diagnostic.span).chain(others)

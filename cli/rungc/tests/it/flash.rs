@@ -86,7 +86,7 @@ fn an_image_is_written_and_read_back() {
         let output = rig.flash(&["--yes"]);
         let said = rig.says(&output);
         assert!(output.status.success(), "{said}");
-        assert!(said.contains("lost for ever"), "{said}");
+        assert!(said.contains("lost permanently"), "{said}");
         assert!(said.contains("read back and compared"), "{said}");
         rig.holds(&image(5002));
         // A part whose programming is interrupted has no program: the vectors go first and come last.

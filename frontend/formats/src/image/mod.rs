@@ -93,8 +93,8 @@ fn parameters(bytes: &[u8]) -> Option<Parameters> {
         programs: Vec::new(),
         modules: Vec::new(),
         requests: Vec::new(),
-        read_outside: Vec::new(),
-        written_outside: Vec::new(),
+        read_externally: Vec::new(),
+        written_externally: Vec::new(),
         protected: is_protected(bytes),
     })
 }

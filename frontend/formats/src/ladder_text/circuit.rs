@@ -164,7 +164,7 @@ impl<'a> Circuit<'a> {
         let mut fed = BTreeSet::new();
         for edge in &self.edges {
             if !fed.insert(edge.to) || edge.to == self.drawn.rail {
-                let why = "this network is more than contacts in series and parallel, which a list cannot say";
+                let why = "this network is more than contacts in series and parallel, which a list cannot express";
                 return Err(self.fault(edge.first, why));
             }
         }

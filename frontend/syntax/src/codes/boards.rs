@@ -15,7 +15,7 @@ super::codes! {
 
     CHIP_PROTECTED = "E0852" "chip-protected" Error None,
     "the part is protected against reading or writing",
-    "Firmware of vendors is usually read protected: only the vendor can restore it, and lifting the protection erases all of flash, for ever, with the firmware and the PLC program in it. `rungc flash` does that only with `--unprotect`, and asks before; `--yes` alone does not allow it. If the boot loader rejects lifting the protection too, the part is locked for good (readout protection level 2 of an STM32F4 or F0), and no tool can write to it.",
+    "Firmware of vendors is usually read protected: only the vendor can restore it, and lifting the protection permanently erases all of flash, with the firmware and the PLC program in it. `rungc flash` does that only with `--unprotect`, and asks before; `--yes` alone does not allow it. If the boot loader rejects lifting the protection too, the part is locked for good (readout protection level 2 of an STM32F4 or F0), and no tool can write to it.",
     wrong: "",
     right: "";
 

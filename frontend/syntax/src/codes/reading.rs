@@ -159,7 +159,7 @@ super::codes! {
     right: "";
 
     LADDER_SHAPE = "E0052" "ladder-shape" Error None,
-    "network of a drawn ladder that no list can say",
+    "network of a drawn ladder that no list can express",
     "A list has contacts in series and parallel, and branches to outputs. A wire that bridges a contact, a contact that two branches share like a bridge, or contacts without an output have no list. Draw the contact twice, or use a relay M in between.",
     wrong: "",
     right: "";
@@ -237,7 +237,7 @@ super::codes! {
     right: "";
 
     PLCOPEN_CHART = "E0741" "plcopen-chart" Error None,
-    "step ladder that no chart can say",
+    "step ladder that no chart can express",
     "`rungc convert --to plcopen --body sfc` writes states as the steps of a sequential function chart. A step begins by a transition after other steps or, if it is initial, in the first scan (M8002); it ends by a transition. States that other instructions set or reset (SET, RST and ZRST outside of the states, RST in a state), states that networks outside read, and jumps, calls and loops in a state cannot be said so. `--body ld` and `--body il` write such programs.",
     wrong: "",
     right: "";

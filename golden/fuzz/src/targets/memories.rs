@@ -141,7 +141,7 @@ fn overheard(input: &[u8]) {
         return;
     };
     let (before, bytes) = frames.split_at(frames.len().min((*split).into()));
-    let speeches = [
+    let links = [
         LinkProtocol::Client,
         LinkProtocol::Tcp(ServerProtocol::ModbusTcp),
         LinkProtocol::Tcp(ServerProtocol::Mc),
@@ -163,12 +163,12 @@ fn overheard(input: &[u8]) {
         LinkProtocol::Serial(Protocol::EnhancedSlave),
         LinkProtocol::Serial(Protocol::Can),
     ];
-    let speech = speeches[usize::from(variant >> 1) % speeches.len()];
+    let link = links[usize::from(variant >> 1) % links.len()];
     let direction = [Direction::In, Direction::Out][usize::from(variant & 1)];
     for family in [Ports::Inovance, Ports::L01s, Ports::Hm, Ports::Fx3] {
         let decoder = Decoder::new(family, 24_120);
         let before = Some(before).filter(|before| !before.is_empty());
-        let _ = decoder.decode(speech, direction, bytes, before);
+        let _ = decoder.decode(link, direction, bytes, before);
     }
 }
 

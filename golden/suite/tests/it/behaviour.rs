@@ -182,7 +182,7 @@ fn what_is_called_the_same_has_the_same_values() {
             .each_ref()
             .map(|module| Interpreter::new(std::slice::from_ref(module)));
         for engine in &mut engines {
-            engine.ask_all(&[Request::Case(0)]).unwrap();
+            engine.execute_all(&[Request::Case(0)]).unwrap();
         }
         let mut now_ms = 0;
         for scan in 0..15 {
@@ -202,8 +202,8 @@ fn what_is_called_the_same_has_the_same_values() {
                         .into_iter()
                         .filter(|_| module.takes_events()),
                 );
-                engine.ask_all(&all).unwrap();
-                answers.push(engine.ask_all(&asked).unwrap());
+                engine.execute_all(&all).unwrap();
+                answers.push(engine.execute_all(&asked).unwrap());
             }
             let differing = answers[0].iter().zip(&answers[1]).position(|(a, b)| a != b);
             if let Some(at) = differing {

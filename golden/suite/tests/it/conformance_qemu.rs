@@ -50,12 +50,12 @@ impl Engine for Compared<'_> {
         self.engine.name()
     }
 
-    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
+    fn execute(&mut self, request: Request) -> Result<Answer, EngineError> {
         if let Request::Case(number) = request {
             self.running = &self.modules[number].name;
         }
-        let expected = self.interpreter.ask(request)?;
-        let answer = self.engine.ask(request)?;
+        let expected = self.interpreter.execute(request)?;
+        let answer = self.engine.execute(request)?;
         if matches!(expected, Answer::Value(_)) {
             self.compare(request, answer, expected);
         }
@@ -63,9 +63,9 @@ impl Engine for Compared<'_> {
     }
 
     // Each answer by itself would have QEMU wait for the next request.
-    fn ask_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
-        let expected = self.interpreter.ask_all(requests)?;
-        let answers = self.engine.ask_all(requests)?;
+    fn execute_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+        let expected = self.interpreter.execute_all(requests)?;
+        let answers = self.engine.execute_all(requests)?;
         assert_eq!(answers.len(), requests.len());
         for ((&request, &answer), expected) in requests.iter().zip(&answers).zip(expected) {
             self.compare(request, answer, expected);

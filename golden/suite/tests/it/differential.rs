@@ -357,10 +357,10 @@ impl Case<'_> {
         compare: &mut dyn FnMut(&mut E, u64) -> Result<(), EngineError>,
     ) -> Result<(), EngineError> {
         let mut rng = Rng::new(self.sample.seed ^ 0x5CA9);
-        engine.ask(Request::Case(self.number))?;
+        engine.execute(Request::Case(self.number))?;
         let mut now_ms = 0;
         for scan in 0..=last {
-            engine.ask_all(&self.scan(&mut rng, scan, &mut now_ms))?;
+            engine.execute_all(&self.scan(&mut rng, scan, &mut now_ms))?;
             if self.length.is_compared(scan) {
                 compare(engine, scan)?;
             }
@@ -379,7 +379,7 @@ impl Case<'_> {
             } else {
                 &all
             };
-            trace.push((scan, engine.ask_all(asked)?));
+            trace.push((scan, engine.execute_all(asked)?));
             Ok(())
         })?;
         Ok(trace)
@@ -392,7 +392,7 @@ impl Case<'_> {
         scan: u64,
     ) -> Result<Vec<Answer>, EngineError> {
         self.run(engine, scan, &mut |_, _| Ok(()))?;
-        engine.ask_all(&stored(&self.sample.optimised, self.length.most(scan)))
+        engine.execute_all(&stored(&self.sample.optimised, self.length.most(scan)))
     }
 
     /// First difference between the runs of the reference and an engine: the scan and the devices.
@@ -607,8 +607,8 @@ fn digests_show_every_device() {
     ];
     for change in changes {
         let [first, second] = engines.each_mut().map(|engine| {
-            engine.ask(change).unwrap();
-            engine.ask_all(&asked).unwrap()
+            engine.execute(change).unwrap();
+            engine.execute_all(&asked).unwrap()
         });
         assert_eq!(first, second, "{change}");
         assert_ne!(first, before, "{change}");

@@ -34,14 +34,14 @@ fn answer(engine: &mut dyn Engine, from_ms: u32, request: &[u8]) -> Vec<u8> {
         at_us += 1042;
         let fault = CharFault::None;
         let character = Received { at_us, byte, fault };
-        engine.ask(Request::Receive(1, character)).unwrap();
+        engine.execute(Request::Receive(1, character)).unwrap();
     }
     for now_ms in (from_ms..from_ms + 100).step_by(5) {
         let scan_us = 5000;
-        engine.ask(Request::Scan { now_ms, scan_us }).unwrap();
+        engine.execute(Request::Scan { now_ms, scan_us }).unwrap();
     }
     let mut sent = Vec::new();
-    while let Answer::Value(packed) = engine.ask(Request::Sent(1, u32::MAX / 2)).unwrap() {
+    while let Answer::Value(packed) = engine.execute(Request::Sent(1, u32::MAX / 2)).unwrap() {
         sent.push(packed as u8);
     }
     sent
@@ -49,10 +49,10 @@ fn answer(engine: &mut dyn Engine, from_ms: u32, request: &[u8]) -> Vec<u8> {
 
 /// Asks for a device that the program names, and for one that it does not.
 fn check(engine: &mut dyn Engine, kind: EngineKind) {
-    engine.ask(Request::Case(0)).unwrap();
+    engine.execute(Request::Case(0)).unwrap();
     for now_ms in [0, 5] {
         let scan_us = 5000;
-        engine.ask(Request::Scan { now_ms, scan_us }).unwrap();
+        engine.execute(Request::Scan { now_ms, scan_us }).unwrap();
     }
     let good = answer(engine, 10, &READ_D100);
     let name = engine.name().to_string();

@@ -30,23 +30,23 @@ impl Engine for Mixed<'_> {
         "mixed"
     }
 
-    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
+    fn execute(&mut self, request: Request) -> Result<Answer, EngineError> {
         match request {
             Request::Case(program) => {
                 (self.joined, self.current) = (1, 0);
-                self.engine(0).ask(Request::Case(program))
+                self.engine(0).execute(Request::Case(program))
             }
             // It is the first PLC of its engine.
             Request::Join(program) => {
                 let plc = self.joined;
                 self.joined += 1;
-                self.engine(plc).ask(Request::Case(program))
+                self.engine(plc).execute(Request::Case(program))
             }
             Request::Plc(number) => {
                 self.current = number;
                 Ok(Answer::Ok)
             }
-            request => self.engine(self.current).ask(request),
+            request => self.engine(self.current).execute(request),
         }
     }
 }

@@ -109,14 +109,14 @@ fn in_next_states(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
             transitions.entry(state).or_default().insert(target);
         }
     }
-    let mut told = FxHashSet::default();
+    let mut reported = FxHashSet::default();
     for (state, timer) in order {
         for &next in transitions.get(&state).into_iter().flatten() {
             let both = (driven.get(&(state, timer)), driven.get(&(next, timer)));
             let (Some(&first), Some(&second)) = both else {
                 continue;
             };
-            if next == state || !told.insert((first.min(second), first.max(second))) {
+            if next == state || !reported.insert((first.min(second), first.max(second))) {
                 continue;
             }
             let diagnostic = codes::TIMER_IN_NEXT_STATE

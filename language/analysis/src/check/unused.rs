@@ -56,8 +56,8 @@ impl<'a, 'p> Unused<'a, 'p> {
         let parameters = code.resolved.program.parameters.as_ref();
         if let Some(parameters) = parameters {
             let outside = [
-                (&parameters.read_outside, false),
-                (&parameters.written_outside, true),
+                (&parameters.read_externally, false),
+                (&parameters.written_externally, true),
             ];
             for (runs, write) in outside {
                 for run in runs {

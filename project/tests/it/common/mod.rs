@@ -11,7 +11,7 @@ pub fn parse(text: &str) -> Result<Project, Error> {
 
 /// The mistakes of a file: code, place, message, quoted text, help.
 pub fn mistakes(text: &str) -> String {
-    let Err(Error::Mistakes {
+    let Err(Error::Invalid {
         text, diagnostics, ..
     }) = parse(text)
     else {

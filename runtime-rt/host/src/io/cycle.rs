@@ -20,17 +20,17 @@ pub type GiveRow<'a> = dyn FnMut(usize, usize, &Row, &mut [i16]) + 'a;
 
 /// Reason why an exchange failed.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Trouble {
+pub enum ExchangeError {
     /// The other end cannot be reached any more; it is opened again.
     Lost(String),
     /// It answers, but not with the requested data.
     Refused(String),
 }
 
-impl Trouble {
+impl ExchangeError {
     fn why(self) -> String {
         match self {
-            Trouble::Lost(why) | Trouble::Refused(why) => why,
+            ExchangeError::Lost(why) | ExchangeError::Refused(why) => why,
         }
     }
 }
@@ -47,7 +47,7 @@ pub trait Driver: Send {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble>;
+    ) -> Result<(), ExchangeError>;
 
     /// The run is over, and the outputs are off.
     fn end(&mut self) {}
@@ -96,7 +96,7 @@ struct State {
     /// The thread has ended.
     over: bool,
     /// Messages to report.
-    said: Vec<String>,
+    messages: Vec<String>,
 }
 
 /// The state, and what wakes those who wait for it.
@@ -134,7 +134,7 @@ struct Running {
 #[derive(Default)]
 pub struct Io {
     running: Vec<Running>,
-    said: Vec<String>,
+    messages: Vec<String>,
 }
 
 impl Io {
@@ -188,23 +188,23 @@ impl Io {
     /// The same without a [`Program`].
     pub fn take_into(&mut self, plc: &mut dyn Terminals) -> Vec<String> {
         for running in &mut self.running {
-            running.refresh(&mut self.said);
+            running.refresh(&mut self.messages);
             running.apply(plc);
         }
-        std::mem::take(&mut self.said)
+        std::mem::take(&mut self.messages)
     }
 
     /// As [`Io::take`], for a host of several PLCs: calls `set` with each row that is read, the places of its
     /// connection and of the row in it, and the values of its devices; `None` of one that stays as it is.
     pub fn take_rows(&mut self, set: &mut TakeRow) -> Vec<String> {
         for (n, running) in self.running.iter_mut().enumerate() {
-            running.refresh(&mut self.said);
+            running.refresh(&mut self.messages);
             let rows = running.connection.rows.iter().enumerate();
             for (place, row) in rows.filter(|(_, row)| row.reads) {
                 set(n, place, row, &mut running.values(row));
             }
         }
-        std::mem::take(&mut self.said)
+        std::mem::take(&mut self.messages)
     }
 
     /// The rows that are written, with the places of their connection and of the row in it.
@@ -270,7 +270,7 @@ impl Io {
             running.shared.changed.notify_all();
         }
         let until = Instant::now() + GRACE;
-        let mut said = self.said;
+        let mut messages = self.messages;
         for running in &self.running {
             let left = until.saturating_duration_since(Instant::now());
             let state = running.shared.lock();
@@ -279,26 +279,26 @@ impl Io {
                 .changed
                 .wait_timeout_while(state, left, |state| !state.over);
             let (mut state, _) = ended.unwrap_or_else(PoisonError::into_inner);
-            said.append(&mut state.said);
+            messages.append(&mut state.messages);
             let is_off = state.over && state.is_up;
             if !is_off && !running.outputs.is_empty() {
                 let name = &running.connection.name;
-                said.push(format!(
+                messages.push(format!(
                     "io {name}: not reached at the end: its outputs may still be on"
                 ));
             }
         }
-        said
+        messages
     }
 }
 
 impl Running {
     /// Takes what the thread has left.
-    fn refresh(&mut self, said: &mut Vec<String>) {
+    fn refresh(&mut self, messages: &mut Vec<String>) {
         if let Some(mut state) = self.shared.try_lock() {
             self.inputs.copy_from_slice(&state.inputs);
             self.is_up = state.is_up;
-            said.append(&mut state.said);
+            messages.append(&mut state.messages);
         }
     }
 
@@ -361,22 +361,22 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         let result = match &mut driver {
             Some(driver) => driver.exchange(connection, &mut inputs, &outputs),
             // An end that was lost is not waited for any more.
-            None if ends => Err(Trouble::Lost("the run has ended".to_string())),
+            None if ends => Err(ExchangeError::Lost("the run has ended".to_string())),
             None => match open(connection) {
                 Ok(opened) => {
                     let opened = driver.insert(opened);
                     opened.exchange(connection, &mut inputs, &outputs)
                 }
-                Err(why) => Err(Trouble::Lost(why)),
+                Err(why) => Err(ExchangeError::Lost(why)),
             },
         };
         let is_up = result.is_ok();
-        let is_lost = matches!(result, Err(Trouble::Lost(_)));
+        let is_lost = matches!(result, Err(ExchangeError::Lost(_)));
         if is_lost {
             // At once: a chip or a line that comes back has its old name only when the old one is closed.
             driver = None;
         }
-        let news = result.err().map(Trouble::why);
+        let news = result.err().map(ExchangeError::why);
         let mut state = shared.lock();
         state.is_up = is_up;
         if is_up {
@@ -385,7 +385,7 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         // An end that stays away is reported once.
         if !ends && reported.as_ref().map(Option::is_none) != Some(is_up) {
             let name = &connection.name;
-            state.said.push(match &news {
+            state.messages.push(match &news {
                 None => format!("io {name}: connected to {}", connection.end),
                 Some(why) => format!("io {name}: {}: {why}", connection.end),
             });

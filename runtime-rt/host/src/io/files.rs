@@ -1,6 +1,6 @@
 //! Files, standard input and output: for scripts, and for the files by which Linux shows LEDs and converters.
 
-use super::cycle::{Driver, Trouble};
+use super::cycle::{Driver, ExchangeError};
 use super::settings::{Connection, End, Row, devices};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -44,11 +44,11 @@ impl Driver for Folder {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ExchangeError> {
         for row in &connection.rows {
             let End::Name(name) = &row.end else { continue };
             let path = self.path.join(name);
-            let failed = |error: io::Error| Trouble::Refused(format!("{name}: {error}"));
+            let failed = |error: io::Error| ExchangeError::Refused(format!("{name}: {error}"));
             if row.reads {
                 read(&path, &mut inputs[row.place.clone()]).map_err(failed)?;
                 continue;
@@ -170,7 +170,7 @@ impl Driver for Console {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ExchangeError> {
         self.printed.resize(outputs.len(), None);
         let mut text = String::new();
         for row in connection.directed(false) {
@@ -187,7 +187,7 @@ impl Driver for Console {
         printed.map_err(|error| {
             // All of it is printed when there is room again.
             self.printed.clear();
-            Trouble::Refused(format!("standard output: {error}"))
+            ExchangeError::Refused(format!("standard output: {error}"))
         })?;
         drop(standard);
         let input = STANDARD_INPUT
@@ -199,7 +199,9 @@ impl Driver for Console {
                 Ok(line) => take(connection, line.trim(), inputs),
                 Err(TryRecvError::Empty) => break,
                 Err(TryRecvError::Disconnected) => {
-                    return Err(Trouble::Refused("standard input has ended".to_string()));
+                    return Err(ExchangeError::Refused(
+                        "standard input has ended".to_string(),
+                    ));
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! The pins of this machine, by the second interface of the character device of Linux (5.10 or newer; linux/gpio.h).
 
-use super::cycle::{Driver, Trouble};
+use super::cycle::{Driver, ExchangeError};
 use super::settings::{Connection, End, Row};
 use super::sys::{Passed, Request, own};
 use std::fs::{File, read_dir};
@@ -177,7 +177,7 @@ fn line(row: &Row) -> (u32, u64) {
 }
 
 /// Request of a connection for lines of a chip in one direction.
-fn asked(connection: &Connection, reads: bool) -> Result<Lines, String> {
+fn line_request(connection: &Connection, reads: bool) -> Result<Lines, String> {
     let mut lines = Lines {
         offsets: [0; LINES],
         consumer: [0; 32],
@@ -224,7 +224,7 @@ fn lines(chip: &File, connection: &Connection, reads: bool) -> Result<Option<Own
     if connection.values(reads) == 0 {
         return Ok(None);
     }
-    let mut lines = asked(connection, reads)?;
+    let mut lines = line_request(connection, reads)?;
     GET_LINES.pass(chip, &mut lines).map_err(refusal)?;
     // SAFETY: the kernel has opened it for this request.
     #[allow(unsafe_code, reason = "the kernel opens a file")]
@@ -251,8 +251,8 @@ impl Driver for Pins {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
-        let lost = |error: io::Error| Trouble::Lost(error.to_string());
+    ) -> Result<(), ExchangeError> {
+        let lost = |error: io::Error| ExchangeError::Lost(error.to_string());
         let mask = |reads| u64::MAX >> (LINES - connection.values(reads).clamp(1, LINES));
         if let Some(file) = &self.inputs {
             let mask = mask(true);
@@ -338,7 +338,7 @@ mod tests {
             ("Y000", "write 22 open-drain"),
         ];
         let connection = Connection::read("pins", &pairs).unwrap();
-        let inputs = asked(&connection, true).unwrap();
+        let inputs = line_request(&connection, true).unwrap();
         assert_eq!(
             (inputs.offsets[..3].to_vec(), inputs.count),
             ([17, 4, 27].to_vec(), 3)
@@ -349,7 +349,7 @@ mod tests {
             (kind.id, kind.flags, kind.mask),
             (1, INPUT | PULL_UP | ACTIVE_LOW, 0b101)
         );
-        let outputs = asked(&connection, false).unwrap();
+        let outputs = line_request(&connection, false).unwrap();
         assert_eq!(outputs.attributes[0].flags, OUTPUT | OPEN_DRAIN);
     }
 }

@@ -14,13 +14,13 @@ const LARGEST: u64 = 1 << 20;
 
 /// Environment of a program that runs as an executable: its connections and its log.
 #[derive(Default)]
-pub struct Outside {
+pub struct Environment {
     described: Vec<Connection>,
     io: Io,
     log: Option<Log>,
 }
 
-impl Outside {
+impl Environment {
     /// Nothing.
     pub fn new() -> Self {
         Self::default()
@@ -88,36 +88,36 @@ impl Outside {
     }
 
     /// Before a scan.
-    pub fn take(&mut self, plc: &mut dyn Terminals) {
+    pub fn read_inputs(&mut self, plc: &mut dyn Terminals) {
         for line in self.io.take_into(plc) {
-            self.say(&line);
+            self.report(&line);
         }
     }
 
     /// After a scan.
-    pub fn give(&mut self, plc: &mut dyn Terminals) {
+    pub fn write_outputs(&mut self, plc: &mut dyn Terminals) {
         if self.io.any() {
             self.io.give_from(plc);
         }
     }
 
     /// Prints a line to standard error, and adds it to the log. Neither being full or closed does any harm.
-    pub fn say(&mut self, line: &str) {
+    pub fn report(&mut self, line: &str) {
         let _ = writeln!(io::stderr(), "{line}");
-        self.note(line);
+        self.log_line(line);
     }
 
     /// Adds a line to the log.
-    pub fn note(&mut self, line: &str) {
+    pub fn log_line(&mut self, line: &str) {
         if let Some(log) = &mut self.log {
-            log.say(line);
+            log.add(line);
         }
     }
 
     /// The run is over: outputs are turned off, and the log is written.
     pub fn end(&mut self) {
         for line in std::mem::take(&mut self.io).end() {
-            self.say(&line);
+            self.report(&line);
         }
         if let Some(log) = self.log.take() {
             log.end();

@@ -49,7 +49,7 @@ impl Log {
     }
 
     /// Adds a line, with the time.
-    pub(super) fn say(&mut self, line: &str) {
+    pub(super) fn add(&mut self, line: &str) {
         let mut text = format!("{} {line}\n", time(SystemTime::now()));
         if self.left_out > 0 {
             text = format!("({} lines are missing here)\n{text}", self.left_out);

@@ -41,13 +41,13 @@ mod tests;
 mod text;
 mod topics;
 
-pub use cycle::{Driver, GiveRow, Io, Of, Opener, TakeRow, Terminals, Trouble};
-pub use host::Outside;
+pub use cycle::{Driver, ExchangeError, GiveRow, Io, Of, Opener, TakeRow, Terminals};
+pub use host::Environment;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;
 pub use rtu::{Rtu, SerialLine};
-pub use settings::{Connection, End, Kind, Loss, Mistake, Place, Row, Table, overlap, time};
+pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table, overlap, time};
 #[cfg(target_os = "linux")]
 pub use sys::SerialPort;
 pub use text::parse;

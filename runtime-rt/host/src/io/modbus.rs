@@ -1,7 +1,7 @@
 //! Remote I/O over Modbus, as its master: one request for each row, in turn, in every cycle. Writing in each cycle
 //! keeps the watchdog of a remote station content.
 
-use super::cycle::{Driver, Trouble};
+use super::cycle::{Driver, ExchangeError};
 use super::settings::{Connection, End, Row, Table};
 use rungc_rt::Class;
 use rungc_rt::comm::modbus::{
@@ -21,7 +21,7 @@ pub trait Wire: Send {
     ///
     /// # Errors
     /// No answer in time, or the line is lost.
-    fn ask(&mut self, request: &[u8]) -> io::Result<Vec<u8>>;
+    fn request(&mut self, request: &[u8]) -> io::Result<Vec<u8>>;
 }
 
 /// The slave of a connection.
@@ -41,7 +41,7 @@ impl<W: Wire> Remote<W> {
     }
 
     /// Asks for what a row is about; `values` are those of its devices.
-    fn row(&mut self, row: &Row, values: &mut [i16]) -> Result<(), Trouble> {
+    fn row(&mut self, row: &Row, values: &mut [i16]) -> Result<(), ExchangeError> {
         let End::Modbus { table, address } = row.end else {
             return Ok(());
         };
@@ -62,7 +62,7 @@ impl<W: Wire> Remote<W> {
             buffer,
         };
         let broken = |what: &dyn std::fmt::Debug| {
-            Trouble::Lost(format!(
+            ExchangeError::Lost(format!(
                 "{}: the answer does not fit: {what:?}",
                 row.devices()
             ))
@@ -71,12 +71,12 @@ impl<W: Wire> Remote<W> {
         let mut frame = Frame::new(&mut bytes);
         let made = request(Framing::Rtu, &Limits::STANDARD, &job, &own, &mut frame);
         made.map_err(|fault| broken(&fault))?;
-        let asked = self.wire.ask(frame.as_slice());
-        let reply = asked.map_err(|error| Trouble::Lost(error.to_string()))?;
+        let received = self.wire.request(frame.as_slice());
+        let reply = received.map_err(|error| ExchangeError::Lost(error.to_string()))?;
         if let Some([_, code]) = refusal(Framing::Rtu, &job, &reply) {
             let devices = row.devices();
             let why = format!("{devices}: the station rejects the request with exception {code}");
-            return Err(Trouble::Refused(why));
+            return Err(ExchangeError::Refused(why));
         }
         accept(Framing::Rtu, &job, &reply, &mut own).map_err(|fault| broken(&fault))?;
         if packs {
@@ -94,7 +94,7 @@ impl<W: Wire> Driver for Remote<W> {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ExchangeError> {
         for row in &connection.rows {
             let place = row.place.clone();
             match row.reads {
@@ -231,7 +231,7 @@ pub(super) fn connect(end: &str, port: u16, timeout: Duration) -> Result<TcpStre
 }
 
 impl Wire for Tcp {
-    fn ask(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
+    fn request(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
         let body = request
             .get(..request.len().saturating_sub(2))
             .unwrap_or_default();

@@ -1,7 +1,7 @@
 //! Brokers, by a small client: MQTT 3.1.1, QoS 0, without encryption. A value that gets lost with its connection is
 //! published again with the next one.
 
-use super::cycle::{Driver, Trouble};
+use super::cycle::{Driver, ExchangeError};
 use super::modbus::connect;
 use super::settings::Connection;
 use super::topics::{address, password, take, topics};
@@ -39,8 +39,8 @@ struct Broker {
     timeout: Duration,
     /// Received bytes that do not form a whole packet yet.
     came: Vec<u8>,
-    heard: Instant,
-    said: Instant,
+    last_received: Instant,
+    last_sent: Instant,
     /// The topic that shows whether the PLC is there.
     status: Option<String>,
     /// Values last published, by topic.
@@ -114,8 +114,8 @@ pub(super) fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         stream: connect(&format!("{host}:{port}"), port, timeout)?,
         timeout,
         came: Vec::new(),
-        heard: now,
-        said: now,
+        last_received: now,
+        last_sent: now,
         status: connection.options.get("status").cloned(),
         published: BTreeMap::new(),
     };
@@ -172,7 +172,7 @@ impl Broker {
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.said = Instant::now();
+        self.last_sent = Instant::now();
         self.stream.set_nonblocking(false)?;
         self.stream.set_write_timeout(Some(self.timeout))?;
         self.stream.write_all(bytes)
@@ -188,7 +188,7 @@ impl Broker {
                     return Err(io::Error::new(ErrorKind::UnexpectedEof, why));
                 }
                 Ok(count) => {
-                    self.heard = Instant::now();
+                    self.last_received = Instant::now();
                     self.came.extend_from_slice(&bytes[..count]);
                     if count < bytes.len() {
                         return Ok(());
@@ -274,11 +274,11 @@ impl Broker {
                 _ => {}
             }
         }
-        if self.heard.elapsed() > KEEP_ALIVE * 2 {
+        if self.last_received.elapsed() > KEEP_ALIVE * 2 {
             return Err(io::Error::new(ErrorKind::TimedOut, "the broker is silent"));
         }
-        if self.said.elapsed().min(self.heard.elapsed()) > KEEP_ALIVE / 2
-            || self.said.elapsed() > KEEP_ALIVE / 2
+        if self.last_sent.elapsed().min(self.last_received.elapsed()) > KEEP_ALIVE / 2
+            || self.last_sent.elapsed() > KEEP_ALIVE / 2
         {
             self.send(&packet(PINGREQ, &[]))?;
         }
@@ -303,9 +303,9 @@ impl Driver for Broker {
         connection: &Connection,
         inputs: &mut [i16],
         outputs: &[i16],
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ExchangeError> {
         let done = self.turn(connection, inputs, outputs);
-        done.map_err(|error| Trouble::Lost(error.to_string()))
+        done.map_err(|error| ExchangeError::Lost(error.to_string()))
     }
 
     fn end(&mut self) {

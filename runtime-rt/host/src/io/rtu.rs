@@ -70,7 +70,7 @@ impl<L: SerialLine + 'static> Rtu<L> {
 }
 
 impl<L: SerialLine> Wire for Rtu<L> {
-    fn ask(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
+    fn request(&mut self, request: &[u8]) -> io::Result<Vec<u8>> {
         thread::sleep(self.silence);
         // The rest of a late answer belongs to no request.
         self.line.discard()?;

@@ -200,7 +200,7 @@ pub struct Connection {
 
 /// Error in a description.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Mistake {
+pub struct SettingError {
     /// The place of the key among the pairs; none: what is wrong is the whole.
     pub pair: Option<usize>,
     /// Description of the error.
@@ -214,11 +214,11 @@ impl Connection {
     ///
     /// # Errors
     /// All that is wrong with them: at least one mistake.
-    pub fn read(name: &str, pairs: &[(&str, &str)]) -> Result<Self, Vec<Mistake>> {
+    pub fn read(name: &str, pairs: &[(&str, &str)]) -> Result<Self, Vec<SettingError>> {
         let kinds = Kind::ALL.map(Kind::key);
         let mut found = pairs.iter().filter(|(key, _)| kinds.contains(key));
         let (Some(&(key, end)), None) = (found.next(), found.next()) else {
-            return Err([Mistake {
+            return Err([SettingError {
                 pair: None,
                 message: format!("a connection has one of {}", listed(&kinds)),
                 help: "write for example `modbus-tcp = \"192.168.1.20:502\"`".to_owned(),
@@ -237,35 +237,35 @@ impl Connection {
             options: BTreeMap::new(),
             rows: Vec::new(),
         };
-        let mut mistakes = Vec::new();
+        let mut errors = Vec::new();
         for (pair, &(key, value)) in pairs.iter().enumerate() {
             if let Err((message, help)) = connection.set(key, value) {
-                mistakes.push(Mistake {
+                errors.push(SettingError {
                     pair: Some(pair),
                     message,
                     help,
                 });
             }
         }
-        if mistakes.is_empty()
+        if errors.is_empty()
             && let Some(message) = connection.lacks_keys()
         {
-            mistakes.push(Mistake {
+            errors.push(SettingError {
                 pair: None,
                 message: message.to_owned(),
                 help: String::new(),
             });
         }
-        if mistakes.is_empty() && connection.rows.is_empty() {
-            mistakes.push(Mistake {
+        if errors.is_empty() && connection.rows.is_empty() {
+            errors.push(SettingError {
                 pair: None,
                 message: "a connection without devices".to_owned(),
                 help: connection.kind.example().to_owned(),
             });
         }
-        match mistakes.is_empty() {
+        match errors.is_empty() {
             true => Ok(connection),
-            false => Err(mistakes),
+            false => Err(errors),
         }
     }
 
@@ -447,7 +447,7 @@ impl Connection {
             Some(&"write") => false,
             _ => {
                 return Err((
-                    format!("`{value}` does not say `read` or `write`"),
+                    format!("`{value}` is neither `read` nor `write`"),
                     example(),
                 ));
             }

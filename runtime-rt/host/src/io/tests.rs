@@ -5,9 +5,9 @@ use rungc_rt::Class;
 use std::fs;
 
 /// Errors of a connection, one per line: key, message, help.
-fn mistakes(pairs: &[(&str, &str)]) -> String {
-    let mistakes = Connection::read("plant", pairs).expect_err("a mistake is found");
-    let lines = mistakes.iter().map(|mistake| {
+fn errors(pairs: &[(&str, &str)]) -> String {
+    let errors = Connection::read("plant", pairs).expect_err("a mistake is found");
+    let lines = errors.iter().map(|mistake| {
         let key = mistake.pair.map_or("-", |pair| pairs[pair].0);
         format!("{key}: {}", mistake.message)
     });
@@ -52,9 +52,9 @@ fn a_connection_of_all_keys() {
 
 #[test]
 fn mistakes_of_a_connection() {
-    assert!(mistakes(&[("every", "5")]).starts_with("-: a connection has one of `modbus-tcp`"));
+    assert!(errors(&[("every", "5")]).starts_with("-: a connection has one of `modbus-tcp`"));
     assert_eq!(
-        mistakes(&[("modbus-tcp", "a")]),
+        errors(&[("modbus-tcp", "a")]),
         "-: a connection without devices"
     );
     let rows = [
@@ -83,7 +83,7 @@ loss: `loss` is \"zero\" or \"hold\"
 baud: a connection by modbus-tcp has no key `baud`
 Q0: `Q0` is not a range of devices
 X7-X0: `X7-X0` is not a range of devices
-X10: `inputs 0` does not say `read` or `write`
+X10: `inputs 0` is neither `read` nor `write`
 Y0: `Y0` cannot be read
 Y1: `inputs 0` is not an end of a row by modbus-tcp
 Y2: `loss` is for devices that are read
@@ -91,7 +91,7 @@ X20: the value after `loss` is 0 to 1
 D0: coils and inputs are bits, but the devices are words
 D1-D200: a row has at most 125 of them; divide it
 D300-D301: the last address is 65535";
-    assert_eq!(mistakes(&rows), expected);
+    assert_eq!(errors(&rows), expected);
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn files_are_read_and_written() {
         |inputs: &mut [i16], outputs: [i16; 2]| driver.exchange(&connection, inputs, &outputs);
     let put = |name: &str, text: &[u8]| fs::write(folder.join(name), text).unwrap();
     let missing = exchange(&mut inputs, [0; 2]);
-    assert!(matches!(missing, Err(Trouble::Refused(why)) if why.starts_with("switches: ")));
+    assert!(matches!(missing, Err(ExchangeError::Refused(why)) if why.starts_with("switches: ")));
     put("switches", b"1 0\n1 rest\n");
     put("speed", b"65535");
     assert_eq!(exchange(&mut inputs, [-1, 7]), Ok(()));
@@ -198,7 +198,7 @@ fn files_are_read_and_written() {
 fn a_full_disk_is_reported_until_there_is_room() {
     let (connection, mut driver) = files("/dev", &[("Y000", "write full")]);
     for _ in 0..2 {
-        let Err(Trouble::Refused(why)) = driver.exchange(&connection, &mut [], &[1]) else {
+        let Err(ExchangeError::Refused(why)) = driver.exchange(&connection, &mut [], &[1]) else {
             panic!("/dev/full takes something");
         };
         assert!(why.starts_with("full: "), "{why}");

@@ -1,6 +1,6 @@
 //! Connections from a file, for hosts without a library for TOML.
 
-use super::settings::{Connection, Mistake, overlap};
+use super::settings::{Connection, SettingError, overlap};
 
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
 /// What `rungc` itself reads as TOML, such as inline tables, is rejected here.
@@ -54,12 +54,12 @@ struct Lines<'a> {
 impl Lines<'_> {
     fn read(&self) -> Result<Connection, String> {
         let pairs: Vec<_> = self.pairs.iter().map(|(_, pair)| *pair).collect();
-        Connection::read(self.name, &pairs).map_err(|mistakes| {
-            let Some(Mistake {
+        Connection::read(self.name, &pairs).map_err(|errors| {
+            let Some(SettingError {
                 pair,
                 message,
                 help,
-            }) = mistakes.first()
+            }) = errors.first()
             else {
                 return String::new();
             };

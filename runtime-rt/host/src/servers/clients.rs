@@ -23,12 +23,12 @@ const LONGEST: usize = rungc_rt::comm::modbus::tcp::LONGEST;
 #[derive(Debug)]
 pub struct Clients {
     begin: Instant,
-    clients: Vec<Asking>,
+    clients: Vec<Peer>,
 }
 
 /// A server that receives requests.
 #[derive(Debug)]
-struct Asking {
+struct Peer {
     address: SocketAddr,
     rows: Vec<ClientRow>,
     client: Client,
@@ -45,7 +45,7 @@ enum Connection {
 
 /// A frame that has gone over a connection.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
+pub struct ClientFrame<'a> {
     /// This end.
     pub client: SocketAddr,
     /// The server.
@@ -59,11 +59,11 @@ pub struct Asked<'a> {
 impl Clients {
     /// The clients of a table; rows of one server share a connection.
     pub fn new(family: Ports, table: impl IntoIterator<Item = (SocketAddr, ClientRow)>) -> Self {
-        let mut clients: Vec<Asking> = Vec::new();
+        let mut clients: Vec<Peer> = Vec::new();
         for (address, row) in table {
-            match clients.iter_mut().find(|asking| asking.address == address) {
-                Some(asking) => asking.rows.push(row),
-                None => clients.push(Asking {
+            match clients.iter_mut().find(|peer| peer.address == address) {
+                Some(peer) => peer.rows.push(row),
+                None => clients.push(Peer {
                     address,
                     rows: Vec::from([row]),
                     client: Client::new(family, last_part(address.ip())),
@@ -79,25 +79,25 @@ impl Clients {
 
     /// The servers that receive requests.
     pub fn servers(&self) -> impl Iterator<Item = SocketAddr> {
-        self.clients.iter().map(|asking| asking.address)
+        self.clients.iter().map(|peer| peer.address)
     }
 
     /// Takes what has come, and asks what is next; call it between two scans. `seen` is shown each frame.
-    pub fn poll(&mut self, plc: &mut dyn Plc, mut seen: impl FnMut(Asked)) {
+    pub fn poll(&mut self, plc: &mut dyn Plc, mut seen: impl FnMut(ClientFrame)) {
         let now_us = self.begin.elapsed().as_micros() as u32;
-        for asking in &mut self.clients {
-            asking.poll(plc, now_us, &mut seen);
+        for peer in &mut self.clients {
+            peer.poll(plc, now_us, &mut seen);
         }
     }
 
     /// Traffic of the connections, a row for each as in [`Servers::table`](super::Servers::table).
     pub fn table(&self) -> Vec<String> {
-        let rows = self.clients.iter().map(|asking| {
-            let tally = asking.client.tally;
+        let rows = self.clients.iter().map(|peer| {
+            let tally = peer.client.tally;
             let counts = [tally.requests, tally.answers, tally.rejected].map(u64::from);
             super::all::row(
-                &asking.address.to_string(),
-                "asked by PLC",
+                &peer.address.to_string(),
+                "by PLC",
                 ServerProtocol::ModbusTcp.name(),
                 counts,
             )
@@ -115,8 +115,8 @@ fn last_part(address: IpAddr) -> u8 {
     last.unwrap_or_default()
 }
 
-impl Asking {
-    fn poll(&mut self, plc: &mut dyn Plc, now_us: u32, seen: &mut dyn FnMut(Asked)) {
+impl Peer {
+    fn poll(&mut self, plc: &mut dyn Plc, now_us: u32, seen: &mut dyn FnMut(ClientFrame)) {
         self.connect(plc, now_us);
         self.receive(plc, now_us, seen);
         let link = match self.connection {
@@ -127,10 +127,10 @@ impl Asking {
         let mut bytes = [0; LONGEST];
         let mut request = Frame::new(&mut bytes);
         let mut map = Served::new(plc, 0);
-        let wish = self
+        let action = self
             .client
             .next(&self.rows, link, now_us, &mut map, &mut request);
-        match wish {
+        match action {
             ClientAction::Nothing => {}
             ClientAction::Close => self.connection = Connection::Closed,
             ClientAction::Open => self.connection = open(self.address),
@@ -151,7 +151,7 @@ impl Asking {
     }
 
     /// Takes what has come.
-    fn receive(&mut self, plc: &mut dyn Plc, now_us: u32, seen: &mut dyn FnMut(Asked)) {
+    fn receive(&mut self, plc: &mut dyn Plc, now_us: u32, seen: &mut dyn FnMut(ClientFrame)) {
         let Connection::Open(stream) = &mut self.connection else {
             return;
         };
@@ -179,7 +179,7 @@ impl Asking {
         request: &[u8],
         plc: &mut dyn Plc,
         now_us: u32,
-        seen: &mut dyn FnMut(Asked),
+        seen: &mut dyn FnMut(ClientFrame),
     ) {
         if let Connection::Open(stream) = &mut self.connection {
             match stream.write(request) {
@@ -207,10 +207,10 @@ fn report(
     server: SocketAddr,
     request: bool,
     bytes: &[u8],
-    seen: &mut dyn FnMut(Asked),
+    seen: &mut dyn FnMut(ClientFrame),
 ) {
     if let Ok(client) = stream.local_addr() {
-        seen(Asked {
+        seen(ClientFrame {
             client,
             server,
             request,

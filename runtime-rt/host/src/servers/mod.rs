@@ -15,6 +15,6 @@ mod server;
 mod tests;
 
 pub use all::Servers;
-pub use clients::{Asked, Clients};
+pub use clients::{ClientFrame, Clients};
 pub use dialogue::{Dialogue, Exchange, Reaction};
 pub use server::Server;

@@ -33,7 +33,7 @@ struct Connection {
     /// True if the connection closes after the pending output.
     closes: bool,
     /// Time of the last input.
-    heard: Instant,
+    last_received: Instant,
 }
 
 impl Server {
@@ -90,7 +90,7 @@ impl Server {
         let _ = stream.set_nodelay(true);
         if self.connections.len() == CONNECTIONS {
             let silent = self.connections.iter().enumerate();
-            let longest = silent.min_by_key(|(_, connection)| connection.heard);
+            let longest = silent.min_by_key(|(_, connection)| connection.last_received);
             if let Some(n) = longest.map(|(n, _)| n) {
                 self.connections.swap_remove(n);
             }
@@ -101,7 +101,7 @@ impl Server {
             dialogue: Dialogue::new(self.service),
             to_send: Vec::new(),
             closes: false,
-            heard: Instant::now(),
+            last_received: Instant::now(),
         });
     }
 }
@@ -117,7 +117,7 @@ impl Connection {
                 Ok(0) => self.closes = true,
                 Ok(count) => {
                     left -= count;
-                    self.heard = Instant::now();
+                    self.last_received = Instant::now();
                     let reaction = self.dialogue.receive(&bytes[..count], map);
                     self.to_send.extend(reaction.reply);
                     let of_peer = reaction.exchanges.into_iter();

@@ -26,9 +26,9 @@ pub extern "C" fn rungc_client_next(
 ) -> ClientAction {
     let mut frame = Frame::new(&mut request.bytes);
     let rows = elements(rows, count.into());
-    let wish = client.next(rows, link, now_us, &mut Served::new(map, 0), &mut frame);
+    let action = client.next(rows, link, now_us, &mut Served::new(map, 0), &mut frame);
     request.length = frame.len() as u16;
-    wish
+    action
 }
 
 /// Takes a character that has come; `RUNGC_CLIENT_ACTION_CLOSE` if nothing that follows can be an answer.

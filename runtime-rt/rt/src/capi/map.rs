@@ -55,7 +55,7 @@ impl Area {
     fn place_in_columns(&self, n: u32) -> Option<u32> {
         let (row, column) = (n / self.columns, n % self.columns);
         let rows = self.count.div_ceil(self.columns);
-        (column < self.kept).then_some(column * rows + row)
+        (column < self.stored_columns).then_some(column * rows + row)
     }
 }
 
@@ -546,7 +546,7 @@ mod tests {
             first,
             count: 3,
             columns: 1,
-            kept: 1,
+            stored_columns: 1,
             offset,
         }
     }

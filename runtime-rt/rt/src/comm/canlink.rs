@@ -135,8 +135,8 @@ const HEARTBEAT_MS: usize = 4;
 const REFUSED: usize = 8;
 const BEAT: usize = 12;
 const ROLES: usize = 16;
-const HEARD_MS: usize = ROLES + STATIONS;
-const FRAMES: usize = HEARD_MS + 4 * STATIONS;
+const LAST_SEEN_MS: usize = ROLES + STATIONS;
+const FRAMES: usize = LAST_SEEN_MS + 4 * STATIONS;
 /// A frame that waits: its register, how many words, the words.
 const FRAME: usize = 4 + 2 * WORDS;
 const _: () = assert!(FRAMES + WAITING * FRAME <= SIZE);
@@ -220,9 +220,9 @@ impl<'a> Network<'a> {
     }
 
     /// A heartbeat has come.
-    fn hear(&mut self, station: u8, runs: bool, now_ms: u32) {
+    fn note_heartbeat(&mut self, station: u8, runs: bool, now_ms: u32) {
         // 0 is a station without a frame so far.
-        self.set_number(HEARD_MS + 4 * usize::from(station), now_ms | 1);
+        self.set_number(LAST_SEEN_MS + 4 * usize::from(station), now_ms | 1);
         if station == self.byte(MASTER) {
             self.set_byte(STOPPED, u8::from(!runs));
         }
@@ -238,10 +238,10 @@ impl<'a> Network<'a> {
         if !watched || every == 0 {
             return None;
         }
-        let heard_ms = self.number(HEARD_MS + 4 * usize::from(station));
-        Some(match heard_ms {
+        let last_seen_ms = self.number(LAST_SEEN_MS + 4 * usize::from(station));
+        Some(match last_seen_ms {
             0 => ABSENT,
-            _ if now_ms.wrapping_sub(heard_ms) as i32 > (MISSED * every) as i32 => GONE,
+            _ if now_ms.wrapping_sub(last_seen_ms) as i32 > (MISSED * every) as i32 => GONE,
             _ => NORMAL,
         })
     }
@@ -270,7 +270,7 @@ impl<'a> Network<'a> {
     }
 
     /// The first words that have waited, and where they go.
-    fn kept(&self, index: u8) -> Option<(u16, [u8; MOST], usize)> {
+    fn pending(&self, index: u8) -> Option<(u16, [u8; MOST], usize)> {
         let at = FRAMES + usize::from(index) * FRAME;
         let head = (index < self.byte(COUNT)).then(|| self.number(at))?;
         let mut data = [0; MOST];
@@ -326,7 +326,7 @@ pub(super) fn take(plc: &mut dyn Plc, frame: &CanFrame) -> bool {
     match head.kind {
         Kind::Heartbeat => {
             let runs = data.first().is_none_or(|&byte| byte != 0);
-            network.hear(head.sender, runs, now_ms);
+            network.note_heartbeat(head.sender, runs, now_ms);
             if head.sender == network.byte(MASTER) {
                 M_NETWORK.set(plc, runs);
             }
@@ -349,7 +349,7 @@ pub(super) fn take(plc: &mut dyn Plc, frame: &CanFrame) -> bool {
 fn take_effect(plc: &mut dyn Plc) {
     let mut index = 0;
     while let Some((register, data, length)) =
-        Network::of(plc).and_then(|network| network.kept(index))
+        Network::of(plc).and_then(|network| network.pending(index))
     {
         write(plc, register, data.get(..length).unwrap_or_default());
         index += 1;
@@ -395,8 +395,8 @@ mod tests {
         for n in 0..20 {
             network.keep(n, &[1, 2]);
         }
-        assert_eq!(network.kept(15), Some((15, [1, 2, 0, 0, 0, 0, 0, 0], 2)));
-        assert_eq!(network.kept(16), None);
+        assert_eq!(network.pending(15), Some((15, [1, 2, 0, 0, 0, 0, 0, 0], 2)));
+        assert_eq!(network.pending(16), None);
     }
 
     #[test]
@@ -407,10 +407,10 @@ mod tests {
         network.set_roles(2, WATCHED);
         assert_eq!(network.state(3, 0), None);
         assert_eq!(network.state(2, 0), Some(ABSENT));
-        network.hear(2, true, 1000);
+        network.note_heartbeat(2, true, 1000);
         assert_eq!(network.state(2, 1300), Some(NORMAL));
         assert_eq!(network.state(2, 1302), Some(GONE));
-        network.hear(2, true, 1400);
+        network.note_heartbeat(2, true, 1400);
         assert_eq!(network.state(2, 1400), Some(NORMAL));
     }
 }

@@ -63,7 +63,7 @@ pub struct Link {
     /// The request has left the port, and its time-out runs.
     sent: bool,
     /// This station has been polled.
-    asked: bool,
+    polled: bool,
     /// The station whose turn it is.
     station: u8,
     /// Number of repeated requests.
@@ -77,7 +77,7 @@ pub struct Link {
     /// Start of the time-out.
     since_us: u32,
     /// Time of the last frame from the partner.
-    heard_us: u32,
+    last_frame_us: u32,
     /// Start of the round.
     round_us: u32,
     /// The master's turns.
@@ -93,14 +93,14 @@ impl Link {
             begun: false,
             waiting: false,
             sent: false,
-            asked: false,
+            polled: false,
             station: 0,
             tries: 0,
             slaves: 0,
             mode: 0,
             missing: 0,
             since_us: 0,
-            heard_us: 0,
+            last_frame_us: 0,
             round_us: 0,
             schedule: Schedule::new(),
             job: Job::new(),
@@ -165,7 +165,7 @@ impl Link {
         }
         if !self.begun {
             self.begun = true;
-            self.heard_us = now_us;
+            self.last_frame_us = now_us;
             self.round_us = now_us;
         }
         match role {

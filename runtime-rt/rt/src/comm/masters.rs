@@ -96,7 +96,7 @@ impl Session<'_> {
         let Some(modbus) = self.own.wiring.modbus else {
             return self.note(fault);
         };
-        if !modbus.kept().is_on(self.plc) {
+        if !modbus.failed_since_run().is_on(self.plc) {
             let step = self.own.progress.exchange.owner().wrapping_sub(1);
             modbus.failed_step().set(self.plc, step as u16);
         }

@@ -52,17 +52,17 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
     match exchange.visit(owner, driven) {
         Visit::Pass => Ok(Turn::None),
         Visit::Over(end) => {
-            exchange.told = scan;
+            exchange.reported_in = scan;
             Ok(Turn::Over(end))
         }
         Visit::Turn => {
-            let told = exchange.told;
+            let reported_in = exchange.reported_in;
             let Some(wiring) = wiring(cx, number) else {
                 return Ok(Turn::None);
             };
             let gap = wiring.gap_scans(cx.plc);
             // Scans are numbered by odd numbers.
-            if told != 0 && scan.wrapping_sub(told) / 2 < gap {
+            if reported_in != 0 && scan.wrapping_sub(reported_in) / 2 < gap {
                 return Ok(Turn::None);
             }
             let job = job(cx)?;
@@ -255,12 +255,12 @@ pub fn adprw_fx3(cx: &mut Cx) -> Done {
         Turn::None => {}
     }
     let scan = cx.plc.sys().scan;
-    let told = exchange_of(cx, number).map_or(0, |exchange| exchange.told);
+    let reported_in = exchange_of(cx, number).map_or(0, |exchange| exchange.reported_in);
     // Scans are numbered by odd numbers.
-    let ended_before = told != 0 && scan.wrapping_sub(told) == 2;
+    let ended_before = reported_in != 0 && scan.wrapping_sub(reported_in) == 2;
     match turn {
         Turn::Over(_) => cx.set_special(M_COMPLETE, true),
-        _ if ended_before || cx.drive() && told != scan => cx.set_special(M_COMPLETE, false),
+        _ if ended_before || cx.drive() && reported_in != scan => cx.set_special(M_COMPLETE, false),
         _ => {}
     }
     Ok(())
@@ -336,8 +336,8 @@ fn l01s(cx: &mut Cx, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
         return Ok(());
     };
     let scan = cx.plc.sys().scan;
-    let told = exchange_of(cx, number).map_or(0, |exchange| exchange.told);
-    if told != 0 && told != scan {
+    let reported_in = exchange_of(cx, number).map_or(0, |exchange| exchange.reported_in);
+    if reported_in != 0 && reported_in != scan {
         show(cx, number, |wiring| wiring.answered, false);
         show(cx, number, |wiring| wiring.late, false);
     }

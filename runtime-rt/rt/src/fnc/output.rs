@@ -98,7 +98,7 @@ impl Ramp {
     /// A train of `total` pulses at `hz`, at most the highest speed; a speed that ramps cannot begin with is raised, if
     /// the model does so.
     pub fn train(&self, hz: u32, total: u32, reverse: bool) -> Train {
-        let train = self.train_as_told(hz.max(LOWEST_HZ), reverse);
+        let train = self.endless_train(hz.max(LOWEST_HZ), reverse);
         let lowest = train.up / 4;
         let raised = self.raises_speeds && u64::from(train.speed).pow(2) < lowest;
         Train {
@@ -113,7 +113,7 @@ impl Ramp {
     }
 
     /// A train without end at `hz`, at most the highest speed.
-    pub fn train_as_told(&self, hz: u32, reverse: bool) -> Train {
+    pub fn endless_train(&self, hz: u32, reverse: bool) -> Train {
         let up = Train::slope(self.highest, self.up_ms);
         let base = 1000 * u64::from(self.base);
         Train {

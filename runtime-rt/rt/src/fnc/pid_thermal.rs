@@ -62,11 +62,11 @@ mod memory {
     pub const AMPLITUDE: usize = 5;
 }
 
-fn kept(cx: &mut Cx, i: usize) -> f32 {
+fn load(cx: &mut Cx, i: usize) -> f32 {
     f32::from_bits(cx.state().0.get(i).copied().unwrap_or(0) as u32)
 }
 
-fn keep(cx: &mut Cx, i: usize, value: f32) {
+fn store(cx: &mut Cx, i: usize, value: f32) {
     if let Some(word) = cx.state().0.get_mut(i) {
         *word = value.to_bits() as i32;
     }
@@ -84,12 +84,12 @@ pub fn pid_thermal(cx: &mut Cx) -> Done {
     if !(0..=99).contains(&filter) {
         return Err(Fault(6732));
     }
-    let elapsed = kept(cx, memory::ELAPSED) + cx.plc.sys().dt_ms as f32;
+    let elapsed = load(cx, memory::ELAPSED) + cx.plc.sys().dt_ms as f32;
     if elapsed < f32::from(ts) {
-        keep(cx, memory::ELAPSED, elapsed);
+        store(cx, memory::ELAPSED, elapsed);
         return Ok(());
     }
-    keep(
+    store(
         cx,
         memory::ELAPSED,
         (elapsed - f32::from(ts)).min(f32::from(ts) - 1.0),
@@ -99,9 +99,9 @@ pub fn pid_thermal(cx: &mut Cx) -> Done {
     let measured = if first {
         raw
     } else {
-        raw + f32::from(filter) / 100.0 * (kept(cx, memory::MEASURED) - raw)
+        raw + f32::from(filter) / 100.0 * (load(cx, memory::MEASURED) - raw)
     };
-    keep(cx, memory::MEASURED, measured);
+    store(cx, memory::MEASURED, measured);
     let target = f32::from(cx.word(0, 0)?);
     if cx.word(S3, at::ACT)? & LEARN != 0 {
         learn(cx, target, measured, f32::from(ts))
@@ -121,8 +121,8 @@ fn learn(cx: &mut Cx, target: f32, measured: f32, ts: f32) -> Done {
     if cx.word(S3, at::STATE)? != state::LEARNING {
         begin_learning(cx, measured)?;
     }
-    let period = kept(cx, memory::PERIOD) + ts;
-    keep(cx, memory::PERIOD, period);
+    let period = load(cx, memory::PERIOD) + ts;
+    store(cx, memory::PERIOD, period);
     let peak = (cx.dword(S3, at::PEAK)? as f32).max(measured);
     let valley = (cx.dword(S3, at::VALLEY)? as f32).min(measured);
     cx.set_dword(S3, at::PEAK, peak as i32)?;
@@ -146,24 +146,24 @@ fn begin_learning(cx: &mut Cx, measured: f32) -> Done {
     }
     cx.set_dword(S3, at::PEAK, measured as i32)?;
     cx.set_dword(S3, at::VALLEY, measured as i32)?;
-    keep(cx, memory::PERIOD, 0.0);
-    keep(cx, memory::AMPLITUDE, 0.0);
+    store(cx, memory::PERIOD, 0.0);
+    store(cx, memory::AMPLITUDE, 0.0);
     cx.set_word(S3, at::STATE, state::LEARNING)
 }
 
 /// The measured value has risen through the target: a wave is complete.
 fn end_of_wave(cx: &mut Cx, target: f32, measured: f32, peak: f32, valley: f32) -> Done {
     let waves = cx.word(S3, at::CROSSINGS)?.saturating_add(1);
-    let period = kept(cx, memory::PERIOD);
+    let period = load(cx, memory::PERIOD);
     let amplitude = (peak - valley) / 2.0;
-    let same = libm::fabsf(amplitude - kept(cx, memory::AMPLITUDE))
+    let same = libm::fabsf(amplitude - load(cx, memory::AMPLITUDE))
         <= f32::from(cx.word(S3, at::SAME_AMPLITUDE)?);
     cx.set_word(S3, at::CROSSINGS, waves)?;
     cx.set_dword(S3, at::ABOVE, (peak - target) as i32)?;
     cx.set_dword(S3, at::BELOW, (target - valley) as i32)?;
     cx.set_word(S3, at::STEADY, i16::from(same))?;
-    keep(cx, memory::AMPLITUDE, amplitude);
-    keep(cx, memory::PERIOD, 0.0);
+    store(cx, memory::AMPLITUDE, amplitude);
+    store(cx, memory::PERIOD, 0.0);
     cx.set_dword(S3, at::PEAK, measured as i32)?;
     cx.set_dword(S3, at::VALLEY, measured as i32)?;
     match waves {
@@ -200,8 +200,8 @@ fn finish_learning(cx: &mut Cx, amplitude: f32, period_ms: f32) -> Done {
 fn control(cx: &mut Cx, target: f32, measured: f32, ts: f32) -> Done {
     let deviation = target - measured;
     if cx.word(S3, at::STATE)? != state::CONTROLLING {
-        keep(cx, memory::INTEGRAL, 0.0);
-        keep(cx, memory::LAST, deviation);
+        store(cx, memory::INTEGRAL, 0.0);
+        store(cx, memory::LAST, deviation);
         for (from, to) in [
             (at::P, at::CONTROL_P),
             (at::I, at::CONTROL_I),
@@ -229,16 +229,16 @@ fn control(cx: &mut Cx, target: f32, measured: f32, ts: f32) -> Done {
     let full = full_power(cx)?;
     let far = outside(cx, at::LARGE_BAND)?;
     if !far && ti > 0.0 {
-        let sum = kept(cx, memory::INTEGRAL) + p * ts / ti * deviation;
-        keep(cx, memory::INTEGRAL, sum.clamp(0.0, full));
+        let sum = load(cx, memory::INTEGRAL) + p * ts / ti * deviation;
+        store(cx, memory::INTEGRAL, sum.clamp(0.0, full));
     }
     let slope = if outside(cx, at::FINE_BAND)? {
         0.0
     } else {
-        (deviation - kept(cx, memory::LAST)) / ts
+        (deviation - load(cx, memory::LAST)) / ts
     };
-    keep(cx, memory::LAST, deviation);
-    let integral = if far { 0.0 } else { kept(cx, memory::INTEGRAL) };
+    store(cx, memory::LAST, deviation);
+    let integral = if far { 0.0 } else { load(cx, memory::INTEGRAL) };
     let held_down = if far {
         percent(cx, at::SUPPRESSION)?
     } else if outside(cx, at::SMALL_BAND)? {

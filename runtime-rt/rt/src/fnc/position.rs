@@ -146,7 +146,7 @@ fn begin_plsv(cx: &mut Cx, output: Output) -> Done {
     cx.set_bit(2, 0, !reverse)?;
     let train = if output.slides(cx) {
         let ramp = output.ramp_for_all(cx);
-        ramp.train_as_told(speed.unsigned_abs(), reverse)
+        ramp.endless_train(speed.unsigned_abs(), reverse)
     } else {
         Train {
             reverse,
@@ -176,7 +176,7 @@ fn do_zrn(cx: &mut Cx) -> Done {
             if turn == Turn::Start {
                 let ramp = output.ramp_for_all(cx);
                 let hz = if near { creep } else { fast };
-                let train = ramp.train_as_told(hz, true);
+                let train = ramp.endless_train(hz, true);
                 output.start(cx, train, output.wiring.position)?;
                 cx.state().0[STAGE] = near.into();
             }
@@ -251,7 +251,7 @@ fn do_dszr(cx: &mut Cx) -> Done {
                 (false, false) => stage::SEEK,
             };
             cx.state().0[ZERO_WAS_ON] = signals.zero.into();
-            run(cx, output, home.ramp.train_as_told(home.fast, false), first)?;
+            run(cx, output, home.ramp.endless_train(home.fast, false), first)?;
         }
         Turn::Sends => return_home(cx, output)?,
         Turn::Released => output.axis(cx)?.generator.stop(),
@@ -353,7 +353,7 @@ fn return_home(cx: &mut Cx, output: Output) -> Done {
         stage::TURN_BACK if idle => stage::SEEK_BACK,
         _ => return Ok(()),
     };
-    run(cx, output, home.ramp.train_as_told(home.fast, false), next)
+    run(cx, output, home.ramp.endless_train(home.fast, false), next)
 }
 
 fn origin(cx: &mut Cx, output: Output) -> Done {

@@ -96,7 +96,7 @@ fn triggered(cx: &Cx) -> bool {
 
 /// Takes the samples of this many tenths of a millisecond.
 fn sample(cx: &mut Cx, passed: i32) {
-    let mut recording = Recording::kept(cx);
+    let mut recording = Recording::load(cx);
     let mut since = cx.state().0[1].saturating_add(passed);
     let mut taken = i32::from(cx.special_word(D_SCOPE_TAKEN));
     while since >= recording.period && taken < recording.samples {
@@ -138,7 +138,7 @@ impl Recording {
         ]);
     }
 
-    fn kept(cx: &mut Cx) -> Self {
+    fn load(cx: &mut Cx) -> Self {
         let [_, _, period, samples, next, words, first, _] = cx.state().0;
         let low = |pair: i32| i32::from(pair as i16);
         Recording {

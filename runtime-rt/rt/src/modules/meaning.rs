@@ -184,7 +184,7 @@ impl Access {
         match self {
             Access::Read => "R",
             Access::ReadWrite => "R/W",
-            Access::Kept => "R/W, kept",
+            Access::Retained => "R/W, kept",
         }
     }
 }

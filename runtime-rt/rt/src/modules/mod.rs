@@ -182,7 +182,7 @@ pub enum Access {
     /// Read and write it.
     ReadWrite,
     /// Read and write it; the module keeps it over power-off.
-    Kept,
+    Retained,
 }
 
 /// Words of buffer memory at equal distances that have one role, mostly one for each channel.

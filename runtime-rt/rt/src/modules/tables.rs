@@ -1,6 +1,6 @@
 //! The table of modules.
 
-use super::Access::{Kept, Read, ReadWrite};
+use super::Access::{Read, ReadWrite, Retained};
 use super::Quantity::{Celsius, Milliamperes, Volts};
 use super::{Access, Bfm, Duty, Kind, Place, Quantity, Range, Role, Start};
 
@@ -144,16 +144,16 @@ const THERMOCOUPLES: [Option<Range>; 8] = [
 /// Buffer memory of H2U-4AD and FX2N-4AD.
 const fn inputs(channels: u8, id: i16) -> [Bfm; 13] {
     [
-        bfm(0, 1, Role::InputRanges, Kept, 0),
+        bfm(0, 1, Role::InputRanges, Retained, 0),
         bfm(1, channels, Role::Samples, ReadWrite, 8),
         bfm(5, channels, Role::Mean, Read, 0),
         bfm(9, channels, Role::Present, Read, 0),
         bfm(15, 1, Role::Rate, ReadWrite, 0),
-        bfm(20, 1, Role::InputReset, Kept, 0),
-        bfm(21, 1, Role::InputLock, Kept, 1),
+        bfm(20, 1, Role::InputReset, Retained, 0),
+        bfm(21, 1, Role::InputLock, Retained, 1),
         bfm(22, 1, Role::InputTakeOver, ReadWrite, 0),
-        bfm(23, 1, Role::InputOffset, Kept, 0),
-        bfm(24, 1, Role::InputGain, Kept, 5000),
+        bfm(23, 1, Role::InputOffset, Retained, 0),
+        bfm(24, 1, Role::InputGain, Retained, 5000),
         bfm(27, 1, Role::Version, Read, 100),
         bfm(29, 1, Role::InputError, Read, 0),
         bfm(30, 1, Role::Identification, Read, id),
@@ -163,26 +163,26 @@ const fn inputs(channels: u8, id: i16) -> [Bfm; 13] {
 /// Buffer memory of H2U-4AM, H2U-6AM and H2U-6CM: inputs, then two outputs.
 const fn mixed(channels: u8, ranges: i16, curve: [i16; 2], id: i16) -> [Bfm; 22] {
     [
-        bfm(0, 1, Role::InputRanges, Kept, ranges),
+        bfm(0, 1, Role::InputRanges, Retained, ranges),
         bfm(1, channels, Role::Samples, ReadWrite, 8),
         bfm(5, channels, Role::Mean, Read, 0),
         bfm(9, channels, Role::Present, Read, 0),
         bfm(15, 1, Role::Rate, ReadWrite, 0),
-        bfm(20, 1, Role::InputReset, Kept, 0),
-        bfm(21, 1, Role::InputLock, Kept, 1),
+        bfm(20, 1, Role::InputReset, Retained, 0),
+        bfm(21, 1, Role::InputLock, Retained, 1),
         bfm(22, 1, Role::InputTakeOver, ReadWrite, 0),
         bfm(23, 1, Role::InputOffset, ReadWrite, curve[0]),
         bfm(24, 1, Role::InputGain, ReadWrite, curve[1]),
         bfm(27, 1, Role::Version, Read, 100),
         bfm(29, 1, Role::InputError, Read, 0),
         bfm(30, 1, Role::Identification, Read, id),
-        bfm(32, 1, Role::OutputRanges, Kept, 0),
+        bfm(32, 1, Role::OutputRanges, Retained, 0),
         bfm(33, 2, Role::Output, ReadWrite, 0),
-        bfm(37, 1, Role::StopModes, Kept, 0),
+        bfm(37, 1, Role::StopModes, Retained, 0),
         bfm(40, 1, Role::OutputTakeOver, ReadWrite, 0),
         bfm(42, 4, Role::OutputCurves, ReadWrite, 0),
-        bfm(52, 1, Role::OutputReset, Kept, 0),
-        bfm(53, 1, Role::OutputLock, Kept, 1),
+        bfm(52, 1, Role::OutputReset, Retained, 0),
+        bfm(53, 1, Role::OutputLock, Retained, 1),
         bfm(61, 1, Role::OutputError, Read, 0),
         // The last word of the output half.
         bfm(64, 1, Role::Setting, ReadWrite, 0),
@@ -192,13 +192,13 @@ const fn mixed(channels: u8, ranges: i16, curve: [i16; 2], id: i16) -> [Bfm; 22]
 /// Buffer memory of H2U-4DA and FX2N-4DA.
 const fn outputs(channels: u8, id: i16) -> [Bfm; 10] {
     [
-        bfm(0, 1, Role::OutputRanges, Kept, 0),
+        bfm(0, 1, Role::OutputRanges, Retained, 0),
         bfm(1, channels, Role::Output, ReadWrite, 0),
-        bfm(5, 1, Role::StopModes, Kept, 0),
+        bfm(5, 1, Role::StopModes, Retained, 0),
         bfm(8, channels.div_ceil(2), Role::OutputTakeOver, ReadWrite, 0),
         bfm(10, 2 * channels, Role::OutputCurves, ReadWrite, 0),
-        bfm(20, 1, Role::OutputReset, Kept, 0),
-        bfm(21, 1, Role::OutputLock, Kept, 1),
+        bfm(20, 1, Role::OutputReset, Retained, 0),
+        bfm(21, 1, Role::OutputLock, Retained, 1),
         bfm(27, 1, Role::Version, Read, 100),
         bfm(29, 1, Role::OutputError, Read, 0),
         bfm(30, 1, Role::Identification, Read, id),

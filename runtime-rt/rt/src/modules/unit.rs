@@ -119,7 +119,7 @@ impl Module {
 
     /// Power off and on: what the module keeps stays, and what is connected to it.
     pub fn power_cycle(&mut self) {
-        self.restore(|bfm| bfm.access != Access::Kept);
+        self.restore(|bfm| bfm.access != Access::Retained);
         for input in &mut self.inputs {
             (input.sum, input.samples, input.is_out) = (0, 0, false);
             input.is_measured = false;

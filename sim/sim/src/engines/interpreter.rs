@@ -161,7 +161,7 @@ impl Engine for Interpreter<'_> {
         "interp"
     }
 
-    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
+    fn execute(&mut self, request: Request) -> Result<Answer, EngineError> {
         match request {
             Request::Case(i) => {
                 if i < self.modules.len() {

@@ -21,11 +21,14 @@ pub trait Engine {
 
     /// Executes a request. Requests that ask for no value may be answered [`Answer::Ok`] before they are carried out;
     /// what went wrong is then the answer to the next one that does.
-    fn ask(&mut self, request: Request) -> Result<Answer, EngineError>;
+    fn execute(&mut self, request: Request) -> Result<Answer, EngineError>;
 
     /// The answers to many requests that ask for values.
-    fn ask_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
-        requests.iter().map(|&request| self.ask(request)).collect()
+    fn execute_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+        requests
+            .iter()
+            .map(|&request| self.execute(request))
+            .collect()
     }
 }
 

@@ -124,7 +124,7 @@ impl Running {
             let Some(answer) = Answer::parse(&line) else {
                 return Err(EngineError::Garbled(request, line));
             };
-            if asks_for_value(request) {
+            if has_value(request) {
                 values.push(answer);
             } else if answer == Answer::Missing {
                 missing.get_or_insert(EngineError::Missing(request));
@@ -140,7 +140,7 @@ impl Running {
                 .map_err(|_| EngineError::Ended(request, String::new()))?;
         }
         match requests.last() {
-            Some(&last) if asks_for_value(last) => {
+            Some(&last) if has_value(last) => {
                 let flushed = self.requests.flush();
                 flushed.map_err(|_| EngineError::Ended(last, String::new()))?;
                 self.answers()
@@ -150,7 +150,7 @@ impl Running {
     }
 }
 
-fn asks_for_value(request: Request) -> bool {
+fn has_value(request: Request) -> bool {
     matches!(
         request,
         Request::Bit(..)
@@ -174,12 +174,12 @@ impl Engine for Process {
         &self.name
     }
 
-    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
-        let answers = self.ask_all(&[request])?;
+    fn execute(&mut self, request: Request) -> Result<Answer, EngineError> {
+        let answers = self.execute_all(&[request])?;
         Ok(answers.last().copied().unwrap_or(Answer::Ok))
     }
 
-    fn ask_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+    fn execute_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
         let mut running = match self.running.take() {
             Some(running) => running,
             None => self.start()?,

@@ -185,7 +185,7 @@ impl Reader<'_> {
         let path = match Project::load(&settings) {
             Ok(project) => near(project.program()?),
             Err(error) => {
-                self.report(at, program::mistakes(&error));
+                self.report(at, program::error_lines(&error));
                 return Some(Tested::unread());
             }
         };

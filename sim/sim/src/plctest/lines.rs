@@ -120,7 +120,7 @@ impl Running<'_> {
         let due: Vec<_> = self.lines.pending.drain(..due).collect();
         for ((plc, port), character) in due {
             self.select(plc)?;
-            self.ask(Request::Receive(port, character))?;
+            self.execute(Request::Receive(port, character))?;
         }
         Ok(())
     }
@@ -135,7 +135,7 @@ impl Running<'_> {
     fn listen(&mut self, port: SerialPort) -> Result<(), Failure> {
         let (plc, number) = port;
         self.select(plc)?;
-        while let Answer::Value(sent) = self.ask(Request::Sent(number, self.now_us()))? {
+        while let Answer::Value(sent) = self.execute(Request::Sent(number, self.now_us()))? {
             let character = Received {
                 at_us: (sent >> 8) as u32,
                 byte: sent as u8,
@@ -186,7 +186,7 @@ impl Running<'_> {
     /// The format of characters on the line of a port.
     fn format(&mut self, (plc, number): SerialPort) -> Result<LineFormat, Failure> {
         self.select(plc)?;
-        let packed = match self.ask(Request::Line(number))? {
+        let packed = match self.execute(Request::Line(number))? {
             Answer::Value(packed) => packed,
             Answer::Ok | Answer::Missing => 0,
         };

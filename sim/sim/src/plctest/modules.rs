@@ -124,7 +124,7 @@ impl Running<'_> {
         channel: Channel,
         millionths: i32,
     ) -> Result<bool, Failure> {
-        let answer = self.ask(Request::SetSignal {
+        let answer = self.execute(Request::SetSignal {
             now_ms: self.now_ms(),
             channel,
             millionths,

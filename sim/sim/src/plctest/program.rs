@@ -69,7 +69,7 @@ impl Tested {
 /// Reads a program of any format, with the settings of its project.
 pub(super) fn read(path: &Path) -> Result<Tested, String> {
     let project = match Project::find(path) {
-        Some(settings) => Project::load(&settings).map_err(|error| mistakes(&error))?,
+        Some(settings) => Project::load(&settings).map_err(|error| error_lines(&error))?,
         None => Project::default(),
     };
     let read = rungc_frontend::read_with(path, &project.reading());
@@ -80,7 +80,7 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
     };
     let model = compile::model(&read.program, &compiled);
     let completed = project.complete(path, &mut read.program, model);
-    completed.map_err(|error| mistakes(&error))?;
+    completed.map_err(|error| error_lines(&error))?;
     let variant = project.variant.filter(|v| v.model == model.id);
     Ok(Tested {
         plc: Some(Plc {
@@ -97,8 +97,8 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
 }
 
 /// Errors in settings, one per line.
-pub(super) fn mistakes(error: &Error) -> String {
-    let Error::Mistakes {
+pub(super) fn error_lines(error: &Error) -> String {
+    let Error::Invalid {
         path,
         text,
         diagnostics,

@@ -62,9 +62,9 @@ pub fn run(
             cached: matches!(built, Built::Known),
             elapsed: begin.elapsed(),
         };
-        let wish = progress(&outcome);
+        let flow = progress(&outcome);
         report.outcomes.push(outcome);
-        if wish.is_break() {
+        if flow.is_break() {
             break;
         }
     }
@@ -130,7 +130,7 @@ pub(super) struct PlcInfo {
     /// True if it sends pulses.
     sends_pulses: bool,
     /// True if the program may ask for scans of constant length.
-    asks_constant_scan: bool,
+    uses_constant_scan: bool,
     /// Its serial ports.
     pub(super) ports: Vec<u8>,
 }
@@ -141,14 +141,14 @@ impl PlcInfo {
             module: number,
             takes_events: program.takes_events(),
             sends_pulses: program.sends_pulses(),
-            asks_constant_scan: asks_constant_scan(program),
+            uses_constant_scan: uses_constant_scan(program),
             ports: program.ports.clone(),
         }
     }
 }
 
 /// Returns true if the module stores the devices that request scans of constant length.
-fn asks_constant_scan(module: &Module) -> bool {
+fn uses_constant_scan(module: &Module) -> bool {
     let Some(asks) = module.model.constant_scan() else {
         return false;
     };
@@ -229,9 +229,9 @@ fn run_case(
 }
 
 impl Running<'_> {
-    pub(super) fn ask(&mut self, request: Request) -> Result<Answer, Failure> {
+    pub(super) fn execute(&mut self, request: Request) -> Result<Answer, Failure> {
         self.engine
-            .ask(request)
+            .execute(request)
             .map_err(|error| self.failed(&error))
     }
 
@@ -244,7 +244,7 @@ impl Running<'_> {
 
     /// Asks for something that must exist.
     pub(super) fn insist(&mut self, request: Request) -> Result<(), Failure> {
-        match self.ask(request)? {
+        match self.execute(request)? {
             Answer::Missing => Err(self.failed(&EngineError::Missing(request))),
             _ => Ok(()),
         }
@@ -254,7 +254,7 @@ impl Running<'_> {
     fn power_up(&mut self) -> Result<(), Failure> {
         for i in 0..self.plcs.len() {
             let module = self.plcs[i].module;
-            self.ask(if i == 0 {
+            self.execute(if i == 0 {
                 Request::Case(module)
             } else {
                 Request::Join(module)
@@ -266,7 +266,7 @@ impl Running<'_> {
     /// Selects the PLC for the following requests.
     pub(super) fn select(&mut self, plc: usize) -> Result<(), Failure> {
         if self.current != plc {
-            self.ask(Request::Plc(plc))?;
+            self.execute(Request::Plc(plc))?;
             self.current = plc;
         }
         Ok(())
@@ -280,7 +280,7 @@ impl Running<'_> {
             self.stopped.insert(plc);
         }
         self.select(plc)?;
-        self.ask(Request::Run(running)).map(drop)
+        self.execute(Request::Run(running)).map(drop)
     }
 
     /// Returns true if that switch is at RUN.
@@ -315,11 +315,11 @@ impl Running<'_> {
         self.stopped.clear();
         for plc in 0..self.plcs.len() {
             self.select(plc)?;
-            self.ask(Request::Power)?;
+            self.execute(Request::Power)?;
         }
         for ((plc, number), on) in self.inputs.clone() {
             self.select(plc)?;
-            self.ask(Request::SetBit(Class::X, number, on))?;
+            self.execute(Request::SetBit(Class::X, number, on))?;
         }
         Ok(())
     }
@@ -419,12 +419,12 @@ impl Running<'_> {
         self.constant_ms = 0;
         for plc in 0..self.plcs.len() {
             self.select(plc)?;
-            self.ask(Request::Scan {
+            self.execute(Request::Scan {
                 now_ms: self.now_ms,
                 scan_us,
             })?;
-            if self.plcs[plc].asks_constant_scan
-                && let Answer::Value(ms) = self.ask(Request::ConstantScan)?
+            if self.plcs[plc].uses_constant_scan
+                && let Answer::Value(ms) = self.execute(Request::ConstantScan)?
             {
                 self.constant_ms = self.constant_ms.max(ms.try_into().unwrap_or(0));
             }
@@ -439,7 +439,7 @@ impl Running<'_> {
         for plc in 0..self.plcs.len() {
             if self.plcs[plc].takes_events {
                 self.select(plc)?;
-                self.ask(Request::Tick(self.now_ms))?;
+                self.execute(Request::Tick(self.now_ms))?;
                 self.interrupts()?;
             }
         }
@@ -460,7 +460,7 @@ impl Running<'_> {
         self.select(0)?;
         for &(unit, address, expected) in &step.expect_bfm {
             let request = Request::Bfm(unit, address);
-            let Answer::Value(actual) = self.ask(request)? else {
+            let Answer::Value(actual) = self.execute(request)? else {
                 return Err(self.failed(&EngineError::Missing(request)));
             };
             if actual != i64::from(expected) {
@@ -515,7 +515,7 @@ impl Running<'_> {
             if let Request::SetBit(Class::X, number, on) = request {
                 self.input(number, on)?;
             }
-            if self.ask(request)? == Answer::Missing {
+            if self.execute(request)? == Answer::Missing {
                 return Err(self.no_device(setting.target));
             }
         }
@@ -542,7 +542,7 @@ impl Running<'_> {
         let before = before.unwrap_or(false);
         // Inputs that are on at power-on have no edge.
         if self.takes_events() && self.scanned && on != before {
-            self.ask(Request::Edge(number, on))?;
+            self.execute(Request::Edge(number, on))?;
         }
         Ok(())
     }
@@ -550,7 +550,7 @@ impl Running<'_> {
     /// Interrupts are taken between two scans.
     pub(super) fn interrupts(&mut self) -> Result<(), Failure> {
         if self.takes_events() {
-            self.ask(Request::Interrupts)?;
+            self.execute(Request::Interrupts)?;
         }
         Ok(())
     }
@@ -564,7 +564,7 @@ impl Running<'_> {
 
     /// One value of the engine, for `target`.
     fn value(&mut self, target: Target, request: Request) -> Result<i64, Failure> {
-        match self.ask(request)? {
+        match self.execute(request)? {
             Answer::Value(value) => Ok(value),
             _ => Err(self.no_device(target)),
         }

@@ -110,7 +110,7 @@ impl Running<'_> {
     pub(super) fn serve(&mut self) -> Result<(), Failure> {
         let now_us = self.now_us();
         let running = self.is_running(0);
-        let mut wish = None;
+        let mut mode = None;
         for connection in self.servers.connections.values_mut() {
             let due = |at_us: u32| now_us.wrapping_sub(at_us) as i32 >= 0;
             while let Some((_, bytes)) = connection.pending.pop_if_first(|&(at_us, _)| due(at_us)) {
@@ -123,11 +123,11 @@ impl Running<'_> {
                     engine: RefCell::new(&mut *self.engine),
                     failed: RefCell::new(None),
                     running: Cell::new(running),
-                    wish: None,
+                    mode: None,
                     type_code: self.servers.type_code,
                 };
                 let reaction = dialogue.receive(&bytes, &mut map);
-                wish = map.wish.or(wish);
+                mode = map.mode.or(mode);
                 if let Some(error) = map.failed.into_inner() {
                     return Err(Failure::Engine {
                         step: self.step,
@@ -141,7 +141,7 @@ impl Running<'_> {
                 }
             }
         }
-        match wish {
+        match mode {
             Some(running) => self.switch(0, running),
             None => Ok(()),
         }
@@ -197,13 +197,13 @@ struct Devices<'e> {
     /// Error of the engine.
     failed: RefCell<Option<EngineError>>,
     running: Cell<bool>,
-    wish: Option<bool>,
+    mode: Option<bool>,
     type_code: u16,
 }
 
 impl Devices<'_> {
-    fn ask(&self, request: Request) -> Option<i64> {
-        match self.engine.borrow_mut().ask(request) {
+    fn execute(&self, request: Request) -> Option<i64> {
+        match self.engine.borrow_mut().execute(request) {
             Ok(Answer::Value(value)) => Some(value),
             Ok(Answer::Ok | Answer::Missing) => None,
             Err(error) => {
@@ -216,34 +216,35 @@ impl Devices<'_> {
 
 impl Map for Devices<'_> {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
-        self.ask(Request::Bit(class, number)).map(|bit| bit != 0)
+        self.execute(Request::Bit(class, number))
+            .map(|bit| bit != 0)
     }
 
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
         self.bit(class, number)?;
-        self.ask(Request::SetBit(class, number, value));
+        self.execute(Request::SetBit(class, number, value));
         Some(())
     }
 
     fn word(&self, class: Class, number: u32) -> Option<i16> {
-        self.ask(Request::Word(class, number))
+        self.execute(Request::Word(class, number))
             .map(|word| word as i16)
     }
 
     fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
         self.word(class, number)?;
-        self.ask(Request::SetWord(class, number, value));
+        self.execute(Request::SetWord(class, number, value));
         Some(())
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {
-        self.ask(Request::Double(Class::C, number))
+        self.execute(Request::Double(Class::C, number))
             .map(|value| value as i32)
     }
 
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
         self.counter32(number)?;
-        self.ask(Request::SetDouble(Class::C, number, value));
+        self.execute(Request::SetDouble(Class::C, number, value));
         Some(())
     }
 
@@ -259,7 +260,7 @@ impl Map for Devices<'_> {
 
     fn request_running(&mut self, running: bool) {
         self.running.set(running);
-        self.wish = Some(running);
+        self.mode = Some(running);
     }
 
     fn type_code(&self) -> u16 {

@@ -20,8 +20,8 @@ pub(super) fn check(
 ) -> Result<(), Failure> {
     let wrong = |step, message| Err(Failure::Machine { step, message });
     let Some(machine) = machine else {
-        let asks = |step: &Step| !step.expect_position.is_empty();
-        return match steps.iter().position(asks) {
+        let uses = |step: &Step| !step.expect_position.is_empty();
+        return match steps.iter().position(uses) {
             Some(i) => wrong(i + 1, "the case has no `machine`".to_string()),
             None => Ok(()),
         };
@@ -77,7 +77,7 @@ impl Running<'_> {
         let inputs = self.plant.as_ref().map_or(Vec::new(), |p| p.inputs());
         for (number, on) in inputs {
             self.input(number, on)?;
-            self.ask(Request::SetBit(Class::X, number, on))?;
+            self.execute(Request::SetBit(Class::X, number, on))?;
         }
         let Some(mut plant) = self.plant.take() else {
             return Ok(());
@@ -152,7 +152,7 @@ impl Running<'_> {
 
     /// The requested values.
     fn values(&mut self, requests: &[Request]) -> Result<Vec<i32>, Failure> {
-        let answers = self.engine.ask_all(requests);
+        let answers = self.engine.execute_all(requests);
         let answers = answers.map_err(|error| self.failed(&error))?;
         let values = answers
             .iter()
@@ -193,7 +193,7 @@ impl Terminals for Running<'_> {
     }
 
     fn change(&mut self, change: Change) -> Result<(), Failure> {
-        self.ask(Request::SetBit(Class::X, change.input, change.on))?;
+        self.execute(Request::SetBit(Class::X, change.input, change.on))?;
         self.input(change.input, change.on)?;
         self.interrupts()
     }

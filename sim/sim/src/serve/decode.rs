@@ -80,37 +80,39 @@ impl Decoder {
     /// Decodes a frame; `before` is the last one in the other direction.
     pub fn decode(
         &self,
-        speech: LinkProtocol,
+        link: LinkProtocol,
         direction: Direction,
         bytes: &[u8],
         before: Option<&[u8]>,
     ) -> Decoded {
-        let asks = direction == Direction::In;
-        match speech {
-            LinkProtocol::Tcp(ServerProtocol::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
-            LinkProtocol::Client => modbus::over_tcp(!asks, bytes, before),
-            LinkProtocol::Tcp(ServerProtocol::Mc) if asks => self.mc_request(bytes),
+        let is_request = direction == Direction::In;
+        match link {
+            LinkProtocol::Tcp(ServerProtocol::ModbusTcp) => {
+                self.modbus_tcp(is_request, bytes, before)
+            }
+            LinkProtocol::Client => modbus::over_tcp(!is_request, bytes, before),
+            LinkProtocol::Tcp(ServerProtocol::Mc) if is_request => self.mc_request(bytes),
             LinkProtocol::Tcp(ServerProtocol::Mc) => mc_reply(bytes),
             LinkProtocol::Tcp(ServerProtocol::ProgrammingPort) => {
-                self.programming_port(asks, bytes)
+                self.programming_port(is_request, bytes)
             }
             LinkProtocol::Serial(protocol) => match protocol {
-                Protocol::ModbusRtu => self.modbus(Framing::Rtu, asks, bytes, before),
-                Protocol::ModbusAscii => self.modbus(Framing::Ascii, asks, bytes, before),
+                Protocol::ModbusRtu => self.modbus(Framing::Rtu, is_request, bytes, before),
+                Protocol::ModbusAscii => self.modbus(Framing::Ascii, is_request, bytes, before),
                 Protocol::MasterRtu | Protocol::MasterTable => {
-                    modbus::master(Framing::Rtu, !asks, bytes, before)
+                    modbus::master(Framing::Rtu, !is_request, bytes, before)
                 }
-                Protocol::MasterAscii => modbus::master(Framing::Ascii, !asks, bytes, before),
-                Protocol::ProgrammingPort => self.programming_port(asks, bytes),
-                Protocol::ComputerLink if asks => self.computer_link(bytes),
+                Protocol::MasterAscii => modbus::master(Framing::Ascii, !is_request, bytes, before),
+                Protocol::ProgrammingPort => self.programming_port(is_request, bytes),
+                Protocol::ComputerLink if is_request => self.computer_link(bytes),
                 Protocol::Can => can(bytes),
                 _ => plain(bytes),
             },
         }
     }
 
-    fn programming_port(&self, asks: bool, bytes: &[u8]) -> Decoded {
-        if !asks {
+    fn programming_port(&self, is_request: bool, bytes: &[u8]) -> Decoded {
+        if !is_request {
             return plain(bytes);
         }
         let settings = self.family.programming_port();
@@ -291,7 +293,7 @@ impl LinkProtocol {
     }
 
     /// Returns true if the PLC sends the requests, and the other end answers.
-    pub fn asks(self) -> bool {
+    pub fn is_request(self) -> bool {
         match self {
             LinkProtocol::Tcp(_) => false,
             LinkProtocol::Client => true,

@@ -19,7 +19,7 @@ pub struct Seen<'a> {
     /// The place.
     pub place: &'a Place,
     /// Protocol there.
-    pub speech: LinkProtocol,
+    pub link: LinkProtocol,
     /// Direction of the frame.
     pub direction: Direction,
     /// The frame.
@@ -29,7 +29,7 @@ pub struct Seen<'a> {
 /// One row of the table.
 #[derive(Clone, Debug)]
 struct Connection {
-    speech: LinkProtocol,
+    link: LinkProtocol,
     received: u64,
     sent: u64,
     errors: u64,
@@ -58,13 +58,13 @@ impl Traffic {
     }
 
     /// A server or port that is open: it has a row, whether or not frames come.
-    pub fn open(&mut self, place: &Place, speech: LinkProtocol) {
-        self.connection(place, speech);
+    pub fn open(&mut self, place: &Place, link: LinkProtocol) {
+        self.connection(place, link);
     }
 
-    fn connection(&mut self, place: &Place, speech: LinkProtocol) -> &mut Connection {
+    fn connection(&mut self, place: &Place, link: LinkProtocol) -> &mut Connection {
         let connection = self.connections.entry(place.clone()).or_insert(Connection {
-            speech,
+            link,
             received: 0,
             sent: 0,
             errors: 0,
@@ -73,26 +73,26 @@ impl Traffic {
             last: None,
             pending: Devices::new(),
         });
-        connection.speech = speech;
+        connection.link = link;
         connection
     }
 
     /// Counts a frame; returns what it says.
     pub fn frame(&mut self, seen: Seen) -> Decoded {
         let decoder = self.decoder;
-        let connection = self.connection(seen.place, seen.speech);
+        let connection = self.connection(seen.place, seen.link);
         let last = connection.last.take();
         let before = last
             .as_ref()
             .filter(|(direction, _)| *direction != seen.direction);
         let before = before.map(|(_, bytes)| bytes.as_slice());
-        let decoded = decoder.decode(seen.speech, seen.direction, seen.bytes, before);
-        let asks = (seen.direction == Direction::Out) == seen.speech.asks();
+        let decoded = decoder.decode(seen.link, seen.direction, seen.bytes, before);
+        let is_request = (seen.direction == Direction::Out) == seen.link.is_request();
         match seen.direction {
             Direction::In => connection.received += 1,
             Direction::Out => connection.sent += 1,
         }
-        let unanswered = asks && seen.speech.asks() && last.is_some() && before.is_none();
+        let unanswered = is_request && seen.link.is_request() && last.is_some() && before.is_none();
         let silence = || "no answer".to_string();
         for error in decoded
             .error
@@ -103,13 +103,13 @@ impl Traffic {
             connection.errors += 1;
             connection.last_error = Some(error);
         }
-        if asks {
+        if is_request {
             connection.pending = decoded.written.clone();
         }
         // A request is carried out if it is answered, and not by an error.
-        let done = decoded.error.is_none() && (!asks || decoded.broadcast);
+        let done = decoded.error.is_none() && (!is_request || decoded.broadcast);
         let pending = std::mem::take(&mut connection.pending);
-        match (done, asks) {
+        match (done, is_request) {
             (true, _) => connection.written.extend(pending),
             (false, true) => connection.pending = pending,
             (false, false) => {}
@@ -149,7 +149,7 @@ impl Traffic {
             [
                 place.port.clone(),
                 or_none(place.peer.clone()),
-                connection.speech.name().to_string(),
+                connection.link.name().to_string(),
                 connection.received.to_string(),
                 connection.sent.to_string(),
                 connection.errors.to_string(),

@@ -88,7 +88,7 @@ impl Encoder<'_> {
         if !moved.is_empty() {
             let signature = Signature::Answer(format!("{} moves other words", seen.text));
             let other = self.applied(1, &name, signature, &seen.bits)[0];
-            self.wishes.push(!other);
+            self.replay_assumptions.push(!other);
             for (key, held) in moved {
                 let any = self.applied(held.len(), &name, seen.of(key), &seen.bits);
                 let value = self.aig.select(other, &any, &held);
@@ -193,7 +193,7 @@ impl Encoder<'_> {
         let any = self.applied(32, BUFFER, seen.of(cell), &seen.bits);
         let value = match self.buffer(fetch) {
             Some(held) => {
-                self.wishes.extend([!fails, !changes]);
+                self.replay_assumptions.extend([!fails, !changes]);
                 self.aig.select(changes, &any, &held)
             }
             None => any,

@@ -156,9 +156,9 @@ impl Encoder<'_> {
             _ => 1,
         };
         let shared = self
-            .beside
+            .shared
             .as_ref()
-            .and_then(|beside| beside.begins_as(key));
+            .and_then(|shared| shared.begins_as(key));
         let bits = shared.unwrap_or_else(|| self.aig.inputs_of(width(key, unit_ms)));
         if let Key::Timer(_, TimerPart::Part) = key
             && unit_ms > 1
@@ -166,7 +166,7 @@ impl Encoder<'_> {
             let less = self.aig.below(&bits, &constant(unit_ms.into(), bits.len()));
             self.constraints.push(less);
             let zero = self.aig.is(&bits, 0);
-            self.first_wishes.push(zero);
+            self.first_replay_assumptions.push(zero);
         }
         self.before.insert(key, bits.clone());
         // No coil has been executed in a scan that begins.
@@ -285,7 +285,7 @@ impl Encoder<'_> {
 
     /// Finds what changes between two scans: what input edges write, what interrupts write, since a host may take them
     /// then, and what ports and pulse outputs show.
-    pub(super) fn find_outside(&mut self) {
+    pub(super) fn find_external(&mut self) {
         let module = self.module;
         for (flag, i) in module.flags.iter().zip(0..) {
             if flag.period_ms.is_some() || flag.pulses_end.is_some() {
@@ -294,7 +294,7 @@ impl Encoder<'_> {
         }
         for (cell, i) in module.cells.iter().zip(0..) {
             if cell.follows_time {
-                self.outside.insert(Key::Cell(i));
+                self.external.insert(Key::Cell(i));
             }
         }
         let by_host = |kind: &FunctionKind| {
@@ -311,13 +311,13 @@ impl Encoder<'_> {
                 open.extend(callees(body));
                 statements(body, &mut |stmt| {
                     if let Stmt::Do(action) = stmt {
-                        self.outside_of(action);
+                        self.add_external(action);
                     }
                 });
             }
         }
         if module.sends_pulses() || module.has_ports() {
-            self.outside.extend(self.specials());
+            self.external.extend(self.specials());
         }
         if module.has_ports() {
             let called = called_functions(module);
@@ -331,7 +331,7 @@ impl Encoder<'_> {
                     if let Stmt::Do(action @ Action::Call(call)) = stmt {
                         let needs = call.function.needs();
                         if needs.port || needs.names_port || needs.any_port || needs.can {
-                            self.outside_of(action);
+                            self.add_external(action);
                         }
                     }
                 });
@@ -340,36 +340,36 @@ impl Encoder<'_> {
     }
 
     /// Adds the memory written by an action that is executed between two scans.
-    fn outside_of(&mut self, action: &Action) {
+    fn add_external(&mut self, action: &Action) {
         let keys = self.of_operands(action);
-        self.outside.extend(keys);
+        self.external.extend(keys);
         match *action {
             Action::SetFlag(flag, _) => {
                 self.events.insert(flag.0);
             }
             Action::SetCell(cell, _) => {
-                self.outside.insert(Key::Cell(cell.0));
+                self.external.insert(Key::Cell(cell.0));
             }
             Action::SetEntry(SetEntry { table, .. }) => {
                 let length = self.module.tables[table].length;
-                self.outside
+                self.external
                     .extend((0..length).map(|i| Key::Entry(table.0, i)));
             }
             Action::Edge(ref edge) => {
-                self.outside.insert(Key::Edge(edge.memory.0));
+                self.external.insert(Key::Edge(edge.memory.0));
             }
             Action::Call(ref call) => {
                 let keys = self.of_call(call);
-                self.outside.extend(keys);
+                self.external.extend(keys);
             }
             Action::Fetch(ref fetch) => {
-                self.outside.insert(Key::Cell(fetch.value.0));
-                self.outside.extend(self.specials());
+                self.external.insert(Key::Cell(fetch.value.0));
+                self.external.extend(self.specials());
             }
-            Action::Send(_) | Action::Fault { .. } => self.outside.extend(self.specials()),
+            Action::Send(_) | Action::Fault { .. } => self.external.extend(self.specials()),
             Action::Clear { latched } => {
                 let keys = self.cleared(latched);
-                self.outside.extend(keys);
+                self.external.extend(keys);
             }
             _ => {}
         }
@@ -415,15 +415,15 @@ impl Encoder<'_> {
         let first = self.state[&Key::First][0];
         // Tests of counterexamples have scans of at least a millisecond, the first one at 0.
         let some = self.aig.nonzero(&raw);
-        let wish = self.aig.mux(first, !some, some);
-        self.wishes.push(wish);
+        let positive = self.aig.mux(first, !some, some);
+        self.replay_assumptions.push(positive);
         let shown = |this: &mut Self, bits: &[Lit]| -> Bits {
             bits.iter().map(|&bit| this.aig.and(bit, !first)).collect()
         };
         let before = self.state[&Key::Now].clone();
         let now = self.aig.add(&before, &unsigned(&raw, 32));
         let start = self.aig.is(&before, 0);
-        self.first_wishes.push(start);
+        self.first_replay_assumptions.push(start);
         self.state.insert(Key::Now, now);
         let many_tens = scaled(self, &hundreds, 10);
         let all_tens = self.aig.add(&many_tens, &unsigned(&tens, width));

@@ -15,7 +15,7 @@ mod timing;
 
 pub use memory::device_of;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
-pub use shared::{Beside, Names};
+pub use shared::{Names, Shared};
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::aig::{Aig, Lit};
@@ -179,8 +179,8 @@ pub struct Encoder<'m> {
     pub aig: Aig,
     inputs: Vec<(Lit, Input)>,
     constraints: Vec<Lit>,
-    wishes: Vec<Lit>,
-    first_wishes: Vec<Lit>,
+    replay_assumptions: Vec<Lit>,
+    first_replay_assumptions: Vec<Lit>,
     /// Operations that are not modelled exactly, each once.
     pub gaps: Vec<Gap>,
     gap_numbers: FxHashMap<Gap, usize>,
@@ -193,7 +193,7 @@ pub struct Encoder<'m> {
     /// True while writes clear, which does not count as setting a value.
     clears: bool,
     /// Memory that may be written from outside the scan, between two scans.
-    outside: BTreeSet<Key>,
+    external: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
     events: BTreeSet<u32>,
     /// Timers whose values something looks at or writes; `None`: all.
@@ -216,7 +216,7 @@ pub struct Encoder<'m> {
     monitors: u32,
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
     /// Parts shared with another program.
-    beside: Option<Beside>,
+    shared: Option<Shared>,
     /// Probes for the search for events that can never happen.
     pub probes: Option<Probes>,
 }
@@ -233,40 +233,40 @@ impl<'m> Encoder<'m> {
     }
 
     /// Executes a scan of a module at the same time as another is executed.
-    pub(crate) fn scan_beside(module: &'m Module, world: World, beside: Beside) -> Self {
-        Self::executed(module, world, Some(beside), None)
+    pub(crate) fn scan_sharing(module: &'m Module, world: World, shared: Shared) -> Self {
+        Self::executed(module, world, Some(shared), None)
     }
 
     fn executed(
         module: &'m Module,
         mut world: World,
-        mut beside: Option<Beside>,
+        mut shared: Option<Shared>,
         probes: Option<Probes>,
     ) -> Self {
         let free = world.free.into_iter();
         world.free = free
             .map(|(class, number)| module.model.canonical(class, number))
             .collect();
-        let aig = beside
+        let aig = shared
             .as_mut()
-            .map(|beside| std::mem::take(&mut beside.aig));
-        let gaps = beside
+            .map(|shared| std::mem::take(&mut shared.aig));
+        let gaps = shared
             .as_ref()
-            .map_or_else(Vec::new, |beside| beside.gaps.clone());
+            .map_or_else(Vec::new, |shared| shared.gaps.clone());
         let mut encoder = Encoder {
             module,
             aig: aig.unwrap_or_default(),
             inputs: Vec::new(),
             constraints: Vec::new(),
-            wishes: Vec::new(),
-            first_wishes: Vec::new(),
+            replay_assumptions: Vec::new(),
+            first_replay_assumptions: Vec::new(),
             gap_numbers: gaps.iter().cloned().zip(0..).collect(),
             gaps,
             before: BTreeMap::new(),
             state: BTreeMap::new(),
             written: BTreeSet::new(),
             clears: false,
-            outside: BTreeSet::new(),
+            external: BTreeSet::new(),
             events: BTreeSet::new(),
             exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
@@ -284,11 +284,11 @@ impl<'m> Encoder<'m> {
             monitors: 0,
             extra_latches: Vec::new(),
             world,
-            beside,
+            shared,
             probes,
         };
         encoder.find_memory();
-        encoder.find_outside();
+        encoder.find_external();
         encoder.find_timers();
         encoder.begin_time();
         encoder.watch_limit = encoder.watch_steps();
@@ -406,7 +406,7 @@ impl<'m> Encoder<'m> {
     /// Returns true if something other than the program sets a device before each scan.
     pub fn is_free(&self, key: Key) -> bool {
         matches!(key, Key::Bit(DeviceClass::X, _))
-            || self.outside.contains(&key)
+            || self.external.contains(&key)
             || self.is_unwritten(key)
             || self.is_named_free(key)
     }
@@ -476,8 +476,10 @@ impl<'m> Encoder<'m> {
         }
         system.inputs.extend(&self.inputs);
         system.constraints.extend(&self.constraints);
-        system.wishes.extend(&self.wishes);
-        system.first_wishes.extend(&self.first_wishes);
+        system.replay_assumptions.extend(&self.replay_assumptions);
+        system
+            .first_replay_assumptions
+            .extend(&self.first_replay_assumptions);
     }
 
     /// The system with the question whether this can happen.
@@ -487,8 +489,8 @@ impl<'m> Encoder<'m> {
             latches: Vec::new(),
             inputs: Vec::new(),
             constraints: Vec::new(),
-            wishes: Vec::new(),
-            first_wishes: Vec::new(),
+            replay_assumptions: Vec::new(),
+            first_replay_assumptions: Vec::new(),
             bad,
         };
         self.add_to(&mut system, &|_| true, &|key| self.is_free(key));

@@ -57,7 +57,7 @@ impl Seen {
 
 /// Parts that a program shares with the one executed before it.
 #[derive(Clone, Default)]
-pub struct Beside {
+pub struct Shared {
     /// The graph of the other program.
     pub aig: Aig,
     /// Operations not modelled in it.
@@ -92,7 +92,7 @@ impl Names {
     }
 }
 
-impl Beside {
+impl Shared {
     /// The bits with which a memory of this program begins a scan, if the other program begins with them, too.
     pub(super) fn begins_as(&self, key: Key) -> Option<Bits> {
         self.begins.get(&self.names.name(key)).cloned()
@@ -102,18 +102,18 @@ impl Beside {
 impl Encoder<'_> {
     /// Parts that another program shares with this one if it begins its scans with these memories as they are here, by
     /// their names here. This program's graph goes into it.
-    pub fn share(&mut self, begins: impl Fn(Key) -> bool, names: &Names) -> Beside {
+    pub fn share(&mut self, begins: impl Fn(Key) -> bool, names: &Names) -> Shared {
         let before = self.before.iter().filter(|(key, _)| begins(**key));
         let begins = before.map(|(&key, bits)| (key, bits.clone())).collect();
         let inputs = self.inputs.iter();
         let inputs = inputs.filter(|(_, input)| !matches!(input, Input::Gap(_)));
-        Beside {
+        Shared {
             begins,
             inputs: inputs.map(|&(lit, input)| (input, lit)).collect(),
             results: self
-                .beside
+                .shared
                 .as_ref()
-                .map_or_else(FxHashMap::default, |beside| beside.results.clone()),
+                .map_or_else(FxHashMap::default, |shared| shared.results.clone()),
             aig: self.aig.clone(),
             gaps: self.gaps.clone(),
             names: names.clone(),
@@ -126,9 +126,9 @@ impl Encoder<'_> {
         for i in 0..width {
             let input = named(i);
             let known = self
-                .beside
+                .shared
                 .as_ref()
-                .and_then(|beside| beside.inputs.get(&input).copied());
+                .and_then(|shared| shared.inputs.get(&input).copied());
             let bit = known.unwrap_or_else(|| self.aig.input());
             self.inputs.push((bit, input));
             bits.push(bit);
@@ -159,14 +159,14 @@ impl Encoder<'_> {
 
     /// Returns true if the program is executed beside another.
     pub(super) fn is_compared(&self) -> bool {
-        self.beside.is_some()
+        self.shared.is_some()
     }
 
     /// Name of a memory in the program beside which this one is executed.
     fn shared_name(&self, key: Key) -> Key {
-        self.beside
+        self.shared
             .as_ref()
-            .map_or(key, |beside| beside.names.name(key))
+            .map_or(key, |shared| shared.names.name(key))
     }
 
     /// The result of something that is not modelled: free, but the same as in the other program if that applies it to
@@ -187,14 +187,14 @@ impl Encoder<'_> {
             other => other,
         };
         let application = (signature, to.to_vec());
-        let known = |beside: &Beside| beside.results.get(&application).cloned();
-        if let Some(bits) = self.beside.as_ref().and_then(known) {
+        let known = |shared: &Shared| shared.results.get(&application).cloned();
+        if let Some(bits) = self.shared.as_ref().and_then(known) {
             // The input belongs to both programs, and is in the list of the first.
             return bits;
         }
         let bits = self.fresh(width, what);
-        if let Some(beside) = &mut self.beside {
-            beside.results.insert(application, bits.clone());
+        if let Some(shared) = &mut self.shared {
+            shared.results.insert(application, bits.clone());
         }
         bits
     }

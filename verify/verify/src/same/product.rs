@@ -2,7 +2,7 @@
 
 use crate::aig::Lit;
 use crate::bits::Bits;
-use crate::model::{Beside, Encoder, Key, Names, World, device_of};
+use crate::model::{Encoder, Key, Names, Shared, World, device_of};
 use crate::proof::Formula;
 use crate::property::Condition;
 use crate::sat::{Answer, Solver};
@@ -38,12 +38,12 @@ impl<'m> Product<'m> {
     ) -> Self {
         let [old_module, new_module] = modules;
         let (world, named) = common_world(modules, world);
-        let mut old = Encoder::scan_beside(old_module, world.clone(), Beside::default());
+        let mut old = Encoder::scan_sharing(old_module, world.clone(), Shared::default());
         suppose(&mut old, assumed);
         let mut apart = BTreeSet::new();
         loop {
-            let beside = old.share(|key| !apart.contains(&key), names);
-            let mut new = Encoder::scan_beside(new_module, world.clone(), beside);
+            let shared = old.share(|key| !apart.contains(&key), names);
+            let mut new = Encoder::scan_sharing(new_module, world.clone(), shared);
             suppose(&mut new, assumed);
             let mut free: BTreeSet<Key> = named[0]
                 .iter()
@@ -151,7 +151,7 @@ impl<'m> Product<'m> {
     }
 
     /// Returns true if both query and change their environment in the same way: modules, ports, pulse outputs.
-    pub fn same_outside(&self) -> bool {
+    pub fn same_environment(&self) -> bool {
         self.is_equal(Key::Outer)
     }
 
@@ -186,8 +186,8 @@ impl<'m> Product<'m> {
             latches: Vec::new(),
             inputs: Vec::new(),
             constraints: Vec::new(),
-            wishes: Vec::new(),
-            first_wishes: Vec::new(),
+            replay_assumptions: Vec::new(),
+            first_replay_assumptions: Vec::new(),
             bad: Lit::FALSE,
         };
         let in_old = |name: Key| self.old.after(name).is_some();
@@ -202,8 +202,8 @@ impl<'m> Product<'m> {
         system.inputs.retain(|(lit, _)| seen.insert(*lit));
         for conditions in [
             &mut system.constraints,
-            &mut system.wishes,
-            &mut system.first_wishes,
+            &mut system.replay_assumptions,
+            &mut system.first_replay_assumptions,
         ] {
             let mut seen = FxHashSet::default();
             conditions.retain(|lit| seen.insert(*lit));
@@ -243,7 +243,7 @@ fn suppose(encoder: &mut Encoder, assumed: &[Condition]) {
 /// The world of both programs, in which each has the special devices and outputs of the other, and what each names.
 fn common_world(modules: [&Module; 2], world: &World) -> (World, [BTreeSet<Key>; 2]) {
     let named = modules.map(|module| {
-        let encoder = Encoder::scan_beside(module, world.clone(), Beside::default());
+        let encoder = Encoder::scan_sharing(module, world.clone(), Shared::default());
         encoder
             .memory()
             .map(|(key, ..)| key)

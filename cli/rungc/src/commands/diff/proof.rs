@@ -26,8 +26,8 @@ pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u
         return Vec::new();
     };
     let is_output = |run: &&DeviceRun| run.class == DeviceClass::Y;
-    let asked = devices.iter().filter(is_output).flat_map(numbers).count();
-    if asked == 0 {
+    let outputs = devices.iter().filter(is_output).flat_map(numbers).count();
+    if outputs == 0 {
         return Vec::new();
     }
     let (Some(old), Some(new)) = (module(old), module(new)) else {
@@ -37,7 +37,7 @@ pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u
     let options = Options {
         world: World::default(),
         assumed: Vec::new(),
-        time: one.min(all / u32::try_from(asked).unwrap_or(u32::MAX)),
+        time: one.min(all / u32::try_from(outputs).unwrap_or(u32::MAX)),
     };
     let outputs = same::compare(&old, &new, &options).outputs;
     let outputs = outputs

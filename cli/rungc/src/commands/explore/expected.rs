@@ -82,7 +82,7 @@ impl Searched<'_> {
     pub fn after(&self, found: &Found) -> Option<Vec<Setting>> {
         let mut after = None;
         let conditions = match found.what {
-            What::Property(number) => self.asked[number].property.conditions(),
+            What::Property(number) => self.requested[number].property.conditions(),
             What::Doubled(_) | What::Oscillation(_) => Vec::new(),
             What::Error { .. } | What::Watchdog { .. } | What::Collision(_) => return None,
         };
@@ -114,7 +114,7 @@ impl Searched<'_> {
         let relay = |relay: Relay| vec![(DeviceClass::M.number(relay.number()).to_string(), 0)];
         match &shown.found.what {
             What::Property(number) => {
-                let property = &self.asked[*number].property;
+                let property = &self.requested[*number].property;
                 match rules(property) {
                     Some(Rule::OverTime(rule)) => expected.rules.push(rule),
                     Some(Rule::AtEnd(values)) => expected.at_end = values,

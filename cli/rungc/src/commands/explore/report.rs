@@ -18,7 +18,7 @@ impl Searched<'_> {
         };
         let output = |n: u32| DeviceClass::Y.number(n);
         match what {
-            What::Property(number) => format!("`{}` is violated", self.asked[*number].text),
+            What::Property(number) => format!("`{}` is violated", self.requested[*number].text),
             What::Error { code, step } => {
                 format!("{} meets operation error {code}", instruction(*step))
             }
@@ -38,7 +38,7 @@ impl Searched<'_> {
     /// A word for it.
     fn word(&self, what: &What) -> &'static str {
         match what {
-            What::Property(number) if self.asked[*number].property.is_wanted() => "reached",
+            What::Property(number) if self.requested[*number].property.is_wanted() => "reached",
             What::Property(_) => "violated",
             What::Error { .. } => "error",
             What::Watchdog { .. } => "watchdog",
@@ -54,7 +54,7 @@ impl Searched<'_> {
         for shown in shown {
             let what = &shown.found.what;
             let title = match what {
-                What::Property(number) => self.asked[*number].text.clone(),
+                What::Property(number) => self.requested[*number].text.clone(),
                 what => self.sentence(what),
             };
             let _ = writeln!(text, "{:<11} {title}", self.word(what));
@@ -68,10 +68,10 @@ impl Searched<'_> {
                 write_story(&mut text, self.module, &[change]);
             }
         }
-        for (number, asked) in self.asked.iter().enumerate() {
+        for (number, requested) in self.requested.iter().enumerate() {
             let is_it = |shown: &Shown| shown.found.what == What::Property(number);
             if !shown.iter().any(is_it) {
-                let _ = writeln!(text, "{:<11} {}", "not found", asked.text);
+                let _ = writeln!(text, "{:<11} {}", "not found", requested.text);
             }
         }
         let (taken, all) = report.branches;

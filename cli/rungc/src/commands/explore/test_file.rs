@@ -1,6 +1,6 @@
 //! Runs that were found as a test file.
 
-use super::{Searched, Shown, What, beside};
+use super::{Searched, Shown, What, relative_to};
 use crate::commands::verify::test_file::{quoted, step};
 use rungc_explore::trains::{At, hertz};
 use rungc_syntax::DeviceClass;
@@ -13,7 +13,7 @@ impl Searched<'_> {
     /// passes.
     pub fn test_file(&self, path: &Path, shown: &[Shown]) -> String {
         let mut text = String::new();
-        let named = |to: &Path| quoted(&beside(path, to).to_string_lossy());
+        let named = |to: &Path| quoted(&relative_to(path, to).to_string_lossy());
         let program = named(&self.subject.file);
         let _ = writeln!(text, "topic = \"runs that rungc explore has found\"");
         let _ = writeln!(text, "model = {}", quoted(self.module.model.name));
@@ -68,7 +68,7 @@ impl Searched<'_> {
     pub fn title(&self, what: &What) -> String {
         let output = |n: u32| DeviceClass::Y.number(n);
         match what {
-            What::Property(number) => self.asked[*number].text.clone(),
+            What::Property(number) => self.requested[*number].text.clone(),
             What::Error { code, step } => format!("operation error {code} at step {step}"),
             What::Watchdog { step } => format!("watchdog at step {step}"),
             What::Doubled(n) => format!("{} driven by two coils", output(*n)),

@@ -48,7 +48,7 @@ impl Port {
 
 impl Line for Port {
     fn may_continue(&mut self) -> io::Result<()> {
-        match interruption::is_asked() {
+        match interruption::is_requested() {
             true => Err(io::Error::new(io::ErrorKind::Interrupted, "interrupted")),
             false => Ok(()),
         }

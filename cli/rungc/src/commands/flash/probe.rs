@@ -1,6 +1,6 @@
 //! Writing an image with probe-rs, which is a program of its users.
 
-use super::{ask, failed};
+use super::{confirm, failed};
 use crate::args::FlashArgs;
 use crate::commands::{Context, Failure, Outcome, Result, interruption};
 use rungc_firmware::flash::Payload;
@@ -14,12 +14,12 @@ const PROGRAM: &str = "probe-rs";
 /// Calls probe-rs to write and verify an image, and to reset the part if it shall start.
 pub fn flash(args: &FlashArgs, chip: &str, payload: &Payload, cx: Context) -> Result {
     call(&["--version"], true)?;
-    let lost = "what flash holds where the image goes is erased: the firmware and the PLC program in it are lost for ever";
+    let lost = "what flash holds where the image goes is erased: the firmware and the PLC program in it are lost permanently";
     let all = match args.unprotect {
         true => ". If the part is read protected, all of its flash is erased",
         false => "",
     };
-    ask(&format!("{chip}: {lost}{all}."), args.yes)?;
+    confirm(&format!("{chip}: {lost}{all}."), args.yes)?;
     interruption::note_for_a_while();
     let file = args.file.display().to_string();
     let mut download = vec!["download", "--chip", chip, "--verify"];

@@ -1,6 +1,6 @@
 //! Writing an image to the volume that the boot ROM of an RP2040 shows over USB.
 
-use super::{Done, Stop, ask, failed};
+use super::{Done, Stop, confirm, failed};
 use crate::args::FlashArgs;
 use crate::commands::{Context, Failure, Outcome, Result, interruption};
 use rungc_firmware::flash::Payload;
@@ -52,7 +52,7 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     };
     check(&volume)?;
     cx.note(&format!("       Found an RP2040 at {}", volume.display()));
-    ask(&loss(payload), args.yes)?;
+    confirm(&loss(payload), args.yes)?;
     interruption::note_for_a_while();
     let name = args.file.file_stem().unwrap_or("image".as_ref());
     let path = volume.join(name).with_extension("uf2");
@@ -80,12 +80,12 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     Ok(())
 }
 
-/// Warning about the data that are lost for ever.
+/// Warning about the data that are lost permanently.
 fn loss(payload: &Payload) -> String {
     let first = payload.origin - payload.origin % SECTOR;
     let last = payload.end().next_multiple_of(SECTOR.into()) - 1;
     format!(
-        "Erases 0x{first:08X} to 0x{last:08X} of flash: the program in it is lost for ever, and cannot be read from \
+        "Erases 0x{first:08X} to 0x{last:08X} of flash: the program in it is lost permanently, and cannot be read from \
          the volume before (`picotool save` can). The board then starts the new one at once; its outputs switch."
     )
 }

@@ -88,7 +88,7 @@ impl<'m> Fleets<'m> {
             let started = Instant::now();
             self.scan()?;
             self.times.add(started.elapsed());
-            if interruption::is_asked() {
+            if interruption::is_requested() {
                 eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
@@ -110,10 +110,10 @@ impl<'m> Fleets<'m> {
         /// Time within which an interruption is noticed.
         const NOTICED: Duration = Duration::from_millis(100);
         if cycle > NOTICED {
-            while !interruption::is_asked() && begin.elapsed() + NOTICED < due {
+            while !interruption::is_requested() && begin.elapsed() + NOTICED < due {
                 std::thread::sleep(NOTICED);
             }
-            if interruption::is_asked() {
+            if interruption::is_requested() {
                 return begin;
             }
         }
@@ -127,8 +127,8 @@ impl<'m> Fleets<'m> {
         }
         let scan_us = u32::try_from(1000 * self.cycle_ms).unwrap_or(u32::MAX);
         for group in &mut self.groups {
-            let said = group.begin_scan(self.now_ms, scan_us);
-            said.iter().for_each(report);
+            let messages = group.begin_scan(self.now_ms, scan_us);
+            messages.iter().for_each(report);
         }
         for group in &mut self.groups {
             let ended = group.end_scan();

@@ -76,7 +76,7 @@ impl Client {
     }
 
     /// Sends a command.
-    pub fn ask(&mut self, text: &[u8]) -> Result<Reply, Failure> {
+    pub fn request(&mut self, text: &[u8]) -> Result<Reply, Failure> {
         let sum = text.iter().fold(ETX, |sum, &c| sum.wrapping_add(c));
         let mut frame = vec![STX];
         frame.extend(text);
@@ -87,7 +87,7 @@ impl Client {
 
     /// The bytes that a command reads; nothing if the PLC rejects it.
     pub fn data(&mut self, text: &[u8], count: usize) -> Result<Option<Vec<u8>>, Failure> {
-        let Reply::Data(digits) = self.ask(text)? else {
+        let Reply::Data(digits) = self.request(text)? else {
             return Ok(None);
         };
         let pairs = digits.chunks(2).map(|pair| number(pair).map(|n| n as u8));
@@ -101,7 +101,7 @@ impl Client {
     fn exchange(&mut self, request: &[u8]) -> Result<Reply, Failure> {
         let mut why = "";
         for attempt in 0..=self.retries {
-            if interruption::is_asked() {
+            if interruption::is_requested() {
                 return Err(self.failure("interrupted"));
             }
             if attempt > 0 {

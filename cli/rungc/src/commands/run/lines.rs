@@ -203,7 +203,7 @@ impl Line {
     fn seen(&self, whole: Whole, now_ms: u64, watch: &mut Watch) {
         let seen = Seen {
             place: &self.place,
-            speech: LinkProtocol::Serial(self.protocol),
+            link: LinkProtocol::Serial(self.protocol),
             direction: whole.direction,
             bytes: &whole.bytes,
         };

@@ -22,8 +22,8 @@ impl Mode {
             return mode;
         }
         #[cfg(unix)]
-        for (signal, asked) in [(SIGUSR1, STOP), (SIGUSR2, RUN)] {
-            let _ = signal_hook::flag::register_usize(signal, Arc::clone(&mode.0), asked);
+        for (signal, requested) in [(SIGUSR1, STOP), (SIGUSR2, RUN)] {
+            let _ = signal_hook::flag::register_usize(signal, Arc::clone(&mode.0), requested);
         }
         // A file that may not grow is as a full disk: it does not end the run.
         #[cfg(unix)]
@@ -32,7 +32,7 @@ impl Mode {
     }
 
     /// RUN (true) or STOP, if a signal has requested it since the last call.
-    pub fn asked(&self) -> Option<bool> {
+    pub fn requested(&self) -> Option<bool> {
         match self.0.swap(NOTHING, Ordering::Relaxed) {
             STOP => Some(false),
             RUN => Some(true),

@@ -44,8 +44,8 @@ impl Retaining {
 
     /// Saves what has changed, once in a second. A disk that takes nothing does not stop the PLC: it is tried again.
     pub fn poll(&mut self, machine: &mut Machine, now_ms: u64) {
-        if let Some(said) = self.file.keep(machine, now_ms as u32) {
-            eprint_line(&format!("rungc: {said}"));
+        if let Some(message) = self.file.keep(machine, now_ms as u32) {
+            eprint_line(&format!("rungc: {message}"));
         }
         if let Some((class, number)) = self.fault {
             // Every model that the settings fit has it.

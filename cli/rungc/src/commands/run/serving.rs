@@ -47,7 +47,7 @@ impl NetworkRequests {
             };
             let seen = Seen {
                 place: &place(frame.server),
-                speech: LinkProtocol::Client,
+                link: LinkProtocol::Client,
                 direction: match frame.request {
                     true => Direction::Out,
                     false => Direction::In,
@@ -136,7 +136,7 @@ impl Servers {
                 for (direction, bytes) in frames.into_iter().filter(|frame| !frame.1.is_empty()) {
                     let seen = Seen {
                         place: &place,
-                        speech: LinkProtocol::Tcp(open.server.service().protocol),
+                        link: LinkProtocol::Tcp(open.server.service().protocol),
                         direction,
                         bytes,
                     };

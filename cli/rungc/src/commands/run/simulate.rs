@@ -50,7 +50,7 @@ struct Simulation<'a> {
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
-    asked: NetworkRequests,
+    requests: NetworkRequests,
     lines: Lines,
     connecting: Connecting,
     pace: Pace,
@@ -61,7 +61,7 @@ struct Simulation<'a> {
     /// True if the run writes nothing that would have to be undone.
     can_go_back: bool,
     /// True if there may be input from outside before each scan, other than by clients of servers.
-    comes_from_outside: bool,
+    has_external_input: bool,
     now_ms: u64,
     /// A scan has taken longer than the constant scan time.
     overrun: bool,
@@ -160,7 +160,7 @@ impl Run<'_> {
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
-            asked: NetworkRequests::new(module, args.in_real_time(), &mut watch),
+            requests: NetworkRequests::new(module, args.in_real_time(), &mut watch),
             lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
             pace: Pace::new(),
@@ -169,7 +169,7 @@ impl Run<'_> {
             live,
             history: History::default(),
             can_go_back: args.vcd.is_none() && args.plot.is_none() && args.scope.is_none(),
-            comes_from_outside: self.comes_from_outside(),
+            has_external_input: self.has_external_input(),
             now_ms: 0,
             overrun: false,
         };
@@ -212,7 +212,7 @@ impl Run<'_> {
     }
 
     /// Returns true if there may be input from outside before each scan, other than by clients of servers.
-    fn comes_from_outside(&self) -> bool {
+    fn has_external_input(&self) -> bool {
         let lines = self.args.serve.lines(self.module.model);
         !(self.connections.is_empty() && self.module.requests.is_empty() && lines.is_empty())
     }
@@ -233,14 +233,14 @@ impl<'a> Simulation<'a> {
         let retaining = self.retaining.take();
         let is_kept = retaining.is_none_or(|retaining| retaining.end(&self.machine));
         let table = self.watch.table();
-        let said = match table.is_empty() {
+        let printed = match table.is_empty() {
             true => Ok(()),
             false => print_text(&format!("\n{}\n", table.join("\n"))),
         };
         let errors = self.machine.errors();
         self.errors.summarise(errors);
         let denied = args.deny_errors && !errors.is_empty();
-        let cut_short = self.machine.watchdog_tripped() || interruption::is_asked();
+        let cut_short = self.machine.watchdog_tripped() || interruption::is_requested();
         let end_ms = match args.end_ms() {
             Some(end_ms) if !cut_short => end_ms,
             _ => self.now_ms,
@@ -260,7 +260,7 @@ impl<'a> Simulation<'a> {
         if denied || !is_kept {
             return Ok(Outcome::Failed);
         }
-        said?;
+        printed?;
         Ok(outcome)
     }
 
@@ -281,7 +281,7 @@ impl<'a> Simulation<'a> {
             self.answer_clients();
             self.connecting.take(&mut self.machine, &mut self.hal);
             self.turn_switch();
-            self.asked
+            self.requests
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
             self.remember();
             let mut scan_ms = self.scan(args.scan)?;
@@ -293,7 +293,7 @@ impl<'a> Simulation<'a> {
                 eprint_line(&format!("rungc: {message}"));
                 return Ok(Outcome::Failed);
             }
-            if interruption::is_asked() {
+            if interruption::is_requested() {
                 eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
@@ -328,7 +328,7 @@ impl<'a> Simulation<'a> {
 
     /// Goes to RUN or STOP if a signal has requested it.
     fn turn_switch(&mut self) {
-        if let Some(running) = self.mode.asked() {
+        if let Some(running) = self.mode.requested() {
             self.machine.set_running(running);
             self.history.disturb();
             let mode = if running { "RUN" } else { "STOP" };
@@ -408,7 +408,7 @@ impl<'a> Simulation<'a> {
                     }
                     Err(why) => order.answer(Err(why)),
                 },
-                Due::NotYet if !interruption::is_asked() => {
+                Due::NotYet if !interruption::is_requested() => {
                     self.answer_clients();
                     self.note_events();
                 }
@@ -433,7 +433,7 @@ impl<'a> Simulation<'a> {
         let Some(live) = self.live.as_ref().filter(|_| self.can_go_back) else {
             return;
         };
-        if self.comes_from_outside || self.history.is_due(live.scans()) {
+        if self.has_external_input || self.history.is_due(live.scans()) {
             self.history.keep(Moment {
                 now_ms: self.now_ms,
                 machine: self.machine.save(),

@@ -92,8 +92,8 @@ impl Watch {
     }
 
     /// A server or port is open.
-    pub fn open(&mut self, place: &Place, speech: LinkProtocol) {
-        self.traffic.open(place, speech);
+    pub fn open(&mut self, place: &Place, link: LinkProtocol) {
+        self.traffic.open(place, link);
     }
 
     /// A frame was seen `at_us` microseconds after the run began.

@@ -39,7 +39,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
     });
     let cases = counted(suite.len(), "case");
     cx.note(&format!("     Running {cases} on interp"));
-    let (programs, report) = cover(&suite, &mut |_| match interruption::is_asked() {
+    let (programs, report) = cover(&suite, &mut |_| match interruption::is_requested() {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     });
@@ -49,7 +49,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
         elapsed: start.elapsed(),
     };
     print_text(&human(&results))?;
-    if interruption::is_asked() {
+    if interruption::is_requested() {
         return Ok(Outcome::Interrupted);
     }
     if args.mutants {
@@ -114,10 +114,10 @@ fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> R
         let bar = progress::bar(all.len() as u64).with_message("mutants");
         let fates = mutants::run(suite, program, &all, &|| {
             bar.inc(1);
-            !interruption::is_asked()
+            !interruption::is_requested()
         });
         bar.finish_and_clear();
-        if interruption::is_asked() {
+        if interruption::is_requested() {
             return Ok(Outcome::Interrupted);
         }
         let count = |fate| fates.iter().filter(|f| **f == fate).count();

@@ -43,13 +43,13 @@ pub fn traces(
             }
             continue;
         }
-        let wish = match (args.accept, args.reject) {
+        let decision = match (args.accept, args.reject) {
             (true, _) => Decision::Accept,
             (_, true) => Decision::Reject,
-            _ if args.review && !end => ask(outcome, suite, &mut end)?,
+            _ if args.review && !end => prompt(outcome, suite, &mut end)?,
             _ => Decision::Later,
         };
-        match wish {
+        match decision {
             Decision::Accept => {
                 write_file(&trace.path, actual.as_bytes(), true)?;
                 forget(trace);
@@ -74,7 +74,7 @@ fn forget(trace: &Trace) {
 
 /// Shows how a trace differs and asks what to do. An unknown answer is asked for again; the end of the input leaves
 /// all that follows.
-fn ask(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Decision, Failure> {
+fn prompt(outcome: &Outcome, suite: &Suite, end: &mut bool) -> Result<Decision, Failure> {
     print_text(&format!("{}\n", outcome.describe(suite)))?;
     if let Some(plctest::Failure::Trace { actual, .. }) = &outcome.failure {
         print_text(&format!("{actual}\n"))?;

@@ -50,10 +50,10 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
             }
         }
         cx.note("    Watching for changes; Ctrl-C ends");
-        while !interruption::is_asked() && look(args, &inputs) == before {
+        while !interruption::is_requested() && look(args, &inputs) == before {
             sleep(PERIOD);
         }
-        if interruption::is_asked() {
+        if interruption::is_requested() {
             return Ok(Outcome::Interrupted);
         }
     }

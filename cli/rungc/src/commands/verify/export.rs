@@ -20,11 +20,11 @@ use std::time::Duration;
 pub fn questions(
     args: &VerifyArgs,
     module: &Module,
-    asked: &[RequestedProperty],
+    requested: &[RequestedProperty],
     options: &Options,
     cx: Context,
 ) -> std::result::Result<(), Failure> {
-    let only = |option: &str| match asked {
+    let only = |option: &str| match requested {
         [only] => Ok(only),
         _ => Err(Failure::Because(format!("{option}: name one property"))),
     };
@@ -38,9 +38,9 @@ pub fn questions(
         write(path, &aiger::binary(&system))?;
     }
     if let Some(path) = &args.btor2 {
-        let asked = only("--btor2")?;
-        let (encoder, system) = system(module, &asked.property, options);
-        let text = btor2::text(&system, &encoder.gaps, &asked.text);
+        let requested = only("--btor2")?;
+        let (encoder, system) = system(module, &requested.property, options);
+        let text = btor2::text(&system, &encoder.gaps, &requested.text);
         write(path, text.as_bytes())?;
     }
     if args.certificate.is_some() {
@@ -127,11 +127,11 @@ fn prove(formula: &Path, time: Duration, force: bool) -> std::result::Result<(),
     }
     // Half a proof is none.
     let _ = std::fs::remove_file(&proof);
-    let said = String::from_utf8_lossy(&output.stderr);
+    let stderr = String::from_utf8_lossy(&output.stderr);
     Err(Failure::Because(format!(
         "--drat: `{SOLVER}` does not prove {} ({}): {}",
         formula.display(),
         output.status,
-        said.trim()
+        stderr.trim()
     )))
 }

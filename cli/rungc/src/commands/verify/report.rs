@@ -16,11 +16,11 @@ use std::time::Duration;
 /// A property and what was found of it.
 pub struct Result<'a> {
     /// The property as requested.
-    pub asked: &'a str,
+    pub requested: &'a str,
     pub property: &'a Property,
     pub decision: &'a Decision,
     /// Devices that may be written from outside the program.
-    pub outside: &'a ExternalWrites,
+    pub external: &'a ExternalWrites,
     /// Duration.
     pub time: Duration,
 }
@@ -64,7 +64,7 @@ impl Result<'_> {
             }
         });
         Case {
-            name: self.asked.to_string(),
+            name: self.requested.to_string(),
             class: file.to_string(),
             time: self.time,
             problem,
@@ -85,17 +85,17 @@ impl Result<'_> {
                 "            nothing in the program writes {names}: taken as inputs"
             );
         }
-        for by in self.outside.sources() {
+        for by in self.external.sources() {
             let named_by = |key: &&Key| {
                 let device = device_of(**key);
-                device.and_then(|device| self.outside.source(module.model, device)) == Some(by)
+                device.and_then(|device| self.external.source(module.model, device)) == Some(by)
             };
             let free = self.decision.free.iter().filter(named_by).copied();
             let names = list(&free.collect::<Vec<_>>());
             if !names.is_empty() {
                 let _ = writeln!(
                     text,
-                    "            written from outside, as `{by}` says: {names}: taken as inputs"
+                    "            written from outside (`{by}`): {names}: taken as inputs"
                 );
             }
         }
@@ -103,12 +103,14 @@ impl Result<'_> {
 
     /// The verdict as a diagnostic says it.
     pub fn sentence(&self) -> String {
-        let asked = self.asked;
+        let requested = self.requested;
         match (&self.decision.verdict, self.property.is_wanted()) {
-            (Verdict::Undecided(why), _) => format!("`{asked}` is not decided: {}", reason(why)),
-            (Verdict::Proved, _) => format!("`{asked}`: no run reaches this"),
+            (Verdict::Undecided(why), _) => {
+                format!("`{requested}` is not decided: {}", reason(why))
+            }
+            (Verdict::Proved, _) => format!("`{requested}`: no run reaches this"),
             (Verdict::Found(trace), _) => format!(
-                "`{asked}` is violated after {}",
+                "`{requested}` is violated after {}",
                 counted(trace.scans.len(), "scan")
             ),
         }
@@ -149,7 +151,7 @@ pub fn human(
     results: &[Result],
     module: &Module,
     options: &Options,
-    (assumed, outside): (&[String], &ExternalWrites),
+    (assumed, external): (&[String], &ExternalWrites),
 ) -> String {
     let mut text = String::new();
     for result in results {
@@ -158,7 +160,7 @@ pub fn human(
             text,
             "{:<11} {} ({seconds:.2} s)",
             result.word(),
-            result.asked
+            result.requested
         );
         if let Verdict::Undecided(why) = &result.decision.verdict {
             let _ = writeln!(text, "            {}", reason(why));
@@ -170,7 +172,7 @@ pub fn human(
         .any(|result| result.word() == "proved" || result.word() == "not reachable")
     {
         let _ = writeln!(text, "Proved for this model under these assumptions:");
-        for line in assumptions(options, assumed, outside) {
+        for line in assumptions(options, assumed, external) {
             let _ = writeln!(text, "  - {line}");
         }
     }
@@ -192,7 +194,11 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
 }
 
 /// Assumptions of every proof.
-pub fn assumptions(options: &Options, assumed: &[String], outside: &ExternalWrites) -> Vec<String> {
+pub fn assumptions(
+    options: &Options,
+    assumed: &[String],
+    external: &ExternalWrites,
+) -> Vec<String> {
     let ms = options.world.scan_ms;
     let mut lines = vec![
         "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
@@ -204,7 +210,7 @@ pub fn assumptions(options: &Options, assumed: &[String], outside: &ExternalWrit
             true => "latched devices begin with 0".to_string(),
             false => "latched devices begin with any value, all others as at power-on".to_string(),
         },
-        untouched(outside),
+        untouched(external),
     ];
     lines.extend(
         assumed
@@ -215,13 +221,13 @@ pub fn assumptions(options: &Options, assumed: &[String], outside: &ExternalWrit
 }
 
 /// Assumption about writers of devices that the program writes.
-fn untouched(outside: &ExternalWrites) -> String {
-    let named = match outside.sources()[..] {
+fn untouched(external: &ExternalWrites) -> String {
+    let named = match external.sources()[..] {
         [] => "`--free`".to_string(),
         [only] => format!("what `{only}` names"),
         [ref several @ .., last] => format!("what `{}` and `{last}` name", several.join("`, `")),
     };
-    let client = match outside.has_clients {
+    let client = match external.has_clients {
         true => ", no client of `[serve]`",
         false => "",
     };

@@ -41,14 +41,14 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         Err(failure) => return super::unread(args, failure, reporter, cx),
     };
     let reader = Reader {
-        args: &args.asked,
+        args: &args.properties,
         subject: &subject,
         program: &read_new.program,
         cx,
     };
     let assumed = reader.assumed()?;
-    let outside = reader.outside();
-    let options = super::options(args, &reader, &assumed, &outside)?;
+    let external = reader.external();
+    let options = super::options(args, &reader, &assumed, &external)?;
     let looked = || options.assumed.iter();
     let old_module = module(&before, &read_old, looked(), &mut reporter)?;
     let new_module = module(&subject, &read_new, looked(), &mut reporter)?;
@@ -89,7 +89,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         &mut reporter,
     )?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    let supposed = report::assumptions(&options, &assumed, &outside);
+    let supposed = report::assumptions(&options, &assumed, &external);
     let text = || text(&compared, &names, &modules[1], &supposed);
     let outcomes = outputs.map(|output| outcome(&output.verdict));
     let same = outcomes.clone().filter(|one| *one == Outcome::Success);
@@ -244,7 +244,7 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
         }
         report::gaps(&mut text, &output.gaps);
     }
-    if !compared.same_outside {
+    if !compared.same_environment {
         let _ = writeln!(
             text,
             "not compared: what the programs send to modules, serial ports and pulse outputs"

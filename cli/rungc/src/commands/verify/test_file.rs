@@ -20,7 +20,7 @@ pub fn text(program: &Path, path: &Path, module: &Module, results: &[Result]) ->
             continue;
         };
         any = true;
-        let _ = writeln!(text, "\n[[case]]\nname = {}", quoted(result.asked));
+        let _ = writeln!(text, "\n[[case]]\nname = {}", quoted(result.requested));
         let story = story(module, result.property, trace);
         if let Some(first) = story.first().filter(|first| !first.start.is_empty()) {
             let _ = writeln!(text, "init = {}", table(&plain(&first.start)));

@@ -108,7 +108,7 @@ impl Table {
     pub fn new(resolved: &Resolved, ladder: &Ladder, args: &XrefArgs) -> Table {
         let xref = CrossReference::new(resolved);
         let line = |i: usize| Line::new(resolved, ladder, &xref.uses[i]);
-        let asked = |row: &&Row| {
+        let requested = |row: &&Row| {
             args.device.is_empty()
                 || args.device.iter().any(|(class, first, last)| {
                     row.first.class == *class
@@ -116,7 +116,7 @@ impl Table {
                         && row.last.number >= *first
                 })
         };
-        let devices = xref.rows.iter().filter(asked).map(|row| Entry {
+        let devices = xref.rows.iter().filter(requested).map(|row| Entry {
             area: Area::new(row.first, row.last),
             comment: comment(resolved, row),
             uses: row.uses.iter().copied().map(line).collect(),

@@ -212,7 +212,7 @@ pub(super) fn receive(
                 }
             }
             if own != 0 && u16::from(station) == own {
-                link.asked = true;
+                link.polled = true;
                 link.station = station;
                 link.mode = net.mode;
                 link.slaves = net.slaves;
@@ -223,7 +223,7 @@ pub(super) fn receive(
         _ => return Err(LineFault::Form),
     }
     if kind == ASK || station == 0 {
-        link.heard_us = now_us;
+        link.last_frame_us = now_us;
     }
     Ok(())
 }
@@ -248,7 +248,7 @@ pub(super) fn poll_master(
         let retries = value(D_RETRIES, map);
         if !was_missing && u16::from(link.tries) < retries && link.tries < u8::MAX {
             link.tries += 1;
-            return ask(link, net, frame);
+            return send_poll(link, net, frame);
         }
         if !was_missing {
             count(link.station, enhanced, CODE_TIME_OUT, map);
@@ -270,12 +270,12 @@ pub(super) fn poll_master(
         net.send_block(0, map, frame);
     } else {
         link.tries = 0;
-        ask(link, net, frame);
+        send_poll(link, net, frame);
     }
 }
 
 /// Asks the station whose turn it is.
-fn ask(link: &mut Link, net: Net, frame: &mut Frame) {
+fn send_poll(link: &mut Link, net: Net, frame: &mut Frame) {
     net.begin(ASK, link.station, frame);
     frame.push_hex(link.missing.into(), 4);
     text::end(frame);
@@ -289,14 +289,14 @@ pub(super) fn poll_slave(
     map: &mut dyn Map,
     frame: &mut Frame,
 ) {
-    if core::mem::take(&mut link.asked) {
+    if core::mem::take(&mut link.polled) {
         if let Some(net) = Net::of_frame(enhanced, link.slaves, link.mode) {
             net.send_block(link.station, map, frame);
         }
         return;
     }
-    if now_us.wrapping_sub(link.heard_us) >= NO_MASTER_US {
-        link.heard_us = now_us;
+    if now_us.wrapping_sub(link.last_frame_us) >= NO_MASTER_US {
+        link.last_frame_us = now_us;
         if !link.is_missing(0) {
             count(0, enhanced, CODE_NO_MASTER, map);
         }

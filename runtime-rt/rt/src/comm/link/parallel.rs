@@ -59,8 +59,8 @@ pub(super) fn receive(
         _ => return Err(LineFault::Form),
     }
     link.waiting = false;
-    link.asked = true;
-    link.heard_us = now_us;
+    link.polled = true;
+    link.last_frame_us = now_us;
     set_relay(M_RUNNING, true, map);
     Ok(())
 }
@@ -71,10 +71,10 @@ fn supervise(link: &mut Link, now_us: u32, map: &mut dyn Map) -> Result<(), Line
         0 => USUAL_TIME_OUT_MS,
         time => time,
     };
-    if now_us.wrapping_sub(link.heard_us) < 1000 * time_ms {
+    if now_us.wrapping_sub(link.last_frame_us) < 1000 * time_ms {
         return Ok(());
     }
-    link.heard_us = now_us;
+    link.last_frame_us = now_us;
     set_relay(M_RUNNING, false, map);
     Err(LineFault::TimeOut)
 }
@@ -98,7 +98,7 @@ pub(super) fn poll_slave(
     map: &mut dyn Map,
     frame: &mut Frame,
 ) -> Result<(), LineFault> {
-    if core::mem::take(&mut link.asked) {
+    if core::mem::take(&mut link.polled) {
         send(false, map, frame);
     }
     supervise(link, now_us, map)

@@ -163,7 +163,7 @@ impl Client {
             Link::Opening => ClientAction::Nothing,
             Link::Open if self.waits && waited_us > ANSWER_US => self.give_up(now_us, map),
             Link::Open if self.waits => ClientAction::Nothing,
-            Link::Open => self.ask(rows, now_us, map, request),
+            Link::Open => self.send_request(rows, now_us, map, request),
         }
     }
 
@@ -223,7 +223,7 @@ impl Client {
     }
 
     /// Makes the request of the next row.
-    fn ask(
+    fn send_request(
         &mut self,
         rows: &[ClientRow],
         now_us: u32,
@@ -328,10 +328,10 @@ mod tests {
             let mut request = Frame::new(&mut bytes);
             let mut map = Served::new(&mut self.plc, 0);
             let rows = &self.rows;
-            let wish = self
+            let action = self
                 .client
                 .next(rows, link, self.now_us, &mut map, &mut request);
-            (wish, request.as_slice().to_vec())
+            (action, request.as_slice().to_vec())
         }
 
         fn feed(&mut self, bytes: &[u8]) -> ClientAction {
@@ -356,8 +356,8 @@ mod tests {
         let mut bench = Bench::new(&[read(0x1f4), other, read(0x30)]);
         assert_eq!(bench.next(Link::Closed).0, ClientAction::Open);
         assert_eq!(bench.next(Link::Opening).0, ClientAction::Nothing);
-        let (wish, request) = bench.next(Link::Open);
-        assert_eq!(wish, ClientAction::Send);
+        let (action, request) = bench.next(Link::Open);
+        assert_eq!(action, ClientAction::Send);
         assert_eq!(request, [0, 1, 0, 0, 0, 6, 1, 3, 1, 0xf4, 0, 1]);
         assert_eq!(bench.next(Link::Open).0, ClientAction::Nothing);
         // An answer to another request is not that of this one.

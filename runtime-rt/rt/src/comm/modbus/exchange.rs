@@ -57,7 +57,7 @@ pub struct Exchange {
     /// Number of retries so far.
     tries: u8,
     /// The scan in which the instruction has learnt of the last end ([`crate::Sys::scan`]); 0 before.
-    pub told: u16,
+    pub reported_in: u16,
 }
 
 /// State of the port for an instruction that the scan reaches.
@@ -95,7 +95,7 @@ impl Exchange {
             end: End::Well,
             retries: 0,
             tries: 0,
-            told: 0,
+            reported_in: 0,
         }
     }
 
@@ -124,7 +124,7 @@ impl Exchange {
             end: End::Well,
             retries,
             tries: 0,
-            told: self.told,
+            reported_in: self.reported_in,
         };
     }
 

@@ -179,9 +179,10 @@ impl<'a> Request<'a> {
         let count = if one { 1 } else { word };
         let bytes = bytes_of(count, bits);
         let (new, is_right) = match rest {
-            [said, new @ ..] if several => {
-                (Some(new), *said == bytes && new.len() == usize::from(bytes))
-            }
+            [declared, new @ ..] if several => (
+                Some(new),
+                *declared == bytes && new.len() == usize::from(bytes),
+            ),
             [] if one && bits => {
                 let is_right = profile.any_value_is_on || matches!(word, 0 | COIL_ON);
                 (Some(if word == 0 { &[0][..] } else { &[1] }), is_right)

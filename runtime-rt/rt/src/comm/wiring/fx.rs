@@ -45,7 +45,7 @@ impl ModbusWiring {
     }
 
     /// Relay: an exchange has failed since RUN began; details are in the register of this number.
-    pub(crate) const fn kept(self) -> Relay {
+    pub(crate) const fn failed_since_run(self) -> Relay {
         self.relay(3)
     }
 
@@ -97,7 +97,7 @@ impl ModbusWiring {
     /// Forgets the errors.
     pub(crate) fn clear(self, plc: &mut dyn Plc) {
         self.failed().set(plc, false);
-        self.kept().set(plc, false);
+        self.failed_since_run().set(plc, false);
         for after in 2..=4 {
             self.register(after).set(plc, 0);
         }
@@ -152,7 +152,7 @@ impl PortWiring {
         }
         if let Some(modbus) = self.modbus {
             modbus.failed().set(plc, true);
-            modbus.kept().set(plc, true);
+            modbus.failed_since_run().set(plc, true);
             modbus.register(2).set(plc, code);
             modbus.register(3).set(plc, details);
         }

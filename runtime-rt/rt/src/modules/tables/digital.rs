@@ -1,6 +1,6 @@
 //! Remote digital modules and analog boards of H1U and H2U.
 
-use super::super::Access::{Kept, Read, ReadWrite};
+use super::super::Access::{Read, ReadWrite, Retained};
 use super::super::Quantity::{Milliamperes, Volts};
 use super::super::{Bfm, Duty, Kind, Place, Range, Role};
 use super::{COMMON, bfm, range};
@@ -14,7 +14,7 @@ const REMOTE: Kind = Kind {
 };
 
 /// The time after which the outputs go off when the bus is silent.
-const SILENCE: Bfm = bfm(5, 1, Role::Silence, Kept, 500);
+const SILENCE: Bfm = bfm(5, 1, Role::Silence, Retained, 500);
 
 /// 0 to 10 V or 0 to 20 mA as 0 to 10000.
 const VOLTS: Option<Range> = range(Volts, [0, 10_000], 10_000, [0, 10_000]);

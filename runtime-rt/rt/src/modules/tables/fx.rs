@@ -1,6 +1,6 @@
 //! Modules of FX.
 
-use super::super::Access::{Kept, Read, ReadWrite};
+use super::super::Access::{Read, ReadWrite, Retained};
 use super::super::Quantity::{Milliamperes, Volts};
 use super::super::{Kind, Range, Role, Start};
 use super::{COMMON, INPUTS, OUTPUTS, bfm, degrees, inputs, outputs, range, temperatures};
@@ -136,20 +136,20 @@ pub(super) const KINDS: [Kind; 9] = [
         input_ranges: &INPUTS_3U,
         last: 6999,
         bfms: &[
-            bfm(0, 1, Role::InputRanges, Kept, 0),
-            bfm(2, 4, Role::Samples, Kept, 1),
-            bfm(6, 4, Role::Setting, Kept, 0),
+            bfm(0, 1, Role::InputRanges, Retained, 0),
+            bfm(2, 4, Role::Samples, Retained, 1),
+            bfm(6, 4, Role::Setting, Retained, 0),
             bfm(10, 4, Role::Mean, Read, 0),
-            bfm(19, 1, Role::InputLock, Kept, 2080),
+            bfm(19, 1, Role::InputLock, Retained, 2080),
             bfm(20, 1, Role::InputReset, ReadWrite, 0),
             bfm(21, 1, Role::InputTakeOverBoth, ReadWrite, 0),
-            bfm(22, 1, Role::Setting, Kept, 0),
+            bfm(22, 1, Role::Setting, Retained, 0),
             bfm(28, 1, Role::RangeLatch, ReadWrite, 0),
             bfm(29, 1, Role::InputError, Read, 0),
             bfm(30, 1, Role::Identification, Read, 2080),
-            bfm(41, 4, Role::InputOffsets, Kept, 0),
-            bfm(51, 4, Role::InputGains, Kept, 5000),
-            bfm(61, 4, Role::Addition, Kept, 0),
+            bfm(41, 4, Role::InputOffsets, Retained, 0),
+            bfm(51, 4, Role::InputGains, Retained, 5000),
+            bfm(61, 4, Role::Addition, Retained, 0),
             bfm(101, 4, Role::LeastPeak, Read, 0),
             bfm(109, 1, Role::PeakReset, ReadWrite, 0),
             bfm(111, 4, Role::GreatestPeak, Read, 0),
@@ -168,13 +168,13 @@ pub(super) const KINDS: [Kind; 9] = [
         output_ranges: &OUTPUTS_3U,
         last: 3098,
         bfms: &[
-            bfm(0, 1, Role::OutputRanges, Kept, 0),
+            bfm(0, 1, Role::OutputRanges, Retained, 0),
             bfm(1, 4, Role::Output, ReadWrite, 0),
-            bfm(5, 1, Role::StopModes, Kept, 0),
+            bfm(5, 1, Role::StopModes, Retained, 0),
             bfm(9, 1, Role::OutputTakeOverBoth, ReadWrite, 0),
-            bfm(10, 4, Role::OutputOffsets, Kept, 0),
-            bfm(14, 4, Role::OutputGains, Kept, 5000),
-            bfm(19, 1, Role::OutputLock, Kept, 3030),
+            bfm(10, 4, Role::OutputOffsets, Retained, 0),
+            bfm(14, 4, Role::OutputGains, Retained, 5000),
+            bfm(19, 1, Role::OutputLock, Retained, 3030),
             bfm(20, 1, Role::OutputReset, ReadWrite, 0),
             bfm(29, 1, Role::OutputError, Read, 0),
             bfm(30, 1, Role::Identification, Read, 3030),

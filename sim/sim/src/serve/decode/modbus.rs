@@ -27,12 +27,12 @@ impl Decoder {
     pub(super) fn modbus(
         &self,
         framing: Framing,
-        asks: bool,
+        is_request: bool,
         bytes: &[u8],
         before: Option<&[u8]>,
     ) -> Decoded {
-        let decoded = master(framing, asks, bytes, before);
-        if !asks || decoded.error.is_some() {
+        let decoded = master(framing, is_request, bytes, before);
+        if !is_request || decoded.error.is_some() {
             return decoded;
         }
         let station = open(framing, bytes)
@@ -48,9 +48,14 @@ impl Decoder {
         })
     }
 
-    pub(super) fn modbus_tcp(&self, asks: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
-        let decoded = over_tcp(asks, bytes, before);
-        if !asks || decoded.error.is_some() {
+    pub(super) fn modbus_tcp(
+        &self,
+        is_request: bool,
+        bytes: &[u8],
+        before: Option<&[u8]>,
+    ) -> Decoded {
+        let decoded = over_tcp(is_request, bytes, before);
+        if !is_request || decoded.error.is_some() {
             return decoded;
         }
         self.with_devices(decoded, |map, reply| {
@@ -78,19 +83,24 @@ impl Decoder {
 }
 
 /// A frame over TCP, whose addresses are not devices of the PLC.
-pub(super) fn over_tcp(asks: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
+pub(super) fn over_tcp(is_request: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
     let body = |bytes: &[u8]| bytes.get(TCP_HEADER..).map(<[u8]>::to_vec);
     match body(bytes).filter(|_| tcp::cut(bytes) == Cut::Whole) {
-        Some(own) => message("unit", asks, &own, before.and_then(body).as_deref()),
+        Some(own) => message("unit", is_request, &own, before.and_then(body).as_deref()),
         None => wrong(LineFault::Form),
     }
 }
 
 /// A frame on a line whose slave is somebody else: its addresses are not devices of the PLC.
-pub(super) fn master(framing: Framing, asks: bool, bytes: &[u8], before: Option<&[u8]>) -> Decoded {
+pub(super) fn master(
+    framing: Framing,
+    is_request: bool,
+    bytes: &[u8],
+    before: Option<&[u8]>,
+) -> Decoded {
     let request = before.and_then(|before| open(framing, before).ok());
     match open(framing, bytes) {
-        Ok(body) => message("station", asks, &body, request.as_deref()),
+        Ok(body) => message("station", is_request, &body, request.as_deref()),
         Err(fault) => wrong(fault),
     }
 }
@@ -136,18 +146,18 @@ fn open(framing: Framing, frame: &[u8]) -> Result<Vec<u8>, LineFault> {
 
 /// A request or an answer from the station on. `to` is what its first byte is called; `request` is what an answer
 /// answers.
-fn message(to: &str, asks: bool, body: &[u8], request: Option<&[u8]>) -> Decoded {
+fn message(to: &str, is_request: bool, body: &[u8], request: Option<&[u8]>) -> Decoded {
     let [station, function, data @ ..] = body else {
         return wrong(LineFault::Length);
     };
-    let (what, error) = match asks {
-        true => (asked(*function, data), None),
-        false => answered(*function, data, request),
+    let (what, error) = match is_request {
+        true => (request_text(*function, data), None),
+        false => reply_text(*function, data, request),
     };
     Decoded {
         text: format!("{to} {station}: {what}"),
         error,
-        broadcast: asks && to == "station" && *station == BROADCAST,
+        broadcast: is_request && to == "station" && *station == BROADCAST,
         ..Decoded::default()
     }
 }
@@ -176,7 +186,7 @@ fn bits(data: &[u8], count: usize) -> String {
     shown.map(|bit| if bit == 1 { '1' } else { '0' }).collect()
 }
 
-fn asked(function: u8, data: &[u8]) -> String {
+fn request_text(function: u8, data: &[u8]) -> String {
     let (address, second) = (word(data, 0), word(data, 2));
     let many = |what| format!("{what} {address}, count {second}");
     let values = data.get(5..).unwrap_or(&[]);
@@ -196,7 +206,7 @@ fn asked(function: u8, data: &[u8]) -> String {
     }
 }
 
-fn answered(function: u8, data: &[u8], request: Option<&[u8]>) -> (String, Option<String>) {
+fn reply_text(function: u8, data: &[u8], request: Option<&[u8]>) -> (String, Option<String>) {
     let values = data.get(1..).unwrap_or(&[]);
     let what = match function {
         EXCEPTION.. => {
@@ -208,8 +218,8 @@ fn answered(function: u8, data: &[u8], request: Option<&[u8]>) -> (String, Optio
             );
         }
         0x01 | 0x02 => {
-            let asked = request.map_or(usize::MAX, |request| word(request, 4).into());
-            format!("{function:02X} = {}", bits(values, asked))
+            let request_text = request.map_or(usize::MAX, |request| word(request, 4).into());
+            format!("{function:02X} = {}", bits(values, request_text))
         }
         0x03 | 0x04 => format!("{function:02X} = {}", words(values)),
         _ => format!("{function:02X} done"),

@@ -14,10 +14,10 @@ fn rtu(body: &[u8]) -> Vec<u8> {
 }
 
 /// A line of a log: what a frame says, after an earlier one in the other direction.
-fn line(speech: LinkProtocol, direction: Direction, bytes: &[u8], before: Option<&[u8]>) -> String {
+fn line(link: LinkProtocol, direction: Direction, bytes: &[u8], before: Option<&[u8]>) -> String {
     let decoder = Decoder::new(Ports::Inovance, 24120);
-    let decoded = decoder.decode(speech, direction, bytes, before);
-    let mut line = format!("{} {direction:?}: {}", speech.name(), decoded.text);
+    let decoded = decoder.decode(link, direction, bytes, before);
+    let mut line = format!("{} {direction:?}: {}", link.name(), decoded.text);
     if let Some(error) = decoded.error {
         let _ = write!(line, " !! {error}");
     }
@@ -111,7 +111,7 @@ fn what_is_not_carried_out_is_not_written() {
     let mut frame = |direction, bytes: &[u8], protocol| {
         traffic.frame(Seen {
             place: &place,
-            speech: LinkProtocol::Serial(protocol),
+            link: LinkProtocol::Serial(protocol),
             direction,
             bytes,
         });
@@ -138,7 +138,7 @@ fn what_is_not_carried_out_is_not_written() {
 #[test]
 fn any_bytes_are_shown() {
     let decoder = Decoder::new(Ports::L01s, 24120);
-    let speeches = [
+    let links = [
         LinkProtocol::Tcp(ServerProtocol::ModbusTcp),
         LinkProtocol::Tcp(ServerProtocol::Mc),
         LinkProtocol::Tcp(ServerProtocol::ProgrammingPort),
@@ -148,9 +148,9 @@ fn any_bytes_are_shown() {
         Protocol::ModbusAscii,
         Protocol::ComputerLink,
     ];
-    let speeches = speeches.into_iter().chain(serial.map(LinkProtocol::Serial));
+    let links = links.into_iter().chain(serial.map(LinkProtocol::Serial));
     let mut state = 1u32;
-    for speech in speeches {
+    for link in links {
         for length in (0..64).chain([700, 9000]) {
             let next = |_| {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -158,7 +158,7 @@ fn any_bytes_are_shown() {
             };
             let bytes: Vec<u8> = (0..length).map(next).collect();
             for direction in [Direction::In, Direction::Out] {
-                decoder.decode(speech, direction, &bytes, Some(&bytes));
+                decoder.decode(link, direction, &bytes, Some(&bytes));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Long runs: what counters and timers need many scans for.
 
 use super::rarity::Rarity;
-use super::{Chance, Habits, Lanes};
+use super::{Habits, Lanes, Random};
 use crate::search::Trace;
 use crate::system::System;
 use web_time::Instant;
@@ -19,7 +19,7 @@ const ATTEMPTS: usize = 16;
 pub(crate) struct LongRuns<'s> {
     system: &'s System,
     scan_ms: u32,
-    chance: Chance,
+    random: Random,
     rarity: Rarity,
     /// The run under way.
     lanes: Option<Lanes<'s>>,
@@ -33,7 +33,7 @@ impl<'s> LongRuns<'s> {
         LongRuns {
             system,
             scan_ms,
-            chance: Chance::new(),
+            random: Random::new(),
             rarity: Rarity::new(system),
             lanes: None,
             runs: 0,
@@ -53,7 +53,7 @@ impl<'s> LongRuns<'s> {
                 Some(lanes) => lanes,
                 None => {
                     self.runs += 1;
-                    Lanes::new(self.system, &mut self.chance)
+                    Lanes::new(self.system, &mut self.random)
                 }
             };
             if let Some(trace) = self.stretch(&mut lanes, happens) {
@@ -74,13 +74,13 @@ impl<'s> LongRuns<'s> {
         lanes: &mut Lanes<'s>,
         happens: &mut dyn FnMut(&Trace) -> bool,
     ) -> Option<Trace> {
-        let chance = &mut self.chance;
-        let habits = Habits::new(self.system, chance);
-        let ms = [1, 10, 10, 100][chance.below(4) as usize].min(self.scan_ms);
-        let length = 1 << (4 + 2 * chance.below(4));
+        let random = &mut self.random;
+        let habits = Habits::new(self.system, random);
+        let ms = [1, 10, 10, 100][random.below(4) as usize].min(self.scan_ms);
+        let length = 1 << (4 + 2 * random.below(4));
         for _ in 0..length {
             let ms = if lanes.scans.is_empty() { 0 } else { ms };
-            lanes.scan_by(ms, &habits, chance);
+            lanes.scan_by(ms, &habits, random);
             let bad = lanes.value(self.system.bad);
             if bad != 0 {
                 let trace = lanes.trace(bad.trailing_zeros());

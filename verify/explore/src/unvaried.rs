@@ -9,7 +9,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
 /// Influences on the program that the search does not vary, a sentence each; empty if there are none.
-pub fn untried(task: &Task) -> Vec<String> {
+pub fn unvaried(task: &Task) -> Vec<String> {
     let module = task.module;
     let mut found = Vec::new();
     let inputs = task.sources.iter().flat_map(|source| source.at.inputs());

@@ -1,4 +1,4 @@
-//! 64 runs at once with inputs by chance: what happens in one of them needs no proof that it never does.
+//! Random simulation, 64 runs at once: an event in one of them needs no proof that it never happens.
 
 mod long;
 mod rarity;
@@ -12,11 +12,11 @@ use crate::system::System;
 use rustc_hash::FxHashMap;
 
 /// Random numbers, the same in every run of the program.
-pub(crate) struct Chance(u64);
+pub(crate) struct Random(u64);
 
-impl Chance {
+impl Random {
     pub fn new() -> Self {
-        Chance(0x9E37_79B9_7F4A_7C15)
+        Random(0x9E37_79B9_7F4A_7C15)
     }
 
     /// 64 bits.
@@ -53,11 +53,11 @@ pub(crate) struct Lanes<'s> {
 
 impl<'s> Lanes<'s> {
     /// Runs that begin, with what may be anything by chance in half of them.
-    pub fn new(system: &'s System, chance: &mut Chance) -> Self {
+    pub fn new(system: &'s System, random: &mut Random) -> Self {
         let half = 0xFFFF_FFFF;
-        let begin = |latch: &crate::system::Latch, chance: &mut Chance| {
+        let begin = |latch: &crate::system::Latch, random: &mut Random| {
             let Some(on) = latch.init else {
-                let any = chance.bits() & chance.bits() & half;
+                let any = random.bits() & random.bits() & half;
                 // A replay begins at 0, too.
                 let from_0 = matches!(latch.key, Key::Now | Key::Timer(_, TimerPart::Part));
                 return if from_0 { 0 } else { any };
@@ -67,7 +67,7 @@ impl<'s> Lanes<'s> {
         let latches: Vec<u64> = system
             .latches
             .iter()
-            .map(|latch| begin(latch, chance))
+            .map(|latch| begin(latch, random))
             .collect();
         Lanes {
             system,
@@ -82,19 +82,19 @@ impl<'s> Lanes<'s> {
     }
 
     /// Executes a scan this long after the one before; devices that are inputs change by chance if `change`.
-    pub fn scan(&mut self, ms: u32, change: bool, chance: &mut Chance) {
-        let wide = chance.below(4) == 0;
+    pub fn scan(&mut self, ms: u32, change: bool, random: &mut Random) {
+        let wide = random.below(4) == 0;
         for ((_, input), held) in self.system.inputs.iter().zip(&mut self.inputs) {
             match *input {
                 Input::Device(_, bit) if change => {
-                    let few = chance.bits() & chance.bits();
+                    let few = random.bits() & random.bits();
                     // Numbers are small mostly.
                     *held = if bit < 4 || wide { *held ^ few } else { 0 };
                 }
                 Input::Device(..) => {}
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
                 Input::ScanTime(_) => *held = 0,
-                Input::Gap(_) => *held = chance.bits(),
+                Input::Gap(_) => *held = random.bits(),
             }
         }
         self.evaluate();
@@ -103,19 +103,19 @@ impl<'s> Lanes<'s> {
 
     /// Executes a scan this long after the one before; devices change as they are used to. Lanes in which that would
     /// break a constraint keep what they had.
-    fn scan_by(&mut self, ms: u32, habits: &Habits, chance: &mut Chance) {
+    fn scan_by(&mut self, ms: u32, habits: &Habits, random: &mut Random) {
         let before = self.inputs.clone();
         let inputs = self.system.inputs.iter().zip(&mut self.inputs);
         for (((_, input), held), seldom) in inputs.zip(&habits.seldom) {
             match *input {
-                Input::Device(..) => *held ^= seldom.changes(chance),
+                Input::Device(..) => *held ^= seldom.changes(random),
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
                 Input::ScanTime(_) => *held = 0,
-                Input::Gap(_) => *held = chance.bits() & habits.gaps,
+                Input::Gap(_) => *held = random.bits() & habits.gaps,
             }
         }
         self.evaluate();
-        let broken = !self.kept() & self.alive;
+        let broken = !self.valid() & self.alive;
         if broken != 0 {
             let inputs = self.system.inputs.iter().zip(&mut self.inputs);
             for (((_, input), held), before) in inputs.zip(before) {
@@ -145,15 +145,15 @@ impl<'s> Lanes<'s> {
     }
 
     /// The lanes in which all constraints hold in the scan.
-    fn kept(&self) -> u64 {
+    fn valid(&self) -> u64 {
         let constraints = self.system.constraints.iter();
-        constraints.fold(u64::MAX, |kept, &holds| kept & self.of(holds))
+        constraints.fold(u64::MAX, |valid, &holds| valid & self.of(holds))
     }
 
     /// Ends the scan.
     fn end(&mut self, ms: u32) {
         self.scans.push((ms, self.inputs.clone()));
-        self.alive &= self.kept();
+        self.alive &= self.valid();
         self.latches = self
             .system
             .latches
@@ -250,24 +250,24 @@ impl Seldom {
     const POWERS: [u32; 5] = [0, 1, 3, 6, 10];
 
     /// Each lane has one of the powers, or none.
-    fn new(chance: &mut Chance) -> Self {
+    fn new(random: &mut Random) -> Self {
         let (mut left, mut lanes) = (u64::MAX, [0; 5]);
         for part in &mut lanes {
-            *part = left & (chance.bits() | chance.bits() & chance.bits());
+            *part = left & (random.bits() | random.bits() & random.bits());
             left &= !*part;
         }
         // The most frequent change differs from input to input.
-        lanes.rotate_left(chance.below(5) as usize);
+        lanes.rotate_left(random.below(5) as usize);
         Seldom(lanes)
     }
 
     /// The lanes in which it changes now.
-    fn changes(&self, chance: &mut Chance) -> u64 {
+    fn changes(&self, random: &mut Random) -> u64 {
         let mut changes = 0;
         let (mut bits, mut power) = (u64::MAX, 0);
         for (lanes, wanted) in self.0.iter().zip(Self::POWERS) {
             while power < wanted && bits != 0 {
-                bits &= chance.bits();
+                bits &= random.bits();
                 power += 1;
             }
             changes |= lanes & bits;
@@ -285,11 +285,11 @@ struct Habits {
 }
 
 impl Habits {
-    fn new(system: &System, chance: &mut Chance) -> Self {
+    fn new(system: &System, random: &mut Random) -> Self {
         // Numbers are small mostly.
-        let (small, wide) = (chance.bits() & chance.bits(), chance.bits() & chance.bits());
+        let (small, wide) = (random.bits() & random.bits(), random.bits() & random.bits());
         let inputs = system.inputs.iter().map(|(_, input)| {
-            let mut seldom = Seldom::new(chance);
+            let mut seldom = Seldom::new(random);
             let lanes = match input {
                 Input::Device(_, 0) => u64::MAX,
                 Input::Device(_, 1..4) => small | wide,
@@ -300,7 +300,7 @@ impl Habits {
         });
         Habits {
             seldom: inputs.collect(),
-            gaps: chance.bits() & chance.bits(),
+            gaps: random.bits() & random.bits(),
         }
     }
 }
