@@ -319,8 +319,8 @@ impl Printer<'_> {
                             format!("        (void)memset(&{array}, 0, sizeof {array});\n")
                         }
                     };
-                    if let Some(is_kept) = field.column_is_stored("n", "u") {
-                        clear = format!("        if ({is_kept}) {{\n    {clear}        }}\n");
+                    if let Some(is_stored) = field.column_is_stored("n", "u") {
+                        clear = format!("        if ({is_stored}) {{\n    {clear}        }}\n");
                     }
                     let _ = writeln!(
                         out,
@@ -588,8 +588,8 @@ impl Printer<'_> {
                 0 => format!("terminal < {end}u"),
                 first => format!("terminal >= {first}u && terminal < {end}u"),
             };
-            if let Some(is_kept) = field.column_is_stored("terminal", "u") {
-                let _ = write!(condition, " && {is_kept}");
+            if let Some(is_stored) = field.column_is_stored("terminal", "u") {
+                let _ = write!(condition, " && {is_stored}");
             }
             let _ = write!(
                 out,

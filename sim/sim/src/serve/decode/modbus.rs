@@ -218,8 +218,8 @@ fn reply_text(function: u8, data: &[u8], request: Option<&[u8]>) -> (String, Opt
             );
         }
         0x01 | 0x02 => {
-            let request_text = request.map_or(usize::MAX, |request| word(request, 4).into());
-            format!("{function:02X} = {}", bits(values, request_text))
+            let requested = request.map_or(usize::MAX, |request| word(request, 4).into());
+            format!("{function:02X} = {}", bits(values, requested))
         }
         0x03 | 0x04 => format!("{function:02X} = {}", words(values)),
         _ => format!("{function:02X} done"),
