@@ -154,8 +154,8 @@ fn the_shared_header_has_no_equal_branches() {
         .current_dir(folder.path())
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&compiled.stderr);
-    assert!(compiled.status.success(), "{said}");
+    let messages = String::from_utf8_lossy(&compiled.stderr);
+    assert!(compiled.status.success(), "{messages}");
 }
 
 /// Programs of one firmware share `rungc.h`: the first one on the include path serves all, and one of another version
@@ -187,9 +187,9 @@ fn a_header_of_another_version_is_refused() {
     let stamp = header.contents.find("RUNGC_H_STAMP 0x").unwrap() + "RUNGC_H_STAMP 0x".len();
     let mut other = header.contents.clone();
     other.replace_range(stamp..stamp + 8, "00000001");
-    let (compiled, said) = compile(&other);
+    let (compiled, messages) = compile(&other);
     assert!(
-        !compiled && said.contains("different versions of rungc"),
-        "{said}"
+        !compiled && messages.contains("different versions of rungc"),
+        "{messages}"
     );
 }

@@ -64,9 +64,9 @@ fn each_error_of_a_scan_reaches_the_host() {
             String::from_utf8_lossy(&built.stderr)
         );
         let ran = Command::new(folder.path().join("host")).output().unwrap();
-        let told = String::from_utf8_lossy(&ran.stdout);
+        let reported = String::from_utf8_lossy(&ran.stdout);
         assert_eq!(
-            told,
+            reported,
             "6706 at step 6, Z0 is 30000\n6706 at step 11, Z0 is 30000\nthe last at step 11\n",
             "{cc}"
         );

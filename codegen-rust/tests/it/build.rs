@@ -82,10 +82,10 @@ fn a_program_keeps_its_last_error() {
         .write_all(b"X0=1\nX1=1\n")
         .unwrap();
     let errors = BufReader::new(host.stderr.take().unwrap());
-    let told: Vec<String> = errors.lines().take(2).map(Result::unwrap).collect();
+    let reported: Vec<String> = errors.lines().take(2).map(Result::unwrap).collect();
     host.kill().unwrap();
     host.wait().unwrap();
-    let told: Vec<&str> = told
+    let reported: Vec<&str> = reported
         .iter()
         .map(|line| line.split_once(", ").unwrap().1)
         .collect();
@@ -95,7 +95,7 @@ fn a_program_keeps_its_last_error() {
         "step 12: DIV D0 D1 D2: error 6706, a device does not exist, or a value does not fit the \
          instruction",
     ];
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
 }
 
 #[test]

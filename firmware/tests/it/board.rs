@@ -73,7 +73,7 @@ fn serial_ports_are_uarts() {
 fn mistakes_in_serial_ports_are_named() {
     let line = "port = \"COM1\"\nuart = \"cmsdk\"\nat = 0\ninterrupts = [0]\n";
     let second = |line: &str| format!("[[serial]]\n{line}");
-    for (from, to, said) in [
+    for (from, to, messages) in [
         (
             "COM1",
             "UART1",
@@ -112,7 +112,7 @@ fn mistakes_in_serial_ports_are_named() {
         ),
     ] {
         let error = read(&format!("{DESK}\n{}", second(&line.replacen(from, to, 1)))).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(messages), "{error}");
     }
     let both = format!("[functions]\nset_line = \"f\"\n{}", second(line));
     let error = read(&format!("{DESK}{both}")).unwrap_err();
@@ -122,7 +122,7 @@ fn mistakes_in_serial_ports_are_named() {
 /// Each mistake is reported with its place.
 #[test]
 fn mistakes_are_named() {
-    for (from, to, said) in [
+    for (from, to, messages) in [
         ("thumbv7m", "thumbv9", "board.toml:2:10: unknown target"),
         (
             "hz = 25_000_000",
@@ -139,9 +139,9 @@ fn mistakes_are_named() {
         ("\n[clock]", "[clock]\nhz = 1\n[clock]", "duplicate key"),
     ] {
         let error = read(&DESK.replacen(from, to, 1)).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(messages), "{error}");
     }
-    for (added, said) in [
+    for (added, messages) in [
         (
             "[inputs]\nX8 = { at = 4, bit = 0 }",
             "board.toml:12:1: `X8` is not a terminal",
@@ -177,7 +177,7 @@ fn mistakes_are_named() {
         ("[interrupts]\nTIM2 = \"f\"", "a number from 0 to 479"),
     ] {
         let error = read(&format!("{DESK}\n{added}\n")).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        assert!(error.contains(messages), "{error}");
     }
     let sources = |name: &str| {
         read(&DESK.replacen("\n[memory]", &format!("sources = [{name:?}]\n[memory]"), 1))

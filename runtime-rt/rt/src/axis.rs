@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn pins_change_when_the_timer_is_told_to_come() {
+    fn pins_change_when_the_timer_expires() {
         use crate::double::Double;
         let mut plc = Double::new();
         plc.sys.first_scan = false;

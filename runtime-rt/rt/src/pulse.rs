@@ -620,7 +620,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_come_when_they_are_told() {
+    fn edges_come_when_they_are_due() {
         let mut generator = Generator::new();
         generator.start(Train::steady(1_000_000, 2));
         let mut edges = std::vec::Vec::new();

@@ -404,8 +404,8 @@ Y000 = 'write plant/motor'
     }
 
     /// Reports of the run on connections, with names for the folder and for ports.
-    fn said_of(said: &str, folder: &Path, ports: &[(&'static str, u16)]) -> String {
-        let mut lines: Vec<_> = said
+    fn messages_of(messages: &str, folder: &Path, ports: &[(&'static str, u16)]) -> String {
+        let mut lines: Vec<_> = messages
             .lines()
             .filter_map(|line| line.strip_prefix("rungc: io "))
             .filter(|line| !line.starts_with("files: ") && !line.starts_with("mutual: "))
@@ -421,11 +421,11 @@ Y000 = 'write plant/motor'
             })
             .collect();
         lines.sort();
-        let mut said = normal(&lines.join("\n"), folder);
+        let mut messages = normal(&lines.join("\n"), folder);
         for (name, port) in ports {
-            said = said.replace(&port.to_string(), name);
+            messages = messages.replace(&port.to_string(), name);
         }
-        said
+        messages
     }
 
     #[test]
@@ -448,11 +448,11 @@ Y000 = 'write plant/motor'
         serve.stdout(Stdio::null()).stderr(Stdio::piped());
         let mut run = Ends(serve.spawn().unwrap());
         let errors = BufReader::new(run.0.stderr.take().unwrap());
-        let said = Arc::new(Mutex::new(String::new()));
-        let heard = Arc::clone(&said);
+        let messages = Arc::new(Mutex::new(String::new()));
+        let written = Arc::clone(&messages);
         thread::spawn(move || {
             for line in errors.lines().map_while(Result::ok) {
-                *heard.lock().unwrap() += &format!("{line}\n");
+                *written.lock().unwrap() += &format!("{line}\n");
             }
         });
         let works = || {
@@ -473,7 +473,7 @@ Y000 = 'write plant/motor'
             }
         };
         works();
-        let lines = || said_of(&said.lock().unwrap(), folder, &ports);
+        let lines = || messages_of(&messages.lock().unwrap(), folder, &ports);
         soon("all others are reported", || {
             lines().lines().count() >= WRONG.len()
         });

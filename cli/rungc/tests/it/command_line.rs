@@ -148,13 +148,13 @@ fn unreadable_input_for_tools() {
 }
 
 #[test]
-fn what_an_export_cannot_hold_is_told() {
+fn what_an_export_cannot_hold_is_reported() {
     let list = format!(";! X000 = start button\n{MOTOR}");
     let folder = folder(&[("motor.il", list.as_bytes())]);
-    let said = |to| text(&rungc(folder.path(), &["convert", "motor.il", "--to", to]).stderr);
-    assert!(said("csv").contains("1 device comment omitted"));
-    assert!(said("il").is_empty());
-    assert!(said("comments").is_empty());
+    let messages = |to| text(&rungc(folder.path(), &["convert", "motor.il", "--to", to]).stderr);
+    assert!(messages("csv").contains("1 device comment omitted"));
+    assert!(messages("il").is_empty());
+    assert!(messages("comments").is_empty());
     let written = ["convert", "motor.il", "--to", "comments"];
     let written = rungc(folder.path(), &written).stdout;
     let text: String =
@@ -474,17 +474,21 @@ fn closed_output_is_no_error() {
             .spawn()
             .unwrap();
         drop(child.stdout.take());
-        let mut said = String::new();
+        let mut messages = String::new();
         child
             .stderr
             .take()
             .unwrap()
-            .read_to_string(&mut said)
+            .read_to_string(&mut messages)
             .unwrap();
-        assert_eq!(child.wait().unwrap().code(), Some(0), "{args:?}: {said}");
+        assert_eq!(
+            child.wait().unwrap().code(),
+            Some(0),
+            "{args:?}: {messages}"
+        );
         assert!(
-            !said.contains("panicked") && !said.contains("pipe"),
-            "{args:?}: {said}"
+            !messages.contains("panicked") && !messages.contains("pipe"),
+            "{args:?}: {messages}"
         );
     }
 }

@@ -152,14 +152,19 @@ fn cases_with_several_plcs_notice_mutants() {
         let args = [&["test", ".", "--mutants"], options].concat();
         text(&rungc(folder.path(), &args).stdout)
     };
-    let said = run(&[]);
-    assert!(said.contains("one.il: 6 of 6 mutants noticed"), "{said}");
+    let messages = run(&[]);
+    assert!(
+        messages.contains("one.il: 6 of 6 mutants noticed"),
+        "{messages}"
+    );
     // Two machines share the mutants.
     let noticed = |part: &str| -> usize {
-        let said = run(&["--shard", part]);
-        let line = said.lines().find_map(|line| line.strip_prefix("one.il: "));
+        let messages = run(&["--shard", part]);
+        let line = messages
+            .lines()
+            .find_map(|line| line.strip_prefix("one.il: "));
         let count = line.and_then(|line| line.split(' ').next()?.parse().ok());
-        count.unwrap_or_else(|| panic!("{said}"))
+        count.unwrap_or_else(|| panic!("{messages}"))
     };
     assert_eq!(noticed("1/2") + noticed("2/2"), 6);
 }
@@ -178,12 +183,12 @@ fn single_contacts_of_pulses_decide() {
         ("pulses.plctest.toml", tests.as_bytes()),
     ]);
     let output = rungc(folder.path(), &["test", ".", "--coverage", "text"]);
-    let said = text(&output.stdout);
-    assert!(!said.contains("never"), "{said}");
+    let messages = text(&output.stdout);
+    assert!(!messages.contains("never"), "{messages}");
 }
 
 #[test]
-fn what_cannot_be_done_is_said() {
+fn what_cannot_be_done_is_reported() {
     let folder = desk();
     let path = folder.path();
     let failing = TESTS.replace("Y000 = 0", "Y000 = 1");
@@ -232,10 +237,10 @@ fn a_tracefile_is_read_by_genhtml() {
         );
         return eprintln!("skipped: there is no genhtml");
     };
-    let said = text(&output.stdout) + &text(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let messages = text(&output.stdout) + &text(&output.stderr);
+    assert!(output.status.success(), "{messages}");
     // Of 12 lines, the one of the step that X002 counts, and those after it, are executed, too.
-    assert!(said.contains("(12 of 12 lines)"), "{said}");
+    assert!(messages.contains("(12 of 12 lines)"), "{messages}");
     let page = fs::read_to_string(path.join("page/index.html")).unwrap();
     assert!(page.contains("Branches"), "{page}");
 }
@@ -364,20 +369,20 @@ fn results_are_read_by_others() {
         _ => missing("junitparser"),
     }
     let logs = ["t.sarif", "v.sarif", "c.sarif", "d.sarif"];
-    let (Some(said), Some(checked)) = (validated(path, &logs), schema(path, &logs)) else {
+    let (Some(messages), Some(checked)) = (validated(path, &logs), schema(path, &logs)) else {
         return missing("validator of SARIF");
     };
     assert!(
-        !said.contains(": error") && !said.contains(": warning"),
-        "{said}"
+        !messages.contains(": error") && !messages.contains(": warning"),
+        "{messages}"
     );
     assert!(checked.contains("ok -- validation done"), "{checked}");
     // They notice what is wrong.
     let log = fs::read_to_string(path.join("t.sarif")).unwrap();
     let broken = log.replace("\"ruleId\"", "\"rul\"");
     fs::write(path.join("broken.sarif"), broken).unwrap();
-    let said = validated(path, &["broken.sarif"]).unwrap_or_default();
-    assert!(said.contains(": error"), "{said}");
+    let messages = validated(path, &["broken.sarif"]).unwrap_or_default();
+    assert!(messages.contains(": error"), "{messages}");
     // The one says nothing of a log whose words it does not know; the other does.
     let broken = log.replace("\"error\"", "\"fatal\"");
     fs::write(path.join("broken.sarif"), broken).unwrap();
@@ -402,9 +407,9 @@ fn validated(folder: &Path, logs: &[&str]) -> Option<String> {
         .current_dir(folder)
         .output();
     let output = output.ok()?;
-    let said = text(&output.stdout) + &text(&output.stderr);
-    assert!(said.contains("files scanned"), "{said}");
-    Some(said)
+    let messages = text(&output.stdout) + &text(&output.stderr);
+    assert!(messages.contains("files scanned"), "{messages}");
+    Some(messages)
 }
 
 /// Output of check-jsonschema about logs by that schema.

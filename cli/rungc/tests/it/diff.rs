@@ -290,21 +290,21 @@ fn a_page_shows_hostile_texts_as_texts() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_said() {
+fn what_cannot_be_compared_is_reported() {
     let folder = folder(&[
         ("a.il", MOTOR.as_bytes()),
         ("b.il", b"LD X0\nOUT !!\nEND\n"),
     ]);
-    let said = |args: &[&str]| {
+    let messages = |args: &[&str]| {
         let out = rungc(folder.path(), args);
         assert_eq!(out.status.code(), Some(2), "{args:?}");
         assert!(out.stdout.is_empty(), "{args:?}");
         text(&out.stderr)
     };
-    assert!(said(&["diff", "a.il", "b.il"]).contains("b.il cannot be read whole"));
-    assert!(said(&["diff", "a.il", "c.il"]).contains("c.il"));
-    assert!(said(&["diff", "a.il", "a.il", "a.il"]).contains("two programs"));
-    assert!(said(&["diff", "a.il"]).contains("2 values"));
+    assert!(messages(&["diff", "a.il", "b.il"]).contains("b.il cannot be read whole"));
+    assert!(messages(&["diff", "a.il", "c.il"]).contains("c.il"));
+    assert!(messages(&["diff", "a.il", "a.il", "a.il"]).contains("two programs"));
+    assert!(messages(&["diff", "a.il"]).contains("2 values"));
 }
 
 fn git(folder: &Path, args: &[&str]) -> Output {

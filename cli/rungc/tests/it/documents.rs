@@ -231,7 +231,7 @@ fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
     let mut printed = String::new();
     for command in commands {
         // Not a pipe, which those in the background would keep open.
-        let mut said = tempfile::tempfile().unwrap();
+        let mut messages = tempfile::tempfile().unwrap();
         let mut shell = Command::new("sh");
         shell
             .args(["-e", "-c", &format!("exec 2>&1\n{command}")])
@@ -239,7 +239,7 @@ fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
             .env("PATH", path_with_rungc())
             .env("HOME", folder)
             .stdin(Stdio::null())
-            .stdout(said.try_clone().unwrap());
+            .stdout(messages.try_clone().unwrap());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut shell, 0);
         let mut shell = shell.spawn().unwrap();
@@ -250,8 +250,8 @@ fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
             let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
         }
         let mut bytes = Vec::new();
-        said.seek(SeekFrom::Start(0)).unwrap();
-        said.read_to_end(&mut bytes).unwrap();
+        messages.seek(SeekFrom::Start(0)).unwrap();
+        messages.read_to_end(&mut bytes).unwrap();
         printed = String::from_utf8_lossy(&bytes).into_owned();
         if !ended.success() {
             return (printed, false);
@@ -357,8 +357,8 @@ fn the_host_in_rust_compiles() {
         .env("CARGO_TARGET_DIR", folder.path().join("target"))
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&checked.stderr);
-    assert!(checked.status.success(), "{said}");
+    let messages = String::from_utf8_lossy(&checked.stderr);
+    assert!(checked.status.success(), "{messages}");
 }
 
 #[test]

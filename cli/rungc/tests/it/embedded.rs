@@ -218,10 +218,10 @@ fn task_image(example: &str, mut cargo: Command, build: &Path) -> PathBuf {
         .current_dir(&folder)
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&built.stderr);
+    let messages = String::from_utf8_lossy(&built.stderr);
     assert!(
-        built.status.success() && !said.contains("warning: unused"),
-        "{said}"
+        built.status.success() && !messages.contains("warning: unused"),
+        "{messages}"
     );
     let release = target.join(TASK_TARGET).join("release");
     release.join(format!("traffic-light-{example}"))

@@ -34,9 +34,12 @@ impl Running {
             .unwrap();
         let errors = child.stderr.take().unwrap();
         let mut lines = BufReader::new(errors).lines().map_while(Result::ok);
-        let said = lines.find_map(|line| Some(line.split_once(words)?.1.to_owned()));
+        let messages = lines.find_map(|line| Some(line.split_once(words)?.1.to_owned()));
         std::thread::spawn(move || lines.count());
-        (Running(child), said.expect("the program opens its line"))
+        (
+            Running(child),
+            messages.expect("the program opens its line"),
+        )
     }
 }
 
@@ -104,7 +107,7 @@ fn an_executable_in_c_answers_on_a_pseudo_terminal() {
         "COM1 at ",
     );
     answers(&path);
-    for (args, said) in [
+    for (args, messages) in [
         (
             &["--serial", "COM7=pty"][..],
             "the program has no port COM7",
@@ -115,7 +118,7 @@ fn an_executable_in_c_answers_on_a_pseudo_terminal() {
     ] {
         let output = Command::new(&program).args(args).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{args:?}");
-        assert!(text(&output.stderr).contains(said), "{args:?}");
+        assert!(text(&output.stderr).contains(messages), "{args:?}");
     }
 }
 
@@ -407,17 +410,17 @@ fn shows(folder: &Path, name: &str, value: &str) {
 
 /// Messages of a program about invalid descriptions.
 fn refusals(folder: &Path, program: &Path) -> String {
-    let mut said = String::new();
+    let mut messages = String::new();
     for wrong in WRONG {
         std::fs::write(folder.join("wrong.toml"), wrong).unwrap();
         let mut command = Command::new(program);
         command.args(["--io", "wrong.toml"]).current_dir(folder);
         let output = command.stdin(Stdio::null()).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{wrong}");
-        said.push_str(&text(&output.stderr));
+        messages.push_str(&text(&output.stderr));
     }
     // C programs say their name first.
-    said.replace("p: ", "").replace("--io wrong.toml: ", "")
+    messages.replace("p: ", "").replace("--io wrong.toml: ", "")
 }
 
 /// A program is connected while its outputs have no room, rubbish is typed, its folder goes and comes back; it ends in
@@ -486,7 +489,7 @@ fn executables_connect_terminals() {
     let in_rust = built_in_rust(folder, &["build", "p.il", "--io"], "rust", "p");
     std::fs::remove_file(folder.join("log")).unwrap();
     connects(folder, &in_rust);
-    let said = refusals(folder, &in_c);
-    assert_eq!(said, refusals(folder, &in_rust));
-    insta::assert_snapshot!("wrong_descriptions", said);
+    let messages = refusals(folder, &in_c);
+    assert_eq!(messages, refusals(folder, &in_rust));
+    insta::assert_snapshot!("wrong_descriptions", messages);
 }

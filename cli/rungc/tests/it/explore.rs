@@ -27,10 +27,10 @@ fn a_violation_is_found_and_its_test_fails_until_it_is_repaired() {
     assert!(vcd.contains("Y001"), "{vcd}");
     assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 1);
     for (engine, name) in [("rust", "emitted Rust"), ("c", "emitted C")] {
-        let asked = [&args[..6], &["--replay", engine]].concat();
-        let output = text(&rungc(folder.path(), &asked).stdout);
-        let said = format!("Each run was replayed on {name}.");
-        assert!(output.contains(&said), "{output}");
+        let requested = [&args[..6], &["--replay", engine]].concat();
+        let output = text(&rungc(folder.path(), &requested).stdout);
+        let messages = format!("Each run was replayed on {name}.");
+        assert!(output.contains(&messages), "{output}");
     }
     let kept: Vec<&str> = args
         .iter()
@@ -175,7 +175,7 @@ forward_limit_at = 90
 }
 
 #[test]
-fn what_cannot_be_searched_is_said() {
+fn what_cannot_be_searched_is_reported() {
     let folder = folder(&[
         ("reverser.il", reverser("").as_bytes()),
         ("bad.il", b"LD Q0\n"),
@@ -244,7 +244,7 @@ END
 fn latched_devices_begin_with_what_was_saved() {
     let folder = folder(&[("counted.il", COUNTED.as_bytes())]);
     let args = |latched| {
-        let asked = [
+        let requested = [
             "explore",
             "counted.il",
             "--model",
@@ -253,7 +253,12 @@ fn latched_devices_begin_with_what_was_saved() {
             "Y000",
         ];
         let rest = ["--scans", "6000", "--latched", latched, "--replay", "c"];
-        [&asked[..], &rest[..], &["--write-test", "p.plctest.toml"]].concat()
+        [
+            &requested[..],
+            &rest[..],
+            &["--write-test", "p.plctest.toml"],
+        ]
+        .concat()
     };
     let begins_new = shown(folder.path(), &args("zero"));
     assert!(begins_new.contains("Nothing was found."), "{begins_new}");
@@ -278,7 +283,7 @@ fn latched_devices_begin_with_what_was_saved() {
 }
 
 #[test]
-fn what_is_not_varied_is_said() {
+fn what_is_not_varied_is_reported() {
     let list = "\
 LD M8000
 OUT C235 K100

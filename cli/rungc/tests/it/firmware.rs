@@ -39,11 +39,11 @@ fn simulated(machine: &str, image: &Path) -> String {
 
 /// Succeeded, with nothing but the line that says so; the runtime may have to be built before.
 pub fn quiet(output: &Output) {
-    let said = text(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    let lines = said.lines();
+    let messages = text(&output.stderr);
+    assert!(output.status.success(), "{messages}");
+    let lines = messages.lines();
     let other = lines.filter(|line| !line.starts_with("    Building the runtime for "));
-    assert_eq!(other.count(), 1, "{said}");
+    assert_eq!(other.count(), 1, "{messages}");
 }
 
 #[test]
@@ -377,7 +377,7 @@ fn a_board_may_have_functions_of_its_own() {
 
 /// Nothing is written by what cannot be built.
 #[test]
-fn what_is_missing_is_said() {
+fn what_is_missing_is_reported() {
     if !tools(&["make"]) {
         return;
     }
@@ -410,7 +410,7 @@ fn options_that_do_not_go_together() {
         ("panel.h", b""),
     ]);
     let board = board("firmware/stm32f405/board.toml");
-    let mut said = Vec::new();
+    let mut messages = Vec::new();
     for args in [
         &["--emit", "elf"][..],
         &["--emit", "ir", "--target", "host"],
@@ -445,11 +445,11 @@ fn options_that_do_not_go_together() {
         ],
     ] {
         let args = [&["build", "motor.il", "-o", "out"], args].concat();
-        said.push(shown(folder.path(), &args).replace(&board, "BOARD"));
+        messages.push(shown(folder.path(), &args).replace(&board, "BOARD"));
         assert_eq!(code(folder.path(), &args), 2, "{args:?}");
         assert!(!folder.path().join("out").exists(), "{args:?}");
     }
-    insta::assert_snapshot!("refused", said.join("\n\n"));
+    insta::assert_snapshot!("refused", messages.join("\n\n"));
 }
 
 /// A board whose ticks are short enough for pulses of 4 kHz.
@@ -554,7 +554,7 @@ fn what_a_program_takes_is_reported() {
         return;
     }
     let folder = folder(&[("busy.il", BUSY.as_bytes())]);
-    let mut said = Vec::new();
+    let mut messages = Vec::new();
     for (file, place) in [
         (
             traffic_light(),
@@ -567,9 +567,9 @@ fn what_a_program_takes_is_reported() {
         let args = [&["build", &file, "--report"][..], &place].concat();
         let output = rungc(folder.path(), &args);
         assert!(output.status.success(), "{}", text(&output.stderr));
-        said.push(without_sizes(&text(&output.stdout)));
+        messages.push(without_sizes(&text(&output.stdout)));
     }
-    insta::assert_snapshot!("report", said.join("\n\n"));
+    insta::assert_snapshot!("report", messages.join("\n\n"));
 }
 
 #[test]

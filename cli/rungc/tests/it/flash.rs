@@ -84,10 +84,10 @@ fn an_image_is_written_and_read_back() {
     for part in [Part::f103vc(), Part::f030c8()] {
         let rig = Rig::new(part);
         let output = rig.flash(&["--yes"]);
-        let said = rig.says(&output);
-        assert!(output.status.success(), "{said}");
-        assert!(said.contains("lost permanently"), "{said}");
-        assert!(said.contains("read back and compared"), "{said}");
+        let messages = rig.says(&output);
+        assert!(output.status.success(), "{messages}");
+        assert!(messages.contains("lost permanently"), "{messages}");
+        assert!(messages.contains("read back and compared"), "{messages}");
         rig.holds(&image(5002));
         // A part whose programming is interrupted has no program: the vectors go first and come last.
         let log = rig.bench.part().log.clone();
@@ -282,16 +282,16 @@ fn stm32flash_finds_the_same() {
             .current_dir(rig.folder.path())
             .output()
             .unwrap();
-        let said = text(&[&*output.stdout, &*output.stderr].concat());
-        assert!(output.status.success(), "{said}");
-        said
+        let messages = text(&[&*output.stdout, &*output.stderr].concat());
+        assert!(output.status.success(), "{messages}");
+        messages
     };
     for part in [Part::f103vc(), Part::f030c8()] {
         let rig = Rig::new(part);
         assert!(rig.flash(&["--yes"]).status.success());
-        let said = call(&rig, &["-r", "read.bin", "-S", "0x08000000:5002"]);
+        let messages = call(&rig, &["-r", "read.bin", "-S", "0x08000000:5002"]);
         let id = format!("0x{:04x}", rig.bench.part().id);
-        assert!(said.contains(&id), "{said}");
+        assert!(messages.contains(&id), "{messages}");
         let read = fs::read(rig.folder.path().join("read.bin")).unwrap();
         assert_eq!(read[..5002], image(5002));
         let other: Vec<_> = image(5002).into_iter().rev().collect();

@@ -37,7 +37,7 @@ fn interrupt(fleet: &mut Ends) -> String {
 }
 
 /// Messages of `rungc fleet` about a file.
-fn said(fleet: &str) -> String {
+fn messages(fleet: &str) -> String {
     let folder = folder(&[
         ("p.il", ADDS.as_bytes()),
         ("calls.il", CALLS.as_bytes()),
@@ -73,7 +73,7 @@ fn mistakes_have_their_place() {
         "[plc.a]\nprogram = 'wrong.il'\n",
         "[plc.a]\nprogram = 'none.il'\n",
     ];
-    let shown = cases.map(|case| format!("{case}-----\n{}", said(case)));
+    let shown = cases.map(|case| format!("{case}-----\n{}", messages(case)));
     insta::assert_snapshot!(shown.join("\n=====\n"));
 }
 

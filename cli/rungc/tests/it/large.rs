@@ -59,11 +59,11 @@ fn large_programs_take_little_time_and_memory() {
         let mut command = Command::new("sh");
         let out = command.args(["-c", &limited]).current_dir(folder.path());
         let out = out.output().unwrap();
-        let said = String::from_utf8_lossy(&out.stderr);
+        let messages = String::from_utf8_lossy(&out.stderr);
         assert_eq!(
             out.status.code(),
             Some(end),
-            "{args}: {}\n{said}",
+            "{args}: {}\n{messages}",
             out.status
         );
         if args == "view old.il" {

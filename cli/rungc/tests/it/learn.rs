@@ -138,8 +138,11 @@ fn derived_codes_can_turn_out_to_be_others() {
     let folder = project(&LIST.replace("WDT", "SRET"));
     let output = rungc(folder.path(), &LEARN);
     assert_eq!(output.status.code(), Some(0));
-    let said = text(&output.stdout);
-    assert!(said.contains("61 01 00 was read as WDT before."), "{said}");
+    let messages = text(&output.stdout);
+    assert!(
+        messages.contains("61 01 00 was read as WDT before."),
+        "{messages}"
+    );
 }
 
 /// Message about a list that teaches nothing; nothing is written.
@@ -158,7 +161,7 @@ fn lists_that_do_not_match_teach_nothing() {
         assert!(LIST.contains(from), "{from}");
         refused(&LIST.replacen(from, to, 1))
     };
-    let said = [
+    let messages = [
         edited("LD X000", "LDI X000"),
         edited("X001 Y000 Y004", "X003 Y000 Y004"),
         edited("10 PLSV K100 Y000 Y004\n", ""),
@@ -169,7 +172,7 @@ fn lists_that_do_not_match_teach_nothing() {
         edited("PLSV", "PLSW"),
         edited("26 WDT", "26 SRET\n27 WDT"),
     ];
-    insta::assert_snapshot!(said.concat());
+    insta::assert_snapshot!(messages.concat());
 }
 
 #[test]
@@ -185,7 +188,7 @@ fn files_of_the_wrong_kind_teach_nothing() {
     let damaged = wpg(FX3U, &[&[0x00], &[0xF0, 0x01], &[0x34]]);
     fs::write(path.join("damaged.wpg"), damaged).unwrap();
     fs::write(path.join("bad.il"), "LD X0\nOUT ??\nEND\n").unwrap();
-    let said = [
+    let messages = [
         ["MAIN.csv", "MAIN.csv"],
         ["MAIN.wpg", "MAIN.wpg"],
         ["damaged.wpg", "MAIN.csv"],
@@ -193,7 +196,7 @@ fn files_of_the_wrong_kind_teach_nothing() {
         ["none.wpg", "MAIN.csv"],
     ]
     .map(|[project, export]| shown(path, &["learn", project, export]));
-    insta::assert_snapshot!(said.join("\n"));
+    insta::assert_snapshot!(messages.join("\n"));
     assert!(!Path::new(path).join("rungc.toml").exists());
 }
 

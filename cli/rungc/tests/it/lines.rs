@@ -134,12 +134,15 @@ fn a_vanished_gateway_is_connected_again() {
     assert_eq!(ask_stream(&mut stream, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
     let name = format!("COM1: tcp:{address}");
     run.says(&format!("{name} is back"));
-    let said = run.said();
+    let messages = run.messages();
     let about = |what: &str| {
         let what = format!("rungc: {name} {what}");
-        said.iter().filter(|line| line.starts_with(&what)).count()
+        messages
+            .iter()
+            .filter(|line| line.starts_with(&what))
+            .count()
     };
-    assert_eq!((about("is gone"), about("is back")), (1, 1), "{said:?}");
+    assert_eq!((about("is gone"), about("is back")), (1, 1), "{messages:?}");
 }
 
 /// An adapter that is unplugged and comes back under the same name: socat's pseudo-terminals are its stand-in.

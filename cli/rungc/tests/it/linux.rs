@@ -51,7 +51,7 @@ struct Serving {
     child: Child,
     folder: TempDir,
     /// Its reports so far.
-    said: Arc<Mutex<String>>,
+    messages: Arc<Mutex<String>>,
     reader: Option<JoinHandle<()>>,
 }
 
@@ -68,17 +68,17 @@ impl Serving {
         let pipes = serve.stdin(Stdio::piped()).stdout(Stdio::null());
         let mut child = pipes.stderr(Stdio::piped()).spawn().unwrap();
         let errors = BufReader::new(child.stderr.take().unwrap());
-        let said = Arc::new(Mutex::new(String::new()));
-        let heard = Arc::clone(&said);
+        let messages = Arc::new(Mutex::new(String::new()));
+        let written = Arc::clone(&messages);
         let reader = thread::spawn(move || {
             for line in errors.lines().map_while(Result::ok) {
-                *heard.lock().unwrap() += &(line + "\n");
+                *written.lock().unwrap() += &(line + "\n");
             }
         });
         Serving {
             child,
             folder,
-            said,
+            messages,
             reader: Some(reader),
         }
     }
@@ -119,7 +119,7 @@ impl Serving {
 
     /// Waits until it has reported something that contains this text.
     fn says(&self, text: &str) {
-        soon(text, || self.said.lock().unwrap().contains(text));
+        soon(text, || self.messages.lock().unwrap().contains(text));
     }
 
     /// Ctrl-C; the exit code, and what it has reported.
@@ -127,7 +127,7 @@ impl Serving {
         self.signal("INT");
         self.reader.take().unwrap().join().unwrap();
         let code = self.child.wait().unwrap().code();
-        (code, self.said.lock().unwrap().clone())
+        (code, self.messages.lock().unwrap().clone())
     }
 }
 
@@ -147,15 +147,15 @@ fn signals_turn_the_switch() {
     serving.signal("USR2");
     serving.shows("lamp", "1");
     serving.go_on();
-    let (code, said) = serving.end();
-    assert_eq!(code, Some(130), "{said}");
+    let (code, messages) = serving.end();
+    assert_eq!(code, Some(130), "{messages}");
     assert!(
-        said.contains("rungc: STOP at ") && said.contains("rungc: RUN at "),
-        "{said}"
+        messages.contains("rungc: STOP at ") && messages.contains("rungc: RUN at "),
+        "{messages}"
     );
     assert!(
-        said.contains(" us late on average, 99.9 % of them at most "),
-        "{said}"
+        messages.contains(" us late on average, 99.9 % of them at most "),
+        "{messages}"
     );
 }
 
@@ -174,8 +174,11 @@ fn a_standstill_is_not_caught_up() {
     let passed = begin.elapsed();
     let most = passed.as_millis() / 10 + 100;
     assert!((scans as u128) < most, "{scans} scans in {passed:?}");
-    let (_, said) = serving.end();
-    assert!(said.contains("rungc: the run stood still for "), "{said}");
+    let (_, messages) = serving.end();
+    assert!(
+        messages.contains("rungc: the run stood still for "),
+        "{messages}"
+    );
 }
 
 #[test]
@@ -185,12 +188,12 @@ fn what_is_plugged_in_later_is_found() {
     fs::create_dir(serving.path().join("plugged")).unwrap();
     fs::write(serving.path().join("plugged/none"), "1").unwrap();
     serving.says("rungc: io lost: connected to ");
-    let (_, said) = serving.end();
-    let said_of_it = said
+    let (_, messages) = serving.end();
+    let said_of_it = messages
         .lines()
         .filter(|line| line.starts_with("rungc: io lost: "));
     let said_of_it: Vec<_> = said_of_it.collect();
-    assert_eq!(said_of_it.len(), 2, "{said}");
+    assert_eq!(said_of_it.len(), 2, "{messages}");
     assert!(said_of_it[0].ends_with("plugged: there is no such folder"));
     assert!(said_of_it[1].starts_with("rungc: io lost: connected to "));
 }
@@ -205,14 +208,17 @@ fn a_disk_that_vanishes_does_not_stop_the_plc() {
     fs::create_dir(serving.path().join("disk")).unwrap();
     serving.shows("unsaved", "0");
     assert!(serving.path().join("disk/latched").exists());
-    let (code, said) = serving.end();
-    assert_eq!(code, Some(130), "{said}");
+    let (code, messages) = serving.end();
+    assert_eq!(code, Some(130), "{messages}");
     assert_eq!(
-        said.matches("latched devices are not saved").count(),
+        messages.matches("latched devices are not saved").count(),
         1,
-        "{said}"
+        "{messages}"
     );
-    assert!(said.contains("latched devices are saved again"), "{said}");
+    assert!(
+        messages.contains("latched devices are saved again"),
+        "{messages}"
+    );
 }
 
 #[test]
@@ -257,10 +263,10 @@ fn the_console_takes_anything() {
     let interrupted = Command::new("kill").args(["-INT", &pid]).status();
     assert!(interrupted.unwrap().success());
     let output = run.wait_with_output().unwrap();
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    let messages = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{messages}");
     assert!(rows.ends_with(&[-1, -3]), "{rows:?}");
-    assert!(said.contains("standard input has ended"), "{said}");
+    assert!(messages.contains("standard input has ended"), "{messages}");
 }
 
 #[test]
@@ -270,11 +276,11 @@ fn a_priority_is_taken_where_it_is_allowed() {
     let pid = serving.child.id();
     // Field 41 of the process's state is its policy (proc(5)); 1 is SCHED_FIFO.
     let stat = fs::read_to_string(format!("/proc/{pid}/stat"));
-    let (_, said) = serving.end();
-    let refused = said.contains("--priority 10: ") && said.contains("CAP_SYS_NICE");
+    let (_, messages) = serving.end();
+    let refused = messages.contains("--priority 10: ") && messages.contains("CAP_SYS_NICE");
     if let Ok(stat) = stat {
         let fields = stat.rsplit_once(')').unwrap().1.split_whitespace();
         let policy = fields.clone().nth(41 - 3);
-        assert_eq!(policy == Some("1"), !refused, "{stat}{said}");
+        assert_eq!(policy == Some("1"), !refused, "{stat}{messages}");
     }
 }

@@ -37,19 +37,20 @@ fn a_cross_reference_is_a_table_a_page_or_json() {
 }
 
 #[test]
-fn what_a_cross_reference_cannot_do_is_said() {
+fn what_a_cross_reference_cannot_do_is_reported() {
     let files: [(&str, &[u8]); 2] = [("a.il", USES.as_bytes()), ("b.il", MOTOR.as_bytes())];
     let folder = folder(&files);
-    let said = |args: &[&str]| {
+    let messages = |args: &[&str]| {
         let out = rungc(folder.path(), args);
         assert_eq!(out.status.code(), Some(2), "{args:?}");
         text(&out.stderr)
     };
     assert!(
-        said(&["xref", "a.il", "--device", "D7000"]).contains("no instruction names these devices")
+        messages(&["xref", "a.il", "--device", "D7000"])
+            .contains("no instruction names these devices")
     );
-    assert!(said(&["xref", "a.il", "--device", "Q7"]).contains("devices are written"));
-    assert!(said(&["xref", "a.il", "b.il", "--to", "csv"]).contains("name one"));
+    assert!(messages(&["xref", "a.il", "--device", "Q7"]).contains("devices are written"));
+    assert!(messages(&["xref", "a.il", "b.il", "--to", "csv"]).contains("name one"));
     assert_eq!(
         code(
             folder.path(),

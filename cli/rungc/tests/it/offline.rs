@@ -28,10 +28,10 @@ fn the_runtime_needs_no_registry_and_is_built_once() {
             folder.path(),
             &["build", "heating.il", "--emit", "bin", "-o", name],
         );
-        let said = text(&output.stderr);
-        assert!(output.status.success(), "{said}");
+        let messages = text(&output.stderr);
+        assert!(output.status.success(), "{messages}");
         assert!(folder.path().join(name).is_file());
-        said.contains("Building the runtime")
+        messages.contains("Building the runtime")
     };
     assert!(build("first"));
     assert!(!build("second"), "it is in the cache");
@@ -82,10 +82,10 @@ fn emitted_crates_share_a_runtime() {
             .env("CARGO_TARGET_DIR", path.join("target"))
             .output()
             .unwrap();
-        let said = text(&checked.stderr);
-        assert!(checked.status.success(), "{said}");
+        let messages = text(&checked.stderr);
+        assert!(checked.status.success(), "{messages}");
         assert!(!path.join("plc").join(package).join("rungc-rt").exists());
-        said.contains("Checking rungc-rt")
+        messages.contains("Checking rungc-rt")
     };
     assert!(check("heating"));
     assert!(!check("motor"), "it is compiled");
@@ -95,10 +95,10 @@ fn emitted_crates_share_a_runtime() {
     std::fs::remove_dir_all(path.join("plc")).unwrap();
     let refused = build(&[]);
     assert_eq!(refused.status.code(), Some(2));
-    let said = text(&refused.stderr);
+    let messages = text(&refused.stderr);
     assert!(
-        said.contains("rt already exists and is not empty"),
-        "{said}"
+        messages.contains("rt already exists and is not empty"),
+        "{messages}"
     );
     assert!(build(&["--force"]).status.success());
     assert_ne!(std::fs::read_to_string(source).unwrap(), "// Changed.");
@@ -113,7 +113,10 @@ fn a_missing_compiler_is_named() {
         .env("CC", "no-such-compiler")
         .output()
         .unwrap();
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("no-such-compiler not found"), "{said}");
+    let messages = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{messages}");
+    assert!(
+        messages.contains("no-such-compiler not found"),
+        "{messages}"
+    );
 }

@@ -72,7 +72,7 @@ fn a_program_becomes_a_list_of_the_standard() {
 }
 
 #[test]
-fn what_other_editors_do_not_know_is_said() {
+fn what_other_editors_do_not_know_is_reported() {
     let folder = folder(&[
         ("odd.il", ODD),
         ("form.il", b"LD X000\nLD X001\nANB\nOUT Y000\nEND\n"),
@@ -113,13 +113,13 @@ fn what_a_chart_cannot_say_names_the_state() {
         "LD M8002\nSET S0\nSTL S0\nLD X000\nCJ P0\nRET\nP0\nEND\n",
         "LD M8002\nSET S0\nSTL S0\nOUT Y000\nLD X000\nSET S20\nSTL S20\nSET Y000\nLD X001\nOUT S0\nRET\nEND\n",
     ];
-    let said = cases.map(|list| {
+    let messages = cases.map(|list| {
         let folder = folder(&[("steps.il", list.as_bytes())]);
         let args = ["convert", "steps.il", "--to", "plcopen", "--body", "sfc"];
         assert_eq!(code(folder.path(), &args), 1, "{list}");
         shown(folder.path(), &args)
     });
-    insta::assert_snapshot!("plcopen_chart_refused", said.join("\n"));
+    insta::assert_snapshot!("plcopen_chart_refused", messages.join("\n"));
 }
 
 #[test]

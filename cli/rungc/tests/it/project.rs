@@ -15,7 +15,7 @@ const FX2N: &str = ";! cpu = FX2N\nLD X000\nOUT Y000\nEND\n";
 const CASE: &str = "model = \"fx3u\"\ntopic = \"OUT\"\n\n[[case]]\nname = \"follows\"\nprogram = \"LD X000\\nOUT Y000\\nEND\\n\"\n\
      [[case.step]]\nset = { X000 = 1 }\nexpect = { Y000 = 1 }\n";
 
-fn said(folder: &Path, args: &[&str]) -> String {
+fn messages(folder: &Path, args: &[&str]) -> String {
     text(&rungc(folder, args).stderr)
 }
 
@@ -28,10 +28,10 @@ fn commands_take_the_program_of_the_project() {
     fs::create_dir_all(&inner).unwrap();
     fs::write(path.join("plc/motor.il"), MOTOR).unwrap();
     insta::assert_snapshot!("project_check", shown(path, &["check"]));
-    assert!(said(&inner, &["check"]).contains("Checked motor.il (H2U"));
-    assert!(said(path, &["check", "--model", "fx3u"]).contains("(FX3U"));
-    assert!(said(path, &["check", "-v"]).contains("Settings"));
-    assert_eq!(said(path, &["check", "-q"]), "");
+    assert!(messages(&inner, &["check"]).contains("Checked motor.il (H2U"));
+    assert!(messages(path, &["check", "--model", "fx3u"]).contains("(FX3U"));
+    assert!(messages(path, &["check", "-v"]).contains("Settings"));
+    assert_eq!(messages(path, &["check", "-q"]), "");
     for args in [
         &["run", "--for", "100ms"][..],
         &["convert", "--to", "il"],
@@ -42,7 +42,7 @@ fn commands_take_the_program_of_the_project() {
     let elsewhere = common::folder(&[]);
     let given = path.join("rungc.toml");
     let args = ["check", "--project", given.to_str().unwrap()];
-    assert!(said(elsewhere.path(), &args).contains("Checked motor.il (H2U"));
+    assert!(messages(elsewhere.path(), &args).contains("Checked motor.il (H2U"));
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn what_is_latched() {
         "[latched]\nD = ['D200-D299', 'D400']\n",
     )
     .unwrap();
-    let verbose = said(path, &["check", "motor.il", "-v"]);
+    let verbose = messages(path, &["check", "motor.il", "-v"]);
     assert!(verbose.contains("D200 to D299"), "{verbose}");
     fs::write(path.join("rungc.toml"), "[latched]\nD = 'D10-D20'\n").unwrap();
     let args = ["check", "motor.il", "--model", "fx3g"];
@@ -217,7 +217,7 @@ fn init_writes_settings_that_are_valid() {
         "init_file",
         fs::read_to_string(path.join("rungc.toml")).unwrap()
     );
-    assert!(said(path, &["check", "-v"]).contains("Checked old.il (FX2N"));
+    assert!(messages(path, &["check", "-v"]).contains("Checked old.il (FX2N"));
     insta::assert_snapshot!("init_again", shown(path, &["init"]));
     // Each setting that is a comment is one that can be made, but for those that need what is not there.
     let written = fs::read_to_string(path.join("rungc.toml")).unwrap();
@@ -254,7 +254,7 @@ fn init_in_folders() {
     assert_eq!(code(path, &["init", "nowhere/x.il"]), 2);
     fs::remove_file(path.join("rungc.toml")).unwrap();
     assert_eq!(code(path, &["init", "b.il"]), 0);
-    assert!(said(path, &["check"]).contains("Checked b.il"));
+    assert!(messages(path, &["check"]).contains("Checked b.il"));
 }
 
 #[test]
@@ -272,8 +272,8 @@ fn transfers_are_held_to_the_modules() {
     ]);
     insta::assert_snapshot!("project_modules", shown(folder.path(), &["check"]));
     let without = common::folder(&[("a.il", program.as_bytes())]);
-    let said = said(without.path(), &["check", "a.il"]);
-    assert!(!said.contains("module"), "{said}");
+    let messages = messages(without.path(), &["check", "a.il"]);
+    assert!(!messages.contains("module"), "{messages}");
 }
 
 #[test]
@@ -291,7 +291,7 @@ fn programs_are_held_to_a_variant() {
         let name = format!("project_{}", variant.to_lowercase());
         insta::assert_snapshot!(name, shown(path, &["check", "--model", variant]));
     }
-    assert!(said(path, &["check", "--model", "h2u"]).contains("0 errors"));
+    assert!(messages(path, &["check", "--model", "h2u"]).contains("0 errors"));
     assert_eq!(code(path, &["check", "--model", "h2u-xx"]), 2);
     insta::assert_snapshot!(
         "project_explain_variant",

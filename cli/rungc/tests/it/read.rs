@@ -38,9 +38,9 @@ fn a_running_program_is_read_back_over_tcp() {
         let run = Run::new(folder.path(), model, &["--fx"], &[]);
         let port = format!("tcp:127.0.0.1:{}", run.port("programming port"));
         let output = rungc(folder.path(), &["read", "--port", &port, "-o", "out.il"]);
-        let said = text(&output.stderr);
-        assert!(output.status.success(), "{said}");
-        assert!(said.contains(&format!("Read {cpu}")), "{said}");
+        let messages = text(&output.stderr);
+        assert!(output.status.success(), "{messages}");
+        assert!(messages.contains(&format!("Read {cpu}")), "{messages}");
         let back = fs::read_to_string(folder.path().join("out.il")).unwrap();
         assert_eq!(instructions(&back), instructions(list));
         assert!(back.starts_with(&format!(";! cpu = {cpu}\n")), "{back}");
@@ -154,9 +154,9 @@ impl Fake {
         .concat();
         let output = rungc(folder, &args);
         plc.join().unwrap();
-        let said = text(&output.stderr).replace(&port, "PLC");
+        let messages = text(&output.stderr).replace(&port, "PLC");
         let written = fs::read_to_string(folder.join("out.il")).ok();
-        (said, output.status.success(), written)
+        (messages, output.status.success(), written)
     }
 }
 
@@ -171,11 +171,11 @@ fn image(list: &str) -> Vec<u8> {
 /// Messages of `rungc read` about a PLC that answers some requests differently; it has written nothing.
 fn rejected(memory: Vec<u8>, more: &[&str], instead: fn(usize, &str) -> Option<Vec<u8>>) -> String {
     let folder = folder(&[]);
-    let (said, success, written) = Fake { memory, instead }.read(folder.path(), more);
-    assert!(!success && written.is_none(), "{said}");
+    let (messages, success, written) = Fake { memory, instead }.read(folder.path(), more);
+    assert!(!success && written.is_none(), "{messages}");
     let files = fs::read_dir(folder.path()).unwrap().count();
-    assert_eq!(files, 0, "nothing half-written: {said}");
-    said
+    assert_eq!(files, 0, "nothing half-written: {messages}");
+    messages
 }
 
 #[test]
@@ -191,8 +191,8 @@ fn noise_damage_and_silence_are_overcome_by_asking_again() {
             _ => None,
         },
     };
-    let (said, success, written) = plc.read(folder.path(), &[]);
-    assert!(success, "{said}");
+    let (messages, success, written) = plc.read(folder.path(), &[]);
+    assert!(success, "{messages}");
     assert_eq!(instructions(&written.unwrap()), instructions(&long()));
 }
 

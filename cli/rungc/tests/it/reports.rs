@@ -53,9 +53,9 @@ fn long_lines_are_drawn_in_part() {
     let line = format!("LD X0{}\nEND\n", " X009".repeat(20_000));
     let folder = folder(&[("long.il", line.as_bytes())]);
     let output = rungc(folder.path(), &["check", "long.il", "--limit", "3"]);
-    let said = text(&output.stderr);
-    assert!(said.lines().all(|line| line.chars().count() < 200));
-    insta::assert_snapshot!(said);
+    let messages = text(&output.stderr);
+    assert!(messages.lines().all(|line| line.chars().count() < 200));
+    insta::assert_snapshot!(messages);
     // Whatever the number of findings, the text grows with it alone.
     let all = rungc(folder.path(), &["check", "long.il", "--limit", "0"]);
     let (lines, most) = (text(&all.stderr).lines().count(), 13 * 20_010);
@@ -67,17 +67,17 @@ fn long_lines_are_drawn_in_part() {
 const HOSTILE: &str = "\u{1b}]0;x\u{7}\u{9b}2J\u{202e}\u{2066}";
 
 #[cfg(unix)]
-fn is_harmless(said: &str) -> bool {
+fn is_harmless(messages: &str) -> bool {
     let acts = |c: char| c.is_control() && c != '\n' && c != '\t';
-    !said
+    !messages
         .chars()
         .any(|c| acts(c) || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
 }
 
 #[cfg(unix)]
 /// A text without the escape sequences that set colours.
-fn without_colours(said: &str) -> String {
-    let mut parts = said.split("\u{1b}[");
+fn without_colours(messages: &str) -> String {
+    let mut parts = messages.split("\u{1b}[");
     let mut plain = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let (code, rest) = part.split_once('m').expect("a colour");
@@ -120,15 +120,15 @@ fn nothing_hostile_reaches_the_terminal() {
         &["test", "bad.plctest.toml"],
     ] {
         let output = rungc(folder.path(), args);
-        for said in [&output.stdout, &output.stderr] {
-            let said = text(said);
-            assert!(is_harmless(&said), "{args:?}: {said:?}");
+        for messages in [&output.stdout, &output.stderr] {
+            let messages = text(messages);
+            assert!(is_harmless(&messages), "{args:?}: {messages:?}");
         }
     }
     let coloured = rungc(folder.path(), &["check", name, "--color", "always"]);
-    let said = text(&coloured.stderr);
-    assert!(said.contains("\u{1b}[31m"), "{said}");
-    assert!(is_harmless(&without_colours(&said)), "{said:?}");
+    let messages = text(&coloured.stderr);
+    assert!(messages.contains("\u{1b}[31m"), "{messages}");
+    assert!(is_harmless(&without_colours(&messages)), "{messages:?}");
     insta::assert_snapshot!(
         "hostile_text",
         text(&rungc(folder.path(), &["check", name]).stderr)

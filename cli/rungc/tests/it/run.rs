@@ -5,7 +5,7 @@ use crate::common::{HANG, MOTOR, code, folder, rungc, shown, text};
 use std::fs;
 
 #[test]
-fn settings_behind_the_end_are_told() {
+fn settings_after_the_end_are_reported() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
     let args = ["run", "motor.il", "--set", "X000=1@2s", "--for", "1s"];
     let output = rungc(folder.path(), &args);
@@ -342,7 +342,7 @@ fn run_draws_a_diagram() {
 }
 
 #[test]
-fn operation_errors_are_told_with_their_places() {
+fn operation_errors_are_reported_with_their_places() {
     let program = b"LD M8000\nFMOV K0 D0Z0 K10\nLD M8000\nMOV K9000 Z0\nDIV D0 D1 D2\nEND\n";
     let folder = folder(&[("errors.il", program)]);
     let path = folder.path();

@@ -165,7 +165,7 @@ fn the_table_of_connections() {
     let com1 = row(table, &["COM1", "Modbus slave RTU"]);
     assert_eq!(com1.last().unwrap(), "D0");
     let log = fs::read_to_string(folder.path().join("frames.log")).unwrap();
-    for said in [
+    for messages in [
         "<- 127.0.0.1  unit 1: 06 write register 100 = 7: writes D100  [00 01 00 00 00 06 01 06 00 64 00 07]",
         "-> 127.0.0.1  unit 1: 06 done  [00 01 00 00 00 06 01 06 00 64 00 07]",
         "unit 1: 03 exception 02 (illegal data address)  [00 02 00 00 00 03 01 83 02]",
@@ -173,7 +173,7 @@ fn the_table_of_connections() {
         "station 1: 06 write register 0 = 5: writes D0  [01 06 00 00 00 05 49 C9]",
         "station 1: 06 done  [01 06 00 00 00 05 49 C9]",
     ] {
-        assert!(log.contains(said), "{said} is not in\n{log}");
+        assert!(log.contains(messages), "{messages} is not in\n{log}");
     }
 }
 
@@ -203,13 +203,13 @@ fn nobody_who_listens_is_needed() {
             // Changes D2, which is printed.
             assert_eq!(ask(&mut modbus, &WRITE_D0, 12), WRITE_D0);
         }
-        let said = serving.interrupt();
-        let said = text(&said.stderr);
+        let messages = serving.interrupt();
+        let messages = text(&messages.stderr);
         let reported = format!("rungc: standard output: {why}");
-        assert_eq!(said.matches(&reported).count(), 1, "{said}");
+        assert_eq!(messages.matches(&reported).count(), 1, "{messages}");
         assert!(
-            said.contains("; the run continues") && said.contains("interrupted"),
-            "{said}"
+            messages.contains("; the run continues") && messages.contains("interrupted"),
+            "{messages}"
         );
     }
 }
@@ -363,15 +363,15 @@ fn a_capture_for_wireshark() {
     tshark.args(["-o", &tcp_port, "-d", "rtacser.data,mbrtu", "-r"]);
     let read = tshark.arg(path).output().unwrap();
     let shown = text(&read.stdout);
-    for said in [
+    for messages in [
         "Query: Trans:     1; Unit:   1, Func:   6: Write Single Register",
         "Response: Trans:     2; Unit:   1, Func:   3: Read Holding Registers. Exception returned",
         "Query: Unit:   1, Func:   3: Read Holding Registers",
         "Response: Unit:   1, Func:   3: Read Holding Registers",
     ] {
         assert!(
-            shown.contains(said),
-            "{said} is not in\n{shown}{}",
+            shown.contains(messages),
+            "{messages} is not in\n{shown}{}",
             text(&read.stderr)
         );
     }

@@ -235,11 +235,11 @@ fn a_folder_that_cannot_be_written_is_named() {
         &["build", "motor.il", "--emit", "c", "-o", "ro/plc"][..],
         &["convert", "motor.il", "--to", "il", "-o", "ro/x.il"],
     ] {
-        let said = text(&rungc(path, args).stderr);
-        assert!(said.starts_with("rungc: ro/"), "{said}");
+        let messages = text(&rungc(path, args).stderr);
+        assert!(messages.starts_with("rungc: ro/"), "{messages}");
         assert!(
-            !said.contains(".tmp") && !said.contains(".rungc-"),
-            "{said}"
+            !messages.contains(".tmp") && !messages.contains(".rungc-"),
+            "{messages}"
         );
     }
 }

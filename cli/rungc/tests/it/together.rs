@@ -57,11 +57,11 @@ fn programs_of_one_firmware_share_files_and_a_makefile() {
     let args = "build light.il tank.il --emit c --device-access -o plc";
     let args: Vec<&str> = args.split(' ').collect();
     let built = rungc(path, &args);
-    let said = text(&built.stderr);
-    assert!(built.status.success(), "{said}");
+    let messages = text(&built.stderr);
+    assert!(built.status.success(), "{messages}");
     assert!(
-        said.contains("Emitted plc/Makefile for 2 programs"),
-        "{said}"
+        messages.contains("Emitted plc/Makefile for 2 programs"),
+        "{messages}"
     );
     let mut there = Vec::new();
     for shared in [
@@ -129,13 +129,13 @@ fn other_headers_are_rejected(path: &Path, library: &str) {
         assert_ne!(right, wrong);
         fs::write(&file, wrong).unwrap();
         let made = make(path, &["CC=gcc", &format!("RUNGC_RT={library}")]);
-        let said = text(&made.stderr);
+        let messages = text(&made.stderr);
         let expected =
             format!("tank.h and the {header} that was found come from different versions");
         assert!(!made.status.success(), "{header}");
         assert!(
-            said.contains(&expected) || said.contains("light.h and the rungc.h"),
-            "{said}"
+            messages.contains(&expected) || messages.contains("light.h and the rungc.h"),
+            "{messages}"
         );
         fs::write(&file, right).unwrap();
     }

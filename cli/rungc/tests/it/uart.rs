@@ -147,8 +147,12 @@ impl Machine {
             .current_dir(folder);
         let output = build.output().unwrap();
         assert!(output.status.success(), "{}", text(&output.stderr));
-        let said = [output.stderr, output.stdout];
-        Some(said.map(|said| text(&said).to_string()).concat())
+        let messages = [output.stderr, output.stdout];
+        Some(
+            messages
+                .map(|messages| text(&messages).to_string())
+                .concat(),
+        )
     }
 
     /// Starts an image, with COM1 at a character device of QEMU's.
@@ -273,14 +277,14 @@ fn serves_the_ranges_of_the_project(machine: &Machine) {
     // Only images from C are measured.
     let measures = machine.backend == "c";
     let what: &[&str] = if measures { &["--report"] } else { &[] };
-    let Some(said) = machine.build(folder.path(), what, "slave.elf") else {
+    let Some(messages) = machine.build(folder.path(), what, "slave.elf") else {
         return;
     };
     assert!(
-        said.contains("D0-D511; requests for others are rejected"),
-        "{said}"
+        messages.contains("D0-D511; requests for others are rejected"),
+        "{messages}"
     );
-    assert!(!measures || said.contains("bytes for 52"), "{said}");
+    assert!(!measures || messages.contains("bytes for 52"), "{messages}");
     let running = machine.start(&folder.path().join("slave.elf"), "pty");
     let path = running.line();
     poll(&["-r", "512", &path, "1234"], "Written 1 references");

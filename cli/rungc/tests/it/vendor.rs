@@ -31,13 +31,13 @@ fn projects_of_other_families_are_one_error() {
             &[]
         };
         let output = rungc(folder.path(), &[&[command, "MAIN.wpg"], to].concat());
-        let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{said}");
+        let messages = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{messages}");
         assert_eq!(
-            said.matches("A3N").count(),
+            messages.matches("A3N").count(),
             2,
-            "message and listing: {said}"
+            "message and listing: {messages}"
         );
-        assert_eq!(said.matches("error[").count(), 1, "{said}");
+        assert_eq!(messages.matches("error[").count(), 1, "{messages}");
     }
 }

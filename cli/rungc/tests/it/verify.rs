@@ -67,13 +67,16 @@ fn verdicts_are_for_tools_too() {
     ]);
     let never = ["--never", "Y000 & Y001", "--never", "Y000 & X002"];
     for format in ["sarif", "junit", "github"] {
-        let asked = ["verify", "bad.il", "--replay", "interp", "--format", format];
-        let asked = [&asked[..], &never].concat();
-        let output = rungc(folder.path(), &asked);
+        let requested = ["verify", "bad.il", "--replay", "interp", "--format", format];
+        let requested = [&requested[..], &never].concat();
+        let output = rungc(folder.path(), &requested);
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
         let printed = untimed(&text(&output.stdout));
         insta::assert_snapshot!(format!("verdicts_{format}"), printed);
-        let output = rungc(folder.path(), &[&asked[..], &["-o", "verdicts"]].concat());
+        let output = rungc(
+            folder.path(),
+            &[&requested[..], &["-o", "verdicts"]].concat(),
+        );
         assert_eq!(output.status.code(), Some(1));
         assert!(output.stdout.is_empty());
         assert!(text(&output.stderr).contains("Wrote verdicts: 1 of 2 hold"));
@@ -98,8 +101,8 @@ fn verdicts_are_for_tools_too() {
         ("missing.il", "json", "\"E0"),
         ("missing.il", "junit", "type=\"E0"),
     ] {
-        let asked = ["verify", file, "--never", "Y000", "--format", format];
-        let output = rungc(folder.path(), &asked);
+        let requested = ["verify", file, "--never", "Y000", "--format", format];
+        let output = rungc(folder.path(), &requested);
         assert_eq!(output.status.code(), Some(2));
         let printed = text(&output.stdout);
         assert!(printed.contains(code), "{file} {format}: {printed}");
@@ -313,7 +316,7 @@ fault = \"M500\"
         ("line.il", program.as_bytes()),
         ("rungc.toml", settings.as_bytes()),
     ]);
-    let asked = [
+    let requested = [
         "verify",
         "line.il",
         "--replay",
@@ -332,15 +335,15 @@ fault = \"M500\"
         "--never",
         "D10 = 8 & X000",
     ];
-    let output = rungc(folder.path(), &asked);
+    let output = rungc(folder.path(), &requested);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     insta::assert_snapshot!("outside", timeless(&text(&output.stdout)));
     // A search changes them, too.
-    let asked = [
+    let requested = [
         "explore", "line.il", "--never", "Y001", "--scans", "200000", "--seed", "1", "--replay",
         "interp",
     ];
-    let output = rungc(folder.path(), &asked);
+    let output = rungc(folder.path(), &requested);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     assert!(
         text(&output.stdout).contains("D10 = 7"),
@@ -372,10 +375,10 @@ fn no_verdict_rests_on_engines_that_disagree() {
     let folder = folder(&[("bad.il", program.as_bytes())]);
     let path = folder.path().join("compiler");
     common::write_executable(&path, compiler.as_bytes());
-    let verify = |asked: &[&str]| {
+    let verify = |requested: &[&str]| {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
             .args(["verify", "bad.il", "--replay", "c"])
-            .args(asked)
+            .args(requested)
             .current_dir(folder.path())
             // A wrong build must not be reused.
             .env("RUNGC_CACHE_DIR", folder.path().join("cache"))

@@ -44,20 +44,20 @@ fn diagnostics_show_their_network_with_the_place_marked() {
 }
 
 #[test]
-fn what_cannot_be_chosen_is_said() {
+fn what_cannot_be_chosen_is_reported() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
-    let said = |args: &[&str]| {
+    let messages = |args: &[&str]| {
         let out = rungc(folder.path(), &[&["view", "motor.il"], args].concat());
         assert_eq!(out.status.code(), Some(2), "{args:?}");
         assert!(out.stdout.is_empty());
         text(&out.stderr)
     };
-    assert!(said(&["--device", "M99"]).contains("none of the 6 networks matches"));
-    assert!(said(&["--device", "Q1"]).contains("a device is written"));
-    assert!(said(&["--network", "3..1"]).contains("counted from 1"));
-    assert!(said(&["--sfc"]).contains("the program has no step ladder"));
-    assert!(said(&["--sfc", "--network", "1"]).contains("cannot be used with"));
-    assert!(said(&["--around", "E9999"]).contains("not a diagnostic code"));
+    assert!(messages(&["--device", "M99"]).contains("none of the 6 networks matches"));
+    assert!(messages(&["--device", "Q1"]).contains("a device is written"));
+    assert!(messages(&["--network", "3..1"]).contains("counted from 1"));
+    assert!(messages(&["--sfc"]).contains("the program has no step ladder"));
+    assert!(messages(&["--sfc", "--network", "1"]).contains("cannot be used with"));
+    assert!(messages(&["--around", "E9999"]).contains("not a diagnostic code"));
 }
 
 #[test]
@@ -75,9 +75,9 @@ fn a_page_and_a_picture_are_files() {
         let written = std::fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(written.starts_with(start), "{written}");
         assert!(written.contains("T0 K3"));
-        let (code, said) = write(&[]);
+        let (code, messages) = write(&[]);
         assert_eq!(code, Some(2));
-        assert!(said.contains("already exists"), "{said}");
+        assert!(messages.contains("already exists"), "{messages}");
         assert_eq!(write(&["--force"]).0, Some(0));
     }
     let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.bmp"]);
@@ -123,8 +123,11 @@ fn read_by(folder: &Path, tool: &str, args: &[&str]) -> Option<Vec<u8>> {
             return None;
         }
     };
-    let said = text(&out.stderr);
-    assert!(out.status.success() && said.is_empty(), "{tool}: {said}");
+    let messages = text(&out.stderr);
+    assert!(
+        out.status.success() && messages.is_empty(),
+        "{tool}: {messages}"
+    );
     Some(out.stdout)
 }
 
@@ -164,8 +167,8 @@ fn readers_of_pdf_take_the_document() {
     let path = folder.path();
     let out = rungc(path, &["view", "motor.il", "-o", "motor.pdf"]);
     assert!(out.status.success(), "{}", text(&out.stderr));
-    if let Some(said) = read_by(path, "qpdf", &["--check", "motor.pdf"]) {
-        assert!(text(&said).contains("No syntax or stream encoding errors"));
+    if let Some(messages) = read_by(path, "qpdf", &["--check", "motor.pdf"]) {
+        assert!(text(&messages).contains("No syntax or stream encoding errors"));
     }
     if let Some(found) = read_by(path, "pdftotext", &["-layout", "motor.pdf", "-"]) {
         let found = text(&found);

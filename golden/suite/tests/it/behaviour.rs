@@ -174,9 +174,9 @@ fn what_is_called_the_same_has_the_same_values() {
                 run.class == *class && (run.first..run.first + run.count).contains(number)
             })
         });
-        let asked: Vec<Request> = equal.copied().flat_map(requests).collect();
-        partly += u64::from(!can_differ.is_empty() && !asked.is_empty());
-        compared += asked.len() as u64;
+        let requested: Vec<Request> = equal.copied().flat_map(requests).collect();
+        partly += u64::from(!can_differ.is_empty() && !requested.is_empty());
+        compared += requested.len() as u64;
         let modules = [old, new];
         let mut engines = modules
             .each_ref()
@@ -203,13 +203,13 @@ fn what_is_called_the_same_has_the_same_values() {
                         .filter(|_| module.takes_events()),
                 );
                 engine.execute_all(&all).unwrap();
-                answers.push(engine.execute_all(&asked).unwrap());
+                answers.push(engine.execute_all(&requested).unwrap());
             }
             let differing = answers[0].iter().zip(&answers[1]).position(|(a, b)| a != b);
             if let Some(at) = differing {
                 panic!(
                     "seed {seed}, scan {scan}: `{}` is {:?} and {:?}, but is called the same\n{text}\n--- changed\n{other}",
-                    asked[at], answers[0][at], answers[1][at]
+                    requested[at], answers[0][at], answers[1][at]
                 );
             }
         }

@@ -374,12 +374,12 @@ impl Case<'_> {
         let [head, all] = [HEAD, u32::MAX].map(|most| digests(module, most));
         let mut trace = Vec::new();
         self.run(engine, self.length.total() - 1, &mut |engine, scan| {
-            let asked = if self.length.most(scan) == HEAD {
+            let requested = if self.length.most(scan) == HEAD {
                 &head
             } else {
                 &all
             };
-            trace.push((scan, engine.execute_all(asked)?));
+            trace.push((scan, engine.execute_all(requested)?));
             Ok(())
         })?;
         Ok(trace)
@@ -588,7 +588,7 @@ fn digests_show_every_device() {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("digests");
     let mut engines = [EngineKind::Interp, EngineKind::C]
         .map(|kind| build(kind, &module, &target).unwrap_or_else(|e| panic!("{e}")));
-    let asked = digests(&module[0], u32::MAX);
+    let requested = digests(&module[0], u32::MAX);
     let mut before = Vec::new();
     let changes = [
         Request::Case(0),
@@ -608,7 +608,7 @@ fn digests_show_every_device() {
     for change in changes {
         let [first, second] = engines.each_mut().map(|engine| {
             engine.execute(change).unwrap();
-            engine.execute_all(&asked).unwrap()
+            engine.execute_all(&requested).unwrap()
         });
         assert_eq!(first, second, "{change}");
         assert_ne!(first, before, "{change}");

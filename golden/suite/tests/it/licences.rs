@@ -88,8 +88,8 @@ fn metadata() -> Metadata {
         .current_dir(root())
         .output()
         .expect("cargo");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{messages}");
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 

@@ -29,7 +29,7 @@ fn codes(code: &str) -> Vec<String> {
 }
 
 #[test]
-fn each_code_is_caused_by_a_case_or_said_to_occur_never() {
+fn each_code_is_caused_by_a_case_or_declared_to_occur_never() {
     let expected: BTreeSet<&str> = CASES
         .lines()
         .filter(|line| line.starts_with("expect = "))

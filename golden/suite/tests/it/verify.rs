@@ -301,8 +301,8 @@ fn each_two_outputs_of_the_examples_exclude_each_other_or_do_not() {
         for (i, &first) in outputs.iter().enumerate() {
             for &second in &outputs[i + 1..] {
                 let [a, b] = [first, second].map(|number| DeviceClass::Y.number(number));
-                let asked = format!("{a} & {b}");
-                let property = Property::Never(parse(&asked, &|_| Vec::new()).unwrap());
+                let requested = format!("{a} & {b}");
+                let property = Property::Never(parse(&requested, &|_| Vec::new()).unwrap());
                 let options = Options {
                     world: World::default(),
                     assumed: Vec::new(),
@@ -312,11 +312,11 @@ fn each_two_outputs_of_the_examples_exclude_each_other_or_do_not() {
                 match decide(&module, &property, &options).verdict {
                     Verdict::Proved => proved += 1,
                     Verdict::Found(_) => violated += 1,
-                    Verdict::Undecided(_) => open.push(format!("{name}: {asked}")),
+                    Verdict::Undecided(_) => open.push(format!("{name}: {requested}")),
                 }
                 let took = begin.elapsed();
                 if took > Duration::from_secs(5) {
-                    println!("{name}: {asked} took {took:.1?}");
+                    println!("{name}: {requested} took {took:.1?}");
                 }
             }
         }

@@ -189,7 +189,7 @@ fn an_unknown_instruction_causes_nothing_else() {
 }
 
 #[test]
-fn structures_that_cross_are_told_once() {
+fn structures_that_cross_are_reported_once() {
     let text = "\
 LD X0
 MC N0 M100

@@ -72,11 +72,11 @@ fn programs_read_back_to_the_same_lists() {
     for (list, model) in programs {
         let program = read("program.il", &list);
         for body in [Body::Ladder, Body::List] {
-            let (project, said) = written(&program, model, body);
+            let (project, messages) = written(&program, model, body);
             let form = |code: &str| code == codes::PLCOPEN_FORM.id;
             assert!(
-                !said.iter().any(|found| form(found.code)),
-                "{list}\n{said:?}"
+                !messages.iter().any(|found| form(found.code)),
+                "{list}\n{messages:?}"
             );
             let back = read("plc.xml", &project);
             assert_eq!(

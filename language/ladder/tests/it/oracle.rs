@@ -458,8 +458,8 @@ fn compare_network(
             .filter(|word| !word.is_empty());
         words.map(str::to_owned).collect::<Vec<_>>()
     };
-    let said: Vec<_> = bars.iter().map(words).collect();
-    assert_eq!(said, masters.collect::<Vec<_>>(), "{name}:\n{text}");
+    let messages: Vec<_> = bars.iter().map(words).collect();
+    assert_eq!(messages, masters.collect::<Vec<_>>(), "{name}:\n{text}");
     let circuit = Picture::of(&rows.join("\n")).circuit();
     for trial in 0..TRIALS {
         let expected = by_list(resolved, network, trial);

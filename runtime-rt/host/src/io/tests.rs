@@ -138,9 +138,9 @@ allow = [
             "line 5: `M0` takes its value from two places",
         ),
     ] {
-        let said = parse(text).unwrap_err();
+        let messages = parse(text).unwrap_err();
         // Before what helps.
-        assert_eq!(said.split("; ").next(), Some(why), "{text}");
+        assert_eq!(messages.split("; ").next(), Some(why), "{text}");
     }
 }
 

@@ -16,7 +16,7 @@ const RUNS: [RetainedRun; 5] = [
 
 /// A program that keeps some devices.
 #[derive(Default)]
-struct Kept {
+struct Retaining {
     bits: HashMap<(Class, u32), bool>,
     words: HashMap<(Class, u32), i16>,
     counters: HashMap<u32, i32>,
@@ -24,14 +24,14 @@ struct Kept {
     sys: Sys,
 }
 
-impl Kept {
+impl Retaining {
     fn new() -> Self {
         Self::default()
     }
 
     /// All latched devices differ from one state to the next.
     fn with_state(state: i16) -> Self {
-        let mut kept = Kept::new();
+        let mut kept = Retaining::new();
         for n in 0..21 {
             let on = (i32::from(state) + n) % 2 == 1;
             kept.set_bit(Class::M, 500 + n as u32, on).unwrap();
@@ -51,7 +51,7 @@ impl Kept {
     }
 }
 
-impl Plc for Kept {
+impl Plc for Retaining {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
         Some(self.bits.get(&(class, number)).copied().unwrap_or_default())
     }
@@ -89,7 +89,7 @@ impl Plc for Kept {
     }
 }
 
-impl Program for Kept {
+impl Program for Retaining {
     fn scan(&mut self, _: &mut dyn Hal, _: u32, _: u32) {}
     fn set_running(&mut self, _: bool) {}
     fn power_cycle(&mut self) {}
@@ -110,18 +110,18 @@ fn a_file_holds_the_values_of_the_last_save() {
     let folder = std::env::temp_dir().join(format!("rungc-retain-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("motor.retain");
-    let (mut file, what) = RetainFile::open(&path, &mut Kept::new()).unwrap();
+    let (mut file, what) = RetainFile::open(&path, &mut Retaining::new()).unwrap();
     assert_eq!(what, Loaded::Nothing);
     for number in 1..4 {
-        assert!(file.save(&Kept::with_state(number)).unwrap());
+        assert!(file.save(&Retaining::with_state(number)).unwrap());
     }
-    assert!(!file.save(&Kept::with_state(3)).unwrap(), "unchanged");
-    let mut kept = Kept::new();
+    assert!(!file.save(&Retaining::with_state(3)).unwrap(), "unchanged");
+    let mut kept = Retaining::new();
     let (_, what) = RetainFile::open(&path, &mut kept).unwrap();
     assert_eq!(what, Loaded::Restored { dropped: 0 });
-    assert_eq!(kept.state(), Kept::with_state(3).state());
+    assert_eq!(kept.state(), Retaining::with_state(3).state());
     // Between scans another thread writes.
-    let kept = Kept::with_state(4);
+    let kept = Retaining::with_state(4);
     let until = std::time::Instant::now() + std::time::Duration::from_secs(300);
     let mut now_ms = 1000;
     while !file.poll(&kept, now_ms, 1000).unwrap() {
@@ -131,17 +131,20 @@ fn a_file_holds_the_values_of_the_last_save() {
     assert!(!file.save(&kept).unwrap(), "saved already");
     assert!(
         !file
-            .poll(&Kept::with_state(5), now_ms + 1000, 1000)
+            .poll(&Retaining::with_state(5), now_ms + 1000, 1000)
             .unwrap()
     );
-    assert!(file.save(&Kept::with_state(6)).unwrap(), "the last one");
-    let mut read = Kept::new();
+    assert!(
+        file.save(&Retaining::with_state(6)).unwrap(),
+        "the last one"
+    );
+    let mut read = Retaining::new();
     let _ = RetainFile::open(&path, &mut read).unwrap();
-    assert_eq!(read.state(), Kept::with_state(6).state());
+    assert_eq!(read.state(), Retaining::with_state(6).state());
     let whole = std::fs::read(&path).unwrap();
     for cut in 0..whole.len() {
         std::fs::write(&path, &whole[..cut]).unwrap();
-        let error = RetainFile::open(&path, &mut Kept::new()).unwrap_err();
+        let error = RetainFile::open(&path, &mut Retaining::new()).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::InvalidData, "{cut} bytes");
     }
     std::fs::remove_dir_all(&folder).unwrap();

@@ -17,19 +17,19 @@ const RUNS: [RetainedRun; 5] = [
 ];
 
 /// A program that keeps some devices.
-struct Kept {
+struct Retaining {
     plc: Double,
     retained: Retained<'static>,
 }
 
-impl Kept {
+impl Retaining {
     fn new() -> Self {
         let retained = Retained {
             program: "motor (h2u)",
             runs: &RUNS,
             ..Retained::NOTHING
         };
-        Kept {
+        Retaining {
             plc: Double::new(),
             retained,
         }
@@ -37,7 +37,7 @@ impl Kept {
 
     /// All latched devices differ from one state to the next.
     fn with_state(state: i16) -> Self {
-        let mut kept = Kept::new();
+        let mut kept = Retaining::new();
         for n in 0..21 {
             let on = (i32::from(state) + n) % 2 == 1;
             kept.set_bit(Class::M, 500 + n as u32, on).unwrap();
@@ -57,7 +57,7 @@ impl Kept {
     }
 }
 
-impl Plc for Kept {
+impl Plc for Retaining {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
         self.plc.bit(class, number)
     }
@@ -87,7 +87,7 @@ impl Plc for Kept {
     }
 }
 
-impl Program for Kept {
+impl Program for Retaining {
     fn scan(&mut self, _: &mut dyn Hal, _: u32, _: u32) {}
     fn set_running(&mut self, _: bool) {}
     fn power_cycle(&mut self) {}
@@ -156,8 +156,8 @@ impl Flash for Cells {
 }
 
 /// Result of loading after power-on from a store.
-fn loaded(flash: Cells) -> (Loaded, Kept) {
-    let mut kept = Kept::new();
+fn loaded(flash: Cells) -> (Loaded, Retaining) {
+    let mut kept = Retaining::new();
     let loaded = Slots::open(flash).unwrap().load(&mut kept).unwrap();
     (loaded, kept)
 }
@@ -165,11 +165,11 @@ fn loaded(flash: Cells) -> (Loaded, Kept) {
 #[test]
 fn a_save_that_is_cut_short_leaves_the_old_values_or_the_new_ones() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    assert_eq!(store.load(&mut Kept::new()), Ok(Loaded::Nothing));
+    assert_eq!(store.load(&mut Retaining::new()), Ok(Loaded::Nothing));
     let mut old = None;
     let mut cuts = 0;
     for number in 1..=12 {
-        let new = Kept::with_state(number);
+        let new = Retaining::with_state(number);
         for left in 0.. {
             let mut finished = false;
             for torn in [0x00, 0x0F, 0x55, 0xFF] {
@@ -194,9 +194,9 @@ fn a_save_that_is_cut_short_leaves_the_old_values_or_the_new_ones() {
                 }
                 // The next save finds room after what is left.
                 let mut next = Slots::open(flash).unwrap();
-                next.save(&Kept::with_state(77)).unwrap();
+                next.save(&Retaining::with_state(77)).unwrap();
                 let found = loaded(next.flash).1;
-                assert_eq!(found.state(), Kept::with_state(77).state());
+                assert_eq!(found.state(), Retaining::with_state(77).state());
             }
             if finished {
                 break;
@@ -211,7 +211,7 @@ fn a_save_that_is_cut_short_leaves_the_old_values_or_the_new_ones() {
 #[test]
 fn every_latched_device_comes_back() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    store.save(&Kept::with_state(-3)).unwrap();
+    store.save(&Retaining::with_state(-3)).unwrap();
     let (what, found) = loaded(store.flash);
     assert_eq!(what, Loaded::Restored { dropped: 0 });
     assert_eq!(found.word(Class::D, 202), Some(-3));
@@ -225,17 +225,17 @@ fn every_latched_device_comes_back() {
 #[test]
 fn a_slot_takes_records_until_it_is_full() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    let retained = Kept::new().retained;
+    let retained = Retaining::new().retained;
     assert_eq!(
         retained.record_len(),
         15 + 11 + 5 * 5 + 3 + 6 + 3 + 5 + 6 + 4
     );
     assert_eq!(store.saves_per_erasure(&retained), 3);
     for number in 0..30 {
-        store.save(&Kept::with_state(number)).unwrap();
+        store.save(&Retaining::with_state(number)).unwrap();
     }
     assert_eq!(store.flash.erasures, 10);
-    let none = Slots::open(Cells::new(64)).unwrap().save(&Kept::new());
+    let none = Slots::open(Cells::new(64)).unwrap().save(&Retaining::new());
     assert_eq!(none, Err(FlashFailed), "the slot is shorter than a record");
 }
 
@@ -245,15 +245,15 @@ fn a_prepared_save_does_not_erase() {
     let mut at_ms = 0;
     for number in 0..30 {
         at_ms += 1000;
-        let kept = Kept::with_state(number);
+        let kept = Retaining::with_state(number);
         assert_eq!(store.poll(&kept, at_ms - 1, 1000), Ok(false), "too early");
         assert_eq!(store.poll(&kept, at_ms, 1000), Ok(true));
         let erasures = store.flash.erasures;
         let mut failing = store.clone();
-        failing.save(&Kept::with_state(99)).unwrap();
+        failing.save(&Retaining::with_state(99)).unwrap();
         assert_eq!(failing.flash.erasures, erasures);
     }
-    let same = Kept::with_state(29);
+    let same = Retaining::with_state(29);
     assert_eq!(
         store.poll(&same, at_ms + 1000, 1000),
         Ok(false),
@@ -264,7 +264,7 @@ fn a_prepared_save_does_not_erase() {
 #[test]
 fn records_of_another_program_are_not_loaded() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    let mut other = Kept::with_state(5);
+    let mut other = Retaining::with_state(5);
     other.retained.program = "pump (h2u)";
     store.save(&other).unwrap();
     let (what, found) = loaded(store.flash);
@@ -272,14 +272,14 @@ fn records_of_another_program_are_not_loaded() {
         panic!("{what:?}");
     };
     assert_eq!(owner.as_str(), "pump (h2u)");
-    assert_eq!(found.state(), Kept::new().state());
+    assert_eq!(found.state(), Retaining::new().state());
 }
 
 #[test]
 fn a_changed_program_keeps_the_devices_that_both_have() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    store.save(&Kept::with_state(5)).unwrap();
-    let mut kept = Kept::new();
+    store.save(&Retaining::with_state(5)).unwrap();
+    let mut kept = Retaining::new();
     kept.retained.runs = const {
         &[
             RetainedRun::new(Class::D, 201, 9),
@@ -301,7 +301,7 @@ fn a_changed_program_keeps_the_devices_that_both_have() {
 fn without_its_key_a_model_keeps_nothing() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
     for (held, value) in [(2222, 5), (0, 0)] {
-        let mut kept = Kept::with_state(5);
+        let mut kept = Retaining::with_state(5);
         kept.retained.key = Some((8020, 2222));
         kept.set_word(Class::D, 8020, held).unwrap();
         store.save(&kept).unwrap();
@@ -313,7 +313,7 @@ fn without_its_key_a_model_keeps_nothing() {
 #[test]
 fn contacts_open_where_the_model_opens_them() {
     let mut store = Slots::open(Cells::new(256)).unwrap();
-    let mut kept = Kept::with_state(4);
+    let mut kept = Retaining::with_state(4);
     kept.retained.contacts = false;
     assert_eq!(kept.bit(Class::T, 251), Some(true));
     store.save(&kept).unwrap();
@@ -440,16 +440,16 @@ impl Registers for &mut Part {
 fn saves_on<F: Flash>(flash: impl Fn() -> F) {
     for number in 1..200 {
         let mut store = Slots::open(flash()).unwrap();
-        let mut kept = Kept::new();
+        let mut kept = Retaining::new();
         store.load(&mut kept).unwrap();
         let before = if number > 1 { number - 1 } else { 0 };
         let expected = if before == 0 {
-            Kept::new()
+            Retaining::new()
         } else {
-            Kept::with_state(before)
+            Retaining::with_state(before)
         };
         assert_eq!(kept.state(), expected.state());
-        store.save(&Kept::with_state(number)).unwrap();
+        store.save(&Retaining::with_state(number)).unwrap();
     }
 }
 

@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_place() {
+    fn mistakes_are_reported_with_their_place() {
         let text = r#"model = "h3u"
 topic = "t"
 [[case]]
@@ -397,7 +397,7 @@ rejects = { code = 0 }
     }
 
     #[test]
-    fn mistakes_about_time_rows_and_scenarios_are_told_with_their_place() {
+    fn mistakes_about_time_rows_and_scenarios_are_reported_with_their_place() {
         let text = r#"model = "h2u"
 topic = "t"
 program = "END"

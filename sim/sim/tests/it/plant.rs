@@ -334,7 +334,7 @@ fn problems(text: &str) -> String {
 }
 
 #[test]
-fn mistakes_are_told_with_their_places() {
+fn mistakes_are_reported_with_their_places() {
     let text = r#"
 normally_closed = ["X077"]
 [[axis]]

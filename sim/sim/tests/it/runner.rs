@@ -17,7 +17,7 @@ fn outcomes(text: &str) -> String {
 const HEAD: &str = "model = \"h2u\"\ntopic = \"t\"\n";
 
 #[test]
-fn what_differs_is_told_with_its_step() {
+fn what_differs_is_reported_with_its_step() {
     let text = format!(
         "{HEAD}{}",
         r#"
@@ -124,7 +124,7 @@ fn lamp(cases: &str) -> String {
 }
 
 #[test]
-fn what_must_hold_over_time_is_told_when_it_does_not() {
+fn what_must_hold_over_time_is_reported_when_it_does_not() {
     let text = lamp(
         r#"
 whenever = [{ when = { X000 = 1 }, then = { Y000 = 1 } }]

@@ -488,22 +488,22 @@ fn an_image_tries_pins_one_at_a_time() {
             return;
         };
         assert_eq!(found["begin"], json!([]), "{}", board.name);
-        let said = |n: usize| found["said"][n].as_str().unwrap().to_string();
+        let messages = |n: usize| found["said"][n].as_str().unwrap().to_string();
         for (n, output) in outputs.iter().enumerate() {
             assert_eq!(found["outputs"][n], json!([output]), "{}", board.name);
             assert!(
-                said(n).ends_with(&format!("Y{n:03o} on\r\n")),
+                messages(n).ends_with(&format!("Y{n:03o} on\r\n")),
                 "{}",
-                said(n)
+                messages(n)
             );
         }
         for n in 0..inputs.len() {
             let step = outputs.len() + n;
             assert_eq!(found["outputs"][step], json!([]), "{}", board.name);
             assert!(
-                said(step).contains(&format!("X{n:03o} on\r\n")),
+                messages(step).contains(&format!("X{n:03o} on\r\n")),
                 "{}",
-                said(step)
+                messages(step)
             );
         }
         board.check_modes(&found["modes"]);

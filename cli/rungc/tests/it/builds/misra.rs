@@ -32,8 +32,8 @@ fn reported(folder: &Path, options: &[String]) -> BTreeSet<String> {
         .output()
         .unwrap();
     assert!(output.status.success(), "{output:?}");
-    let said = String::from_utf8(output.stderr).unwrap();
-    let rules = said.lines().filter(|line| line.starts_with("misra-"));
+    let messages = String::from_utf8(output.stderr).unwrap();
+    let rules = messages.lines().filter(|line| line.starts_with("misra-"));
     rules.map(str::to_string).collect()
 }
 

@@ -47,9 +47,9 @@ fn run(folder: &Path, command: &str) -> String {
         .current_dir(folder)
         .output()
         .unwrap();
-    let said = text(&output.stdout) + &text(&output.stderr);
-    assert!(output.status.success(), "{command}: {said}");
-    said
+    let messages = text(&output.stdout) + &text(&output.stderr);
+    assert!(output.status.success(), "{command}: {messages}");
+    messages
 }
 
 /// Emits programs in C into the folder `plc`.

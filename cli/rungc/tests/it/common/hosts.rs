@@ -138,16 +138,16 @@ impl Host {
             }
         });
         let mut errors = child.stderr.take().unwrap();
-        let said = thread::spawn(move || {
-            let mut said = Vec::new();
-            errors.read_to_end(&mut said).unwrap();
-            text(&said)
+        let messages = thread::spawn(move || {
+            let mut messages = Vec::new();
+            errors.read_to_end(&mut messages).unwrap();
+            text(&messages)
         });
         Running {
             child,
             _typed: typed,
             shown,
-            said: Some(said),
+            messages: Some(messages),
         }
     }
 }
@@ -169,7 +169,7 @@ pub struct Running {
     child: Child,
     _typed: ChildStdin,
     shown: Receiver<(Instant, String, bool)>,
-    said: Option<JoinHandle<String>>,
+    messages: Option<JoinHandle<String>>,
 }
 
 impl Running {
@@ -213,8 +213,8 @@ impl Running {
         let kill = Command::new("kill").args(["-INT", &pid]).status().unwrap();
         assert!(kill.success());
         let code = self.child.wait().unwrap().code();
-        let said = self.said.take().unwrap().join().unwrap();
-        (code, said)
+        let messages = self.messages.take().unwrap().join().unwrap();
+        (code, messages)
     }
 }
 

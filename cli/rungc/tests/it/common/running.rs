@@ -12,9 +12,9 @@ use std::thread;
 pub struct Run {
     child: Child,
     /// Reports, line by line.
-    said: Receiver<String>,
+    messages: Receiver<String>,
     /// Reports so far.
-    heard: RefCell<Vec<String>>,
+    received: RefCell<Vec<String>>,
     /// Rows of its table, of which there is one every 50 ms.
     rows: Receiver<String>,
     /// Open ends, such as `COM1` or `Modbus TCP`, and their addresses.
@@ -44,8 +44,8 @@ impl Run {
     pub fn opens(&mut self, count: usize) {
         while self.open.len() < count {
             let line = self.next_line();
-            let told = line.strip_prefix("rungc: ");
-            if let Some((what, place)) = told.and_then(|told| told.split_once(" at ")) {
+            let report = line.strip_prefix("rungc: ");
+            if let Some((what, place)) = report.and_then(|report| report.split_once(" at ")) {
                 self.open.push((what.to_owned(), place.to_owned()));
             }
         }
@@ -63,9 +63,9 @@ impl Run {
 
     /// The next line that it reports.
     fn next_line(&self) -> String {
-        let line = self.said.recv_timeout(HANG);
-        let line = line.unwrap_or_else(|_| panic!("no more is reported: {:?}", self.heard));
-        self.heard.borrow_mut().push(line.clone());
+        let line = self.messages.recv_timeout(HANG);
+        let line = line.unwrap_or_else(|_| panic!("no more is reported: {:?}", self.received));
+        self.received.borrow_mut().push(line.clone());
         line
     }
 
@@ -86,12 +86,12 @@ impl Run {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let said = lines(child.stderr.take().unwrap());
+        let messages = lines(child.stderr.take().unwrap());
         let rows = lines(child.stdout.take().unwrap());
         Run {
             child,
-            said,
-            heard: RefCell::default(),
+            messages,
+            received: RefCell::default(),
             rows,
             open: Vec::new(),
         }
@@ -114,9 +114,9 @@ impl Run {
     }
 
     /// Reports so far.
-    pub fn said(&self) -> Vec<String> {
-        self.heard.borrow_mut().extend(self.said.try_iter());
-        self.heard.borrow().clone()
+    pub fn messages(&self) -> Vec<String> {
+        self.received.borrow_mut().extend(self.messages.try_iter());
+        self.received.borrow().clone()
     }
 }
 

@@ -87,7 +87,7 @@ fn an_image_is_copied_to_the_volume() {
 #[test]
 fn what_is_not_for_the_volume_is_rejected() {
     let board = rig(INFO);
-    let mut said = String::new();
+    let mut messages = String::new();
     for (file, options, exit) in [
         ("far.uf2", ["--volume", "RPI-RP2"], 1),
         ("damaged.uf2", ["--volume", "RPI-RP2"], 2),
@@ -96,18 +96,18 @@ fn what_is_not_for_the_volume_is_rejected() {
     ] {
         let output = flash(&board, file, &options);
         assert_eq!(code(&output), exit, "{}", text(&output.stderr));
-        said += &format!("{file} {}:\n{}\n", options.join(" "), says(&board, &output));
+        messages += &format!("{file} {}:\n{}\n", options.join(" "), says(&board, &output));
     }
     let output = flash(&board, "p.uf2", &["--volume", "RPI-RP2", "--backup", "b"]);
     assert_eq!(code(&output), 2);
-    said += &says(&board, &output);
+    messages += &says(&board, &output);
     assert!(is_untouched(board.path()));
     let other = rig("UF2 Bootloader v1.0\r\nBoard-ID: RP2350\r\n");
     let output = flash(&other, "p.uf2", &["--volume", "RPI-RP2", "--yes"]);
     assert_eq!(code(&output), 1);
     assert!(is_untouched(other.path()));
-    said += &format!("\n{}", says(&other, &output));
-    insta::assert_snapshot!("volume_rejected", said);
+    messages += &format!("\n{}", says(&other, &output));
+    insta::assert_snapshot!("volume_rejected", messages);
 }
 
 #[test]

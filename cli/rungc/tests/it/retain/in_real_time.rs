@@ -44,13 +44,13 @@ fn executables_keep_latched_devices() {
     assert!(built.status.success(), "{}", text(&built.stderr));
     let [in_c, in_rust] = hosts::executables();
     let retain = ["--retain", "starts.retain"];
-    let (said, _) = until_quit(at, in_c, &retain);
-    assert!(said.contains("does not exist yet"), "{said}");
-    assert!(said.contains("Y000 on"), "{said}");
-    let (said, _) = until_quit(at, in_rust, &retain);
+    let (messages, _) = until_quit(at, in_c, &retain);
+    assert!(messages.contains("does not exist yet"), "{messages}");
+    assert!(messages.contains("Y000 on"), "{messages}");
+    let (messages, _) = until_quit(at, in_rust, &retain);
     assert!(
-        said.contains("Y001 on") && said.lines().count() == 1,
-        "{said}"
+        messages.contains("Y001 on") && messages.lines().count() == 1,
+        "{messages}"
     );
     let third = rungc(
         at,
@@ -64,10 +64,10 @@ fn executables_keep_latched_devices() {
         ],
     );
     assert_eq!(last(&third), "3");
-    let (said, _) = until_quit(at, in_c, &retain);
+    let (messages, _) = until_quit(at, in_c, &retain);
     assert!(
-        said.contains("Y003 on") && said.lines().count() == 1,
-        "{said}"
+        messages.contains("Y003 on") && messages.lines().count() == 1,
+        "{messages}"
     );
     let before = fs::read(at.join("starts.retain")).unwrap();
     let refused = until_quit(at, &at.join("pump"), &retain);
@@ -78,11 +78,11 @@ fn executables_keep_latched_devices() {
     let why = "starts.retain does not hold latched devices, or is damaged\n";
     let refused = until_quit(at, in_c, &retain);
     assert_eq!(refused, (format!("starts: {why}"), Some(2)));
-    let (said, code) = until_quit(at, in_rust, &retain);
+    let (messages, code) = until_quit(at, in_rust, &retain);
     assert_eq!(code, Some(2));
     assert!(
-        said.contains("does not hold latched devices, or is damaged"),
-        "{said}"
+        messages.contains("does not hold latched devices, or is damaged"),
+        "{messages}"
     );
 }
 
@@ -163,14 +163,18 @@ fn a_slow_disk_does_not_hold_up_scans() {
         assert!(began.elapsed() > Duration::from_secs(8), "{host:?}");
         assert!(changes > 10, "{host:?}: {changes} times ten scans");
         running.shows("Y012", false);
-        let (code, said) = running.end();
-        assert_eq!(code, host.code(), "{said}");
+        let (code, messages) = running.end();
+        assert_eq!(code, host.code(), "{messages}");
         let complaints = [
             "the disk takes longer than 10 s; latched devices are not saved",
             "latched devices are saved again",
         ];
         for complaint in complaints {
-            assert_eq!(said.matches(complaint).count(), 1, "{host:?}: {said}");
+            assert_eq!(
+                messages.matches(complaint).count(),
+                1,
+                "{host:?}: {messages}"
+            );
         }
     });
 }
@@ -197,18 +201,18 @@ fn a_disk_that_takes_nothing_does_not_stop_scans() {
         running.shows("Y012", false);
         assert_ne!(fs::read(&latched).unwrap(), whole, "{host:?}");
         fs::rename(folder.join("disk"), folder.join("away")).unwrap();
-        let (code, said) = running.end();
+        let (code, messages) = running.end();
         // A failed save at the end is a failure.
-        assert_eq!(code, Some(1), "{host:?}: {said}");
-        let count = |what: &str| said.matches(what).count();
+        assert_eq!(code, Some(1), "{host:?}: {messages}");
+        let count = |what: &str| messages.matches(what).count();
         assert!(
             count("latched devices are not saved") >= 3,
-            "{host:?}: {said}"
+            "{host:?}: {messages}"
         );
         assert_eq!(
             count("latched devices are saved again"),
             2,
-            "{host:?}: {said}"
+            "{host:?}: {messages}"
         );
     });
 }
@@ -235,16 +239,16 @@ fn killing_it_while_it_saves_tears_no_file() {
             assert!(new.exists(), "{host:?}");
             let mut again = host.start(folder, &["--retain", "disk/latched"], &[]);
             again.counts();
-            let (code, said) = again.end();
-            assert_eq!(code, host.code(), "{host:?}: {said}");
+            let (code, messages) = again.end();
+            assert_eq!(code, host.code(), "{host:?}: {messages}");
             assert_eq!(
-                said.contains("does not exist yet"),
+                messages.contains("does not exist yet"),
                 !known,
-                "{host:?}: {said}"
+                "{host:?}: {messages}"
             );
             assert!(
-                !said.contains("damaged") && !new.exists(),
-                "{host:?}: {said}"
+                !messages.contains("damaged") && !new.exists(),
+                "{host:?}: {messages}"
             );
             if !known {
                 fs::remove_file(folder.join("disk/latched")).unwrap();
@@ -337,8 +341,8 @@ fn setting_the_clock_changes_only_the_real_time_clock() {
                 "{host:?}: {count} times {every_ms} ms of {what} in {passed:?}"
             );
         }
-        let (code, said) = running.end();
-        assert_eq!(code, host.code(), "{said}");
+        let (code, messages) = running.end();
+        assert_eq!(code, host.code(), "{messages}");
         // On a busy machine it may stand still for seconds, but not for hours.
         let hours = |line: &str| {
             let (_, rest) = line.split_once("stood still for ")?;
@@ -346,8 +350,8 @@ fn setting_the_clock_changes_only_the_real_time_clock() {
             (seconds >= 3600.0).then_some(())
         };
         assert!(
-            said.lines().all(|line| hours(line).is_none()),
-            "{host:?}: {said}"
+            messages.lines().all(|line| hours(line).is_none()),
+            "{host:?}: {messages}"
         );
     });
 }

@@ -44,8 +44,11 @@ fn latched_devices_survive_from_run_to_run() {
     let folder = folder(&[("counter.il", COUNTER.as_bytes())]);
     let at = folder.path();
     let first = run(at, &["--watch", "C100", "--retain", "counter.retain"]);
-    let said = text(&first.stderr);
-    assert!(said.contains("counter.retain does not exist yet"), "{said}");
+    let messages = text(&first.stderr);
+    assert!(
+        messages.contains("counter.retain does not exist yet"),
+        "{messages}"
+    );
     let second = run(at, &["--watch", "C100", "--retain", "counter.retain"]);
     assert_eq!(text(&second.stderr), "");
     assert_eq!(

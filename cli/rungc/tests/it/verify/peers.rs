@@ -52,14 +52,14 @@ fn confirmed(folder: &Path, solvers: &[&str]) -> usize {
         formulas += 1;
         let path = entry.unwrap().path();
         for solver in solvers {
-            let asked = Command::new(solver).arg(&path).output().unwrap();
+            let requested = Command::new(solver).arg(&path).output().unwrap();
             // Solvers agree on the exit code of what cannot be satisfied.
             assert_eq!(
-                asked.status.code(),
+                requested.status.code(),
                 Some(20),
                 "{solver} {}: {}",
                 path.display(),
-                text(&asked.stdout)
+                text(&requested.stdout)
             );
         }
     }
@@ -263,12 +263,12 @@ fn another_model_checker_agrees() {
             "{}",
             text(&output.stdout)
         );
-        let asked = Command::new(abc)
+        let requested = Command::new(abc)
             .args(["-c", "read_aiger program.aig; pdr"])
             .current_dir(folder.path())
             .output()
             .unwrap();
-        let answer = text(&asked.stdout);
+        let answer = text(&requested.stdout);
         assert!(answer.contains(theirs), "{answer}");
     }
 }
@@ -367,17 +367,17 @@ fn a_model_checker_of_btor2_agrees() {
             "interp",
         ];
         let ours = text(&rungc(folder.path(), &args).stdout);
-        let asked = Command::new(&python)
+        let requested = Command::new(&python)
             .args(["-c", BTORMC, "program.btor2", BOUND])
             .current_dir(folder.path())
             .output()
             .unwrap();
-        let answer = text(&asked.stdout);
+        let answer = text(&requested.stdout);
         let theirs = answer.lines().last().unwrap_or_default();
         match scans {
             None => {
                 assert!(ours.starts_with("proved"), "{program}: {ours}");
-                assert_eq!(theirs, "bound -1", "{program}: {}", text(&asked.stderr));
+                assert_eq!(theirs, "bound -1", "{program}: {}", text(&requested.stderr));
             }
             Some(scans) => {
                 assert!(ours.starts_with("violated"), "{program}: {ours}");
@@ -386,7 +386,12 @@ fn a_model_checker_of_btor2_agrees() {
                     "{program}: {ours}"
                 );
                 let bound = format!("bound {}", scans - 1);
-                assert_eq!(theirs, bound, "{program}: {answer}{}", text(&asked.stderr));
+                assert_eq!(
+                    theirs,
+                    bound,
+                    "{program}: {answer}{}",
+                    text(&requested.stderr)
+                );
                 // The run that it shows has the names of devices.
                 assert!(answer.contains(" X000@0"), "{answer}");
             }

@@ -55,10 +55,11 @@ fn talk(line: &mut [Station], now_us: &mut u32, ms: u32) -> usize {
                     continue;
                 }
                 if hearer.link.cut(hearer.role, &frame) == Cut::Whole {
-                    let heard = hearer
-                        .link
-                        .receive(hearer.role, &frame, *now_us, &mut hearer.map);
-                    hearer.faults.extend(heard.err());
+                    let received =
+                        hearer
+                            .link
+                            .receive(hearer.role, &frame, *now_us, &mut hearer.map);
+                    hearer.faults.extend(received.err());
                 }
             }
         }

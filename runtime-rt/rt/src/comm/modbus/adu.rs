@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_of_frames_are_told_apart() {
+    fn faults_of_frames_are_distinguished() {
         let length = |framing: Framing, frame: &[u8]| {
             let mut decoded = [0; LONGEST_RTU];
             Body::open(framing, frame, &mut decoded).map(|body| body.len())

@@ -450,7 +450,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_answers_are_told_apart_and_write_nothing() {
+    fn wrong_answers_are_distinguished_and_write_nothing() {
         let read = job(1, 3, 100, 1);
         let answers = [
             ("01 83 01 80 F0", LineFault::Command),
