@@ -457,6 +457,12 @@ impl<'a> Cx<'a> {
         })
     }
 
+    /// Returns true if operand `i` is a group of less than sixteen bits.
+    pub fn is_short_group(&self, i: usize) -> bool {
+        let op = self.op(i);
+        op.is_ok_and(|op| op.kind == OperandKind::Nibbles && op.digits < 4)
+    }
+
     /// Returns true if operand `i` is numbered in octal: X or Y.
     pub fn is_octal(&self, i: usize) -> bool {
         self.op(i)

@@ -18,8 +18,8 @@ impl Fault {
     pub const VALUE: Fault = Fault(6707);
     /// A remote module has not answered in time (h1u-h2u-programming §5.9.5).
     pub const NO_ANSWER: Fault = Fault(6381);
-    /// A module is not there, or has no such buffer memory.
-    pub const MODULE: Fault = Fault(6750);
+    /// A module is not there, or has no such buffer memory; models show it as [`Plc::module_error`].
+    pub const MODULE: Fault = Fault(6709);
 }
 
 /// Reason for STOP.
@@ -70,6 +70,7 @@ pub type Done = Result<(), Fault>;
 pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let code = match fault {
         Fault::VALUE => plc.value_error(),
+        Fault::MODULE => plc.module_error(),
         Fault(code) => code,
     };
     plc.note_error(code, step);
@@ -141,6 +142,9 @@ mod tests {
         plc.value_error = 6706;
         report(&mut plc, Fault::VALUE, 0);
         assert_eq!(plc.d(8067, 1), [6706]);
+        report(&mut plc, Fault::MODULE, 0);
+        assert_eq!(plc.d(8067, 1), [6708]);
+        plc.value_error = 6707;
         report(&mut plc, Fault::MODULE, 0);
         assert_eq!(plc.d(8067, 1), [6750]);
     }

@@ -180,6 +180,10 @@ pub trait Plc {
     fn bit(&self, class: Class, number: u32) -> Option<bool>;
     /// Sets a bit device.
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()>;
+    /// State of the coil of a timer or counter at its last execution; implementations that serve no coils give the contact.
+    fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        self.bit(class, number)
+    }
     /// Value of a 16-bit word device; for T and C0–C199 the current value.
     fn word(&self, class: Class, number: u32) -> Option<i16>;
     /// Sets a word device.
@@ -290,6 +294,14 @@ pub trait Plc {
     /// Code of [`crate::Fault::VALUE`]: 6707 (H1U/H2U) or 6706, which on FX and L01S stands for devices and values.
     fn value_error(&self) -> u16 {
         crate::Fault::DEVICE.0
+    }
+    /// Code of [`crate::Fault::MODULE`]. The table of codes that tells values from devices has 6750
+    /// (h1u-h2u-programming §8.7); on FX and L01S it is the error of FROM and TO, 6708.
+    fn module_error(&self) -> u16 {
+        match self.value_error() == crate::Fault::VALUE.0 {
+            true => 6750,
+            false => 6708,
+        }
     }
     /// An operation error has happened to the instruction at this step ([`crate::LastError`]).
     fn note_error(&mut self, code: u16, step: u32) {

@@ -163,6 +163,7 @@ registry! {
     Zrst = data::zrst(d1, d2);
     Deco = data::deco(s, d, n);
     Enco = data::enco(s, d, n);
+    EncoZero = data::enco_zero(s, d, n);
     Sum = data::sum(s, d);
     Bon = data::bon(s, d, n);
     Mean = data::mean(s, d, n);
@@ -312,6 +313,8 @@ registry! {
     Ptab = segment::ptab(s, d, n) [state, always];
     Pctab = cut::pctab(s, d) [state, always];
     Pbtab = cut::pbtab(s, d) [state, always];
+    FromStated = modules::from_stated(m1, m2, d, n) [hal];
+    ToStated = modules::to_stated(m1, m2, s, n) [hal];
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     ToHost = modules::to_host(m1, m2, s, n) [hal];
     FromRemote = modules::from_remote(m1, m2, d, n) [hal];
@@ -364,6 +367,7 @@ registry! {
     Wbfm = modules::wbfm(m1, m2, s, n1, n2) [state, always, hal];
     Pid = pid::pid(s1, s2, s3, d);
     PidTuning = pid::pid_tuning(s1, s2, s3, d);
+    PidChecked = pid::pid_checked(s1, s2, s3, d);
     PidHm = pid::pid_hm(s1, s2, s3, d);
     PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state];
     Loadr = cassette::loadr(s, n, er);

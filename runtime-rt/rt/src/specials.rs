@@ -56,7 +56,7 @@ impl RtFn {
             RtFn::Ror | RtFn::Rol | RtFn::Rcr | RtFn::Rcl | RtFn::Sfr | RtFn::Sfl => &[M_CARRY],
             RtFn::Sfwr | RtFn::SfwrHm | RtFn::SfrdHm => &[M_CARRY],
             RtFn::Sqr | RtFn::SqrClamped => &[M_ZERO, M_BORROW],
-            RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv | RtFn::Int => {
+            RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv | RtFn::Eval | RtFn::Int => {
                 &[M_ZERO, M_BORROW, M_CARRY]
             }
             RtFn::Esqr | RtFn::Sum | RtFn::Sfrd | RtFn::Pop => &[M_ZERO],

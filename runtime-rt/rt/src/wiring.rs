@@ -361,13 +361,11 @@ const fn fx3(output: u16) -> Wiring {
     }
 }
 
-/// The first two outputs also have the devices of FX2N.
+/// The first two outputs also have the counts of FX2N.
 const fn fx3_as_fx2n(output: u16) -> Wiring {
     Wiring {
         pulses: d(8140 + 2 * output),
         sum: d(8136),
-        busy: [m(8340 + 10 * output), m(8147 + output)],
-        stop: [m(8349 + 10 * output), m(8145 + output)],
         ..fx3(output)
     }
 }

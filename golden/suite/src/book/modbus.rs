@@ -58,7 +58,7 @@ pub fn addresses() -> String {
 
 fn row(area: &Area) -> String {
     let devices = match area.fill {
-        Fill::Bits | Fill::Words => area.count,
+        Fill::Bits | Fill::Coils | Fill::Words => area.count,
         Fill::Counters => area.count / 2,
         Fill::Packed => area.count * 16,
     };
@@ -66,6 +66,7 @@ fn row(area: &Area) -> String {
     let how = match (area.fill, area.class) {
         (Fill::Counters, _) => "two registers each, the low word first",
         (Fill::Packed, _) => "16 to a register, the first in bit 0",
+        (Fill::Coils, _) => "coils, not written",
         (Fill::Bits, Class::T | Class::C) => "contacts",
         (Fill::Words, Class::T | Class::C) => "current values",
         _ if !area.writable => "not written",

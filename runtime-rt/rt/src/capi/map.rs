@@ -292,6 +292,15 @@ impl Plc for Map {
         self.set_bit_in(0, class, number, value)
     }
 
+    fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        match self.find(class, number) {
+            Found::At(Kind::Timers, at) => Some(read(at.cast::<Timer>()).coil != 0),
+            Found::At(Kind::Counters16, at) => Some(read(at.cast::<Counter16>()).coil),
+            Found::At(Kind::Counters32, at) => Some(read(at.cast::<Counter32>()).coil),
+            _ => self.bit(class, number),
+        }
+    }
+
     fn word(&self, class: Class, number: u32) -> Option<i16> {
         self.word_place(0, class, number).map(read)
     }

@@ -26,6 +26,10 @@ impl<M: Map + ?Sized> Places for M {
                     Some(word | u16::from(self.bit(class, first + bit)?) << bit)
                 })
             }
+            Place::Coil(class, number) => {
+                let coil = self.coil(class, number).filter(|_| new.is_none())?;
+                Some(coil.into())
+            }
             Place::Word(class, n) => match new {
                 Some(new) => self.set_word(class, n, new as i16).map(|()| new),
                 None => self.word(class, n).map(|word| word as u16),
@@ -94,7 +98,17 @@ impl Element<'_> {
         Some(*place)
     }
 
-    /// The same of its 16-bit value.
+    /// State of the coil of a timer or counter.
+    fn coil(self) -> Option<bool> {
+        match self {
+            Element::Timer(timer) => Some(timer.coil != 0),
+            Element::Counter16(counter) => Some(counter.coil),
+            Element::Counter32(counter) => Some(counter.coil),
+            Element::Bit(_) | Element::Number(_) | Element::Word(_) => None,
+        }
+    }
+
+    /// As [`Element::exchange_bit`], of its 16-bit value.
     fn exchange_word(self, new: Option<u16>) -> Option<u16> {
         let place = match self {
             Element::Word(word) => word,
@@ -121,7 +135,7 @@ impl<E: Elements> Places for ByElement<'_, E> {
     fn exchange(&mut self, place: Place, new: Option<u16>) -> Option<u16> {
         let (class, first, count) = match place {
             Place::Bits(class, first, count) => (class, first, count),
-            Place::Word(class, number) => (class, number, 1),
+            Place::Word(class, number) | Place::Coil(class, number) => (class, number, 1),
             Place::Half { counter, .. } => (Class::C, counter, 1),
         };
         let mut word = 0;
@@ -133,6 +147,7 @@ impl<E: Elements> Places for ByElement<'_, E> {
                     u16::from(on) << bit
                 }
                 (Place::Word(..), element) => element.exchange_word(new)?,
+                (Place::Coil(..), element) => element.coil().filter(|_| new.is_none())?.into(),
                 (Place::Half { high, .. }, Element::Counter32(counter)) => {
                     let (value, half) = half_of(counter.value, high, new);
                     counter.value = value;

@@ -13,6 +13,10 @@ pub trait Map {
     fn bit(&self, class: Class, number: u32) -> Option<bool>;
     /// Sets a bit device. An input keeps the value until its terminal is read again.
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()>;
+    /// State of the coil of a timer or counter; a map that knows no coils gives the contact.
+    fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        self.bit(class, number)
+    }
     /// Value of a 16-bit word device; for T and C0–C199 the current value.
     fn word(&self, class: Class, number: u32) -> Option<i16>;
     /// Sets a word device.
@@ -104,6 +108,11 @@ impl<P: Plc + ?Sized> Map for Served<'_, P> {
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
         let area = self.stored(class, number)?;
         self.plc.set_bit_in(area, class, number, value)
+    }
+
+    fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        self.stored(class, number)?;
+        self.plc.coil(class, number)
     }
 
     fn word(&self, class: Class, number: u32) -> Option<i16> {

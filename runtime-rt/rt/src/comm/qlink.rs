@@ -152,7 +152,9 @@ fn read(
                 reply.push_be16(map.word(class, number).ok_or(NO_DEVICE)? as u16);
                 devices += 1;
             }
-            Place::Bits(..) | Place::Half { high: true, .. } => return Err(NO_DEVICE),
+            Place::Bits(..) | Place::Coil(..) | Place::Half { high: true, .. } => {
+                return Err(NO_DEVICE);
+            }
         }
     }
     if devices > usize::from(most) || reply.len() - start > MOST_DATA {

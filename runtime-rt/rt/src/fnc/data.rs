@@ -45,11 +45,30 @@ pub fn deco(cx: &mut Cx) -> Done {
 
 /// ENCO S D n (FNC 42): the position of the highest bit that is on among the 2ⁿ from S on; that none is on is an error.
 pub fn enco(cx: &mut Cx) -> Done {
+    encode(cx, None)
+}
+
+/// ENCO of FX: where none is on, D becomes 0 beside the error (JY992D48301 §5.5.3).
+pub fn enco_zero(cx: &mut Cx) -> Done {
+    encode(cx, Some(0))
+}
+
+/// ENCO that writes `of_none` where no bit is on.
+fn encode(cx: &mut Cx, of_none: Option<i16>) -> Done {
     let most = if cx.is_bit(0) { 8 } else { 4 };
     let n = cx.count(2, 0..=most)?;
     if n == 0 {
         return Ok(());
     }
+    let highest = highest_of(cx, n)?;
+    if let Some(value) = highest.or(of_none) {
+        cx.set_word(1, 0, value)?;
+    }
+    highest.map(drop).ok_or(Fault::VALUE)
+}
+
+/// Position of the highest of the 2ⁿ bits of operand 0 that is on.
+fn highest_of(cx: &Cx, n: i32) -> Result<Option<i16>, Fault> {
     let mut highest = None;
     let word = if cx.is_bit(0) {
         0
@@ -63,10 +82,10 @@ pub fn enco(cx: &mut Cx) -> Done {
             word >> bit & 1 == 1
         };
         if on {
-            highest = Some(bit);
+            highest = Some(bit as i16);
         }
     }
-    cx.set_word(1, 0, highest.ok_or(Fault::VALUE)? as i16)
+    Ok(highest)
 }
 
 /// SUM S D (FNC 43): the number of one-bits of S goes to D; M8020 is on if there are none.

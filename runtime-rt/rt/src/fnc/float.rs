@@ -61,7 +61,8 @@ pub fn ecmp(cx: &mut Cx) -> Done {
 /// EZCP S1 S2 S D (FNC 111): D, D+1 or D+2 is on as S is below, inside or above the zone from S1 to S2.
 pub fn ezcp(cx: &mut Cx) -> Done {
     let (low, high, value) = (number(cx, 0)?, number(cx, 1)?, number(cx, 2)?);
-    one_of_three(cx, 3, zone(value, low, high))
+    // An upper limit below the lower one counts as equal to it (FX3 programming manual §18.2).
+    one_of_three(cx, 3, zone(value, low, high.max(low)))
 }
 
 /// EMOV S D (FNC 112): copies a float.
@@ -79,21 +80,25 @@ fn power_of_ten(e: i32) -> f64 {
     if e < 0 { 1.0 / power } else { power }
 }
 
-/// EBCD S D (FNC 118): D takes four decimal digits of S with its sign, D+1 the power of ten.
+/// EBCD S D (FNC 118): D takes the first four decimal digits of S with its sign, D+1 the power of ten (JY992D88101
+/// §5.10.3: 3.4567E-5 is 3456 and -8).
 pub fn ebcd(cx: &mut Cx) -> Done {
     let value = f64::from(number(cx, 0)?);
     let (mut mantissa, mut exponent) = (0.0, 0);
     if value != 0.0 {
-        exponent = libm::floor(libm::log10(libm::fabs(value))) as i32 - 3;
+        // A single has seven decimal digits.
+        exponent = libm::floor(libm::log10(libm::fabs(value))) as i32 - 6;
         let scaled = |e: i32| match e {
             e if e > 0 => libm::round(value / power_of_ten(e)),
             e => libm::round(value * power_of_ten(-e)),
         };
         mantissa = scaled(exponent);
-        if libm::fabs(mantissa) >= 10_000.0 {
+        if libm::fabs(mantissa) >= 10_000_000.0 {
             exponent += 1;
             mantissa = scaled(exponent);
         }
+        mantissa = libm::trunc(mantissa / 1000.0);
+        exponent += 3;
     }
     cx.check_words(1, 2)?;
     cx.set_word(1, 0, mantissa as i16)?;
@@ -139,7 +144,7 @@ fn store_result(cx: &mut Cx, i: usize, exact: f64) -> Result<Fit, Fault> {
 }
 
 /// Writes a result and its flags: M8020 for 0, M8021 for a value too small for a float, M8022 for one too large.
-fn write_result(cx: &mut Cx, i: usize, exact: f64) -> Done {
+pub(super) fn write_result(cx: &mut Cx, i: usize, exact: f64) -> Done {
     let fit = store_result(cx, i, exact)?;
     cx.set_special(M_ZERO, exact == 0.0);
     cx.set_special(M_BORROW, fit == Fit::TooSmall);
@@ -515,8 +520,10 @@ mod tests {
         };
         assert_eq!(ebcd(0.0), (0, 0));
         assert_eq!(ebcd(3.842), (3842, -3));
-        assert_eq!(ebcd(-9999.9), (-1000, 1));
-        assert_eq!(ebcd(f32::MAX), (3403, 35));
+        assert_eq!(ebcd(-9999.9), (-9999, 0));
+        assert_eq!(ebcd(3.4567e-5), (3456, -8));
+        assert_eq!(ebcd(0.7), (7000, -4));
+        assert_eq!(ebcd(f32::MAX), (3402, 35));
         assert_eq!(ebcd(f32::MIN_POSITIVE), (1175, -41));
         let mut plc = Double::wide().with_d(0, &[1175, -41]);
         plc.call(RtFn::Ebin, &[reg(0), reg(4)]).unwrap();

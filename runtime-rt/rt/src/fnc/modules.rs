@@ -100,8 +100,18 @@ fn write(cx: &mut Cx, unit: u16, address: u16, value: i16) -> Done {
 
 /// FROM m1 m2 D n (FNC 78): n words, or pairs, of module m1 from address m2 on go to D; with M8164 the count is D8164.
 pub fn from(cx: &mut Cx) -> Done {
-    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     let n = transfer_count(cx)?;
+    read_elements(cx, n)
+}
+
+/// FROM of FX1N and FX3, which have no M8164.
+pub fn from_stated(cx: &mut Cx) -> Done {
+    let n = cx.count(3, 1..=32_767)?;
+    read_elements(cx, n)
+}
+
+fn read_elements(cx: &mut Cx, n: i32) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     cx.check_elems(2, n)?;
     for k in 0..n {
         let value = if cx.wide() {
@@ -135,8 +145,18 @@ pub fn from_host(cx: &mut Cx) -> Done {
 /// TO m1 m2 S n (FNC 79): n words, or pairs, from S on go to module m1 from address m2 on; with M8164 the count is
 /// D8164.
 pub fn to(cx: &mut Cx) -> Done {
-    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     let n = transfer_count(cx)?;
+    write_elements(cx, n)
+}
+
+/// TO of FX1N and FX3, which have no M8164.
+pub fn to_stated(cx: &mut Cx) -> Done {
+    let n = cx.count(3, 1..=32_767)?;
+    write_elements(cx, n)
+}
+
+fn write_elements(cx: &mut Cx, n: i32) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     cx.check_elems(2, n)?;
     for k in 0..n {
         let value = cx.elem(2, k)?;

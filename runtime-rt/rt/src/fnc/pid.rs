@@ -17,7 +17,7 @@ mod at {
     pub const TI: usize = 4;
     pub const KD: usize = 5;
     pub const TD: usize = 6;
-    /// Clearing this word starts control anew.
+    /// Clearing this word starts control anew; [`super::FRESH`] until the first sample.
     pub const STARTED: usize = 7;
     pub const PV1: usize = 8;
     pub const PV2: usize = 10;
@@ -43,6 +43,9 @@ mod act {
     pub const LIMITS: i16 = 1 << 5;
     pub const TUNE_LIMIT_CYCLE: i16 = 1 << 6;
 }
+
+/// Mark of a controller that has not computed a sample.
+const FRESH: i16 = 2;
 
 const OPERAND_S3: usize = 2;
 const OPERAND_D: usize = 3;
@@ -120,12 +123,22 @@ fn held(value: f32, code: u16, error: &mut Option<Fault>) -> f32 {
 /// PID S1 S2 S3 D of H1U/H2U, whose firmware has no auto-tuning.
 pub fn pid(cx: &mut Cx) -> Done {
     let area = Area::read(cx)?;
-    control(cx, area)
+    control(cx, area, false)
 }
 
 /// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is
 /// rejected with 6750.
 pub fn pid_tuning(cx: &mut Cx) -> Done {
+    tune_or_control(cx, false)
+}
+
+/// PID S1 S2 S3 D of FX3: as [`pid_tuning`]; crossed limits of the output are exchanged and reported with 6748, and a
+/// negative alarm value, reported with 6749, gives no alarm (FX analog control manual, PID §6.1).
+pub fn pid_checked(cx: &mut Cx) -> Done {
+    tune_or_control(cx, true)
+}
+
+fn tune_or_control(cx: &mut Cx, checked: bool) -> Done {
     let area = Area::read(cx)?;
     let action = area.0[at::ACT];
     if action & act::TUNE_LIMIT_CYCLE != 0 {
@@ -134,7 +147,7 @@ pub fn pid_tuning(cx: &mut Cx) -> Done {
     if action & act::TUNE != 0 {
         tune(cx, area)
     } else {
-        control(cx, area)
+        control(cx, area, checked)
     }
 }
 
@@ -157,16 +170,23 @@ fn sample_due(cx: &Cx, area: &mut Area, ts: u32, error: &mut Option<Fault>) -> O
     due.then_some(ts as f32)
 }
 
-fn control(cx: &mut Cx, mut area: Area) -> Done {
+/// One execution; `checked` reports crossed limits and negative alarm values.
+fn control(cx: &mut Cx, mut area: Area, checked: bool) -> Done {
     let s = settings(&area, 100.0, 10.0, 200)?;
-    let (target, measured) = (cx.word(0, 0)?, cx.word(1, 0)?);
+    let mut error = checked.then(|| area.contradiction(&s)).flatten();
     if area.0[at::STARTED] == 0 {
-        return start(cx, area, &s, target, measured);
+        start(cx, area, &s, checked)?;
+        return error.map_or(Ok(()), Err);
     }
-    let mut error = None;
+    let (target, measured) = (cx.word(0, 0)?, cx.word(1, 0)?);
     let Some(ts) = sample_due(cx, &mut area, s.ts, &mut error) else {
-        return cx.set_word(OPERAND_S3, at::ELAPSED as i32, area.0[at::ELAPSED]);
+        cx.set_word(OPERAND_S3, at::ELAPSED as i32, area.0[at::ELAPSED])?;
+        return error.map_or(Ok(()), Err);
     };
+    if area.0[at::STARTED] == FRESH {
+        area.0[at::STARTED] = 1;
+        area.set_float(at::MV, cx.word(OPERAND_D, 0)?.into());
+    }
     let raw = f32::from(measured);
     let pv1 = area.float(at::PV1);
     let pv = raw + s.filter * (pv1 - raw);
@@ -181,11 +201,16 @@ fn control(cx: &mut Cx, mut area: Area) -> Done {
     let change = s.kp * (deviation - area.float(at::EV1) + integral + derivative);
     let mut mv = held(area.float(at::MV) + change, 6747, &mut error);
     if s.act & act::LIMITS != 0 {
-        let upper = f32::from(area.0[at::OUTPUT_RISE_OR_UPPER]);
-        let lower = f32::from(area.0[at::OUTPUT_FALL_OR_LOWER]);
+        let mut upper = f32::from(area.0[at::OUTPUT_RISE_OR_UPPER]);
+        let mut lower = f32::from(area.0[at::OUTPUT_FALL_OR_LOWER]);
+        if checked && upper < lower {
+            core::mem::swap(&mut upper, &mut lower);
+        }
         mv = mv.min(upper).max(lower);
     }
-    area.set_alarms(&s, raw, mv);
+    if !checked || !area.has_negative_alarm(&s) {
+        area.set_alarms(&s, raw, mv);
+    }
     area.store([pv, pv1, derivative, mv, deviation]);
     area.0[at::RAW_PV] = measured;
     area.write(cx)?;
@@ -222,14 +247,20 @@ fn derivative(area: &Area, s: &Settings, ts: f32, pv: f32, error: &mut Option<Fa
     )
 }
 
-/// First execution: takes the measured value and D over, so that the output begins where it is.
-fn start(cx: &mut Cx, mut area: Area, s: &Settings, target: i16, measured: i16) -> Done {
-    let mv = f32::from(cx.word(OPERAND_D, 0)?);
+/// First execution: takes the measured value and D over, so that the output begins where it is. On FX3 (`from_zero`),
+/// the memory of a controller is cleared: its first sample answers to the whole deviation.
+fn start(cx: &mut Cx, mut area: Area, s: &Settings, from_zero: bool) -> Done {
+    let measured = cx.word(1, 0)?;
     let raw = f32::from(measured);
-    area.store([raw, raw, 0.0, mv, deviation(s, target.into(), raw)]);
+    area.store([raw, raw, 0.0, 0.0, 0.0]);
+    if !from_zero {
+        let (target, mv) = (cx.word(0, 0)?, cx.word(OPERAND_D, 0)?);
+        area.set_float(at::MV, mv.into());
+        area.set_float(at::EV1, deviation(s, target.into(), raw));
+    }
     area.0[at::RAW_PV] = measured;
     area.0[at::ELAPSED] = 0;
-    area.0[at::STARTED] = 1;
+    area.0[at::STARTED] = if from_zero { FRESH } else { 1 };
     area.write(cx)
 }
 
@@ -240,6 +271,24 @@ impl Area {
         for (offset, value) in offsets.into_iter().zip(values) {
             self.set_float(offset, value);
         }
+    }
+
+    /// Error of limits that are crossed, or of negative alarm values.
+    fn contradiction(&self, s: &Settings) -> Option<Fault> {
+        let crossed = self.0[at::OUTPUT_RISE_OR_UPPER] < self.0[at::OUTPUT_FALL_OR_LOWER];
+        if s.act & act::LIMITS != 0 && crossed {
+            return Some(Fault(6748));
+        }
+        self.has_negative_alarm(s).then_some(Fault(6749))
+    }
+
+    /// Returns true if an alarm is on whose value is negative.
+    fn has_negative_alarm(&self, s: &Settings) -> bool {
+        let input = s.act & act::INPUT_ALARM != 0;
+        let output = s.act & act::OUTPUT_ALARM != 0 && s.act & act::LIMITS == 0;
+        let negative = |places: [usize; 2]| places.iter().any(|&at| self.0[at] < 0);
+        input && negative([at::INPUT_RISE, at::INPUT_FALL])
+            || output && negative([at::OUTPUT_RISE_OR_UPPER, at::OUTPUT_FALL_OR_LOWER])
     }
 
     /// Alarm bits: 0 and 1 for the measured value rising or falling by more than its limit in a sample, 2 and 3 for the

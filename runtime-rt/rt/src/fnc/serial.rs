@@ -127,8 +127,12 @@ pub fn ccd(cx: &mut Cx) -> Done {
 }
 
 /// CRC S D n (FNC 188): the CRC-16 (polynomial HA001, first value HFFFF) of n bytes, two a word, goes to D; with M8161
-/// one a word, and the two bytes of the result to D and D+1.
+/// one a word, and the two bytes of the result to D and D+1. A group of bits has four digits (FX3 programming manual
+/// §24.4).
 pub fn crc(cx: &mut Cx) -> Done {
+    if [0, 1].iter().any(|&i| cx.is_short_group(i)) {
+        return Err(Fault::DEVICE);
+    }
     let byte_mode = cx.special(M_BYTE_MODE);
     let n = cx.count(2, 1..=256)?;
     let crc = (0..n).try_fold(CRC_START, |crc, k| {

@@ -434,7 +434,8 @@ fn pad_exponent(plain: &[u8], out: &mut Buffer) -> fmt::Result {
     )
 }
 
-/// EVAL S D (FNC 117): a number in characters, plain or with exponent, as a float; spaces are passed over.
+/// EVAL S D (FNC 117): a number in characters, plain or with exponent, as a float; spaces are passed over. M8020 is on
+/// if it is 0, M8021 if it is too small for a float, M8022 if it is too large (FX3 programming manual §18.5).
 pub fn eval(cx: &mut Cx) -> Done {
     let total = length(cx, 0)?;
     if total > 24 {
@@ -449,12 +450,8 @@ pub fn eval(cx: &mut Cx) -> Done {
         }
     }
     let text = core::str::from_utf8(text.as_bytes()).map_err(|_| Fault::DEVICE)?;
-    let value: f32 = text.parse().map_err(|_| Fault::DEVICE)?;
-    if value.is_finite() {
-        cx.set_float(1, 0, value)
-    } else {
-        Err(Fault::DEVICE)
-    }
+    let exact: f64 = text.parse().map_err(|_| Fault::DEVICE)?;
+    super::float::write_result(cx, 1, exact)
 }
 
 #[cfg(test)]

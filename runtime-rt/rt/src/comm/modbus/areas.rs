@@ -8,6 +8,8 @@ use crate::plc::Class;
 pub enum Fill {
     /// One bit to an address; for T and C the contact.
     Bits,
+    /// Coils of timers and counters, one to an address.
+    Coils,
     /// One word to an address; for T and C the current value.
     Words,
     /// 32-bit counters, two registers each, the low word first.
@@ -61,6 +63,7 @@ impl Area {
         let offset = u32::from(address.wrapping_sub(self.address));
         match self.fill {
             Fill::Bits => Place::Bits(self.class, self.first + offset, 1),
+            Fill::Coils => Place::Coil(self.class, self.first + offset),
             Fill::Words => Place::Word(self.class, self.first + offset),
             Fill::Counters => Place::Half {
                 counter: self.first + offset / 2,
@@ -76,6 +79,8 @@ impl Area {
 pub enum Place {
     /// A bit device, or 16 of them from this one on, the first the lowest.
     Bits(Class, u32, u32),
+    /// The coil of a timer or counter.
+    Coil(Class, u32),
     /// A word device.
     Word(Class, u32),
     /// Half of a 32-bit counter.
@@ -229,6 +234,13 @@ pub static H2U: Profile = Profile {
     counters_by_06: false,
 };
 
+impl Profile {
+    /// Returns true if coils of timers and counters have addresses of their own.
+    pub fn serves_coils(&self) -> bool {
+        self.coils.iter().any(|area| area.fill == Fill::Coils)
+    }
+}
+
 /// H1U as a slave.
 pub static H1U: Profile = Profile {
     name: "h1u",
@@ -303,17 +315,17 @@ pub static FX3U: Profile = Profile {
     counters_by_06: true,
 };
 
-/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils and
-/// contacts of timers and counters are one here.
+/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils of timers
+/// and counters, which the program drives, are only read.
 const HM_BITS: &[Area] = &[
     bits(0x0000, 256, Class::X, 0).read_only(),
     bits(0x0100, 256, Class::Y, 0),
     bits(0x0200, 3072, Class::M, 0),
     bits(0x0e00, 256, Class::M, 8000),
     bits(0x0f00, 1024, Class::S, 0),
-    bits(0x1300, 256, Class::T, 0),
+    Area::new(0x1300, 256, Class::T, 0, Fill::Coils).read_only(),
     bits(0x1400, 256, Class::T, 0),
-    bits(0x1500, 256, Class::C, 0),
+    Area::new(0x1500, 256, Class::C, 0, Fill::Coils).read_only(),
     bits(0x1600, 256, Class::C, 0),
 ];
 
