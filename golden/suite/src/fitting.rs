@@ -295,6 +295,7 @@ impl Fitting<'_, '_> {
                         (least, digits) = (other, other);
                     }
                 }
+                Rule::GroupAligned(of) => aligned = of,
                 Rule::WideAligned(of) if wide => aligned = of,
                 _ => {}
             }

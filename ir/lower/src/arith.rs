@@ -334,29 +334,13 @@ impl Lowerer<'_> {
             let zero = this.int(0, wide);
             let cond = this.add(Expr::Cmp(CmpOp::Ne, b, zero));
             let then = this.body(|this| {
-                let quotient = this.add(Expr::Bin(BinOp::Div, a, b));
-                let quotient = this.flag_of(M_ZERO_PRODUCT, quotient, |this, quotient| {
-                    this.is_int(quotient, 0, wide)
-                });
-                this.flag_of(M_LARGE_QUOTIENT, quotient, |this, _| {
-                    let least = if wide { i32::MIN } else { i16::MIN.into() };
-                    let (least, minus_one) =
-                        (this.is_int(a, least, wide), this.is_int(b, -1, wide));
-                    this.and(least, minus_one)
-                });
-                let remainder = this.add(Expr::Bin(BinOp::Rem, a, b));
-                this.store(quotient_target, quotient);
-                this.store(remainder_target, remainder);
+                this.quotient_in_range(a, b, [quotient_target, remainder_target]);
             });
             let otherwise = this.body(|this| {
                 if saturate {
                     this.divide_by_zero(a, quotient_target, remainder_target, wide);
                 } else {
-                    let step = this.step();
-                    this.emit(Action::Fault {
-                        code: DIVISION,
-                        step,
-                    });
+                    this.division_error();
                 }
             });
             this.emit(Stmt::If(Branch {
@@ -364,6 +348,74 @@ impl Lowerer<'_> {
                 then,
                 otherwise,
             }));
+        });
+    }
+
+    /// Stores quotient and remainder. On models with M8306, a quotient that is too large is an operation error (FX3
+    /// programming manual §10.4).
+    fn quotient_in_range(&mut self, a: ExprId, b: ExprId, targets: [Target; 2]) {
+        let wide = self.wide();
+        if !self.model.special_works(M_LARGE_QUOTIENT) {
+            return self.store_quotient(a, b, targets);
+        }
+        if !self.may_leave_range() {
+            let never = self.bit_const(false);
+            self.set_flag(M_LARGE_QUOTIENT, never);
+            return self.store_quotient(a, b, targets);
+        }
+        let least = if wide { i32::MIN } else { i16::MIN.into() };
+        let (least, minus_one) = (self.is_int(a, least, wide), self.is_int(b, -1, wide));
+        let cond = self.and(least, minus_one);
+        self.set_flag(M_LARGE_QUOTIENT, cond);
+        let then = self.body(Self::division_error);
+        let otherwise = self.body(|this| this.store_quotient(a, b, targets));
+        self.emit(Stmt::If(Branch {
+            cond,
+            then,
+            otherwise,
+        }));
+    }
+
+    /// Returns false if the constants of a division exclude a quotient that is too large.
+    fn may_leave_range(&self) -> bool {
+        let wide = self.wide();
+        let excluded = |i: usize, limit: i64| {
+            let constant = self.operand(i).and_then(OperandKind::constant);
+            let value = constant.map(|value| match wide {
+                true => i64::from(value as i32),
+                false => i64::from(value as i16),
+            });
+            value.is_some_and(|value| value != limit)
+        };
+        let least = if wide {
+            i32::MIN.into()
+        } else {
+            i16::MIN.into()
+        };
+        !excluded(0, least) && !excluded(1, -1)
+    }
+
+    fn store_quotient(
+        &mut self,
+        a: ExprId,
+        b: ExprId,
+        [quotient_target, remainder_target]: [Target; 2],
+    ) {
+        let wide = self.wide();
+        let quotient = self.add(Expr::Bin(BinOp::Div, a, b));
+        let quotient = self.flag_of(M_ZERO_PRODUCT, quotient, |this, quotient| {
+            this.is_int(quotient, 0, wide)
+        });
+        let remainder = self.add(Expr::Bin(BinOp::Rem, a, b));
+        self.store(quotient_target, quotient);
+        self.store(remainder_target, remainder);
+    }
+
+    fn division_error(&mut self) {
+        let step = self.step();
+        self.emit(Action::Fault {
+            code: DIVISION,
+            step,
         });
     }
 

@@ -5,7 +5,7 @@ use super::Lowerer;
 use super::blocks::{bits, register};
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, UnOp};
+use rungc_ir::node::{Access, AccessKind, BinOp, Branch, Expr, ExprId, Stmt, UnOp};
 use rungc_rt::special::{M_CARRY, M_SMOV_HEX};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{Device, Instr, OperandKind};
@@ -40,7 +40,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
             let target = kind(1).and_then(register).is_some();
             source && target && stated(2, DECODED).is_some()
         }
-        RtFn::Enco => {
+        RtFn::Enco | RtFn::EncoZero => {
             let word = kind(0).is_some_and(is_whole) && stated(2, ENCODED_OF_WORD).is_some();
             let bits = kind(0).and_then(bits).is_some() && stated(2, ENCODED_OF_BITS).is_some();
             word || bits
@@ -76,7 +76,8 @@ impl Lowerer<'_> {
             RtFn::Rcr => self.driven(|this| this.rotate_with_carry(true)),
             RtFn::Rcl => self.driven(|this| this.rotate_with_carry(false)),
             RtFn::Deco => self.driven(Self::decode_word),
-            RtFn::Enco => self.driven(Self::encode),
+            RtFn::Enco => self.driven(|this| this.encode(false)),
+            RtFn::EncoZero => self.driven(|this| this.encode(true)),
             _ => return false,
         }
         true
@@ -183,7 +184,7 @@ impl Lowerer<'_> {
     }
 
     /// ENCO: the highest bit that is on goes to D; that none is on is an error.
-    fn encode(&mut self) {
+    fn encode(&mut self, zero_of_none: bool) {
         let count = 1 << self.stated(2);
         let mut guards = Guards::default();
         let value = self.bits_as_number(count, &mut guards);
@@ -191,6 +192,15 @@ impl Lowerer<'_> {
         self.guarded(guards, |this| {
             let value = this.settled(value);
             let none = this.is_int(value, 0, true);
+            if zero_of_none {
+                let zero = this.int(0, false);
+                let then = this.body(|this| this.store(target, zero));
+                this.emit(Stmt::If(Branch {
+                    cond: none,
+                    then,
+                    otherwise: Vec::new(),
+                }));
+            }
             let some = this.not(none);
             this.checked(some, this.model.value_error, |this| {
                 let highest = this.add(Expr::Un(UnOp::HighestBit, value));

@@ -505,10 +505,12 @@ impl Lowerer<'_> {
         self.float_bits(3, guards, |this| {
             let ([low, high, value], finite) = this.finite(values);
             let below = this.add(Expr::Cmp(CmpOp::Lt, value, low));
-            let above = this.add(Expr::Cmp(CmpOp::Gt, value, high));
+            // An upper limit below the lower one counts as equal to it.
+            let above_low = this.add(Expr::Cmp(CmpOp::Gt, value, low));
+            let above_high = this.add(Expr::Cmp(CmpOp::Gt, value, high));
+            let above = this.and(above_low, above_high);
             let (not_below, not_above) = (this.not(below), this.not(above));
             let inside = this.and(not_below, not_above);
-            let above = this.and(above, not_below);
             ([below, inside, above], finite)
         });
     }

@@ -1,7 +1,7 @@
 //! Integer arithmetic and logic, FNC 20–29.
 
 use super::row::*;
-use super::{ArithOp, Inst, Lower, Param, Spelling};
+use super::{ArithOp, Inst, Lower, Param, Rule, Spelling};
 
 const TWO_VALUES: &[Param] = &[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS)];
 const DOUBLE_RESULT: &[Param] = &[
@@ -13,6 +13,12 @@ const DOUBLE_RESULT_NO_INDEX: &[Param] = &[
     src("S1", VALUES),
     src("S2", VALUES),
     dst("D", RESULTS.without(INDEX)).len(2),
+];
+/// V and Z only in the 16-bit form (JY992D48301 §5.3.3, §5.3.4; JY997D16601 §10.3, §10.4).
+const DOUBLE_RESULT_FX: &[Param] = &[
+    src("S1", VALUES),
+    src("S2", VALUES),
+    dst("D", RESULTS).len(2).rules(&[Rule::WideNot(INDEX)]),
 ];
 const ONE_VALUE: &[Param] = &[both("D", RESULTS)];
 
@@ -47,14 +53,14 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     arith("MUL", 22, "Multiplication", ArithOp::Mul)
         .takes(DOUBLE_RESULT)
-        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX)])
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
         .text(
             "D = S1 × S2, signed, in double width: the 16-bit form writes the pair D (low) and D+1, the 32-bit form the four \
              registers from D on. A group of bits takes as many low bits as it has.",
         ),
     arith("DIV", 23, "Division", ArithOp::Div)
         .takes(DOUBLE_RESULT)
-        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX)])
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
         .errors(&[6706])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Div))])
         .text(

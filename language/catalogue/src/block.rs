@@ -17,16 +17,16 @@ const COMPARE_BLOCK: &[Param] = &[
     src("n", CONSTANTS.or(DATA)),
 ];
 const THREE: &[Param] = &[
-    src("S1", VALUES),
-    src("S2", VALUES),
-    src("S3", VALUES),
-    dst("D", RESULT_GROUPS.or(REGISTERS)),
+    src("S1", VALUES.without(INDEX)),
+    src("S2", VALUES.without(INDEX)),
+    src("S3", VALUES.without(INDEX)),
+    dst("D", RESULT_GROUPS.or(PLACES)),
 ];
 /// The number of points is in the table itself.
 const SCALE: &[Param] = &[
     src("S1", VALUES),
     src("S2", DATA).open_ended(),
-    dst("D", RESULT_GROUPS.or(REGISTERS)),
+    dst("D", RESULT_GROUPS.or(PLACES)),
 ];
 const TABLE: &[Param] = &[
     both("S", REGISTERS),
@@ -57,8 +57,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(FX3U)
         .takes(&[
-            src("S", GROUPS.or(REGISTERS)).per(2),
-            dst("D", RESULT_GROUPS.or(REGISTERS)),
+            src("S", GROUPS.or(PLACES)).per(2),
+            dst("D", RESULT_GROUPS.or(PLACES)),
             src("n", CONSTANTS.or(DATA)).limits(1, 256),
         ])
         .flags(&["M8161"])

@@ -5,7 +5,7 @@ use super::{Inst, Lower, Param};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
-const TIME: Param = src("S", REGISTERS).len(3);
+const TIME: Param = src("S", PLACES).len(3);
 
 const fn clock(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.12")
@@ -33,8 +33,8 @@ pub(super) const ROWS: &[Inst] = &[
     clock("TZCP", 161, "Zone compare of times")
         .steps(9, 9)
         .takes(&[
-            src("S1", REGISTERS).len(3),
-            src("S2", REGISTERS).len(3),
+            src("S1", PLACES).len(3),
+            src("S2", PLACES).len(3),
             TIME,
             coil("D", RESULT_BITS).len(3),
         ])
@@ -43,9 +43,9 @@ pub(super) const ROWS: &[Inst] = &[
     clock("TADD", 162, "Add times")
         .steps(7, 7)
         .takes(&[
-            src("S1", REGISTERS).len(3),
-            src("S2", REGISTERS).len(3),
-            dst("D", REGISTERS).len(3),
+            src("S1", PLACES).len(3),
+            src("S2", PLACES).len(3),
+            dst("D", PLACES).len(3),
         ])
         .flags(&["M8020", "M8022"])
         .call(RtFn::Tadd)
@@ -53,9 +53,9 @@ pub(super) const ROWS: &[Inst] = &[
     clock("TSUB", 163, "Subtract times")
         .steps(7, 7)
         .takes(&[
-            src("S1", REGISTERS).len(3),
-            src("S2", REGISTERS).len(3),
-            dst("D", REGISTERS).len(3),
+            src("S1", PLACES).len(3),
+            src("S2", PLACES).len(3),
+            dst("D", PLACES).len(3),
         ])
         .flags(&["M8020", "M8021"])
         .call(RtFn::Tsub)
@@ -64,26 +64,26 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .takes(&[src("S", GROUPS.or(REGISTERS)).word().len(3), dst("D", RESULT_GROUPS.or(REGISTERS))])
+        .takes(&[src("S", GROUPS.or(PLACES)).word().len(3), dst("D", RESULT_GROUPS.or(PLACES))])
         .call(RtFn::Htos)
         .text("D = the time at S (hour, minute, second) in seconds."),
     clock("STOH", 165, "Seconds to hours")
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .takes(&[src("S", GROUPS.or(REGISTERS)), dst("D", RESULT_GROUPS.or(REGISTERS)).word().len(3)])
+        .takes(&[src("S", GROUPS.or(PLACES)), dst("D", RESULT_GROUPS.or(PLACES)).word().len(3)])
         .call(RtFn::Stoh)
         .text("Writes the seconds S as hour, minute and second to D, D+1 and D+2."),
     clock("TRD", 166, "Read the clock")
         .steps(3, 3)
-        .takes(&[dst("D", REGISTERS).len(7)])
+        .takes(&[dst("D", PLACES).len(7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Trd)
         .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TrdShort))])
         .text("Writes year (on L01S and FX its last two digits), month, day, hour, minute, second and weekday (0 is Sunday) to D and on."),
     clock("TWR", 167, "Set the clock")
         .steps(3, 3)
-        .takes(&[src("S", REGISTERS).len(7)])
+        .takes(&[src("S", PLACES).len(7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Twr)
         .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TwrShort))])

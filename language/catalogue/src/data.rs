@@ -9,8 +9,8 @@ use rungc_syntax::{DeviceClass, OperandKind};
 
 /// FX1S, FX1N, FX3S and HM have no annunciators.
 const WITH_ANNUNCIATORS: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S);
-const RESETTABLE: Classes = COILS.or(REGISTERS);
-const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
+const RESETTABLE: Classes = COILS.or(PLACES);
+const VALUE_OR_BITS: Classes = BITS.or(PLACES).or(INDEX);
 
 /// A range cannot contain both 16-bit and 32-bit counters.
 const COUNTERS_ALIKE: Rule = Rule::Holds(
@@ -29,6 +29,26 @@ const COUNTERS_ALIKE: Rule = Rule::Holds(
 /// Models whose DECO also takes a constant.
 const DECODES_CONSTANTS: ModelSet = FX.or(L01S);
 
+/// The number n of DECO and ENCO, 0 to 8 on FX (JY992D48301 §5.5.2, §5.5.3; JY997D16601 §12.2, §12.3).
+const CODED_BITS: Param = count("n", 0, 8).also_on(LIKE_FX3, DATA);
+
+/// A word has sixteen bits, so the number that says which is at most 4 bits long.
+macro_rules! at_most_4_of_a_word {
+    ($word:literal) => {
+        Rule::Holds(
+            |operands| {
+                let coded = operands
+                    .get($word)
+                    .map(|operand| Classes::of(&operand.kind));
+                let word = coded.is_some_and(|classes| !COILS.or(Classes::X).meets(classes));
+                let n = operands.get(2).and_then(|operand| operand.kind.constant());
+                !word || n.is_none_or(|n| n <= 4)
+            },
+            "at most 4 where a word holds the bits",
+        )
+    };
+}
+
 const MEAN: &[Param] = &[
     src("S", WORDS).per(2),
     dst("D", RESULTS),
@@ -41,8 +61,8 @@ const MEAN_INOVANCE: &[Param] = &[
     src("n", CONSTANTS).word(),
 ];
 const MEAN_HM: &[Param] = &[src("S", WORDS).per(2), dst("D", RESULTS), count("n", 1, 64)];
-const ROOT: &[Param] = &[src("S", CONSTANTS.or(DATA)), dst("D", DATA)];
-const TO_FLOAT: &[Param] = &[src("S", DATA), real_out("D", DATA)];
+const ROOT: &[Param] = &[src("S", CONSTANTS.or(DATA_PLACES)), dst("D", DATA_PLACES)];
+const TO_FLOAT: &[Param] = &[src("S", DATA_PLACES), real_out("D", DATA_PLACES)];
 const TO_FLOAT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 
 /// Two to the power of the constant n, operand 2.
@@ -87,9 +107,14 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[
             mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).per(2),
-            mixed_out("D", COILS.or(REGISTERS)).len_of(bits_of_n),
+            mixed_out("D", COILS.or(PLACES)).len_of(bits_of_n),
             src("n", CONSTANTS).word(),
         ])
+        .variants(&[on(FX).takes(&[
+            mixed("S", VALUE_OR_BITS.or(CONSTANTS)).per(2),
+            mixed_out("D", COILS.or(PLACES)).len_of(bits_of_n),
+            CODED_BITS.rules(&[at_most_4_of_a_word!(1)]),
+        ])])
         .call(RtFn::Deco)
         .text(
             "Takes the low n bits of S (of bits: the n bits from S on) as a number and switches the bit of that number on, counted \
@@ -101,13 +126,19 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[
             mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
-            dst("D", REGISTERS.or(INDEX)),
+            dst("D", PLACES.or(INDEX)),
             src("n", CONSTANTS).word(),
         ])
+        .variants(&[on(FX).takes(&[
+            mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
+            dst("D", PLACES.or(INDEX)),
+            CODED_BITS.rules(&[at_most_4_of_a_word!(0)]),
+        ])])
         .call(RtFn::Enco)
+        .lower_on(&[(FX, Lower::Call(RtFn::EncoZero))])
         .text(
             "Writes to D which is the highest of the 2^n bits from S on (of a word: in S) that is on, counted from 0. None on is an \
-             error. n is 1 to 8, with a word as S to 4; 0 does nothing.",
+             error; on FX, D is 0 then. n is 1 to 8, with a word as S to 4; 0 does nothing.",
         ),
     data("SUM", 43, "Count bits")
         .on(NOT_HM_FX1)
@@ -180,8 +211,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 13)
         .on(FX3U_L01S)
         .takes(&[
-            src("S", REGISTERS).per(2),
-            dst("D", REGISTERS).len(2),
+            src("S", PLACES).per(2),
+            dst("D", PLACES).len(2),
             src("n", CONSTANTS.or(DATA)),
         ])
         .errors(&[6706, 6707])

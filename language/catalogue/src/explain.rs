@@ -160,6 +160,7 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::EndsInZero => "; its number ends in 0".to_owned(),
             Rule::Aligned(of) => format!("; its number is a multiple of {of}"),
             Rule::WholeGroup => "; a group has K4, in the 32-bit form K8".to_owned(),
+            Rule::GroupAligned(of) => format!("; a group starts at a multiple of {of}"),
             Rule::WideAligned(of) => {
                 format!("; in the 32-bit form, a group starts at a multiple of {of}")
             }
@@ -171,6 +172,10 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::ClassLike(i) => format!("; of the same class as {}", name(i)),
             Rule::Holds(_, demand) => format!("; {demand}"),
             Rule::WideCounter => "; in the 32-bit form, C200 and up".to_owned(),
+            Rule::WideNot(classes) => {
+                let names: Vec<_> = classes.names().collect();
+                format!("; in the 32-bit form, not {}", names.join(" "))
+            }
         };
     }
     if param.sends_pulses {

@@ -11,6 +11,8 @@ const H2U: ModelSet = ModelSet::H2U;
 const BOARDS: ModelSet = ModelSet::COMPATIBLE;
 /// Models with modules on CAN.
 const REMOTELY: ModelSet = H1U.or(H2U);
+/// M8164 is FX2N's alone among the Mitsubishi models (FX3 programming manual, chapter 37).
+const WITHOUT_M8164: ModelSet = FX.without(ModelSet::FX2N);
 const INOVANCE_FX: ModelSet = INOVANCE.or(FX);
 const BIG_FX: ModelSet = BIG.without(L01S);
 
@@ -130,7 +132,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             bit("S", Classes::X).len(4),
             coil("D1", Classes::Y).len(4),
-            both("D2", REGISTERS.or(INDEX)),
+            both("D2", PLACES.or(INDEX)),
             coil("D3", RESULT_BITS).len(8).changed(),
         ])
         .flags(&["M8029", "M8167"])
@@ -145,7 +147,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             bit("S", Classes::X).len_of(four_per_group),
             coil("D1", Classes::Y).len(4),
-            dst("D2", REGISTERS.or(INDEX)).per(3),
+            dst("D2", PLACES.or(INDEX)).per(3),
             count("n", 1, 2),
         ])
         .flags(&["M8029"])
@@ -180,7 +182,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(9, 9)
         .takes(&[
             bit("S", SOURCE_BITS).len(4),
-            both("D1", REGISTERS.or(INDEX)),
+            both("D1", PLACES.or(INDEX)),
             coil("D2", Classes::Y).len(8),
             count("n", 0, 3),
         ])
@@ -191,7 +193,7 @@ pub(super) const ROWS: &[Inst] = &[
     io("ASC", 76, "Text constant")
         .on(BIG_FX)
         .steps(11, 11)
-        .takes(&[text("S", Classes::TEXT).rules(&[SHORT_TEXT]), text_out("D", REGISTERS).len(8)])
+        .takes(&[text("S", Classes::TEXT).rules(&[SHORT_TEXT]), text_out("D", PLACES).len(8)])
         .flags(&["M8161"])
         .example("LD X000\nASC \"STOPPED\" D0")
         .call(RtFn::Asc)
@@ -218,8 +220,12 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8164", "D8164", "M8299", "D8299"])
         .errors(&[6381, 6706, 6709])
         .call(RtFn::From)
-        .lower_on(&[(L01S, Lower::Call(RtFn::FromHost)), (REMOTELY, Lower::Call(RtFn::FromRemote))])
-        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n. A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
+        .lower_on(&[
+            (L01S, Lower::Call(RtFn::FromHost)),
+            (REMOTELY, Lower::Call(RtFn::FromRemote)),
+            (WITHOUT_M8164, Lower::Call(RtFn::FromStated)),
+        ])
+        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n (FX2N, H1U, H2U, L01S). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("TO", 79, "Write to a module")
         .on(WITH_MODULES)
         .forms(ALL_FORMS)
@@ -229,8 +235,12 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8164", "D8164", "M8299", "D8299"])
         .errors(&[6381, 6706, 6709])
         .call(RtFn::To)
-        .lower_on(&[(L01S, Lower::Call(RtFn::ToHost)), (REMOTELY, Lower::Call(RtFn::ToRemote))])
-        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n. A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
+        .lower_on(&[
+            (L01S, Lower::Call(RtFn::ToHost)),
+            (REMOTELY, Lower::Call(RtFn::ToRemote)),
+            (WITHOUT_M8164, Lower::Call(RtFn::ToStated)),
+        ])
+        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n (FX2N, H1U, H2U, L01S). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("RD3A", 176, "Read an analog module")
         .on(WITH_MODULES)
         .forms(W16_P)

@@ -10,7 +10,7 @@ const NUMBERS: Classes = CONSTANTS.or(Classes::E).or(REAL_RESULTS);
 /// Only floats. The manual of H1U and H2U also marks V and Z for the functions that came last.
 const REALS: Classes = Classes::E.or(REAL_RESULTS).or(INDEX);
 /// Targets of floats.
-const REAL_RESULTS: Classes = DATA.or(Classes::BUFFER);
+const REAL_RESULTS: Classes = DATA_PLACES;
 
 const TWO: &[Param] = &[
     real("S1", NUMBERS),
@@ -26,7 +26,7 @@ const ONE_L01S: &[Param] = &[
 /// HM takes integer constants everywhere.
 const ONE_HM: &[Param] = &[real("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 /// A float as a decimal mantissa and a decimal exponent.
-const DECIMAL: Param = dst("D", DATA).word().len(2);
+const DECIMAL: Param = dst("D", DATA_PLACES).word().len(2);
 
 const fn float(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.10")
@@ -79,8 +79,8 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U)
         .takes(&[
             real("S1", NUMBERS),
-            src("S2", GROUPS.or(REGISTERS)).word().len(3),
-            text_out("D", GROUPS.or(REGISTERS)).len(13),
+            src("S2", GROUPS.or(PLACES)).word().len(3),
+            text_out("D", GROUPS.or(PLACES)).len(13),
         ])
         .errors(&[6705, 6706])
         .text(
@@ -89,15 +89,16 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     float("EVAL", 117, "Text to float", RtFn::Eval)
         .on(FX3U_L01S)
-        .takes(&[text("S", GROUPS.or(REGISTERS)).len(13), real_out("D", DATA)])
+        .takes(&[text("S", GROUPS.or(PLACES)).len(13), real_out("D", REAL_RESULTS)])
+        .flags(&["M8020", "M8021", "M8022"])
         .errors(&[6705, 6706])
-        .text("Reads the text at S, with a decimal point or an exponent, as a float."),
+        .text("Reads the text at S, with a decimal point or an exponent, as a float. Flags as EADD."),
     float("EBCD", 118, "Float to decimal", RtFn::Ebcd)
-        .takes(&[real("S", DATA), DECIMAL])
+        .takes(&[real("S", REAL_RESULTS), DECIMAL])
         .on(NOT_FX3SG)
-        .text("Writes S as a decimal mantissa D of four digits and a power of ten D+1."),
+        .text("Writes S as a decimal mantissa D of four digits, without those that follow, and a power of ten D+1."),
     float("EBIN", 119, "Decimal to float", RtFn::Ebin)
-        .takes(&[src("S", DATA).word().len(2), real_out("D", DATA)])
+        .takes(&[src("S", DATA_PLACES).word().len(2), real_out("D", REAL_RESULTS)])
         .on(NOT_FX3SG)
         .text("D = S × 10^(S+1): the mantissa S and the power of ten S+1 as a float."),
     operator("EADD", 120, "Add floats", RtFn::Eadd)
@@ -123,19 +124,19 @@ pub(super) const ROWS: &[Inst] = &[
         .on(WITHOUT_SMALL_FX_HM)
         .text("D = log10 S. S of 0 or below is an error. H1U and H2U also write DLOG."),
     float("ESQR", 127, "Square root of a float", RtFn::Esqr)
-        .takes(&[real("S", NUMBERS), real_out("D", DATA)])
+        .takes(&[real("S", NUMBERS), real_out("D", REAL_RESULTS)])
         .flags(&["M8020"])
         .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
         .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM, a value that is not a finite number gives 0."),
     float("ENEG", 128, "Negate a float", RtFn::Eneg)
         .steps(5, 5)
         .on(FX3U_L01S)
-        .takes(&[real_out("D", DATA).changed()])
+        .takes(&[real_out("D", REAL_RESULTS).changed()])
         .text("D = -D at each execution."),
     float("INT", 129, "Float to integer", RtFn::Int)
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .takes(&[real("S", DATA), dst("D", DATA)])
+        .takes(&[real("S", REAL_RESULTS), dst("D", DATA_PLACES)])
         .flags(&["M8020", "M8021", "M8022"])
         .lower_on(&[(HM, Lower::Call(RtFn::IntClamped))])
         .text(

@@ -27,14 +27,18 @@ const SEARCH: &[Param] = &[
         .rules(&[Rule::WideLimits(1, 128)]),
 ];
 
-const ABSOLUTE_DRUM: &[Param] = &[
-    src("S1", GROUPS.or(REGISTERS))
-        .len_of(pairs_of_n)
-        .rules(&[Rule::WholeGroup, Rule::WideAligned(8)]),
-    src("S2", Classes::C).rules(&[Rule::WideCounter]),
-    coil("D", RESULT_BITS).per(3),
-    count("n", 1, 64),
-];
+const fn absolute_drum(rules: &'static [Rule]) -> [Param; 4] {
+    [
+        src("S1", GROUPS.or(PLACES)).len_of(pairs_of_n).rules(rules),
+        src("S2", Classes::C).rules(&[Rule::WideCounter]),
+        coil("D", RESULT_BITS).per(3),
+        count("n", 1, 64),
+    ]
+}
+
+const ABSOLUTE_DRUM: &[Param] = &absolute_drum(&[Rule::WholeGroup, Rule::WideAligned(8)]);
+/// JY992D88101 §5.7.3: groups of 8, in either form.
+const ABSOLUTE_DRUM_FX: &[Param] = &absolute_drum(&[Rule::WholeGroup, Rule::GroupAligned(8)]);
 
 const fn handy(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.7")
@@ -74,6 +78,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_W32)
         .on(INOVANCE_FX)
         .takes(ABSOLUTE_DRUM)
+        .variants(&[on(FX).takes(ABSOLUTE_DRUM_FX)])
         .call(RtFn::Absd)
         .text(
             "Bit D+i is on while counter S2 is from the value S1+2i up to below S1+2i+1; a pair in falling order means the range round \
@@ -82,7 +87,7 @@ pub(super) const ROWS: &[Inst] = &[
     handy("INCD", 63, "Incremental drum")
         .on(INOVANCE_FX)
         .takes(&[
-            src("S1", GROUPS.or(REGISTERS)).per(3).rules(&[Rule::WholeGroup]),
+            src("S1", GROUPS.or(PLACES)).per(3).rules(&[Rule::WholeGroup]),
             both("S2", Classes::C).len(2).numbers(&[(DeviceClass::C, 0, 198)]),
             coil("D", RESULT_BITS).per(3),
             count("n", 1, 64),
@@ -96,7 +101,7 @@ pub(super) const ROWS: &[Inst] = &[
     handy("TTMR", 64, "Teaching timer")
         .on(BIG)
         .steps(5, 5)
-        .takes(&[dst("D", DATA).len(2), count("n", 0, 2)])
+        .takes(&[dst("D", DATA).len(2), count("n", 0, 2).also_on(LIKE_FX3, DATA)])
         .call(RtFn::Ttmr)
         .text("Measures how long it is driven: D in s × 10^n, which stays, D+1 in 100 ms, which goes back to 0."),
     handy("STMR", 65, "Special timer")
@@ -198,7 +203,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)
-        .takes(&[dst("D", RESULT_GROUPS.or(REGISTERS)).also_on(L01S, INDEX)])
+        .takes(&[dst("D", RESULT_GROUPS.or(PLACES)).also_on(L01S, INDEX)])
         .flags(&["D8310", "D8311"])
         .call(RtFn::Rnd)
         .text("D = a pseudo-random number from 0 to 32767, from the state in D8311 and D8310."),

@@ -219,7 +219,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .on(BIG)
-        .takes(&[count("n", 0, 60)])
+        .takes(&[count("n", 0, 60).also_on(FX3U, DATA)])
         .flags(&["D8020"])
         .call(RtFn::Reff)
         .text("Sets the filter time of the first inputs to n ms, in D8020."),

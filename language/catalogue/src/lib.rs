@@ -117,6 +117,8 @@ pub enum Rule {
     Aligned(u32),
     /// A group has as many bits as the form: K4, in the 32-bit form K8.
     WholeGroup,
+    /// A group begins at a multiple of this.
+    GroupAligned(u32),
     /// In the 32-bit form a group begins at a multiple of this.
     WideAligned(u32),
     /// If it is a group and operand `i` too, both have as many digits.
@@ -129,6 +131,8 @@ pub enum Rule {
     GroupAtMost(usize, i64),
     /// In the 32-bit form a counter is a 32-bit one.
     WideCounter,
+    /// In the 32-bit form it is none of these.
+    WideNot(Classes),
     /// A device of the same class as operand `i`.
     ClassLike(usize),
     /// A device not before operand `i`; either both or neither are special.

@@ -54,7 +54,9 @@ const fn shift_words(max: i64) -> [Param; 4] {
             .per(2)
             .rules(&[Rule::SameDigits(0)]),
         count("n1", 1, max),
-        count("n2", 0, max).rules(&[Rule::AtMost(2)]),
+        count("n2", 0, max)
+            .also_on(LIKE_FX3, DATA)
+            .rules(&[Rule::AtMost(2)]),
     ]
 }
 

@@ -36,6 +36,10 @@ pub(super) const RESULT_GROUPS: Classes = Classes::KNY.or(Classes::KNM).or(Class
 pub(super) const REGISTERS: Classes = Classes::T.or(Classes::C).or(Classes::D).or(Classes::R);
 /// D and R.
 pub(super) const DATA: Classes = Classes::D.or(Classes::R);
+/// Registers and buffer memory, which counts on the models that have it (FX3 programming manual, operands U\\G).
+pub(super) const PLACES: Classes = REGISTERS.or(Classes::BUFFER);
+/// D, R and buffer memory.
+pub(super) const DATA_PLACES: Classes = DATA.or(Classes::BUFFER);
 /// Integer constants.
 pub(super) const CONSTANTS: Classes = Classes::K.or(Classes::H);
 /// V and Z.

@@ -69,6 +69,9 @@ fn adprw_devices(constants: &[Option<i64>]) -> Option<u32> {
 }
 
 const N: Param = count("n", 1, 256);
+const N_OR_REGISTER: Param = N.also(DATA);
+/// Models whose RS and RS2 take up to 4096 bytes (JY992D48301 §5.9.1; FX data communication manual, part F).
+const UP_TO_4096: ModelSet = FX.without(ModelSet::FX1);
 const SEND: Param = src("S", DATA).per(1);
 const SEND_LENGTH: Param = number("m", 256);
 const RECEIVE: Param = dst("D", DATA).per(3).changed();
@@ -147,10 +150,10 @@ const PID: &[Param] = &[
 ];
 /// 16-bit alarms and limits after the 25 words of the others; L01S has a separate table.
 const PID_FX: &[Param] = &[
-    src("S1", DATA),
-    src("S2", DATA),
+    src("S1", DATA_PLACES),
+    src("S2", DATA_PLACES),
     both("S3", DATA).len(29),
-    both("D", DATA),
+    both("D", DATA_PLACES),
 ];
 const PID_L01S: &[Param] = &[
     src("S1", DATA),
@@ -213,6 +216,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[SEND, SEND_LENGTH, RECEIVE, RECEIVE_LENGTH])
         .variants(&[
+            on(UP_TO_4096).takes(&[SEND, number("m", 4096), RECEIVE, number("n", 4096)]),
             variant(INOVANCE, When::First(CONSTANTS, 0, u32::MAX)).takes(RS_MODBUS),
             on(INOVANCE).takes(RS_INOVANCE),
         ])
@@ -227,8 +231,16 @@ pub(super) const ROWS: &[Inst] = &[
         .aliases(&["ASCII"])
         .forms(W16_P)
         .steps(7, 7)
-        .takes(&[src("S", VALUES).len_of(words_of_digits), dst("D", RESULT_GROUPS.or(REGISTERS)).per(2), N])
-        .variants(&[on(HM).takes(ASCI_HM)])
+        .takes(&[src("S", VALUES).len_of(words_of_digits), dst("D", RESULT_GROUPS.or(PLACES)).per(2), N])
+        .variants(&[
+            on(HM).takes(ASCI_HM),
+            // JY997D16601 §16.3.
+            on(FX).takes(&[
+                src("S", VALUES).len_of(words_of_digits),
+                dst("D", RESULT_GROUPS.or(PLACES)).per(2),
+                N_OR_REGISTER,
+            ]),
+        ])
         .flags(&["M8161"])
         .errors(&[6706])
         .call(RtFn::Asci)
@@ -241,7 +253,15 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("S", VALUES).per(2), dst("D", RESULTS).len_of(words_of_digits), N])
-        .variants(&[on(HM).takes(HEX_HM)])
+        .variants(&[
+            on(HM).takes(HEX_HM),
+            // JY997D16601 §16.4.
+            on(FX).takes(&[
+                src("S", VALUES).per(2),
+                dst("D", RESULTS).len_of(words_of_digits),
+                N_OR_REGISTER,
+            ]),
+        ])
         .flags(&["M8161"])
         .errors(&[6706])
         .call(RtFn::Hex)
@@ -255,10 +275,16 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[
-            src("S", GROUPS.or(REGISTERS)).per(2),
-            dst("D", RESULT_GROUPS.or(REGISTERS)).len(2),
+            src("S", GROUPS.or(PLACES)).per(2),
+            dst("D", RESULT_GROUPS.or(PLACES)).len(2),
             N,
         ])
+        // JY992D88101 §5.9.5: n is K, H or D; JY997D16601 §16.5: D, R, K or H.
+        .variants(&[on(FX).takes(&[
+            src("S", GROUPS.or(PLACES)).per(2),
+            dst("D", RESULT_GROUPS.or(PLACES)).len(2),
+            N_OR_REGISTER,
+        ])])
         .flags(&["M8161"])
         .errors(&[6706])
         .call(RtFn::Ccd)
@@ -267,6 +293,13 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(11, 11)
         .on(LIKE_FX3.or(INOVANCE))
         .takes(&[SEND, SEND_LENGTH, RECEIVE, RECEIVE_LENGTH, any("n1").limits(0, 3)])
+        .variants(&[on(UP_TO_4096).takes(&[
+            SEND,
+            number("m", 4096),
+            RECEIVE,
+            number("n", 4096),
+            any("n1").limits(0, 3),
+        ])])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
         .errors(&[6376, 6377])
         .call(RtFn::Rs2)
@@ -274,9 +307,10 @@ pub(super) const ROWS: &[Inst] = &[
     serial("PID", 88, "PID control")
         .takes(PID)
         .variants(&[on(FX).takes(PID_FX), on(L01S).takes(PID_L01S)])
-        .errors(&[6705, 6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742])
+        .errors(&[6705, 6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6748, 6749])
         .call(RtFn::Pid)
         .lower_on(&[
+            (FX3, Lower::Call(RtFn::PidChecked)),
             (FX, Lower::Call(RtFn::PidTuning)),
             (HM, Lower::Call(RtFn::PidHm)),
             (L01S, Lower::Call(RtFn::PidThermal)),
@@ -352,6 +386,22 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(FREE)
         .call(RtFn::Urcv)
         .text("Waits for S2 bytes on port D, one to each register from number S1 on."),
+    inverter(
+        "EXTR",
+        180,
+        "Inverter communication by the extension ROM",
+        "K10 to K13 as S: monitors, controls, reads or writes the parameters of an inverter by the FX2N-ROM-E1.",
+    )
+        .forms(W16_W32)
+        .steps(9, 17)
+        .on(ModelSet::FX2N)
+        .flags(&["M8029", "M8104", "M8154", "M8155", "M8156"])
+        .takes(&[
+            src("S", CONSTANTS).limits(10, 13),
+            any("S1"),
+            any("S2"),
+            mixed_out("D", RESULT_GROUPS.or(DATA).or(CONSTANTS)).changed(),
+        ]),
     inverter("IVCK", 270, "Monitor an inverter", "Reads monitor value S2 of inverter S1 on port n to D.")
         .takes(&[any("S1"), any("S2"), dst("D", RESULT_GROUPS.or(DATA)), number("n", 2)]),
     inverter("IVDR", 271, "Control an inverter", "Sends command S2 with value S3 to inverter S1 on port n.")

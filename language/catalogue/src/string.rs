@@ -4,8 +4,8 @@ use super::row::*;
 use super::{Classes, Inst, Lower};
 use rungc_rt::RtFn;
 
-const TEXTS: Classes = GROUPS.or(REGISTERS).or(Classes::TEXT);
-const TEXT_RESULTS: Classes = RESULT_GROUPS.or(REGISTERS);
+const TEXTS: Classes = GROUPS.or(PLACES).or(Classes::TEXT);
+const TEXT_RESULTS: Classes = RESULT_GROUPS.or(PLACES);
 
 const fn string(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "public knowledge of FX3U")
@@ -43,7 +43,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             text("S", REGISTERS).len(7),
             dst("D1", REGISTERS).word().len(2),
-            dst("D2", RESULT_GROUPS.or(REGISTERS)),
+            dst("D2", RESULT_GROUPS.or(PLACES)),
         ])
         .call(RtFn::Val)
         .text("Reads the decimal text at S: D2 is its number without the point, D1 how many characters it has, D1+1 how many decimals."),
@@ -57,12 +57,12 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the text S1 followed by the text S2 to D. A zero byte ends a text."),
     string("LEN", 203, "Length of a text")
         .steps(5, 5)
-        .takes(&[text("S", GROUPS.or(REGISTERS)).open_ended(), dst("D", TEXT_RESULTS)])
+        .takes(&[text("S", GROUPS.or(PLACES)).open_ended(), dst("D", TEXT_RESULTS)])
         .call(RtFn::Len)
         .text("D = how many bytes the text at S has before its zero byte."),
     string("RIGHT", 204, "End of a text")
         .takes(&[
-            text("S", GROUPS.or(REGISTERS)).open_ended(),
+            text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
             src("n", CONSTANTS.or(DATA)),
         ])
@@ -70,7 +70,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the last n characters of the text at S to D."),
     string("LEFT", 205, "Beginning of a text")
         .takes(&[
-            text("S", GROUPS.or(REGISTERS)).open_ended(),
+            text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
             src("n", CONSTANTS.or(DATA)),
         ])
@@ -78,17 +78,17 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the first n characters of the text at S to D."),
     string("MIDR", 206, "Middle of a text")
         .takes(&[
-            text("S1", GROUPS.or(REGISTERS)).open_ended(),
+            text("S1", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
-            src("S2", GROUPS.or(REGISTERS)).len(2),
+            src("S2", GROUPS.or(PLACES)).len(2),
         ])
         .call(RtFn::Midr)
         .text("Writes the S2+1 characters of the text at S1 from character S2 on, counted from 1, to D; -1 means up to its end."),
     string("MIDW", 207, "Replace in a text")
         .takes(&[
-            text("S1", GROUPS.or(REGISTERS)).open_ended(),
+            text("S1", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended().changed(),
-            src("S2", GROUPS.or(REGISTERS)).len(2),
+            src("S2", GROUPS.or(PLACES)).len(2),
         ])
         .call(RtFn::Midw)
         .text("Overwrites S2+1 characters of the text at D from character S2 on, counted from 1, with the start of the text at S1."),
@@ -110,7 +110,7 @@ pub(super) const ROWS: &[Inst] = &[
     string("DABIN", 260, "Decimal text to integer")
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .takes(&[text("S", REGISTERS).len(6), dst("D", RESULT_GROUPS.or(REGISTERS).or(INDEX))])
+        .takes(&[text("S", REGISTERS).len(6), dst("D", RESULT_GROUPS.or(PLACES).or(INDEX))])
         .call(RtFn::Dabin)
         .text("Reads the sign and five (32-bit: ten) digits at S, spaces counting as 0."),
     string("BINDA", 261, "Integer to decimal text")

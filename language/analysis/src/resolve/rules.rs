@@ -44,8 +44,9 @@ pub(super) fn broken(
             let digits = digits(operand)?;
             (digits != whole).then(|| partial_group(operand, whole))
         }
-        Rule::WideAligned(of) => {
-            digits(operand).filter(|_| wide)?;
+        Rule::GroupAligned(of) | Rule::WideAligned(of) => {
+            let narrow = matches!(rule, Rule::WideAligned(_)) && !wide;
+            digits(operand).filter(|_| !narrow)?;
             let device = device_of(&operand.kind)?;
             unaligned(operand, device, of, &format!("is not a multiple of {of}"))
         }
@@ -61,6 +62,10 @@ pub(super) fn broken(
             let device = device_of(&operand.kind)?;
             let narrow = device.class == DeviceClass::C && device.number < FIRST_COUNTER32;
             (wide && narrow).then(|| narrow_counter(operand))
+        }
+        Rule::WideNot(classes) => {
+            let barred = wide && classes.meets(Classes::of(&operand.kind));
+            barred.then(|| only_narrow(operand))
         }
         Rule::Holds(holds, demand) => (!holds(operands)).then(|| {
             let message = format!("`{}` contradicts the other operands", operand.kind);
@@ -120,6 +125,18 @@ pub(super) fn limits(param: &Param, wide: bool) -> Limits {
         _ => None,
     });
     of_wide_form.unwrap_or(param.limits)
+}
+
+/// A class that the 32-bit form does not take.
+fn only_narrow(operand: &Operand) -> Diagnostic {
+    let message = format!(
+        "`{}` cannot be this operand of the 32-bit form",
+        operand.kind
+    );
+    codes::OPERAND_CLASS
+        .at(operand.span, message)
+        .label("only the 16-bit form takes it")
+        .help("use a pair of data registers, and move its low word to the index register")
 }
 
 fn forbidden(operand: &Operand, min: i64, max: i64) -> Diagnostic {
