@@ -231,11 +231,8 @@ fn inputs(module: &Module, fields: &Storage) -> String {
 
 /// The cases of the errors that the program can raise, with their titles.
 fn errors(module: &Module) -> String {
-    let errors = match module.may_fail() {
-        true => rungc_models::plc_errors::PLC_ERRORS,
-        false => &[],
-    };
-    let errors = errors.iter().map(|error| {
+    let errors = rungc_models::plc_errors::of_programs(module.model.id);
+    let errors = errors.filter(|_| module.may_fail()).map(|error| {
         let title = text::string_literal(error.title);
         format!("    case {}u:\n        return {title};\n", error.code)
     });

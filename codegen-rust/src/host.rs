@@ -139,12 +139,9 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
 
 /// The codes of the operation errors that the program can have, with their titles.
 fn errors(module: &Module) -> String {
-    let errors = match module.may_fail() {
-        true => plc_errors::PLC_ERRORS,
-        false => &[],
-    };
     let row = |error: &PlcError| format!("\n    ({}, {:?}),", error.code, error.title);
-    errors.iter().map(row).collect()
+    let errors = plc_errors::of_programs(module.model.id);
+    errors.filter(|_| module.may_fail()).map(row).collect()
 }
 
 /// The program around a PLC, with what it does for connections.

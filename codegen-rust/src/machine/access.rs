@@ -156,6 +156,7 @@ impl Generator<'_> {
                 writer(&write, quote!(#parameters, value: #ty), key, arms, absent)
             });
         }
+        methods.extend(self.coil_method());
         let arms = self.reset_arms();
         let reset = format_ident!("reset");
         let absent = quote!(#devices.reset(class, number));
@@ -274,6 +275,35 @@ impl Generator<'_> {
             });
         }
         out
+    }
+
+    /// Coils of timers and counters, which partners on a line of some models read.
+    fn coil_method(&mut self) -> Option<TokenStream> {
+        let profile = self
+            .module
+            .model
+            .ports
+            .modbus(self.module.model.type_code());
+        if !self.module.has_ports() || !profile.serves_coils() {
+            return None;
+        }
+        let class = self.rt("Class");
+        let fields = self.storage.fields().to_vec();
+        let mut arms = TokenStream::new();
+        for field in fields.iter().filter(|field| field.kind.has_members()) {
+            let pattern = self.pattern(field, true);
+            let cell = Self::matched(field);
+            arms.extend(match field.kind {
+                Kind::Timer => quote!(#pattern => #cell.coil != 0,),
+                _ => quote!(#pattern => #cell.coil,),
+            });
+        }
+        (!arms.is_empty()).then(|| {
+            quote!(fn coil(&self, class: #class, number: u32) -> Option<bool> {
+                let value = match (class, number) { #arms _ => return self.bit(class, number) };
+                Some(value)
+            })
+        })
     }
 
     fn reset_arms(&mut self) -> TokenStream {

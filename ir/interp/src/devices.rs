@@ -270,6 +270,14 @@ impl Devices {
         }
     }
 
+    /// State of the coil of a timer or counter.
+    pub(crate) fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        let timer = self.timers.get(class, number).map(|t| t.coil != 0);
+        let narrow = || self.counters16.get(class, number).map(|c| c.coil);
+        let wide = || self.counters32.get(class, number).map(|c| c.coil);
+        timer.or_else(narrow).or_else(wide)
+    }
+
     pub(crate) fn timer(&mut self, number: u32) -> Option<&mut Timer> {
         self.timers.get_mut(Class::T, number)
     }

@@ -152,7 +152,7 @@ impl<'m> Machine<'m> {
     /// others.
     fn preset(&mut self, latched: bool) {
         let module = self.module;
-        for (register, value) in module.model.special_words() {
+        for (register, value) in module.special_words() {
             let number = register.number();
             if module.is_latched(DeviceClass::D, number) == latched {
                 // A model's table names only devices that it has.
@@ -520,6 +520,11 @@ impl Plc for Machine<'_> {
         self.last_error.code = code;
         self.last_error.step = step as u16;
         self.log_error(code, step);
+    }
+
+    fn coil(&self, class: Class, number: u32) -> Option<bool> {
+        let coil = self.devices.coil(class, number);
+        coil.or_else(|| self.bit(class, number))
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

@@ -139,6 +139,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
         ports.extend(model.ports.of_programmer().filter(|_| options.programmer));
         let options = LowerOptions {
             name: options.name.clone(),
+            variant: options.variant.filter(|variant| variant.model == model.id),
             wanted: Wanted {
                 observe: options.observe.clone(),
                 observe_all: options.observe_all,

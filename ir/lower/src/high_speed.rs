@@ -70,6 +70,8 @@ pub(super) struct HighSpeed {
     /// Of input axes, by their inputs: the millisecond that it was last, and the count when it began.
     pub(super) milliseconds: BTreeMap<u32, [CellId; 2]>,
     pub(super) compares: Vec<Compare>,
+    /// States of all comparisons.
+    armed: Vec<FlagId>,
     /// Tables that begin when a scan ends.
     pub(super) tables: Vec<Rows>,
     /// Number of driven comparisons, and its limit, in a program that has more.
@@ -120,6 +122,31 @@ impl Lowerer<'_> {
             let first = self.add(Expr::Sys(SysValue::FirstScan));
             let none = self.add(Expr::I32(0));
             self.when(first, |this| this.emit(Action::SetCell(driven, none)));
+        }
+    }
+
+    /// Relay and register of the comparisons that are driven.
+    pub(super) fn comparisons_executed(&mut self) {
+        let Some((relay, register)) = self.model.high_speed.executed else {
+            return;
+        };
+        let armed = std::mem::take(&mut self.high_speed.armed);
+        if self.specials.has(relay) {
+            let mut any = self.bit_const(false);
+            for &flag in &armed {
+                let flag = self.add(Expr::Flag(flag));
+                any = self.or(any, flag);
+            }
+            self.write_relay(relay, any);
+        }
+        if self.specials.has(register) {
+            let mut sum = self.int(0, false);
+            for &flag in &armed {
+                let flag = self.add(Expr::Flag(flag));
+                let one = self.add(Expr::BitToInt(flag));
+                sum = self.add(Expr::Bin(BinOp::Add, sum, one));
+            }
+            self.emit(Action::Write(Access::word(register), sum));
         }
     }
 
@@ -362,6 +389,7 @@ impl Lowerer<'_> {
     pub(super) fn counter_edges(&mut self) {
         let used = std::mem::take(&mut self.high_speed.used);
         let compares = std::mem::take(&mut self.high_speed.compares);
+        self.high_speed.armed = compares.iter().map(|compare| compare.armed).collect();
         for used in &used {
             let number = used.counter.number;
             let looks =

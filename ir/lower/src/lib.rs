@@ -61,7 +61,7 @@ use rungc_catalogue::{Basic, Drive, Join, Lower};
 use rungc_ir::layout::{self, Wanted};
 use rungc_ir::node::{CellId, ExprId, Function, FunctionKind, Module, Network, Stmt};
 use rungc_ir::ranges::{self, Bound, Reached};
-use rungc_models::Model;
+use rungc_models::{Model, Variant};
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
@@ -82,6 +82,8 @@ pub struct LowerOptions {
     pub wanted: Wanted,
     /// Ranges of operands with an index.
     pub bounds: Vec<Bound>,
+    /// PLC of the model's family that the program is for, if that is known.
+    pub variant: Option<&'static Variant>,
 }
 
 /// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors, and then there is no module.
@@ -144,8 +146,8 @@ fn lower_with(
         .filter(|(device, _)| module.layout.area(device.class, device.number).is_some())
         .map(|(device, text)| (device.class, device.number, shortened(text)))
         .collect();
+    module.variant = options.variant;
     module.initial_words = module
-        .model
         .special_words()
         .filter(|(register, _)| {
             module

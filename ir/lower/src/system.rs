@@ -88,6 +88,7 @@ impl Lowerer<'_> {
             this.interruptible();
             this.end_modules();
             this.begin_tables();
+            this.comparisons_executed();
             this.begin_rows();
             this.first_captures();
             for (number, kind) in std::mem::take(&mut this.free_running) {

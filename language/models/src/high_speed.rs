@@ -22,6 +22,8 @@ pub struct HighSpeed {
     pub reset_relays: Option<ResetRelays>,
     /// Maximum number of comparisons at the count at a time, tables among them; `None`: any number.
     pub most_comparisons: Option<u32>,
+    /// Relay that is on while comparisons are executed, and the register with their number.
+    pub executed: Option<(Relay, Register)>,
     /// A comparison acts when the count crosses the value in either direction, also where the program changes one of
     /// them, and not only at a count that equals it: the zones in which such comparisons run.
     pub crossing_zones: Option<RangeInclusive<i32>>,
@@ -182,6 +184,7 @@ pub(crate) const FX: HighSpeed = HighSpeed {
     held_by_reset: false,
     reset_relays: None,
     most_comparisons: Some(6),
+    executed: None,
     crossing_zones: None,
     patterns: PATTERNS,
     axes: &[],

@@ -1,28 +1,38 @@
-//! The error codes of PLCs that a running program can meet here: what D8067 and D8061 show, and what to do about it.
+//! The error codes of PLCs that our models can show: in D8067 and D8061 of a running program, in the registers of serial
+//! ports, and those that an editor shows for a program that it refuses.
 //!
-//! From the tables h1u-h2u-programming §8.1 and §5.7 (PID), and, where these are silent, what the family does.
+//! From the tables h1u-h2u-programming §8.1 and §5.7 (PID); those of FX from JY992D88101 and JY997D16601, which L01S
+//! follows: its manual prints none.
 
-/// An error code and its page.
+mod codes;
+
+use crate::{ModelId, ModelSet};
+
+/// An error code and its meaning on some models.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PlcError {
     /// The code: 6706.
     pub code: u16,
+    /// Models on which it means this.
+    pub models: ModelSet,
     /// Title, in a few words.
     pub title: &'static str,
-    /// Meaning, and the PLC's reaction.
+    /// Meaning, and the PLC's reaction; empty where the title says all.
     pub meaning: &'static str,
-    /// Remedy.
+    /// Remedy; empty where the title says all.
     pub remedy: &'static str,
 }
 
 const fn row(
     code: u16,
+    models: ModelSet,
     title: &'static str,
     meaning: &'static str,
     remedy: &'static str,
 ) -> PlcError {
     PlcError {
         code,
+        models,
         title,
         meaning,
         remedy,
@@ -31,6 +41,11 @@ const fn row(
 
 /// The code of the watchdog.
 pub const WATCHDOG: u16 = rungc_rt::special::WATCHDOG_CODE as u16;
+
+const H: ModelSet = ModelSet::INOVANCE;
+const FX: ModelSet = ModelSet::FX.or(ModelSet::L01S);
+const FX3: ModelSet = ModelSet::FX3;
+const ALL: ModelSet = ModelSet::ALL;
 
 /// Effect of most operation errors.
 const SKIPPED: &str = "The instruction is skipped and the scan continues.";
@@ -42,10 +57,11 @@ const PID_GOES_ON: &str = "PID continues with the limit of the range.";
 const PID_RANGE: &str =
     "Scale the measured value and the set value down, or choose a smaller gain.";
 
-/// All of them, in the order of their codes.
-pub static PLC_ERRORS: &[PlcError] = &[
+/// Errors that a running program can report, in the order of their codes.
+static OF_PROGRAMS: &[PlcError] = &[
     row(
         WATCHDOG,
+        ALL,
         "a scan does not end (watchdog)",
         "The scan took longer than the watchdog time in D8000, 200 ms unless the program changes it. The PLC goes to STOP with all outputs off and \
          shows M8061 and D8061. Compiled programs and `rungc run` count instead of measuring: a scan may repeat 10,000 steps for each millisecond \
@@ -55,6 +71,7 @@ pub static PLC_ERRORS: &[PlcError] = &[
     ),
     row(
         6381,
+        H,
         "a remote module does not answer",
         "FROM or TO names a module on the CAN bus (100 and its station) that has not answered within D8299 ms. M8299 is on until the program \
          switches it off; the instruction is skipped.",
@@ -62,166 +79,244 @@ pub static PLC_ERRORS: &[PlcError] = &[
     ),
     row(
         6701,
+        ALL,
         "a jump or call to a missing label",
         "An index register directs CJ or CALL to a pointer P that the program does not have. The scan continues after the instruction.",
         "Limit the index register to labels that exist.",
     ),
     row(
         6702,
+        ALL,
         "calls are nested too deep",
         "A subroutine calls itself, directly or through others, or CALL is nested deeper than the PLC allows. The call is skipped.",
         "Replace the recursion with a loop, or call the subroutines one after the other.",
     ),
     row(
         6706,
+        ALL,
         "a device does not exist, or a value does not fit the instruction",
-        "An index register or a count goes past the last device of a class, a divisor is 0, or, on FX and L01S, an operand has a value that the \
-         instruction does not accept. The instruction is skipped and the scan continues.",
+        "An index register or a count goes past the last device of a class, a divisor is 0 (or, on FX3, a quotient is too large), or, on FX and L01S, an operand has a value \
+         that the instruction does not accept. The instruction is skipped and the scan continues.",
         "Check the index register and the count before the instruction; compare a divisor with 0 first.",
     ),
     row(
         6707,
+        H.or(ModelSet::HM),
         "a value does not fit the instruction",
-        "On H1U and H2U: an operand has a value that the instruction does not accept, for example an invalid BCD number or a negative count. The instruction \
+        "An operand has a value that the instruction does not accept, for example an invalid BCD number or a negative count. The instruction \
          is skipped and the scan continues.",
         "`rungc explain` with the name of the instruction lists the accepted values; check them first.",
     ),
     row(
+        6708,
+        FX,
+        "FROM or TO failed",
+        "FROM, TO, RBFM, WBFM or an operand U\\G names a module that is not fitted, or buffer memory that it does not have. The instruction is skipped.",
+        "Check the module number and what is fitted: `[[module]]` in rungc.toml, or what the host answers.",
+    ),
+    row(
         6730,
-        "PID: the sampling time is negative",
+        ALL,
+        "PID: the sampling time is not 1 to 32767 ms",
         PID_STOPS,
         "Write a sampling time of at least 1 ms to the first register of the parameters.",
     ),
     row(
         6732,
+        ALL,
         "PID: the input filter constant is not 0 to 99 %",
         PID_STOPS,
         "Write 0 to 99 to the parameter.",
     ),
     row(
         6733,
+        ALL,
         "PID: the proportional gain is negative",
         PID_STOPS,
         "Write 0 to 32767 % to the parameter.",
     ),
     row(
         6734,
+        ALL,
         "PID: the integral time is negative",
         PID_STOPS,
         "Write 0 (no integral action) to 32767 units of 100 ms to the parameter.",
     ),
     row(
         6735,
+        ALL,
         "PID: the derivative gain is not 0 to 200 %",
         PID_STOPS,
         "Write 0 to 200 to the parameter.",
     ),
     row(
         6736,
+        ALL,
         "PID: the derivative time is negative",
         PID_STOPS,
         "Write 0 (no derivative action) to 32767 units of 10 ms to the parameter.",
     ),
     row(
         6740,
+        ALL,
         "PID: the sampling time is not longer than a scan",
         "PID continues with the scan time as its sampling time.",
         "Choose a longer sampling time, or make the scan shorter.",
     ),
     row(
         6742,
+        ALL,
         "PID: the measured value changes too much",
         PID_GOES_ON,
         PID_RANGE,
     ),
     row(
         6743,
+        ALL,
         "PID: the deviation does not fit 16 bits",
         PID_GOES_ON,
         PID_RANGE,
     ),
     row(
         6744,
+        ALL,
         "PID: the integral does not fit 16 bits",
         PID_GOES_ON,
         PID_RANGE,
     ),
     row(
         6745,
+        ALL,
         "PID: the derivative gain makes the derivative too large",
         PID_GOES_ON,
         "Choose a smaller derivative gain.",
     ),
     row(
         6746,
+        ALL,
         "PID: the derivative does not fit 16 bits",
         PID_GOES_ON,
         PID_RANGE,
     ),
     row(
         6747,
+        ALL,
         "PID: the result does not fit 16 bits",
         PID_GOES_ON,
         PID_RANGE,
     ),
     row(
+        6748,
+        FX3,
+        "PID: the upper limit of the output is below the lower one",
+        "PID exchanges the limits and continues.",
+        "Write the upper limit to S3+22 and the lower one to S3+23.",
+    ),
+    row(
+        6749,
+        FX3,
+        "PID: a value of an alarm is negative",
+        "PID gives no alarm and continues.",
+        "Write 0 to 32767 to S3+20 to S3+23.",
+    ),
+    row(
         6750,
-        "a module is missing, or auto tuning failed",
-        "FROM, TO or a buffer memory operand names a module that is not fitted, or an address that it does not have; the instruction is skipped. \
-         PID: the measured and the set value differ too little at the start of auto tuning, or too much at its end; auto tuning ends.",
-        "Check the module number and what is fitted. For auto tuning, start with a difference of more than 150.",
+        H,
+        "a module is missing",
+        "FROM or TO names a module that is not fitted, or an address that it does not have; the instruction is skipped.",
+        "Check the module number and what is fitted.",
+    ),
+    row(
+        6750,
+        FX,
+        "PID: auto tuning failed",
+        "The measured and the set value differ too little at the start of auto tuning, or too much at its end; auto tuning ends. Tuning by limit cycle, which compiled programs do not have, reports it, too.",
+        "Start with a difference of more than 150.",
     ),
     row(
         6751,
+        ALL,
         "PID: the measured value moves the wrong way in auto tuning",
         "Auto tuning continues.",
         "Check the direction of action, bit 0 of the second parameter.",
     ),
     row(
         6760,
+        H,
         "too many high-speed comparisons at once",
         "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit have no effect.",
         "Drive them one after the other.",
     ),
     row(
+        6760,
+        FX,
+        "too many high-speed comparisons at once",
+        "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit have no effect. The PLC's table gives the code to a wrong sum in ABS.",
+        "Drive them one after the other.",
+    ),
+    row(
         6763,
+        FX,
         "an input has no interrupt for the instruction",
         SKIPPED,
         "Use an input that the instruction can monitor.",
     ),
     row(
         6764,
+        FX,
         "a pulse output is already in use",
-        "On FX: two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
+        "Two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
         "Drive them one after the other: wait for M8029 or for the output to be free.",
     ),
     row(
         6770,
+        H,
         "a pulse output is already in use",
-        "On H1U and H2U: two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
+        "Two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
         "Drive them one after the other: wait for M8029 or for the output to be free.",
     ),
 ];
 
-/// The page of a code.
-pub fn find(code: u16) -> Option<&'static PlcError> {
-    let at = PLC_ERRORS.binary_search_by_key(&code, |error| error.code);
-    at.ok().map(|i| &PLC_ERRORS[i])
+/// Meanings of a code, one for each group of models that agrees.
+pub fn all_of(code: u16) -> impl Iterator<Item = &'static PlcError> {
+    let all = OF_PROGRAMS.iter().chain(codes::CODES);
+    all.filter(move |error| error.code == code)
 }
 
-/// Title of a code, in a few words.
-pub fn title(code: u16) -> &'static str {
-    find(code).map_or("operation error", |error| error.title)
+/// Meaning of a code on a model.
+pub fn find(code: u16, model: ModelId) -> Option<&'static PlcError> {
+    all_of(code).find(|error| error.models.has(model))
+}
+
+/// Title of a code on a model, in a few words.
+pub fn title(code: u16, model: ModelId) -> &'static str {
+    find(code, model).map_or("operation error", |error| error.title)
+}
+
+/// Errors that a program for a model can report while it runs, in the order of their codes.
+pub fn of_programs(model: ModelId) -> impl Iterator<Item = &'static PlcError> {
+    let errors = OF_PROGRAMS.iter();
+    errors.filter(move |error| error.models.has(model))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{PLC_ERRORS, find};
+    use super::codes::CODES;
+    use super::{OF_PROGRAMS, all_of, find};
+    use crate::{Model, ModelId};
     use std::path::Path;
 
     #[test]
     fn codes_are_in_order() {
-        assert!(PLC_ERRORS.is_sorted_by(|a, b| a.code < b.code));
+        for table in [OF_PROGRAMS, CODES] {
+            assert!(table.is_sorted_by(|a, b| a.code <= b.code));
+        }
+        for model in ModelId::ALL {
+            for error in OF_PROGRAMS.iter().chain(CODES) {
+                let meanings = all_of(error.code).filter(|error| error.models.has(model));
+                assert!(meanings.count() <= 1, "{model:?} {}", error.code);
+            }
+        }
     }
 
     /// The numbers 6700 to 6799 in the sources of folders of this workspace.
@@ -252,8 +347,40 @@ mod tests {
         assert!(raised.len() > 10, "no codes are found: {raised:?}");
         let without: Vec<u16> = raised
             .into_iter()
-            .filter(|&code| find(code).is_none())
+            .filter(|&code| all_of(code).next().is_none())
             .collect();
         assert_eq!(without, [0u16; 0]);
+    }
+
+    /// Codes that a runtime function or a port of a model shows.
+    fn shown(model: &Model) -> Vec<u16> {
+        let mut codes = vec![6105, 6701, 6702, 6706, model.value_error];
+        codes.extend([6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6747, 6751]);
+        // HM has no FROM and TO.
+        if model.id != ModelId::Hm {
+            let separate = model.value_error == 6707;
+            codes.push(if separate { 6750 } else { 6708 });
+        }
+        for port in model.ports.all() {
+            let Some(error) = port.error else { continue };
+            assert!(model.special_works(error.relay), "{} {error:?}", model.name);
+            codes.extend((1..=5).map(|kind| port.codes + kind));
+            if port.modbus_errors != 0 {
+                codes.extend((0..10).map(|kind| port.modbus_errors + kind));
+            }
+            if port.modbus.is_some() {
+                codes.push(port.codes + 21);
+            }
+        }
+        codes
+    }
+
+    #[test]
+    fn every_code_that_a_model_shows_has_a_meaning_there() {
+        for model in ModelId::ALL.map(Model::get) {
+            for code in shown(model) {
+                assert!(find(code, model.id).is_some(), "{} {code}", model.name);
+            }
+        }
     }
 }

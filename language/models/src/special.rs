@@ -253,6 +253,10 @@ impl Model {
 
 /// Relays that forbid interrupts (l01s-programming §6.4).
 pub(crate) const MASKS: &[RangeInclusive<u16>] = &[8050..=8059];
+/// Relays that choose modes of instructions (FX3 programming manual §16.3, §16.5, §24.4 for M8161; FX3U hardware
+/// manual, special auxiliary relays, pp. 789–802).
+pub(crate) const MODES: &[RangeInclusive<u16>] =
+    &[8025..=8027, 8160..=8161, 8164..=8165, 8167..=8168];
 
 const fn because(missed: Missed, text: &'static str) -> Reason {
     Reason { text, missed }
@@ -367,6 +371,22 @@ pub(crate) const FIXED_AREA: Reason = because(
 const NOT_FITTED: Reason = because(
     Missed::ByAll,
     "no `[[module]]` in rungc.toml lists the module that it belongs to",
+);
+pub(crate) const ANALOG_INPUTS: Reason = because(
+    Missed::ByAll,
+    "special adapters and boards for analog values are not simulated; the host may write their registers",
+);
+pub(crate) const ANALOG_BOARDS: Reason = because(
+    Missed::ByAll,
+    "extension boards of FX1S and FX1N are not simulated; the host may write their registers",
+);
+pub(crate) const DISPLAY: Reason = because(
+    Missed::ByWriters,
+    "there is no display module; the live page and panels show devices",
+);
+pub(crate) const MODULE_COUNT: Reason = because(
+    Missed::ByAll,
+    "modules are listed in rungc.toml, not counted by the program",
 );
 pub(crate) const TIMING: Reason = because(
     Missed::ByAll,

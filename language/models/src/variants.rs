@@ -4,6 +4,7 @@
 //! one has.
 
 use crate::ModelId;
+use rungc_rt::Register;
 use rungc_syntax::DeviceClass::{self, C, D, I, M};
 
 /// A PLC of a family: a variant, or a base unit with a number of terminals.
@@ -25,6 +26,8 @@ pub struct Variant {
     pub lacks: &'static [&'static [&'static str]],
     /// Devices of its family that it does not have: class, first and last number.
     pub lacks_devices: &'static [(DeviceClass, u32, u32)],
+    /// Special registers that start with another value than those of its family.
+    pub defaults: &'static [(Register, i16)],
     /// Source of the data.
     pub source: &'static str,
 }
@@ -79,6 +82,18 @@ const NOT_ON_XP: &[(DeviceClass, u32, u32)] = &[
 /// High-speed counters, interrupts of inputs, pulse catch.
 const FAST_INPUTS: &[(DeviceClass, u32, u32)] = &[(C, 235, 255), (I, 0, 501), (M, 8170, 8177)];
 
+/// Outputs of ZRN's clear signals on MTP: Y010 to Y017 for Y000 to Y007 (§8.5.2).
+const CLEARS_OF_MTP: &[(Register, i16)] = &[
+    (Register(8156), 8),
+    (Register(8157), 9),
+    (Register(8158), 10),
+    (Register(8159), 11),
+    (Register(8160), 12),
+    (Register(8161), 13),
+    (Register(8196), 14),
+    (Register(8197), 15),
+];
+
 /// The XP generation of H2U.
 const H2U_XP: Variant = Variant {
     name: "h2u-xp",
@@ -89,6 +104,7 @@ const H2U_XP: Variant = Variant {
     pulse_outputs: 3,
     lacks: &[],
     lacks_devices: NOT_ON_XP,
+    defaults: &[],
     source: "h1u-h2u-programming §8.1, §8.4",
 };
 
@@ -171,6 +187,7 @@ pub static VARIANTS: [Variant; 18] = [
         pulse_outputs: 8,
         lacks: &[NO_FLOATS, NO_FAST_INPUTS],
         lacks_devices: FAST_INPUTS,
+        defaults: CLEARS_OF_MTP,
         source: "h1u-h2u-programming §8.5, §8.6",
         ..H2U_XP
     },

@@ -484,5 +484,6 @@ fn way(options: CompileOptions) -> LowerOptions {
             without_qlink: false,
         },
         bounds: options.bounds,
+        variant: options.variant,
     }
 }

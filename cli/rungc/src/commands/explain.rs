@@ -2,7 +2,9 @@
 
 use super::{Failure, Outcome, Result, print_text};
 use crate::args::ExplainArgs;
-use rungc_models::{Model, ModelId, Variant, plc_errors, special};
+use rungc_models::plc_errors::{self, PlcError};
+use rungc_models::runs::is_special;
+use rungc_models::{Model, ModelId, ModelSet, Variant, special};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
@@ -13,7 +15,7 @@ pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())
         .map(code_page)
-        .or_else(|| plc_error_page(topic.parse().ok()?))
+        .or_else(|| plc_error_page(topic.parse().ok()?, args.model))
         .or_else(|| special_page(&topic, args.model?))
         .or_else(|| Variant::find(&topic).map(variant_page))
         .or_else(|| rungc_catalogue::explain(&topic));
@@ -60,23 +62,37 @@ fn code_page(code: &Code) -> String {
     page
 }
 
-/// The page of an error code of the PLC: what it means when a program runs, and which diagnostics prevent it.
-fn plc_error_page(number: u16) -> Option<String> {
-    let error = plc_errors::find(number);
+/// The page of an error code of the PLC: its meaning on one or all models, and which diagnostics prevent it.
+fn plc_error_page(number: u16, model: Option<ModelId>) -> Option<String> {
+    let mut errors: Vec<&PlcError> = plc_errors::all_of(number).collect();
+    let elsewhere = model.is_some_and(|id| !errors.iter().any(|error| error.models.has(id)));
+    if let Some(id) = model.filter(|_| !elsewhere) {
+        errors.retain(|error| error.models.has(id));
+    }
     let codes: Vec<&Code> = codes::all()
         .into_iter()
         .filter(|code| code.plc_error == Some(number))
         .collect();
-    let mut page = match error {
-        Some(error) => format!(
-            "PLC error {number}: {}\n\n{}\n\nWhat to do: {}\n",
-            error.title, error.meaning, error.remedy
-        ),
-        None if codes.is_empty() => return None,
-        None => format!(
-            "PLC error {number}: the PLC reports it when a program is checked or written to it, so compiled programs never raise it.\n"
-        ),
-    };
+    let mut page = String::new();
+    if let Some(id) = model.filter(|_| elsewhere) {
+        let title = Model::get(id).title;
+        let _ = writeln!(page, "{title} has no error {number}.");
+    }
+    for error in &errors {
+        if !page.is_empty() {
+            page.push('\n');
+        }
+        page.push_str(&meaning(error, model.filter(|_| !elsewhere)));
+    }
+    if errors.is_empty() {
+        if codes.is_empty() {
+            return None;
+        }
+        let _ = writeln!(
+            page,
+            "PLC error {number}: the PLC reports it when a program is checked or written to it, so compiled programs never raise it."
+        );
+    }
     if !codes.is_empty() {
         page.push_str("\nrungc reports it before the program runs as:\n\n");
         for code in codes {
@@ -84,6 +100,26 @@ fn plc_error_page(number: u16) -> Option<String> {
         }
     }
     Some(page)
+}
+
+/// Meaning of an error code, with the model asked for or all models that share it.
+fn meaning(error: &PlcError, model: Option<ModelId>) -> String {
+    let of = ModelId::ALL.into_iter().filter(|&id| match model {
+        Some(asked) => id == asked,
+        None => error.models.has(id),
+    });
+    let all = error.models == ModelSet::ALL && model.is_none();
+    let names: Vec<_> = of.map(|id| Model::get(id).name).collect();
+    let on = match all {
+        true => String::new(),
+        false => format!(" on {}", names.join(", ")),
+    };
+    let mut text = format!("PLC error {}{on}: {}\n", error.code, error.title);
+    if !error.meaning.is_empty() {
+        let (meaning, remedy) = (error.meaning, error.remedy);
+        let _ = write!(text, "\n{meaning}\n\nWhat to do: {remedy}\n");
+    }
+    text
 }
 
 /// Features missing from a variant or base unit.
@@ -123,7 +159,7 @@ fn variant_page(variant: &Variant) -> String {
     page
 }
 
-/// Meaning of a special device on one model.
+/// Meaning of a special device on one model, or that it has none.
 fn special_page(topic: &str, model: ModelId) -> Option<String> {
     let (class, digits) = match topic.split_at_checked(1)? {
         ("M", digits) => (DeviceClass::M, digits),
@@ -131,9 +167,21 @@ fn special_page(topic: &str, model: ModelId) -> Option<String> {
         _ => return None,
     };
     let number: u32 = digits.parse().ok()?;
-    let special = Model::get(model).special(class, number)?;
-    let title = rungc_models::Model::get(model).title;
-    Some(format!("{topic} on {title}: {}", describe(special)))
+    let title = Model::get(model).title;
+    if let Some(special) = Model::get(model).special(class, number) {
+        return Some(format!("{topic} on {title}: {}", describe(special)));
+    }
+    if !is_special(class, number) {
+        return None;
+    }
+    let missing = match Model::get(model).has(class, number) {
+        true => format!("{topic} has no meaning on {title}; `rungc check` warns of it (W0302)"),
+        false => format!("{topic} does not exist on {title}"),
+    };
+    Some(match rungc_catalogue::explain(topic) {
+        Some(others) => format!("{missing}. Other models:\n\n{others}"),
+        None => missing,
+    })
 }
 
 fn describe(special: &special::Special) -> String {

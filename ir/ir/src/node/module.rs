@@ -3,7 +3,7 @@
 use super::{Action, Body, CellId, Expr, ExprId, FlagId, Stmt, TableId, TempId, Ty, type_of};
 use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
-use rungc_models::{Model, Range};
+use rungc_models::{Model, Range, Variant};
 use rungc_rt::comm::Protocols;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::modbus::Profile;
@@ -183,6 +183,8 @@ pub struct Module {
     pub comments: Vec<(DeviceClass, u32, String)>,
     /// Stored devices.
     pub layout: Layout,
+    /// PLC of the model's family that the program is for, if that is known.
+    pub variant: Option<&'static Variant>,
     /// Special registers' values at power-on, of those stored.
     pub initial_words: Vec<(Register, i16)>,
     /// Special relays that are on at power-on, of those stored.
@@ -223,9 +225,19 @@ impl Module {
             origins: Vec::new(),
             comments: Vec::new(),
             layout: Layout::default(),
+            variant: None,
             initial_words: Vec::new(),
             initial_bits: Vec::new(),
         }
+    }
+
+    /// Special registers that start with a value other than 0, with those of the variant.
+    pub fn special_words(&self) -> impl Iterator<Item = (Register, i16)> + use<> {
+        let own = self.variant.map_or(&[][..], |variant| variant.defaults);
+        let changed = move |register: Register| own.iter().any(|&(own, _)| own == register);
+        let usual = self.model.special_words();
+        let usual = usual.filter(move |&(register, _)| !changed(register));
+        usual.chain(own.iter().copied())
     }
 
     /// Returns true if a device retains its value over power-off. A special device that does begins with its default

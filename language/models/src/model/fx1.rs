@@ -44,6 +44,7 @@ pub(super) const FX1S: Model = Model {
     instruction_times: Some(TIMES),
     special: &[
         mitsubishi::ALL,
+        mitsubishi::PROGRAMMING_PORT,
         mitsubishi::FAST_TIMERS,
         mitsubishi::D8145,
         mitsubishi::FX1,
@@ -72,6 +73,7 @@ pub(super) const FX1N: Model = Model {
     notations: Classes::NONE,
     special: &[
         mitsubishi::ALL,
+        mitsubishi::PROGRAMMING_PORT,
         mitsubishi::FROM_FX1N,
         mitsubishi::D8145,
         mitsubishi::FX1,

@@ -53,6 +53,7 @@ pub(super) const FX3S: Model = Model {
     notations: Classes::E,
     special: &[
         mitsubishi::ALL,
+        mitsubishi::PROGRAMMING_PORT,
         mitsubishi::FROM_FX1N,
         mitsubishi::FROM_FX2N,
         mitsubishi::FAST_TIMERS,
@@ -86,6 +87,7 @@ pub(super) const FX3G: Model = Model {
     notations: Classes::E.or(Classes::TEXT),
     special: &[
         mitsubishi::ALL,
+        mitsubishi::PROGRAMMING_PORT,
         mitsubishi::FROM_FX1N,
         mitsubishi::FROM_FX2N,
         mitsubishi::NOT_FX3S,
@@ -94,9 +96,10 @@ pub(super) const FX3G: Model = Model {
         mitsubishi::FX3SG,
         mitsubishi::FX3G,
     ],
-    cleared_in_stop: &[special::MASKS, HOME],
+    cleared_in_stop: &[special::MASKS, special::MODES, HOME],
     high_speed: HighSpeed {
         four_fold: FOUR_FOLD,
+        executed: EXECUTED,
         meters: METERS,
         ..high_speed::FX
     },
@@ -135,9 +138,10 @@ pub(super) const FX3U: Model = Model {
         mitsubishi::FX3GU,
         mitsubishi::FX3U,
     ],
-    cleared_in_stop: &[special::MASKS, HOME, DVIT],
+    cleared_in_stop: &[special::MASKS, special::MODES, HOME, DVIT],
     high_speed: HighSpeed {
         four_fold: FOUR_FOLD,
+        executed: EXECUTED,
         // FX3 programming manual §14.4.
         most_comparisons: Some(32),
         ..high_speed::FX
@@ -193,6 +197,9 @@ const DVIT: &[RangeInclusive<u16>] = &[
     8377..=8377,
     8460..=8463,
 ];
+
+/// M8139 and D8139 (FX3 programming manual, chapter 37).
+const EXECUTED: Option<(Relay, Register)> = Some((Relay(8139), Register(8139)));
 
 /// Meters of pulses on FX3S and FX3G, active while M8075 is on.
 const METERS: &[Meter] = &[

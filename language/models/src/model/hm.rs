@@ -64,6 +64,7 @@ pub(super) const HM: Model = Model {
         held_by_reset: true,
         reset_relays: None,
         most_comparisons: None,
+        executed: None,
         // hm-motion-controller §8.3.14.
         crossing_zones: Some(0..=5),
         patterns: MASKED_PATTERNS,

@@ -1,8 +1,9 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    CHECKED, CONTROL_LINES, COUNTER_INPUTS, DELIMITER, HARDWARE, INPUT_DELAY, INTERRUPTS,
-    INVERTERS, POWER, SHOWN, Special, TRACE, specials,
+    ANALOG_BOARDS, ANALOG_INPUTS, CHECKED, CONTROL_LINES, COUNTER_INPUTS, DELIMITER, DISPLAY,
+    HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, MAKER, MODULE_COUNT, POWER, SHOWN, Special,
+    TRACE, specials,
 };
 
 /// Devices of all.
@@ -45,7 +46,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
     M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
-    M 8062-8063 r 0 by("serial ports") "communication error, code in D8062 and D8063";
+    M 8063 r 0 by("serial ports") "communication error, code in D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
     M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
@@ -58,8 +59,6 @@ pub(super) const ALL: &[Special] = specials! {
     M 8123 rw 0 by("serial ports") "RS has received";
     M 8124 r 0 by("serial ports") "RS receives";
     M 8126-8129 r 0 by("serial ports") "computer link, time-out of RS";
-    M 8145-8146 rw 0 by("pulse outputs") "stop the pulses of Y000, of Y001";
-    M 8147-8148 r 0 by("pulse outputs") "pulses are sent at Y000, at Y001";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 by("serial ports") "fast mode of the parallel link";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
@@ -80,7 +79,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8039 rw 0 scan "constant time of a scan in ms (with M8039)";
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
-    D 8062-8063 r 0 by("serial ports") "code of the communication error";
+    D 8063 r 0 by("serial ports") "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
     D 8065 r 0 inert(CHECKED) "code of the syntax error";
     D 8066 r 0 inert(CHECKED) "code of the circuit error";
@@ -88,11 +87,19 @@ pub(super) const ALL: &[Special] = specials! {
     D 8068 rw 0 scan "step of the operation error, kept";
     D 8069 r 0 scan "step of the error of M8065–M8067";
     D 8070 rw 500 by("serial ports") "error time of the parallel link in ms";
-    D 8120-8129 rw 0 by("serial ports") "communication format, counts and characters of RS";
+    D 8120-8121 rw 0 by("serial ports") "communication format, station of a computer link";
+    D 8122-8123 r 0 by("serial ports") "characters that RS has yet to send, that it has received";
+    D 8124 rw 2 by("serial ports") "header of RS: STX";
+    D 8125 rw 3 by("serial ports") "terminator of RS: ETX";
+    D 8127-8129 rw 0 by("serial ports") "computer link: first register and number of on-demand data; its time-out, in 10 ms";
     D 8136-8137 rw 0 by("pulse outputs") "pulses sent at Y000 and Y001";
     D 8140-8143 rw 0 by("pulse outputs") "pulses sent at Y000, at Y001";
     D 8173-8175 r 0 by("serial ports") "N:N link: own station, number of slaves and mode, as accepted";
-    D 8176-8180 rw 0 by("serial ports") "N:N link: own station; in the master number of slaves, mode, retries, time-out in 10 ms";
+    D 8176 rw 0 by("serial ports") "N:N link: own station, 0 the master";
+    D 8177 rw 0 by("serial ports") "N:N link: number of slaves, in the master";
+    D 8178 rw 0 by("serial ports") "N:N link: mode, in the master";
+    D 8179 rw 3 by("serial ports") "N:N link: retries, in the master";
+    D 8180 rw 5 by("serial ports") "N:N link: time-out in 10 ms, in the master";
     D 8182 rw 0 scan "Z1";
     D 8183 rw 0 scan "V1";
     D 8184 rw 0 scan "Z2";
@@ -107,6 +114,12 @@ pub(super) const ALL: &[Special] = specials! {
     D 8193 rw 0 scan "V6";
     D 8194 rw 0 scan "Z7";
     D 8195 rw 0 scan "V7";
+};
+
+/// Errors of the programming port, on all but FX3U.
+pub(super) const PROGRAMMING_PORT: &[Special] = specials! {
+    M 8062 r 0 by("serial ports") "communication error of the programming port, code in D8062";
+    D 8062 r 0 by("serial ports") "code of the communication error of the programming port";
 };
 
 /// Additional devices of all but FX1S.
@@ -151,9 +164,7 @@ pub(super) const NOT_FX3S: &[Special] = specials! {
     M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
     M 8048 r 0 scan "an annunciator is on (with M8049)";
     M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
-    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
     D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
-    D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
 };
 
 /// M8028 of FX1S and FX3S.
@@ -161,8 +172,10 @@ pub(super) const FAST_TIMERS: &[Special] = specials! {
     M 8028 rw 0 by("OUT T") "T32–T62 count 10 ms instead of 100 ms";
 };
 
-/// Speeds and times of positioning before FX3.
+/// Relays of pulse outputs, speeds and times of positioning before FX3.
 pub(super) const D8145: &[Special] = specials! {
+    M 8145-8146 rw 0 by("pulse outputs") "stop the pulses of Y000, of Y001";
+    M 8147-8148 r 0 by("pulse outputs") "pulses are sent at Y000, at Y001";
     D 8145 rw 0 by("ZRN, DRVI, DRVA") "base speed in Hz";
     D 8146 rw -31072 by("ZRN, DRVI, DRVA") "highest speed in Hz, low word";
     D 8147 rw 1 by("ZRN, DRVI, DRVA") "high word of that";
@@ -171,8 +184,12 @@ pub(super) const D8145: &[Special] = specials! {
 
 /// Additional devices of FX1S and FX1N.
 pub(super) const FX1: &[Special] = specials! {
+    M 8112-8115 rw 0 inert(ANALOG_BOARDS) "boards FX1N-2AD-BD and FX1N-1DA-BD: range of channels 1 and 2, of the output; FX1N-4EX-BD: inputs";
+    M 8116-8117 rw 0 inert(ANALOG_BOARDS) "board FX1N-2EYT-BD: outputs";
     M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
+    D 8112-8114 rw 0 inert(ANALOG_BOARDS) "boards FX1N-2AD-BD and FX1N-1DA-BD: values of channels 1 and 2, of the output";
+    D 8158-8159 rw -1 inert(DISPLAY) "display module FX1N-5DM: registers D and relays M that control it";
 };
 
 /// FX1S: version 2.00, 2 k steps.
@@ -192,21 +209,32 @@ pub(super) const FX1N: &[Special] = specials! {
 /// FX2N: version 3.10, 8 k steps.
 pub(super) const FX2N: &[Special] = specials! {
     M 8075-8079 rw 0 inert(TRACE) "sampling trace";
+    M 8104 r 0 inert(HARDWARE) "the extension ROM FX2N-ROM-E1 is fitted";
+    M 8154-8156 r 0 inert(INVERTERS) "EXTR: error, in work, communication error";
+    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
     D 8001 r 24310 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8102 r 8 scan "program capacity in k steps";
+    D 8104-8105 r 0 inert(HARDWARE) "type and version of the extension ROM";
+    D 8154-8156 rw 0 inert(INVERTERS) "EXTR: time for answers, step, error code";
+    D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
 };
 
 /// Additional devices of FX3S, FX3G and FX3U.
 pub(super) const FX3: &[Special] = specials! {
+    M 8105 r 0 inert(MAKER) "the program is being changed in RUN";
     M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
+    M 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "a comparison of a high-speed counter is executed";
     M 8151-8159 r 0 inert(INVERTERS) "inverter communication";
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8178-8179 rw 0 by("serial ports") "the parallel link, the N:N link is on channel 2";
     M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
+    M 8260-8299 rw 0 inert(ANALOG_INPUTS) "special adapters and boards for analog values, ten relays each: ranges, errors";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";
+    M 8316 r 0 inert(HARDWARE) "an input or output is named that is not fitted";
+    M 8318 r 0 inert(HARDWARE) "buffer memory could not be initialised";
     M 8338 rw 0 by("PLSV") "PLSV with ramps";
     M 8340 r 0 by("pulse outputs") "pulses are sent at Y000";
     M 8341 rw 0 by("ZRN, DSZR") "Y000: clear signal";
@@ -222,6 +250,7 @@ pub(super) const FX3: &[Special] = specials! {
     M 8355-8356 rw 0 by("DSZR") "Y001: DOG, zero signal inverted";
     M 8358 r 0 by("pulse outputs") "Y001: an instruction is driven";
     M 8359 rw 0 by("pulse outputs") "stops the pulses of Y001";
+    M 8393 r 1 inert(INPUT_DELAY) "contact for the delay of an input interrupt: on in its routine";
     M 8398 rw 0 scan "starts the ring counter D8398";
     M 8401 r 0 by("serial ports") "channel 1: RS2 waits to send; ADPRW is in work";
     M 8402 rw 0 by("serial ports") "channel 1: RS2 sends; the last exchange of Modbus has failed";
@@ -240,7 +269,24 @@ pub(super) const FX3: &[Special] = specials! {
     M 8428 rw 0 by("serial ports") "channel 2: on-demand data is wrong; ADPRW has sent its request again";
     M 8429 rw 0 by("serial ports") "channel 2: time-out of RS2 or ADPRW; bytes of on-demand data";
     M 8438 r 0 by("serial ports") "channel 2: communication error, code in D8438";
+    M 8449 r 0 inert(HARDWARE) "a special module has an error, code in D8449";
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
+    D 8107 r 0 inert(MAKER) "how many comments of devices the PLC holds";
+    D 8108 r 0 inert(MODULE_COUNT) "how many special modules are connected";
+    D 8138 r 0 by("HSCT") "the row of the table that waits";
+    D 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "how many comparisons of high-speed counters are executed";
+    D 8150 rw 0 inert(INVERTERS) "channel 1: inverter communication: time for answers";
+    D 8151 r -1 inert(INVERTERS) "channel 1: inverter communication: step in work";
+    D 8152 r 0 inert(INVERTERS) "channel 1: inverter communication: error code";
+    D 8153-8154 r -1 inert(INVERTERS) "channel 1: inverter communication: step of the error, parameter of IVBWR";
+    D 8155 rw 0 inert(INVERTERS) "channel 2: inverter communication: time for answers";
+    D 8156 r -1 inert(INVERTERS) "channel 2: inverter communication: step in work";
+    D 8157 r 0 inert(INVERTERS) "channel 2: inverter communication: error code";
+    D 8158-8159 r -1 inert(INVERTERS) "channel 2: inverter communication: step of the error, parameter of IVBWR";
+    D 8169 r 0 inert(MAKER) "restriction of access to the program";
+    D 8260-8299 rw 0 inert(ANALOG_INPUTS) "special adapters and boards for analog values, ten registers each: values, averages, errors";
+    D 8312-8315 r 0 inert(SHOWN) "steps of D8068 and D8069 in 32 bits";
+    D 8316-8319 r 0 inert(HARDWARE) "step and number of what is not fitted; module and address of buffer memory that could not be initialised";
     D 8340-8341 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: position";
     D 8342 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: base speed in Hz";
     D 8343 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: highest speed in Hz, low word";
@@ -296,6 +342,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8436 r 0 by("serial ports") "channel 2: sum of what RS2 has sent";
     D 8438 r 0 by("serial ports") "channel 2: code of the communication error";
     D 8439 r 0 inert(SHOWN) "channel 2: mode of operation";
+    D 8449 r 0 inert(HARDWARE) "code of the error of a special module";
     D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
 };
 
@@ -368,9 +415,11 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
     M 8091 rw 0 by("BINDA, COMRD") "no zero after the characters";
+    M 8104 r 0 inert(HARDWARE) "function extension memory is fitted";
+    M 8107 r 0 inert(MAKER) "comments of devices could not be registered";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
-    M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
+    M 8330-8334 r 0 by("DUTY") "timing pulses of DUTY";
     M 8336 rw 0 by("DVIT") "D8336 chooses the interrupt inputs";
     M 8347 rw 0 by("DVIT") "Y000: interrupt signal inverted";
     M 8357 rw 0 by("DVIT") "Y001: interrupt signal inverted";
@@ -384,12 +433,15 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
     M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     M 8380-8392 rw 0 inert(COUNTER_INPUTS) "inputs and modes of high-speed counters";
+    M 8394 r 1 by("HCMOV") "contact for HCMOV in an interrupt routine: on";
     M 8460-8463 rw 0 by("DVIT") "Y000–003: interrupt signals that the program gives, where D8336 says 8";
     D 8001 r 24320 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8101 r 16320 scan "model and version";
     D 8102 r 64 scan "program capacity in k steps";
+    D 8104-8105 r 0 inert(HARDWARE) "type and version of the function extension memory";
+    D 8300-8303 rw 0 inert(DISPLAY) "display module: registers and relays that control it, language, contrast";
     D 8310 rw 1 by("RND") "state of RND, low word";
     D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";

@@ -82,7 +82,7 @@ fn line(row: &Row, module: &Module) -> String {
     let text = module.origin(step).map_or("", |origin| &origin.text);
     let what = format!(
         "step {step}: {text}: error {code}, {}",
-        plc_errors::title(code)
+        plc_errors::title(code, module.model.id)
     );
     let numbers = runs(&row.plcs);
     let plcs = counted(row.plcs.len(), "PLC");

@@ -59,7 +59,7 @@ impl<'a> Errors<'a> {
     pub fn watchdog(&self, now_ms: u64, error: LastError) -> String {
         let step = u32::from(error.stop_step);
         let code = plc_errors::WATCHDOG;
-        let title = plc_errors::title(code);
+        let title = plc_errors::title(code, self.module.model.id);
         format!(
             "at {now_ms} ms, step {step}: {}: error {code}, {title}",
             self.text(step)
@@ -67,7 +67,7 @@ impl<'a> Errors<'a> {
     }
 
     fn describe(&self, error: &OperationError) -> String {
-        let title = plc_errors::title(error.code);
+        let title = plc_errors::title(error.code, self.module.model.id);
         let what = match self.missing(error) {
             Some(device) => format!("{device} does not exist"),
             None => title.to_string(),

@@ -315,8 +315,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8176 rw 0 by("serial ports") "N:N link: own station number 0-7 (0 master)";
     D 8177 rw 0 by("serial ports") "N:N link: number of slaves 1-7";
     D 8178 rw 0 by("serial ports") "N:N link: refresh range 0-2";
-    D 8179 rw 0 by("serial ports") "N:N link: retries";
-    D 8180 rw 0 by("serial ports") "N:N link: time-out, unit 10 ms";
+    D 8179 rw 3 by("serial ports") "N:N link: retries";
+    D 8180 rw 5 by("serial ports") "N:N link: time-out, unit 10 ms";
     D 8182 rw 0 scan "same memory as Z1";
     D 8183 rw 0 scan "same memory as V1";
     D 8184 rw 0 scan "same memory as Z2";
