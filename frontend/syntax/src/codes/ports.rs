@@ -50,6 +50,13 @@ super::codes! {
     wrong: "LD M8002\nMOV H2 D8126\nMOV H1 D8120\nEND\n",
     right: "LD M8002\nMOV H2 D8126\nMOV H81 D8120\nEND\n";
 
+    PORT_NO_TABLE = "W0608" "port-no-table" Warning None,
+    "a Modbus table without rows",
+    "`D8126` = H60 makes COM1 of H1U and H2U a Modbus master that works through a table. The editor downloads the table beside the program; rungc takes its rows from `[[modbus]]` in rungc.toml. Without a row and without an instruction that asks, the port sends nothing.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H60 D8126\nEND\n",
+    right: "LD M8002\nMOV H20 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n";
+
     PORT_SET_BY_INDEX = "W0690" "port-set-by-index" Warning None,
     "a register of a port that only an index reaches",
     "With an index, the instruction may write a register that sets up a serial port. rungc finds out what a port speaks, and which protocols a compiled program needs, from instructions that name these registers without an index. `rungc run` and `rungc test` follow the index; a compiled program has no code for a protocol that nothing else chooses, and the port is silent. Name the register.",

@@ -170,11 +170,24 @@ super::codes! {
     wrong: "P0\nLD X0\nOUT Y0\nLD M8000\nCJ P0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
+    UNALIGNED_GROUP = "W0232" "unaligned-group" Warning None,
+    "table of ABSD in bits that do not start at a multiple of 8",
+    "The manual of H1U and H2U demands that the bits of ABSD's table start at a multiple of 8 (h1u-h2u-programming §4.3.7); whether that holds for the 16-bit form, too, its wording leaves open. DABSD rejects such a table.",
+    model: "h2u",
+    wrong: "LD X0\nABSD K4M12 C0 M100 K1\nEND\n",
+    right: "LD X0\nABSD K4M16 C0 M100 K1\nEND\n";
+
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",
     "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`docs/src/special-devices`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
     wrong: "LD M8002\nMOV K50 D8393\nEND\n",
     right: "LD M8002\nMOV K500 D8000\nEND\n";
+
+    UNDEFINED_SPECIAL = "W0302" "undefined-special" Warning None,
+    "special device without a meaning on the model",
+    "The manual of the model gives this special relay or register no meaning, so nothing sets, clears or reads it but the program: a contact of it never changes. It may belong to another model, or be misspelt. Runs of more than 32 devices, which a program clears or copies as a whole, are not reported.",
+    wrong: "LD M8010\nOUT Y0\nEND\n",
+    right: "LD M8013\nOUT Y0\nEND\n";
 
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",

@@ -3,7 +3,8 @@
 use super::Code;
 use super::skips::Skips;
 use super::structure::{NONE, Nesting};
-use rungc_catalogue::Basic;
+use rungc_catalogue::{Basic, Lower};
+use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -11,7 +12,7 @@ use rustc_hash::FxHashMap;
 pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Diagnostics) {
     let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
     for i in 0..code.len {
-        if let Some(device) = driven_coil(code, i) {
+        if let Some(device) = driven_coil(code, i).or_else(|| measuring_timer(code, i)) {
             driven.entry(device).or_default().push(i);
         }
     }
@@ -46,6 +47,13 @@ fn driven_coil(code: &Code, i: usize) -> Option<Device> {
     };
     code.device(i, operand)
         .filter(|device| device.class != DeviceClass::S)
+}
+
+/// The timer with which STMR or ANS measures; no other instruction may drive it (h1u-h2u-programming §4.3.5, §4.3.7).
+fn measuring_timer(code: &Code, i: usize) -> Option<Device> {
+    let measures = matches!(code.lower(i)?, Lower::Call(RtFn::Stmr | RtFn::Ans));
+    let timer = code.device(i, 0).filter(|_| measures)?;
+    (timer.class == DeviceClass::T).then_some(timer)
 }
 
 fn driven_twice(code: &Code, device: Device, earlier: &[usize], last: usize) -> Diagnostic {

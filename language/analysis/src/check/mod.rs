@@ -10,6 +10,7 @@ mod drives;
 mod every_scan;
 mod fast_inputs;
 mod fast_units;
+mod groups;
 mod inert;
 mod jumped_over;
 mod labels;
@@ -27,6 +28,7 @@ mod skips;
 mod states;
 mod structure;
 mod timers;
+mod undefined;
 pub mod unimplemented;
 mod unreachable;
 mod unused;
@@ -95,9 +97,11 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
     let modules = modules::Modules::new(code);
     let mut inert = inert::Inert::new(&modules);
+    let mut undefined = undefined::Undefined::default();
     for i in 0..code.len {
         modules.check(code, i, out);
         operation_errors::check(code, i, out);
+        groups::check(code, i, out);
         unused.note_broken(i);
         for access in accesses::of(code.resolved, i) {
             unused.note(i, &access);
@@ -105,6 +109,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             overlaps.note(code, i, &access);
             resets.note(code, i, &access);
             inert.note(code, i, &access);
+            undefined.note(code, &access);
             writes::check(code, i, &access, out);
         }
     }
@@ -115,6 +120,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         resets.report(out);
     }
     inert.report(out);
+    undefined.report(code.model(), out);
 }
 
 /// The part of a program that is run: up to and with its first END.

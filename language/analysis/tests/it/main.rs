@@ -3,4 +3,5 @@
 mod inert;
 mod no_panic;
 mod resolve;
+mod undefined;
 mod variants;

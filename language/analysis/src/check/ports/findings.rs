@@ -33,6 +33,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
             port.own_frames(out);
             port.ethernet_card(out);
             port.instructions(out);
+            port.table(out);
         }
     }
     parallel(code, &facts, out);
@@ -356,6 +357,28 @@ impl Port<'_> {
                 .label("nothing is sent or received");
             out.push(self.with_choice(diagnostic));
         }
+    }
+
+    /// A Modbus table that has no rows: rows of the settings are instructions of the program here.
+    fn table(&self, out: &mut Diagnostics) {
+        if self.protocol != Some(Protocol::MasterTable) {
+            return;
+        }
+        let here = Some(self.wiring.number);
+        if (0..self.code.len).any(|i| port_of(self.code, i, self.facts) == here) {
+            return;
+        }
+        let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
+        let Some(place) = places.next() else { return };
+        let message = format!(
+            "{} works through a Modbus table, which has no rows",
+            self.name()
+        );
+        let warning = codes::PORT_NO_TABLE
+            .at(self.code.span(place), message)
+            .label("nothing is sent")
+            .help("write the rows of the editor's table to rungc.toml, as `[[modbus]]`");
+        out.push(warning);
     }
 
     /// With the place where the protocol is chosen.

@@ -1,0 +1,93 @@
+//! Special devices without a meaning: each model has a row for a number, or warns of it.
+
+use rungc_analysis::check::check;
+use rungc_analysis::resolve::resolve;
+use rungc_models::runs::is_special;
+use rungc_models::{Model, ModelId};
+use rungc_syntax::DeviceClass::{self, D, M};
+use rungc_syntax::{Device, codes};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// The devices of which `rungc check` says that the model gives them no meaning.
+fn warned(model: &'static Model, text: &str) -> BTreeSet<Device> {
+    let program = rungc_frontend::read_text("p.il", text).program;
+    let (resolved, _) = resolve(&program, model);
+    let found = check(&resolved);
+    let found = found
+        .iter()
+        .filter(|d| d.code == codes::UNDEFINED_SPECIAL.id);
+    found.flat_map(|d| d.devices.clone()).collect()
+}
+
+/// All special numbers of a class, and those without a row.
+fn numbers(model: &Model, class: DeviceClass) -> (Vec<Device>, BTreeSet<Device>) {
+    let ranges = model.ranges_of(class);
+    let all = ranges.flat_map(|range| range.first..=range.last);
+    let all = all.filter(|&number| is_special(class, number));
+    let all: Vec<_> = all.map(|number| Device { class, number }).collect();
+    let without = all
+        .iter()
+        .filter(|d| model.special(class, d.number).is_none());
+    let without = without.copied().collect();
+    (all, without)
+}
+
+#[test]
+fn every_special_device_has_a_row_or_warns() {
+    let forms = [
+        (M, "LD DEVICE\nOUT Y0\n"),
+        (M, "LD X0\nSET DEVICE\n"),
+        (D, "LD X0\nMOV DEVICE D10\n"),
+        (D, "LD X0\nMOV K7 DEVICE\n"),
+    ];
+    for model in ModelId::ALL.map(Model::get) {
+        for (class, form) in forms {
+            let (all, without) = numbers(model, class);
+            let mut text = String::new();
+            for device in &all {
+                let _ = write!(text, "{}", form.replace("DEVICE", &device.to_string()));
+            }
+            text.push_str("END\n");
+            assert_eq!(warned(model, &text), without, "{} {form}", model.name);
+            assert!(without.len() > 5, "{} {class:?}", model.name);
+        }
+    }
+}
+
+/// Devices whose meaning on one model is not that of another: no row of the one was copied from the other.
+#[test]
+fn no_row_belongs_to_another_model() {
+    let absent: &[(ModelId, DeviceClass, u32, u32)] = &[
+        (ModelId::Fx3u, M, 8062, 8062),
+        (ModelId::Fx3u, M, 8145, 8148),
+        (ModelId::Fx3u, M, 8164, 8164),
+        (ModelId::Fx3u, D, 8145, 8148),
+        (ModelId::Fx3u, D, 8164, 8164),
+        (ModelId::Fx3g, M, 8145, 8148),
+        (ModelId::Fx3g, M, 8164, 8164),
+        (ModelId::Fx1n, M, 8164, 8164),
+        (ModelId::Fx1s, M, 8178, 8179),
+        (ModelId::Fx2n, M, 8178, 8179),
+        (ModelId::Fx2n, M, 8112, 8117),
+        (ModelId::H2u, M, 8010, 8010),
+        (ModelId::L01s, M, 8009, 8009),
+        (ModelId::Fx3u, M, 8010, 8010),
+        (ModelId::Hm, M, 8013, 8013),
+    ];
+    for &(id, class, first, last) in absent {
+        for number in first..=last {
+            let row = Model::get(id).special(class, number);
+            assert!(row.is_none(), "{id:?} {}", class.number(number));
+        }
+    }
+}
+
+#[test]
+fn long_runs_mean_none_of_their_devices() {
+    let fx3u = Model::get(ModelId::Fx3u);
+    assert_eq!(
+        warned(fx3u, "LD X0\nZRST M8000 M8255\nEND\n"),
+        BTreeSet::new()
+    );
+}
