@@ -88,10 +88,7 @@ fn plc_error_page(number: u16, model: Option<ModelId>) -> Option<String> {
         if codes.is_empty() {
             return None;
         }
-        let _ = writeln!(
-            page,
-            "PLC error {number}: the PLC reports it when a program is checked or written to it, so compiled programs never raise it."
-        );
+        let _ = writeln!(page, "PLC error {number}\n\n{NEVER_RAISED}");
     }
     if !codes.is_empty() {
         page.push_str("\nrungc reports it before the program runs as:\n\n");
@@ -101,6 +98,11 @@ fn plc_error_page(number: u16, model: Option<ModelId>) -> Option<String> {
     }
     Some(page)
 }
+
+/// Codes of parameters, syntax and circuit.
+const OF_CHECKS: std::ops::Range<u16> = 6400..6700;
+const NEVER_RAISED: &str = "The PLC reports it when a program is checked or written to it, \
+                            so compiled programs never raise it.";
 
 /// Meaning of an error code, with the model asked for or all models that share it.
 fn meaning(error: &PlcError, model: Option<ModelId>) -> String {
@@ -118,6 +120,9 @@ fn meaning(error: &PlcError, model: Option<ModelId>) -> String {
     if !error.meaning.is_empty() {
         let (meaning, remedy) = (error.meaning, error.remedy);
         let _ = write!(text, "\n{meaning}\n\nWhat to do: {remedy}\n");
+    }
+    if OF_CHECKS.contains(&error.code) {
+        let _ = write!(text, "\n{NEVER_RAISED}\n");
     }
     text
 }
