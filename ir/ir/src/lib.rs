@@ -18,3 +18,4 @@ pub mod walk;
 pub mod worst;
 
 pub use node::Module;
+pub use retained::fnv1a;

@@ -34,15 +34,20 @@ impl Module {
         runs
     }
 
-    /// Name of the program and its model in records of latched devices: `motor (fx3u)`.
+    /// Name of the program and its model in records of latched devices: `motor (fx3u)`. A name for which a record has
+    /// no room is cut, and a hash of the whole name and model follows.
     pub fn retained_as(&self) -> String {
-        let model = format!(" ({})", self.model.name);
-        let room = OWNER_MAX.saturating_sub(model.len());
-        let mut name = self.name.clone();
-        while name.len() > room {
-            name.pop();
+        let (name, model) = (&self.name, self.model.name);
+        let full = format!("{name} ({model})");
+        if full.len() <= OWNER_MAX {
+            return full;
         }
-        name + &model
+        let end = format!("~{:08x} ({model})", fnv1a(&full));
+        let mut short = name.clone();
+        while short.len() + end.len() > OWNER_MAX {
+            short.pop();
+        }
+        short + &end
     }
 
     /// The devices of an area that are stored: in a grid, those of its columns.
@@ -54,4 +59,11 @@ impl Module {
             grid.is_none_or(|grid| grid.stores(number))
         })
     }
+}
+
+/// Hash of a text that is the same on every machine: FNV-1a.
+pub fn fnv1a(text: &str) -> u32 {
+    text.bytes().fold(0x811C_9DC5, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+    })
 }

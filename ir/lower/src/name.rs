@@ -1,6 +1,7 @@
 //! Names of modules, made of the names of files and projects in any script.
 
 use deunicode::deunicode_char;
+use rungc_ir::fnv1a;
 
 /// An identifier in lower case from the name of a file. What is not ASCII is transliterated; since other names can be
 /// so, too, a short number that belongs to this name alone follows then: `往复.gxw` becomes `wang_fu_4c1e`.
@@ -58,11 +59,9 @@ fn transliterate(c: char, name: &mut String) {
     }
 }
 
-/// A number that differs between names, and is the same on every machine: FNV-1a, folded to 16 bits.
+/// A number that differs between names, and is the same on every machine: a hash folded to 16 bits.
 fn short_hash(name: &str) -> u16 {
-    let hash = name.bytes().fold(0x811C_9DC5_u32, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
-    });
+    let hash = fnv1a(name);
     (hash >> 16 ^ hash) as u16
 }
 

@@ -99,6 +99,42 @@ fn devices_of_another_program_are_not_loaded() {
 }
 
 #[test]
+fn programs_whose_names_begin_alike_stay_apart() {
+    let long = "a".repeat(60);
+    let stems = [
+        "自动灌装生产线控制程序机组编号一".to_string(),
+        "自动灌装生产线控制程序机组编号二".to_string(),
+        format!("{long}_first"),
+        format!("{long}_second"),
+        long,
+    ];
+    let names = stems.map(|stem| format!("{stem}.il"));
+    let files = names
+        .each_ref()
+        .map(|name| (name.as_str(), COUNTER.as_bytes()));
+    let folder = folder(&files);
+    let at = folder.path();
+    let run = |name: &str, model: &str| {
+        let usual = ["--retain", "plc.retain", "--for", "50ms"];
+        rungc(at, &[&["run", name, "--model", model], &usual[..]].concat())
+    };
+    for owner in &names {
+        let first = run(owner, "fx3u");
+        assert!(first.status.success(), "{}", text(&first.stderr));
+        for (name, model) in names.iter().flat_map(|n| [(n, "fx3u"), (n, "fx2n")]) {
+            let own = (name, model) == (owner, "fx3u");
+            let code = run(name, model).status.code();
+            assert_eq!(
+                code,
+                Some(if own { 0 } else { 2 }),
+                "{name} reads what {owner} has saved"
+            );
+        }
+        fs::remove_file(at.join("plc.retain")).unwrap();
+    }
+}
+
+#[test]
 fn a_changed_program_keeps_what_both_versions_have() {
     let folder = folder(&[("counter.il", COUNTER.as_bytes())]);
     let at = folder.path();
