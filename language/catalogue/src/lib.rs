@@ -95,6 +95,13 @@ pub enum Extent {
     Of(fn(&[Option<i64>]) -> Option<u32>),
 }
 
+/// Steps that a text of any length takes beyond those of two bytes: two for each two more, as GX Works2 counts them. A
+/// character that is not ASCII has two bytes in the code pages of the editors.
+fn longer_text(text: &str) -> u32 {
+    let bytes: u32 = text.chars().map(|c| if c.is_ascii() { 1 } else { 2 }).sum();
+    2 * bytes.div_ceil(2).saturating_sub(1)
+}
+
 /// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is
 /// indexed).
 #[derive(Clone, Copy, Debug)]
@@ -560,7 +567,17 @@ impl Inst {
             }
             _ => self.steps,
         };
-        (params, u32::from(if form.wide { wide } else { narrow }))
+        let texts = params
+            .iter()
+            .zip(operands)
+            .map(|(param, operand)| match &operand.kind {
+                OperandKind::Text(text) if matches!(param.extent, Extent::Of(_)) => {
+                    longer_text(text)
+                }
+                _ => 0,
+            });
+        let steps = u32::from(if form.wide { wide } else { narrow });
+        (params, steps + texts.sum::<u32>())
     }
 
     /// Statement of the first applicable variant that has one.

@@ -72,6 +72,74 @@ fn spellings_lead_to_rows_and_forms() {
     assert_eq!(of("MOVE"), None);
 }
 
+/// A text takes two more steps for each two characters more; that of ASC always has room for eight.
+#[test]
+fn longer_texts_take_more_steps() {
+    let span = Span::default();
+    let text = |text: &str| OperandKind::Text(text.into());
+    let d = || {
+        OperandKind::Device(
+            Device {
+                class: DeviceClass::D,
+                number: 0,
+            },
+            None,
+        )
+    };
+    let steps = |mnemonic: &str, kinds: Vec<OperandKind>| {
+        let operands: Vec<_> = kinds
+            .into_iter()
+            .map(|kind| Operand { span, kind })
+            .collect();
+        let found = find(mnemonic).unwrap_or_else(|| panic!("{mnemonic}"));
+        found
+            .inst
+            .steps_of(found.form, &operands, Model::get(ModelId::Fx3u))
+    };
+    for (length, more) in [
+        (0, 0),
+        (1, 0),
+        (2, 0),
+        (3, 2),
+        (4, 2),
+        (5, 4),
+        (6, 4),
+        (16, 14),
+    ] {
+        let written = "A".repeat(length);
+        assert_eq!(
+            steps("$MOV", vec![text(&written), d()]),
+            5 + more,
+            "{length}"
+        );
+        assert_eq!(
+            steps("$MOVP", vec![text(&written), d()]),
+            5 + more,
+            "{length}"
+        );
+        assert_eq!(
+            steps("$+", vec![d(), text(&written), d()]),
+            7 + more,
+            "{length}"
+        );
+        assert_eq!(
+            steps("$+", vec![text(&written), text(&written), d()]),
+            7 + 2 * more,
+            "{length}"
+        );
+        assert_eq!(
+            steps("INSTR", vec![text(&written), d(), d(), d()]),
+            9 + more,
+            "{length}"
+        );
+    }
+    assert_eq!(steps("$MOV", vec![text("启动"), d()]), 7);
+    assert_eq!(
+        steps("ASC", vec![text("A"), d()]),
+        steps("ASC", vec![text("ABCDEFGH"), d()])
+    );
+}
+
 /// Steps as the list export of an FX2N project shows them.
 #[test]
 fn steps_are_those_of_the_editor() {
