@@ -268,6 +268,15 @@ fn what_is_not_implemented_is_refused_by_name() {
 }
 
 #[test]
+fn models_that_can_compile_an_instruction_are_named() {
+    let read = rungc_frontend::read_text("t.il", "LD X000\nIVRD H104 H1F D120 K2\nEND\n");
+    let compiled = compile(&read.program, &on(ModelId::Fx3u));
+    let refused = compiled.diagnostics.iter().find(|d| d.code == "E0036");
+    let help = refused.and_then(|d| d.help.as_deref());
+    assert_eq!(help, Some("it can be compiled for: fx3u-compatible"));
+}
+
+#[test]
 fn comments_of_devices_are_written_by_the_compiler() {
     let device = rungc_syntax::Device {
         class: rungc_syntax::DeviceClass::D,

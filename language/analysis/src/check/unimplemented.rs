@@ -2,6 +2,7 @@
 
 use super::Code;
 use rungc_catalogue::{Inst, Lower};
+use rungc_models::{Model, ModelId};
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 
 /// Reports every instruction without an implementation on the model.
@@ -11,9 +12,21 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
             continue;
         };
         if let Some(Lower::Todo(what)) = code.lower(i) {
-            out.push(refusal(inst, what, code.instr(i).mnemonic_span));
+            let diagnostic = refusal(inst, what, code.instr(i).mnemonic_span);
+            out.push(match compiled_on(inst).as_slice() {
+                [] => diagnostic,
+                models => diagnostic.help(format!("it can be compiled for: {}", models.join(", "))),
+            });
         }
     }
+}
+
+/// The models for which an instruction can be compiled.
+fn compiled_on(inst: &Inst) -> Vec<&'static str> {
+    let models = ModelId::ALL.into_iter();
+    let models = models.filter(|&id| inst.models.has(id));
+    let models = models.filter(|&id| !matches!(inst.lower_on_model(id), Lower::Todo(_)));
+    models.map(|id| Model::get(id).name).collect()
 }
 
 /// The error of an instruction that cannot be compiled, for the reason `what`.
