@@ -420,8 +420,9 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
 
     fn contact(&mut self, node: Node<'a, 'i>) -> Result<Contact, Failure> {
         let sense = match (node.attribute("edge"), flag(node, "negated")) {
-            (Some("rising"), _) => Sense::Rising,
-            (Some("falling"), _) => Sense::Falling,
+            // The edge of the negated value is the other edge of the value.
+            (Some("rising"), false) | (Some("falling"), true) => Sense::Rising,
+            (Some("falling"), false) | (Some("rising"), true) => Sense::Falling,
             (_, true) => Sense::Off,
             _ => Sense::On,
         };

@@ -513,3 +513,26 @@ fn charts_become_relays() {
     let refused = wrong.map(|(from, to)| findings(&read(&chart().replacen(from, to, 1))));
     insta::assert_snapshot!(refused.join("---\n"));
 }
+
+/// The edge of a negated value is the other edge of the value.
+#[test]
+fn negated_contacts_with_edges_catch_the_other_edge() {
+    for (attributes, mnemonic) in [
+        (r#"negated="false" edge="rising""#, "LDP"),
+        (r#"negated="false" edge="falling""#, "LDF"),
+        (r#"negated="true" edge="rising""#, "LDF"),
+        (r#"negated="true" edge="falling""#, "LDP"),
+        (r#"negated="true" edge="none""#, "LDI"),
+        (r#"edge="none""#, "LD"),
+    ] {
+        let read = read(&ladder(&[
+            element("contact", 2, attributes, &[1], "Start"),
+            element("coil", 3, "", &[2], "Motor"),
+        ]));
+        assert_eq!(
+            instructions(&read)[0],
+            format!("{mnemonic} X000"),
+            "{attributes}"
+        );
+    }
+}
