@@ -1,6 +1,7 @@
 //! The editors' list export: a table of instructions with steps, statements and notes.
 
 use crate::Read;
+use crate::gx::cpu;
 use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
@@ -58,24 +59,91 @@ pub(crate) fn detect(text: &str) -> Option<Layout> {
     [b'\t', b',', b';']
         .into_iter()
         .find_map(|delimiter| with_header(text, delimiter))
-        .or_else(|| {
-            // Exports that lost their head: quoted fields in the usual order.
-            let quoted = |separator| {
-                text.lines()
-                    .take(HEAD_ROWS)
-                    .any(|line| line.starts_with('"') && line.contains(separator))
-            };
-            let delimiter = match (quoted("\"\t\""), quoted("\",\"")) {
-                (true, _) => b'\t',
-                (false, true) => b',',
-                (false, false) => return None,
-            };
-            Some(Layout {
-                delimiter,
-                columns: [0, 1, 2, 3, 4, 5, 6],
-                header: None,
-            })
-        })
+        .or_else(|| headless(text))
+}
+
+/// Number of rows that show the columns of an export without a head.
+const ROWS: usize = 400;
+
+/// The layout of an export that has lost its head: quoted fields, or step numbers before instructions. The instructions
+/// show their column; the one after it holds devices.
+fn headless(text: &str) -> Option<Layout> {
+    let lines = || {
+        text.lines()
+            .filter(|line| !line.trim().is_empty())
+            .take(HEAD_ROWS)
+    };
+    let quoted = |separator| lines().any(|line| line.starts_with('"') && line.contains(separator));
+    let numbered = |separator| {
+        let fields =
+            |line: &str| -> Option<u32> { line.split_once(separator)?.0.trim().parse().ok() };
+        lines().next().and_then(fields).is_some()
+    };
+    let delimiter = if quoted("\"\t\"") {
+        b'\t'
+    } else if quoted("\",\"") || numbered(',') {
+        b','
+    } else if quoted("\";\"") || numbered(';') {
+        b';'
+    } else {
+        return None;
+    };
+    let rows: Vec<StringRecord> = table(text, delimiter)
+        .into_records()
+        .flatten()
+        .take(ROWS)
+        .collect();
+    let width = rows.iter().map(StringRecord::len).max()?;
+    let basic = |column: usize| {
+        let fields = rows.iter().filter_map(|row| row.get(column));
+        fields.filter(|field| il::is_basic(field.trim())).count()
+    };
+    // The first of equals: a statement may be a word that is an instruction, too.
+    let instruction = (0..width).rev().max_by_key(|&column| basic(column))?;
+    let Some(columns) = columns(instruction, width).filter(|_| basic(instruction) > 0) else {
+        return None;
+    };
+    Some(Layout {
+        delimiter,
+        columns,
+        header: None,
+    })
+}
+
+/// The columns around that of the instructions: before it steps, and statements if there is room; after it devices, and
+/// either all that editors write or notes alone.
+fn columns(instruction: usize, width: usize) -> Option<[usize; 7]> {
+    const NONE: usize = usize::MAX;
+    let (step, statement) = match instruction {
+        0 => (NONE, NONE),
+        1 => (0, NONE),
+        2 => (0, 1),
+        _ => return None,
+    };
+    let device = instruction + 1;
+    let after = match width.saturating_sub(device + 1) {
+        0 => [NONE; 3],
+        1 => [NONE, NONE, device + 1],
+        2 => [device + 1, NONE, device + 2],
+        _ => [device + 1, device + 2, device + 3],
+    };
+    let [blank, pointer, note] = after;
+    Some([step, statement, instruction, device, blank, pointer, note])
+}
+
+/// Returns true for an export of device comments: rows of a device and a text.
+pub(crate) fn is_comments(text: &str) -> bool {
+    let delimiter = if text.contains('\t') { b'\t' } else { b',' };
+    let rows: Vec<StringRecord> = table(text, delimiter)
+        .into_records()
+        .flatten()
+        .take(ROWS)
+        .collect();
+    let is_device =
+        |row: &&StringRecord| row.len() > 1 && row.get(0).and_then(il::device).is_some();
+    let devices = rows.iter().filter(is_device).count();
+    // Below a head of one row or two.
+    devices > 0 && devices + 2 >= rows.len()
 }
 
 fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
@@ -143,8 +211,13 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
         }
         number += 1;
     }
+    let cpu = reader.program.cpu.as_deref();
+    if let Some(cpu) = cpu.filter(|cpu| cpu::is_other_family(cpu)) {
+        return cpu::other_family(name, SourceKind::Csv, cpu);
+    }
     reader.program.kind = SourceKind::Csv;
     reader.program.source = reader.listing.finish(name);
+    head.statements = reader.statements;
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
@@ -155,16 +228,32 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
 
 /// The rows of a list export above its instructions, in the language of the editor that wrote it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ExportHead(pub(crate) Vec<Vec<String>>);
+pub struct ExportHead {
+    pub(crate) rows: Vec<Vec<String>>,
+    /// The rows of statements, in order.
+    pub(crate) statements: Vec<StatementRow>,
+}
+
+/// A row of a statement, as the editor wrote it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct StatementRow {
+    /// Number of the instruction below it.
+    pub instr: usize,
+    /// Its step number, often empty.
+    pub step: String,
+    /// Its column.
+    pub column: usize,
+    pub text: String,
+}
 
 impl ExportHead {
     fn push(&mut self, record: &StringRecord) {
-        self.0.push(record.iter().map(str::to_owned).collect());
+        self.rows.push(record.iter().map(str::to_owned).collect());
     }
 
     /// Returns true if the columns below are those of [`HEADERS`], in the order in which the writer writes them.
     fn in_usual_order(&self, layout: Layout) -> bool {
-        !self.0.is_empty() && layout.columns.iter().copied().eq(0..HEADERS.len())
+        !self.rows.is_empty() && layout.columns.iter().copied().eq(0..HEADERS.len())
     }
 }
 
@@ -175,6 +264,7 @@ struct Reader {
     listing: Listing,
     /// Statements that wait for the instruction below them.
     statement: Option<SmolStr>,
+    statements: Vec<StatementRow>,
     /// Instruction that further operands belong to.
     current: Current,
 }
@@ -200,6 +290,7 @@ impl Reader {
             diagnostics: Diagnostics::new(),
             listing: Listing::default(),
             statement: None,
+            statements: Vec::new(),
             current: Current::None,
         }
     }
@@ -208,13 +299,8 @@ impl Reader {
     fn head(&mut self, record: &StringRecord, first: bool) {
         self.listing
             .line(&record.iter().collect::<Vec<_>>().join("  "));
-        let cpu = record
-            .iter()
-            .skip(1)
-            .map(str::trim)
-            .find(|field| field.contains("FX"));
+        let cpu = record.iter().skip(1).map(str::trim).find_map(cpu::of_head);
         if let Some(cpu) = cpu {
-            let cpu = cpu.trim_start_matches("FXCPU").trim();
             self.program.cpu = clean(cpu).map(Into::into);
         } else if first {
             self.program.title = record.get(0).and_then(clean).map(Into::into);
@@ -239,6 +325,16 @@ impl Reader {
             .filter_map(clean);
         for statement in statements.clone() {
             append(&mut self.statement, statement);
+        }
+        for (column, text) in [(1, line_statement), (5, pointer_statement)] {
+            if clean(text).is_some() {
+                self.statements.push(StatementRow {
+                    instr: self.program.instrs.len(),
+                    step: step.to_owned(),
+                    column,
+                    text: text.to_owned(),
+                });
+            }
         }
         if !mnemonic.is_empty() || !operand.is_empty() {
             self.instruction_row(step, mnemonic, operand);

@@ -16,22 +16,6 @@ enum Language {
     StructuredText,
 }
 
-/// Description of an editor's binary file in an unknown format, and the alternative.
-pub(crate) fn unpublished(name: &str, bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    if bytes.starts_with(b"AutoShop") {
-        return Some((
-            "a file of AutoShop",
-            "copy the program's instruction list from the editor into a text file",
-        ));
-    }
-    let ending = name.rsplit_once('.').map(|(_, ending)| ending);
-    let comments = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("cow"));
-    (comments && bytes.contains(&0)).then_some((
-        "a file of comments of FXGP/WIN",
-        "export the comments as a table with the columns device and comment, as `COMMENT.csv` beside the program",
-    ))
-}
-
 /// Says that a text is in another language, if it is, and gives a program without instructions.
 pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     let (language, span) = language(text)?;

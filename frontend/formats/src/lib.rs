@@ -16,10 +16,11 @@ mod learned;
 mod listing;
 mod plcopen;
 pub mod print;
+mod recognise;
 mod search;
 mod text;
 
-use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes, inputs};
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -31,6 +32,7 @@ pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{Names, PLCOPEN_CPU, iec_timer_unit};
+pub use recognise::{Recognised, is_program, recognise};
 pub use search::{is_project, programs};
 
 /// A program and what its reader found.
@@ -98,14 +100,14 @@ pub enum ReadError {
         /// Its path.
         path: String,
     },
-    /// A file of an editor whose format is not known.
-    #[error("`{name}` is {what}, whose format is not known: {help}")]
-    Unpublished {
+    /// A file that is no program.
+    #[error("`{name}` is {what}: {help}")]
+    NoProgram {
         /// The file's name.
         name: String,
         /// Description of the file.
         what: &'static str,
-        /// Alternative.
+        /// What to do.
         help: &'static str,
     },
     /// The content is in no known encoding or format.
@@ -125,6 +127,13 @@ pub fn read(path: &Path) -> Result<Read, ReadError> {
 
 /// As [`read`], with options.
 pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> {
+    // The head of a project of GX Developer stands for its folder.
+    let folder = path.parent().filter(|_| is_head(path));
+    let path = folder.unwrap_or(path);
+    let path = match path.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => path,
+    };
     let inside = if path.is_dir() {
         Some(main_file(path)?)
     } else {
@@ -179,6 +188,12 @@ pub fn read_from(
     read_bytes_with(name, &bytes, options)
 }
 
+/// Returns true for `Gppw.gpj`, the file of a project of GX Developer that people open.
+fn is_head(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ending.eq_ignore_ascii_case("gpj") && path.is_file()
+}
+
 /// Files that accompany a `MAIN.wpg` in its project, or in one folder with it.
 fn beside(main: &Path) -> Result<gx::Beside, ReadError> {
     let resource = main.ancestors().nth(3);
@@ -226,6 +241,13 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
             name: name.to_owned(),
         });
     }
+    if let Some(Recognised { what, help }) = recognise(name, bytes).filter(|_| !options.image) {
+        return Err(ReadError::NoProgram {
+            name: name.to_owned(),
+            what,
+            help,
+        });
+    }
     if gx::is_ole(bytes) {
         return Ok(gx::read_gxw(name, bytes, options));
     }
@@ -234,13 +256,6 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     }
     if image::is_image(bytes) || options.image {
         return Ok(image::read(name, bytes, options));
-    }
-    if let Some((what, help)) = foreign::unpublished(name, bytes) {
-        return Err(ReadError::Unpublished {
-            name: name.to_owned(),
-            what,
-            help,
-        });
     }
     let Some((text, replaced)) = encoding::decode(bytes, options.encoding) else {
         return Err(ReadError::Undecodable {
@@ -278,6 +293,7 @@ fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
         path: name(),
         source,
     };
+    inputs::note(path);
     let file = File::open(path).map_err(io)?;
     if file.metadata().map_err(io)?.len() > MAX_SIZE {
         return Err(ReadError::TooLarge { name: name() });

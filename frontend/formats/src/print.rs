@@ -1,8 +1,9 @@
 //! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the
 //! same program, save for the source text and places.
 
-use crate::csv::{ExportHead, HEADERS, encode};
+use crate::csv::{ExportHead, HEADERS, StatementRow, encode};
 use crate::il::{device, is_label, windows::is_heading};
+use crate::text::clean;
 use rungc_syntax::{Device, Instr, Operand, OperandKind, Program, Source};
 use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr as _;
@@ -269,21 +270,31 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
         ],
         HEADERS.map(str::to_owned).to_vec(),
     ];
-    to_csv_with(program, &ExportHead(head))
+    let head = ExportHead {
+        rows: head,
+        statements: Vec::new(),
+    };
+    to_csv_with(program, &head)
 }
 
 /// As [`to_csv`], with the head of the export that the program was read from: an export comes out as the editor wrote
 /// it.
 pub fn to_csv_with(program: &Program, head: &ExportHead) -> Vec<u8> {
-    let mut rows = head.0.clone();
-    for instr in &program.instrs {
-        csv_rows(&mut rows, instr);
+    let mut rows = head.rows.clone();
+    let mut statements = head.statements.as_slice();
+    for (number, instr) in program.instrs.iter().enumerate() {
+        let own = statements.partition_point(|row| row.instr <= number);
+        let (above, below) = statements.split_at(own);
+        statements = below;
+        csv_rows(&mut rows, instr, above);
     }
+    // Statements below the last instruction.
+    rows.extend(statements.iter().map(statement_row));
     encode(&rows)
 }
 
 /// The rows of one instruction: its statements, itself with its first operand, its further operands.
-fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
+fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr, above: &[StatementRow]) {
     let row = |columns: &[(usize, String)]| {
         let mut row = vec![String::new(); HEADERS.len()];
         for (column, text) in columns {
@@ -291,9 +302,13 @@ fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
         }
         row
     };
-    for line in instr.statement().into_iter().flat_map(str::lines) {
-        let pointer = is_label(&instr.mnemonic);
-        rows.push(row(&[(if pointer { 5 } else { 1 }, line.to_owned())]));
+    let lines = || instr.statement().into_iter().flat_map(str::lines);
+    let as_read = above.iter().map(|row| clean(&row.text).unwrap_or_default());
+    if as_read.eq(lines()) {
+        rows.extend(above.iter().map(statement_row));
+    } else {
+        let column = if is_label(&instr.mnemonic) { 5 } else { 1 };
+        rows.extend(lines().map(|line| row(&[(column, line.to_owned())])));
     }
     let mut operands = instr.operands.iter().map(|operand| spelled(&operand.kind));
     rows.push(row(&[
@@ -306,6 +321,14 @@ fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
         (6, instr.note().unwrap_or_default().to_owned()),
     ]));
     rows.extend(operands.map(|operand| row(&[(3, operand)])));
+}
+
+/// The row of a statement as it was read.
+fn statement_row(statement: &StatementRow) -> Vec<String> {
+    let mut row = vec![String::new(); HEADERS.len()];
+    row[0].clone_from(&statement.step);
+    row[statement.column].clone_from(&statement.text);
+    row
 }
 
 /// The program's device comments as the editors export them beside the list (`COMMENT.csv`).

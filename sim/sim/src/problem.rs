@@ -1,7 +1,9 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
-use rungc_syntax::Source;
+use rungc_frontend::{Recognised, is_program, recognise};
+use rungc_syntax::{Source, inputs};
 use serde::de::DeserializeOwned;
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// A mistake in a file.
@@ -55,18 +57,37 @@ fn lines(name: &str, problems: &[Problem]) -> String {
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
-    match std::fs::read_to_string(path) {
-        Ok(text) => Ok(Source::new(path.display().to_string(), text)),
-        Err(error) => Err(LoadError::Io {
-            path: path.to_path_buf(),
-            error,
-        }),
+    inputs::note(path);
+    let io = |error| LoadError::Io {
+        path: path.to_path_buf(),
+        error,
+    };
+    let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let what = other_kind(&name, error.as_bytes());
+        let what = what.unwrap_or_else(|| "it is not text in UTF-8".to_owned());
+        io(Error::new(ErrorKind::InvalidData, what))
+    })?;
+    Ok(Source::new(path.display().to_string(), text))
+}
+
+/// Description of a file that is not TOML, and what to do with it.
+fn other_kind(name: &str, bytes: &[u8]) -> Option<String> {
+    if let Some(Recognised { what, help }) = recognise(name, bytes) {
+        return Some(format!("this is {what}: {help}"));
     }
+    let help = "check it with `rungc check`; a test file names it: `program = { file = \"…\" }`";
+    is_program(bytes).then(|| format!("this is a program: {help}"))
 }
 
 /// Reads the TOML of a file, without looking at what it means.
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
     toml::from_str(&source.text).map_err(|error| {
+        let is_toml = source.text.parse::<toml::Table>().is_ok();
+        let other = other_kind(&source.name, source.text.as_bytes());
+        if let Some(what) = other.filter(|what| !is_toml && !what.contains("test file")) {
+            return vec![Problem::at(source, 0, what)];
+        }
         let at = error.span().map_or(0, |span| span.start);
         vec![Problem::at(source, at, plain(error.message()))]
     })

@@ -178,7 +178,7 @@ pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<R
 fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::Result<Failure> {
     let code = match error {
         ReadError::Undecodable { .. }
-        | ReadError::Unpublished { .. }
+        | ReadError::NoProgram { .. }
         | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
         ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
     };

@@ -631,3 +631,30 @@ fn what_windows_lacks_is_rejected_by_name() {
     insta::assert_snapshot!(rejected(&["--can", "can0"]), @"rungc: --can: cannot open can0: CAN interfaces (SocketCAN) exist only on Linux; an adapter is written `slcan:PORT`");
     insta::assert_snapshot!(rejected(&["--io", "io.toml"]), @"rungc: [io.pins]: `gpio` exists only on Linux");
 }
+
+/// A file of another kind is named for what it is.
+#[test]
+fn programs_and_test_files_are_not_confused() {
+    let folder = folder(&[
+        ("a.il", b"LD X0\nOUT Y0\nEND\n"),
+        ("a.gxw", b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\xFF\xFF"),
+        ("a.png", b"\x89PNG\r\n\x1a\n\0\xFF"),
+        (
+            "t.plctest.toml",
+            b"topic = \"a\"\nmodel = \"fx3u\"\nprogram = { file = \"a.il\" }\n",
+        ),
+    ]);
+    let said = |args: &[&str]| {
+        let output = rungc(folder.path(), args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        text(&output.stderr)
+    };
+    let all = [
+        &["test", "a.il"][..],
+        &["test", "a.gxw"],
+        &["test", "a.png"],
+        &["run", "a.il", "--machine", "a.il"],
+        &["check", "t.plctest.toml"],
+    ];
+    insta::assert_snapshot!(all.map(said).concat());
+}

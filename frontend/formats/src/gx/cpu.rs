@@ -90,17 +90,54 @@ pub(super) fn name(code: u16) -> String {
 }
 
 /// Returns true for the name of a CPU type of the FX family, as [`name`], `*.prj` of GX Works2 and list exports write
-/// it.
+/// it. FX5 is of another family, iQ-F.
 fn is_fx(cpu: &str) -> bool {
-    cpu.trim().to_ascii_uppercase().starts_with("FX")
+    let cpu = cpu.trim().to_ascii_uppercase();
+    cpu.starts_with("FX") && !cpu.starts_with("FX5")
+}
+
+/// The CPU that a field above a list names, as `FXCPU FX3U/FX3UC` or `QCPU (Q mode) Q03UDV` do, without the word for
+/// its family if that is FX.
+pub(crate) fn of_head(field: &str) -> Option<&str> {
+    let own = field.strip_prefix("FXCPU").unwrap_or(field).trim();
+    let mut words = field.split(|c: char| !c.is_ascii_alphanumeric());
+    let is_name = |word: &str| word.starts_with("FX") || word.ends_with("CPU") || is_other(word);
+    words
+        .any(is_name)
+        .then_some(own)
+        .filter(|own| !own.is_empty())
+}
+
+/// Returns true for the name of a CPU of another family of MELSEC. Compatible PLCs have names that begin with L, too.
+fn is_other(word: &str) -> bool {
+    let word = word.to_ascii_uppercase();
+    let known = CPUS
+        .iter()
+        .any(|&(code, name)| code >> 8 != FX && name == word && !name.starts_with('L'));
+    let numbered = |family: &str| {
+        word.strip_prefix(family)
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    word.starts_with("FX5")
+        || known
+        || ["Q", "R", "QS", "NZ2GACP", "LJ72MS"]
+            .into_iter()
+            .any(numbered)
+}
+
+/// Returns true for the CPU of a list that is not for the FX family: one of another family of MELSEC.
+pub(crate) fn is_other_family(cpu: &str) -> bool {
+    let mut words = cpu.split(|c: char| !c.is_ascii_alphanumeric());
+    !is_fx(cpu) && words.any(|word| is_other(word) || word.ends_with("CPU"))
 }
 
 /// Result of reading a project for a CPU of another family: only an error that names the CPU.
-pub(super) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
+pub(crate) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
     (!is_fx(cpu)).then(|| other_family(file, kind, cpu))
 }
 
-fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
+pub(crate) fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
+    let what = if kind.is_project() { "project" } else { "list" };
     let mut listing = Listing::default();
     listing.next_line();
     let span = listing.word(&format!("?? CPU {cpu}"));
@@ -109,9 +146,9 @@ fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
         codes::OTHER_FAMILY
             .at(
                 span,
-                format!("the project is for the CPU {cpu}, which is not one of the FX family"),
+                format!("the {what} is for the CPU {cpu}, which is not one of the FX family"),
             )
-            .label("the CPU of the project")
+            .label(format!("the CPU of the {what}"))
             .help(
                 "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC",
             ),

@@ -1,7 +1,7 @@
 //! Projects of GX Developer (a folder with `MAIN.wpg` and `COMMENT.wcd`) and GX Works2 (`.gxw`).
 
 mod comments;
-mod cpu;
+pub(crate) mod cpu;
 mod fields;
 mod parameters;
 mod program;

@@ -211,6 +211,17 @@ pub(crate) fn device(text: &str) -> Option<Device> {
     )
 }
 
+/// Instructions that every program has some of.
+const BASIC: [&str; 24] = [
+    "LD", "LDI", "LDP", "LDF", "AND", "ANI", "ANDP", "ANDF", "OR", "ORI", "ORP", "ORF", "ANB",
+    "ORB", "MPS", "OUT", "SET", "RST", "STL", "RET", "MOV", "NOP", "FEND", "END",
+];
+
+/// Returns true for one of the instructions that every program has some of.
+pub(crate) fn is_basic(word: &str) -> bool {
+    BASIC.iter().any(|basic| basic.eq_ignore_ascii_case(word))
+}
+
 /// Returns true if a mnemonic is a label: a pointer P or I.
 pub(crate) fn is_label(mnemonic: &str) -> bool {
     let digits = mnemonic.strip_prefix(['P', 'I']).unwrap_or("");

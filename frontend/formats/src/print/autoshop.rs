@@ -19,6 +19,10 @@ pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
         if !out.is_empty() {
             out.push('\n');
         }
+        window
+            .before
+            .iter()
+            .for_each(|nop| statements(&mut out, nop));
         heading(&mut out, window, &names);
         for instr in window.instrs {
             write(&mut out, instr, &names)?;
@@ -35,6 +39,8 @@ pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
 struct Window<'p> {
     /// The pointer of a routine.
     label: Option<Device>,
+    /// Instructions without effect above it, for their remarks.
+    before: &'p [Instr],
     /// Its label as written, with remarks.
     head: Option<&'p Instr>,
     instrs: &'p [Instr],
@@ -47,6 +53,11 @@ fn label(instr: &Instr) -> Option<Device> {
     crate::il::is_label(&instr.mnemonic)
         .then(|| device(&instr.mnemonic))
         .flatten()
+}
+
+/// Returns true for an instruction that does nothing.
+fn is_nop(instr: &Instr) -> bool {
+    instr.mnemonic == "NOP"
 }
 
 /// Divides a program at FEND, SRET and IRET.
@@ -66,12 +77,19 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
     let main = instrs.iter().position(is("FEND")).unwrap_or(end);
     let mut windows = vec![Window {
         label: None,
+        before: &[],
         head: None,
         instrs: &instrs[..main],
         end: instrs.get(main).or(last),
     }];
     let mut rest = instrs.get(main + 1..).unwrap_or_default();
-    while let Some((first, body)) = rest.split_first() {
+    loop {
+        // Between windows, NOP does nothing and has no place.
+        let between = rest.iter().take_while(|instr| is_nop(instr)).count();
+        let (skipped, routines) = rest.split_at(between);
+        let Some((first, body)) = routines.split_first() else {
+            break;
+        };
         let pointer = label(first).ok_or_else(|| {
             let what = format!("`{first}` is in no subroutine and no interrupt routine");
             refused(first, what, "a routine begins with its label")
@@ -81,10 +99,12 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
             _ => ("SRET", "subroutine"),
         };
         // A routine may return earlier; the last return before the next routine ends it.
-        let next = body.windows(2).position(|pair| {
-            let returns = pair[0].mnemonic == ending;
-            returns && (label(&pair[1]).is_some() || pair[1].mnemonic == "FEND")
-        });
+        let ends = |at: usize| {
+            let mut after = body[at + 1..].iter().filter(|instr| !is_nop(instr));
+            let follows = |next: &Instr| label(next).is_some() || next.mnemonic == "FEND";
+            body[at].mnemonic == ending && after.next().is_none_or(follows)
+        };
+        let next = (0..body.len()).find(|&at| ends(at));
         let length = next.map_or(body.len(), |at| at + 1);
         let Some((end, inside)) = body[..length]
             .split_last()
@@ -99,6 +119,7 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
         }
         windows.push(Window {
             label: Some(pointer),
+            before: skipped,
             head: Some(first),
             instrs: inside,
             end: Some(end),

@@ -2,6 +2,7 @@
 
 mod corpus;
 mod diagnostics;
+mod files;
 mod fixture;
 mod formats;
 mod image;

@@ -92,7 +92,7 @@ fn instr() -> impl Strategy<Value = Instr> {
 prop_compose! {
     fn program()(
         title in comment(),
-        cpu in option::of("FX[0-9A-Z/]{1,10}"),
+        cpu in option::of("FX[0-46-9A-Z/][0-9A-Z/]{0,9}"),
         instrs in vec(instr(), 0..20),
         comments in btree_map(device(), text().prop_filter("clean", |t| !t.is_empty() && t.trim() == t), 0..5),
     ) -> Program {

@@ -104,8 +104,8 @@ super::codes! {
     right: "LD X0\nMOV D10 D0\nEND\n";
 
     OTHER_FAMILY = "E0018" "other-family" Error None,
-    "the project is for a CPU of another family",
-    "rungc compiles programs of the FX family. MELSEC-Q, L, A and QnA CPUs have different instructions, devices and memory, even where the names are the same.",
+    "the program is for a CPU of another family",
+    "rungc compiles programs of the FX family. CPUs of MELSEC-Q, L, R, A and QnA and of iQ-F (FX5) have different instructions, devices and memory, even where the names are the same.",
     wrong: "",
     right: "";
 

@@ -67,7 +67,10 @@ fn recovered(name: &str, bytes: &[u8], data: &[u8], options: &ReadOptions, why: 
         return refused;
     }
     let Some(mut read) = recovery::read(name, &streams, options) else {
-        return no_program(name, bytes);
+        return match Container::open(bytes) {
+            Some(_) => no_program(name, bytes),
+            None => cut_off(name, bytes),
+        };
     };
     read.program.cpu = cpu;
     if let Some(table) = streams.iter().find(|stream| comments::is_developer(stream)) {
@@ -90,6 +93,20 @@ fn recovered(name: &str, bytes: &[u8], data: &[u8], options: &ReadOptions, why: 
             .help("open the project in GX Works2, compare, and save it again"),
     );
     read
+}
+
+/// A project whose container cannot be opened: often one that was not copied whole.
+fn cut_off(name: &str, bytes: &[u8]) -> Read {
+    super::without_program(name, "?? damaged", |span| {
+        let length = bytes.len();
+        let message = format!(
+            "the project is damaged or cut off after {length} bytes, and nothing in it can be read"
+        );
+        codes::DAMAGED
+            .at(span, message)
+            .label("this program")
+            .help("copy the file again, and compare its size with that of the original")
+    })
 }
 
 /// A part of the project.

@@ -1,0 +1,283 @@
+//! Files as people have them: of other kinds, without their heads, for other families, cut off.
+
+use crate::fixture::{self, Stream, gxw, wpg};
+use encoding_rs::Encoding;
+use rungc_frontend::{print, read, read_bytes};
+use rungc_syntax::Program;
+
+fn texts(program: &Program) -> Vec<String> {
+    program.instrs.iter().map(ToString::to_string).collect()
+}
+
+/// Each kind of file is named for what it is, with what to do.
+#[test]
+fn files_that_are_no_programs_are_named() {
+    let ole = |text: &str| {
+        let stream = Stream {
+            name: text,
+            content: b"",
+        };
+        fixture::compound(&[stream])
+    };
+    let files: Vec<(&str, Vec<u8>)> = vec![
+        ("a.gx3", b"\x01\0\x02binary".to_vec()),
+        ("zip.gx3", b"PK\x03\x04....data.xml".to_vec()),
+        ("a.hcp", b"\x05\0\0\x07".to_vec()),
+        ("a.zip", b"PK\x03\x04....MAIN.wpg".to_vec()),
+        ("a.docx", b"PK\x03\x04....word/document.xml".to_vec()),
+        ("a.xlsx", b"PK\x03\x04....xl/workbook.xml".to_vec()),
+        ("a.doc", ole("WordDocument")),
+        ("a.png", b"\x89PNG\r\n\x1a\n\0\0\0".to_vec()),
+        ("a.jpg", b"\xFF\xD8\xFF\xE0\0".to_vec()),
+        ("a.pdf", b"%PDF-1.7\n".to_vec()),
+        ("a.COW", b"\0\x01START".to_vec()),
+        ("a.DMW", b"\0\x01\x02\0".to_vec()),
+        (
+            "Gppw.gpj",
+            b"[Pass]\r\nName=\r\n[Version]\r\nVer=8\r\n".to_vec(),
+        ),
+        (
+            "COMMENT.csv",
+            b"\"Device Name\",\"Comment\"\r\n\"X000\",\"start\"\r\n\"Y000\",\"motor\"\r\n".to_vec(),
+        ),
+        (
+            "t.plctest.toml",
+            b"topic = \"a\"\nmodel = \"fx3u\"\nsource = \"\"\"\nLD X0\nEND\n\"\"\"\n".to_vec(),
+        ),
+        (
+            "rungc.toml",
+            b"# settings\n[project]\nprogram = \"a.il\"\n".to_vec(),
+        ),
+        ("m.toml", b"[[axis]]\nname = \"x\"\n".to_vec()),
+        ("f.toml", b"[fleet]\n".to_vec()),
+        (
+            "a.c",
+            b"/* motor */\n#include <stdio.h>\nint main(void) { return 0; }\n".to_vec(),
+        ),
+        ("a.rs", b"fn main() {}\n".to_vec()),
+        ("a.py", b"import sys\n".to_vec()),
+        ("a.json", b"{\n \"a\": 1\n}\n".to_vec()),
+        ("a.html", b"<!DOCTYPE html>\n<html></html>\n".to_vec()),
+        ("a.svg", b"<svg xmlns=\"\"></svg>\n".to_vec()),
+        ("a.vcd", b"$date today $end\n".to_vec()),
+        ("a.elf", b"\x7FELF\x01\x01\0\0".to_vec()),
+    ];
+    let said = files
+        .iter()
+        .map(|(name, bytes)| match read_bytes(name, bytes) {
+            Err(error) => error.to_string(),
+            Ok(read) => panic!("{name}: {:?}", read.diagnostics.iter().next()),
+        });
+    insta::assert_snapshot!(said.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn programs_are_not_taken_for_something_else() {
+    for text in [
+        "LD X0\nOUT Y0\nEND\n",
+        "; import this\n; def it\nLD X0\nEND\n",
+        "; #include nothing\n0 LD X000\n1 END\n",
+        "LD= D0 K1\nOUT Y0\nEND\n",
+        "MAIN\nLD X0\nEND\n",
+    ] {
+        assert_eq!(
+            rungc_frontend::recognise("a.txt", text.as_bytes()),
+            None,
+            "{text}"
+        );
+        assert!(rungc_frontend::is_program(text.as_bytes()), "{text}");
+    }
+    assert!(!rungc_frontend::is_program(
+        b"topic = \"a\"\nsource = \"\"\"\nLD X0\n\"\"\"\n"
+    ));
+}
+
+#[test]
+fn a_project_is_opened_by_the_file_that_people_click() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = folder.path().join("Resource/POU/Body");
+    std::fs::create_dir_all(&body).unwrap();
+    let program = wpg(0x0208, &[b"\x34", b"\x34"]);
+    std::fs::write(body.join("MAIN.wpg"), program).unwrap();
+    std::fs::write(folder.path().join("Gppw.gpj"), "[Pass]\r\nName=\r\n").unwrap();
+    let whole = read(folder.path()).unwrap();
+    let clicked = read(&folder.path().join("Gppw.gpj")).unwrap();
+    assert_eq!(texts(&clicked.program), texts(&whole.program));
+    assert_eq!(clicked.program.source.name, whole.program.source.name);
+    assert!(!texts(&clicked.program).is_empty());
+}
+
+/// A project that was cut off while it was copied.
+#[test]
+fn a_cut_off_project_says_so() {
+    let whole = gxw(&[]);
+    let read = read_bytes("a.gxw", &whole[..600]).unwrap();
+    let first = read.diagnostics.iter().next().unwrap();
+    insta::assert_snapshot!(first.message);
+}
+
+/// A table with this head above one instruction, as the editors write it.
+fn export(cpu: &str) -> Vec<u8> {
+    let rows = format!(
+        "\"MAIN\"\r\n\"PLC Information:\"\t\"{cpu}\"\r\n\"Step No.\"\t\"Line Statement\"\t\"Instruction\"\t\"I/O(Device)\"\t\"Blank\"\t\"PI Statement\"\t\"Note\"\r\n\
+         \"0\"\t\"\"\t\"LD\"\t\"X10\"\t\"\"\t\"\"\t\"\"\r\n\"1\"\t\"\"\t\"END\"\t\"\"\t\"\"\t\"\"\t\"\"\r\n"
+    );
+    let units = std::iter::once(0xFEFF).chain(rows.encode_utf16());
+    units.flat_map(u16::to_le_bytes).collect()
+}
+
+#[test]
+fn an_export_for_another_family_is_refused() {
+    for cpu in [
+        "QCPU (Q mode) Q03UDV",
+        "QCPU (A mode) Q02(H)-A",
+        "QnACPU Q2A",
+        "LCPU L26-BT",
+        "LCPU L02S",
+        "RCPU R04",
+        "R08EN",
+        "ACPU A2N",
+        "A1FX",
+        "FX5CPU FX5U",
+        "FX5UCPU",
+        "FX5UJ",
+        "Q06UDV",
+        "NCCPU",
+        "MOTION CPU",
+    ] {
+        let read = read_bytes("MAIN.csv", &export(cpu)).unwrap();
+        let codes: Vec<_> = read.diagnostics.iter().map(|d| d.code).collect();
+        assert_eq!(codes, ["E0018"], "{cpu}");
+        assert!(
+            read.diagnostics.iter().all(|d| d.message.contains(cpu)),
+            "{cpu}"
+        );
+    }
+    for cpu in [
+        "FXCPU FX3U/FX3UC",
+        "FXCPU FX1S",
+        "FX2N/FX2NC",
+        "",
+        "H2U",
+        "L02S",
+        "HM",
+        "FXCPU FX0/FX0S",
+    ] {
+        let read = read_bytes("MAIN.csv", &export(cpu)).unwrap();
+        assert!(!read.diagnostics.has_errors(), "{cpu}");
+        assert_eq!(texts(&read.program), ["LD X010", "END"], "{cpu}");
+    }
+}
+
+/// The instructions show the columns of an export that has lost its head.
+#[test]
+fn exports_without_headings_are_read() {
+    let rows = [
+        ["0", "LD", "X000"],
+        ["1", "OUT", "T0"],
+        ["", "", "K30"],
+        ["4", "ADD", "D0"],
+        ["", "", "K1"],
+        ["", "", "D0"],
+        ["11", "END", ""],
+    ];
+    let program = ["LD X000", "OUT T0 K30", "ADD D0 K1 D0", "END"];
+    let table =
+        |delimiter: &str, quote: &str, columns: &dyn Fn([&str; 3]) -> Vec<String>| -> String {
+            let row = |row: [&str; 3]| {
+                let fields = columns(row)
+                    .iter()
+                    .map(|field| format!("{quote}{field}{quote}"))
+                    .collect::<Vec<_>>();
+                fields.join(delimiter) + "\r\n"
+            };
+            rows.iter().map(|fields| row(*fields)).collect()
+        };
+    let own = |fields: &[&str]| {
+        fields
+            .iter()
+            .map(|field| (*field).to_owned())
+            .collect::<Vec<_>>()
+    };
+    for (delimiter, quote) in [("\t", "\""), (",", "\""), (";", "\""), (",", ""), (";", "")] {
+        for (name, columns) in [
+            (
+                "three",
+                &(|[step, word, operand]: [&str; 3]| own(&[step, word, operand]))
+                    as &dyn Fn([&str; 3]) -> Vec<String>,
+            ),
+            ("four", &|[step, word, operand]| {
+                own(&[step, "", word, operand])
+            }),
+            ("note", &|[step, word, operand]| {
+                own(&[step, word, operand, "beside"])
+            }),
+            ("all", &|[step, word, operand]| {
+                own(&[step, "", word, operand, "", "", ""])
+            }),
+        ] {
+            let text = table(delimiter, quote, columns);
+            let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+            assert_eq!(texts(&read.program), program, "{name}: {text}");
+            assert!(!read.diagnostics.has_errors(), "{name}: {text}");
+            assert_eq!(read.program.instrs[3].step, Some(11), "{name}: {text}");
+        }
+    }
+}
+
+/// An export comes out byte for byte, whatever its rows of statements hold.
+#[test]
+fn rows_of_statements_are_kept() {
+    let row = |fields: [&str; 7]| fields.map(|field| format!("\"{field}\"")).join("\t") + "\r\n";
+    let rows = [
+        row(["0", "first part", "", "", "", "", ""]),
+        row(["", "second line", "", "", "", "", ""]),
+        row(["0", "", "LD", "X000", "", "", ""]),
+        row(["1", "", "OUT", "Y000", "", "", "a note"]),
+        row(["2", "above a label", "", "", "", "", ""]),
+        row(["2", "", "", "", "", "of the pointer", ""]),
+        row(["2", "", "P0", "", "", "", ""]),
+        row(["3", "", "END", "", "", "", ""]),
+        row(["4", "below all", "", "", "", "", ""]),
+    ];
+    let head = row([
+        "Step No.",
+        "Line Statement",
+        "Instruction",
+        "I/O(Device)",
+        "Blank",
+        "PI Statement",
+        "Note",
+    ]);
+    let text = format!(
+        "\"MAIN\"\r\n\"PLC Information:\"\t\"FXCPU FX3U/FX3UC\"\r\n{head}{}",
+        rows.concat()
+    );
+    let units = std::iter::once(0xFEFF).chain(text.encode_utf16());
+    let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
+    let read = read_bytes("MAIN.csv", &bytes).unwrap();
+    let written = print::to_csv_with(&read.program, read.export_head.as_ref().unwrap());
+    let shown = |bytes: &[u8]| {
+        Encoding::for_label(b"utf-16le")
+            .unwrap()
+            .decode(bytes)
+            .0
+            .into_owned()
+    };
+    assert_eq!(shown(&written), shown(&bytes));
+}
+
+/// Between routines, NOP has no window; what is written above it stays.
+#[test]
+fn autoshop_has_no_place_for_nop_between_routines() {
+    let list = "LD X0\nCALL P0\nNOP\nFEND\nNOP\nP0\nLD X1\nSRET\nOUT Y1\nSRET\n; feeder\nNOP\nNOP\nI001\nOUT Y0\nIRET\nNOP\nEND\n";
+    let program = rungc_frontend::read_text("a.il", list).program;
+    let written = print::to_autoshop(&program).unwrap();
+    assert!(written.contains("; feeder"), "{written}");
+    let back = rungc_frontend::read_text("a.txt", &written);
+    assert!(!back.diagnostics.has_errors(), "{written}");
+    let words = |program: &Program| texts(program).join(" ").replace(" NOP", "");
+    assert_eq!(words(&back.program), words(&program));
+    let alone = rungc_frontend::read_text("a.il", "LD X0\nOUT Y0\nFEND\nNOP\nEND\n").program;
+    assert!(print::to_autoshop(&alone).is_ok());
+}
