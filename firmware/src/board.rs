@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
-use rungc_syntax::{DeviceClass, Source};
+use rungc_syntax::{DeviceClass, Source, inputs};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -364,6 +364,7 @@ pub(crate) const FUNCTIONS: [(&str, &str); 23] = [
 
 /// Reads a description. Sources that it names are looked for beside it.
 pub fn load(path: &Path) -> Result<Board, BoardError> {
+    inputs::note(path);
     let text = std::fs::read_to_string(path).map_err(|error| BoardError::Io {
         path: path.to_path_buf(),
         error,

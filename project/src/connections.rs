@@ -4,7 +4,7 @@ use crate::{Error, Project};
 use rungc_host::io::Connection;
 use rungc_models::Model;
 use rungc_models::runs::name_class;
-use rungc_syntax::{DeviceRun, Program, Span, codes};
+use rungc_syntax::{DeviceRun, Program, Span, codes, inputs};
 use std::path::Path;
 
 /// A connection, with the places of what it says.
@@ -33,7 +33,11 @@ impl Project {
     pub fn connections(&self) -> Vec<Connection> {
         let connected = self.io.iter().map(|row| {
             let mut connection = row.connection.clone();
-            let seen = |path: &str| self.at(Path::new(path)).display().to_string();
+            let seen = |path: &str| {
+                let path = self.at(Path::new(path));
+                inputs::note(&path);
+                path.display().to_string()
+            };
             connection.seen_from(seen);
             connection
         });

@@ -20,7 +20,7 @@ mod template;
 use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, Names, ReadOptions};
 use rungc_models::{ModelId, Variant};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -198,6 +198,7 @@ impl Project {
             path: path.to_owned(),
             error,
         };
+        inputs::note(path);
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(io)?;
         file.take(MAX_SIZE + 1)

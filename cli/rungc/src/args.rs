@@ -25,6 +25,7 @@ pub use serve::ServeArgs;
 pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 
+use crate::output::OutputPath;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, Names, ReadOptions};
@@ -312,7 +313,7 @@ pub struct Plan {
     /// programs, a folder for all outputs, each under its program's name; in c they share headers, the runtime and a
     /// Makefile there.
     #[arg(short, long, value_name = "PATH")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Name of the program in the emitted code. Default: derived from the file's name.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -348,7 +349,10 @@ pub struct Plan {
     /// Make emitted Rust depend on the runtime in this folder, which several crates can share, instead of a copy inside
     /// the crate; the runtime is written there unless the folder has it (docs/src/embedding.md).
     #[arg(long, value_name = "FOLDER")]
-    pub runtime: Option<PathBuf>,
+    pub runtime: Option<OutputPath>,
+    /// Folder outside that of rungc.toml which its `[build] output` may lead to; may be repeated.
+    #[arg(long, value_name = "FOLDER")]
+    pub allow_folder: Vec<PathBuf>,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,
@@ -383,24 +387,24 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Record inputs, outputs and watched devices as a value change dump for GTKWave and other waveform viewers;
-    /// overwrites an existing file.
+    /// overwrites an earlier recording.
     #[arg(long, value_name = "FILE")]
-    pub vcd: Option<PathBuf>,
+    pub vcd: Option<OutputPath>,
     /// Record this run as a test file (`*.plctest.toml`): the devices set, and the outputs and the devices of --watch
-    /// as expectations. Overwrites an existing file.
+    /// as expectations.
     #[arg(long, value_name = "FILE", conflicts_with = "real_time")]
-    pub record: Option<PathBuf>,
+    pub record: Option<OutputPath>,
     /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites
-    /// an existing file.
+    /// an earlier drawing.
     #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutputPath>,
     /// With --plot: plot against this value instead of time, such as a slave axis against its master.
     #[arg(long, value_name = "DEVICE", requires = "plot")]
     pub over: Option<String>,
     /// Draw the last samples of HM's oscilloscope (D8030 to D8043) as an SVG, and write them as a table to a `.csv`
-    /// file of the same name; overwrites existing files.
+    /// file of the same name; overwrites earlier ones.
     #[arg(long, value_name = "FILE")]
-    pub scope: Option<PathBuf>,
+    pub scope: Option<OutputPath>,
     /// Store latched devices in this file: loaded at the start, saved at the end, and in real time also once a second
     /// if one has changed. Default: the file named in rungc.toml.
     #[arg(long, value_name = "FILE")]
@@ -408,6 +412,9 @@ pub struct RunArgs {
     /// Run in real time instead of as fast as possible.
     #[arg(long)]
     pub real_time: bool,
+    /// Overwrite existing files that are not earlier results of the same kind.
+    #[arg(long)]
+    pub force: bool,
     /// Fail (exit code 1) on PLC operation errors; --verbose reports each as it occurs.
     #[arg(long)]
     pub deny_errors: bool,
@@ -454,7 +461,7 @@ pub struct ViewArgs {
     /// Write a file: a page (.html) or document (.pdf) of the whole program, or a picture (.svg) of the selected
     /// networks. With several programs, a folder for their pages.
     #[arg(short, long, value_name = "PATH")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
@@ -476,7 +483,7 @@ pub struct XrefArgs {
     pub to: XrefTo,
     /// File to write. Default: standard output. With several programs, a folder for all outputs.
     #[arg(short, long, value_name = "PATH")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
@@ -627,4 +634,68 @@ pub enum EngineChoice {
     Rust,
     /// All three.
     All,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{Arg, CommandFactory};
+    use std::any::TypeId;
+    use std::collections::BTreeSet;
+
+    /// Arguments whose files are read. Those that are written have the type [`OutputPath`].
+    const INPUTS: [&str; 13] = [
+        "allow_folder",
+        "board",
+        "export",
+        "file",
+        "files",
+        "io",
+        "machine",
+        "names",
+        "project",
+        "retain",
+        "same_as",
+        "topic",
+        "volume",
+    ];
+
+    fn is<T: 'static>(arg: &Arg) -> bool {
+        arg.get_value_parser().type_id() == TypeId::of::<T>()
+    }
+
+    #[test]
+    fn each_path_is_an_input_or_an_output_with_a_test() {
+        let cli = Cli::command();
+        let mut outputs = BTreeSet::new();
+        for command in cli.get_subcommands() {
+            for arg in command.get_arguments() {
+                let (command, id) = (command.get_name(), arg.get_id().as_str());
+                let names = arg.get_value_names().unwrap_or_default();
+                let is_path = names
+                    .iter()
+                    .any(|n| matches!(n.as_str(), "FILE" | "PATH" | "FOLDER"));
+                if is::<OutputPath>(arg) {
+                    outputs.insert(format!("{command} --{id}"));
+                } else if is::<PathBuf>(arg) || is_path {
+                    assert!(
+                        INPUTS.contains(&id),
+                        "{command} {id}: an output has the type OutputPath"
+                    );
+                }
+            }
+        }
+        let lines = include_str!("../tests/outputs.txt").lines();
+        let lines = lines.filter(|line| !line.starts_with('#'));
+        let tested: BTreeSet<String> = lines
+            .map(|line| {
+                line.split('|')
+                    .take(2)
+                    .map(str::trim)
+                    .collect::<Vec<_>>()
+                    .join(" ")
+            })
+            .collect();
+        assert_eq!(outputs, tested, "tests/outputs.txt has a line for each");
+    }
 }

@@ -6,12 +6,13 @@
 mod args;
 mod commands;
 mod crash;
+mod output;
 mod progress;
 mod report;
 mod time;
 
 use args::{Cli, ColorWhen, Command, Emit};
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
@@ -19,7 +20,11 @@ use std::process::ExitCode;
 /// Does what the arguments of the process ask for, and returns its exit code.
 pub fn main() -> ExitCode {
     crash::report_panics();
-    let cli = Cli::parse();
+    let matches = Cli::command().get_matches();
+    let cli = match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(error) => error.format(&mut Cli::command()).exit(),
+    };
     let cx = Context {
         color: color(cli.color),
         stdout_in_use: match &cli.command {
@@ -43,7 +48,8 @@ pub fn main() -> ExitCode {
             (false, true) => Verbosity::Verbose,
         },
     };
-    let result = match &cli.command {
+    let checked = output::check_arguments(&matches);
+    let result = checked.and_then(|()| match &cli.command {
         Command::Check(args) => commands::check::run(args, cx),
         Command::Build(args) => commands::build::run(args, cx),
         Command::Run(args) => commands::run::run(args, cx),
@@ -71,7 +77,7 @@ pub fn main() -> ExitCode {
                 .map(|()| Outcome::Success)
                 .map_err(Failure::from)
         }
-    };
+    });
     match result {
         // An error caused by an interruption is not reported separately.
         Err(Failure::Because(_)) if interruption::is_requested() => {

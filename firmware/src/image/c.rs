@@ -10,7 +10,7 @@ use super::{Image, boot2, comment, linker_script, terminals};
 use crate::board::{Board, FUNCTIONS, OutputPin, Setup};
 use crate::template;
 use rungc_emit::OutFile;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, inputs};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -63,6 +63,7 @@ pub fn project(image: &Image) -> std::io::Result<Vec<OutFile>> {
     files.push(OutFile::new("image.ld", linker_script(image.board)));
     files.push(OutFile::new("Makefile", makefile(image, runtime)));
     for (name, path) in &image.board.sources {
+        inputs::note(path);
         files.push(OutFile::new(name, std::fs::read_to_string(path)?));
     }
     Ok(files)

@@ -8,7 +8,7 @@ use rungc_models::runs::name_class;
 use rungc_project::{Error, device};
 use rungc_rt::comm::service::address;
 use rungc_syntax::codes::FLEET_FILE;
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Source, Span, diag};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Source, Span, diag, inputs};
 use std::net::SocketAddr;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -129,6 +129,7 @@ impl Fleet {
             path: path.to_owned(),
             error,
         };
+        inputs::note(path);
         let text = std::fs::read_to_string(path).map_err(io)?;
         Fleet::parse(path, &text)
     }

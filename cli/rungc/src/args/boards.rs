@@ -1,5 +1,6 @@
 //! Arguments of `boards`.
 
+use crate::output::OutputPath;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -18,7 +19,7 @@ pub struct BoardsArgs {
     pub pins_only: bool,
     /// Image to write.
     #[arg(short, long, value_name = "FILE", requires = "pins_only")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing image.
     #[arg(long, requires = "output")]
     pub force: bool,

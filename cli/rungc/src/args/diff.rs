@@ -1,6 +1,7 @@
 //! Arguments of `diff`.
 
 use super::{FileKind, Reading, Reporting};
+use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -17,9 +18,12 @@ pub struct DiffArgs {
     /// Format of the comparison.
     #[arg(long, value_enum, default_value_t = DiffFormat::Human)]
     pub format: DiffFormat,
-    /// File to write the comparison to, overwriting an existing one. Default: standard output.
+    /// File to write the comparison to, overwriting an earlier one. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
+    /// Overwrite an existing file that is not an earlier comparison.
+    #[arg(long)]
+    pub force: bool,
     /// Line width of ladder diagrams, in characters. Default: the width of the terminal, or 120; 100 with `--format
     /// md`.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]

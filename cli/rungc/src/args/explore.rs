@@ -1,6 +1,7 @@
 //! Arguments of `explore`.
 
 use super::{EngineChoice, Input, Properties};
+use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use rungc_explore::Kind;
 use std::path::PathBuf;
@@ -44,11 +45,11 @@ pub struct ExploreArgs {
     pub replay: EngineChoice,
     /// Write the runs to a test file, which fails until the program is corrected: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
-    pub write_test: Option<PathBuf>,
-    /// Record the run of the first finding as a value change dump; overwrites an existing file.
+    pub write_test: Option<OutputPath>,
+    /// Record the run of the first finding as a value change dump; overwrites an earlier one.
     #[arg(long, value_name = "FILE")]
-    pub vcd: Option<PathBuf>,
-    /// Overwrite an existing test file.
+    pub vcd: Option<OutputPath>,
+    /// Overwrite existing files.
     #[arg(long)]
     pub force: bool,
 }

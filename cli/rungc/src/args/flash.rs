@@ -1,6 +1,7 @@
 //! Arguments of `flash`.
 
 use super::forms::serial_end;
+use crate::output::OutputPath;
 use clap::{ArgGroup, Args};
 use rungc_project::serve::LineEnd;
 use std::path::PathBuf;
@@ -34,7 +35,7 @@ pub struct FlashArgs {
     pub at: u32,
     /// Save all of flash to a file before erasing. Not possible for a read-protected part.
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
-    pub backup: Option<PathBuf>,
+    pub backup: Option<OutputPath>,
     /// Overwrite an existing backup.
     #[arg(long, requires = "backup")]
     pub force: bool,

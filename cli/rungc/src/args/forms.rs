@@ -1,11 +1,11 @@
 //! Arguments of the commands for other forms of programs: `convert`, `read`.
 
 use super::{Inputs, Reporting};
+use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use rungc_frontend::Names;
 use rungc_project::serve::LineEnd;
 use std::fs;
-use std::path::PathBuf;
 
 /// Arguments of `convert`.
 #[derive(Args, Debug)]
@@ -20,7 +20,7 @@ pub struct ConvertArgs {
     pub body: Option<PlcopenBody>,
     /// File to write. Default: standard output. With several programs, a folder for all outputs.
     #[arg(short, long, value_name = "PATH")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
@@ -47,7 +47,7 @@ pub struct ReadArgs {
     pub to: ConvertTo,
     /// File to write. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
@@ -147,6 +147,7 @@ impl ConvertTo {
 
 /// Reads a table of variables and their devices.
 pub fn names(path: &str) -> Result<Names, String> {
+    rungc_syntax::inputs::note(path.as_ref());
     let table = fs::read_to_string(path).map_err(|error| error.to_string())?;
     Names::parse(&table)
         .map_err(|row| format!("`{row}` is not a row of a name and a device, such as `Start,X000`"))

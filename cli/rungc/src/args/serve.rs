@@ -1,6 +1,7 @@
 //! Options of `run` and `serve` that open servers and connections.
 
 use crate::commands::run::STANDARD_ERROR;
+use crate::output::OutputPath;
 use clap::Args;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::Model;
@@ -34,15 +35,18 @@ pub struct ServeArgs {
     /// with the bit rate in kbit/s (default 500): `slcan:/dev/ttyACM0,250`, `slcan:pty`. Runs in real time.
     #[arg(long, value_parser = Line::can, value_name = "BUS")]
     pub can: Option<Line>,
-    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap`
+    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an earlier log; to `*.pcap`
     /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
-    pub trace_frames: Option<PathBuf>,
+    pub trace_frames: Option<OutputPath>,
     /// Connect terminals and registers as described by the tables `[io.NAME]` of this file (rungc.toml,
     /// docs/src/linux.md): Modbus remote I/O, an MQTT broker, pins (Linux), files, standard input and output. Runs in
     /// real time. `rungc serve` uses the project's rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
+    /// Folder outside that of rungc.toml which its `[io]` and `[retain]` may use; may be repeated.
+    #[arg(long, value_name = "FOLDER")]
+    pub allow_folder: Vec<PathBuf>,
     /// Scan with this real-time priority (Linux: SCHED_FIFO, 1 to 99), with all memory locked. If the system does not
     /// permit this, a warning is printed and the run continues without. At the end, scan start latency is reported.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=99), value_name = "N")]

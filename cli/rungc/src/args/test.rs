@@ -1,6 +1,7 @@
 //! Arguments of `test`.
 
 use super::{EngineChoice, Shard};
+use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -51,10 +52,13 @@ pub struct TestArgs {
     /// Format of the results.
     #[arg(long, value_enum, default_value_t = TestFormat::Human)]
     pub format: TestFormat,
-    /// File to write the results to, or those of --coverage or --mutants, overwriting an existing one. Default:
+    /// File to write the results to, or those of --coverage or --mutants, overwriting earlier ones. Default:
     /// standard output.
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
+    /// Overwrite an existing file that is not an earlier result.
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Formats of test results.

@@ -1,6 +1,7 @@
 //! Arguments of `verify`.
 
 use super::{EngineChoice, Input, Properties};
+use crate::output::OutputPath;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -31,24 +32,24 @@ pub struct VerifyArgs {
     /// Write the single property as a model for other model checkers (AIGER): the property is violated if the model's
     /// output can be on.
     #[arg(long, value_name = "FILE")]
-    pub aiger: Option<PathBuf>,
+    pub aiger: Option<OutputPath>,
     /// Write the same model in BTOR2, in which bits are named after their devices.
     #[arg(long, value_name = "FILE")]
-    pub btor2: Option<PathBuf>,
+    pub btor2: Option<OutputPath>,
     /// Write the proof of the single property, or with --same-as the proofs of all equal outputs, to this folder as
     /// formulas (`*.cnf`) that any SAT solver can confirm to be unsatisfiable.
     #[arg(long, value_name = "FOLDER")]
-    pub certificate: Option<PathBuf>,
+    pub certificate: Option<OutputPath>,
     /// Also write a proof of each formula (`*.drat`, DRAT) for a proof checker; made by `cadical`, which must be
     /// installed.
     #[arg(long, requires = "certificate")]
     pub drat: bool,
     /// Write the runs found to a test file, which reproduces them: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
-    pub write_test: Option<PathBuf>,
-    /// Output file for the verdicts, in the format of --format; overwrites an existing one. Default: standard output.
+    pub write_test: Option<OutputPath>,
+    /// Output file for the verdicts, in the format of --format; overwrites earlier ones. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    pub output: Option<OutputPath>,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,

@@ -1,7 +1,8 @@
 //! `rungc boards`: the boards that rungc has descriptions of.
 
-use super::{Context, Failure, Outcome, Result, print_text, write_file};
+use super::{Context, Failure, Outcome, Result, print_text};
 use crate::args::BoardsArgs;
+use crate::output::write_file;
 use rungc_firmware::board::Board;
 use rungc_firmware::boards;
 use rungc_firmware::build::Tools;

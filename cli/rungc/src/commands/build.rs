@@ -8,10 +8,10 @@ use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
 use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, eprint_line,
-    file_name, findings, interruption, parent_dir, plain, ports, print_text, read, stem,
-    write_executable, write_file,
+    file_name, findings, interruption, parent_dir, ports, print_text, read, stem,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
+use crate::output::{plain, refuse_inputs, spare, write_executable, write_file};
 use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
@@ -159,7 +159,7 @@ impl Plan {
             (None, Emit::Ir) => return Ok(plan),
             (None, _) => PathBuf::from(emit.default_output(name)),
         };
-        plan.output = Some(outputs.claim(path, subject)?);
+        plan.output = Some(outputs.claim(path, subject)?.into());
         Ok(plan)
     }
 }
@@ -381,7 +381,7 @@ impl Job<'_> {
 
     /// Output path.
     fn output(&self, emit: Emit) -> PathBuf {
-        let given = self.plan.output.clone();
+        let given = self.plan.output.as_deref().map(Path::to_owned);
         given.unwrap_or_else(|| emit.default_output(self.name).into())
     }
 
@@ -481,7 +481,7 @@ impl Job<'_> {
             None => print_text(&text)?,
             Some(path) => write_file(path, text.as_bytes(), self.plan.force)?,
         }
-        Ok(self.plan.output.clone())
+        Ok(self.plan.output.as_deref().map(Path::to_owned))
     }
 
     /// Writes a folder with what `make` makes; whether it may be written is known before.
@@ -499,7 +499,7 @@ impl Job<'_> {
     /// The same of an executable file.
     fn program(&self, emit: Emit, make: impl FnOnce() -> Built<Vec<u8>>) -> Built<PathBuf> {
         let path = self.output(emit);
-        vacant(&path, self.plan.force)?;
+        spare(&path, self.plan.force)?;
         write_executable(&path, &make()?, self.plan.force)?;
         Ok(path)
     }
@@ -574,18 +574,7 @@ fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
     files.into_iter().map(OutFile::from).collect()
 }
 
-/// Rejects a file that is there before a long build, unless it may be replaced.
-pub(super) fn vacant(path: &Path, force: bool) -> std::result::Result<(), Failure> {
-    match path.exists() && !force {
-        true => Err(Failure::Because(format!(
-            "{} already exists; use --force to overwrite",
-            path.display()
-        ))),
-        false => Ok(()),
-    }
-}
-
-/// The same of a folder: an empty one may be there. Returns whether it is there.
+/// Rejects a folder that is not empty before a long build, unless it may be written into. Returns whether it is there.
 fn free(folder: &Path, force: bool) -> std::result::Result<bool, Failure> {
     let there = folder.exists();
     let occupied = there
@@ -628,6 +617,7 @@ fn write_folder(
     for file in files {
         write_file(&inside.join(&file.path), &file.contents, false)?;
     }
+    refuse_inputs(files.iter().map(|file| folder.join(&file.path)))?;
     if !there {
         return fs::rename(&inside, folder).map_err(|e| at(folder, e));
     }

@@ -5,14 +5,16 @@ mod ladder;
 use super::subject::{self, OutputPaths, Subject};
 use super::{
     Context, Failure, Outcome, Result, conclude, counted, eprint_line, print_text, read, stem,
-    write_file,
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
+use crate::output::write_file;
 use crate::report::{Findings, Reporter};
+use rungc_analysis::resolve::resolve;
 use rungc_export::to_plcopen;
 use rungc_frontend::{Read, image, print};
 use rungc_lower::compile::{CompileOptions, model};
-use rungc_syntax::{Diagnostics, codes};
+use rungc_syntax::{Diagnostics, Program, codes};
+use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
@@ -66,6 +68,20 @@ fn convert(
     Ok(Outcome::Success)
 }
 
+/// A program with step numbers, as an export has them; numbers that its source has stay.
+fn numbered<'p>(program: &'p Program, options: &CompileOptions) -> Cow<'p, Program> {
+    if program.instrs.iter().any(|instr| instr.step.is_some()) || !program.is_complete() {
+        return Cow::Borrowed(program);
+    }
+    let (resolved, _) = resolve(program, model(program, options));
+    let steps: Vec<u32> = resolved.instrs.iter().map(|instr| instr.step).collect();
+    let mut program = program.clone();
+    for (instr, step) in program.instrs.iter_mut().zip(steps) {
+        instr.step = Some(step);
+    }
+    Cow::Owned(program)
+}
+
 /// A program in an output form, for PLCopen XML in the language of `body`; why it cannot take this form is added to
 /// the diagnostics.
 pub fn written(
@@ -94,7 +110,7 @@ pub fn written(
         ConvertTo::Ladder => ladder::to_ladder(program, options).into_bytes(),
         ConvertTo::Csv => match &read.export_head {
             Some(head) => print::to_csv_with(program, head),
-            None => print::to_csv(program),
+            None => print::to_csv(&numbered(program, options)),
         },
         ConvertTo::Comments => print::comments_to_csv(program),
         ConvertTo::Image if program.is_complete() => {

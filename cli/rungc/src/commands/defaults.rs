@@ -3,6 +3,7 @@
 use super::Failure;
 use super::subject::Subject;
 use crate::args::{Emit, EngineChoice, Plan};
+use crate::output::refuse_outside;
 use clap::ValueEnum;
 use rungc_firmware::target::{self, Target};
 use rungc_project::{Error, Named, Project};
@@ -87,7 +88,10 @@ pub fn plan(plan: &Plan, subject: &Subject) -> Result<Plan, Failure> {
         }
         if plan.output.is_none() && plan.emit == emit(project).map_err(because)? {
             let output = project.build.output.as_deref();
-            plan.output = output.map(|output| project.at(output));
+            if let Some(output) = output.map(|output| project.at(output)) {
+                refuse_outside(project, "[build] output", &output, &plan.allow_folder)?;
+                plan.output = Some(output.into());
+            }
         }
     }
     if plan.emit.is_none() && !plan.report {

@@ -10,8 +10,9 @@ use super::check::draw;
 use super::properties::{Reader, RequestedProperty, at_writes, module};
 use super::run::{because, hardware, recording::Recording};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, interruption, print_text, read, write_file};
+use super::{Context, Failure, Outcome, Result, interruption, print_text, read};
 use crate::args::{ExploreArgs, Latched};
+use crate::output::{spare, write_file};
 use crate::progress;
 use crate::report::{Findings, Reporter};
 use rungc_explore::run::{POWER, Runner};
@@ -51,6 +52,9 @@ struct Shown {
 
 /// Searches runs of a program.
 pub fn run(args: &ExploreArgs, cx: Context) -> Result {
+    if let Some(path) = &args.write_test {
+        spare(path, args.force)?;
+    }
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = read(&subject, &mut reporter)?;
@@ -246,7 +250,7 @@ impl Searched<'_> {
 
     fn record(&self, path: &Path, found: &Found) -> std::result::Result<(), Failure> {
         let runner = Runner::new(self.task)?;
-        let mut recording = Recording::begin(path, seen(&runner), &[])?;
+        let mut recording = Recording::begin((path, self.args.force), seen(&runner), &[])?;
         let mut end_ms = 0;
         self.follow(found, &mut |at_ms, runner| {
             end_ms = runner.now_ms();

@@ -4,8 +4,9 @@ mod port;
 mod probe;
 mod volume;
 
-use super::{Context, Failure, Outcome, Result, eprint_line, interruption, spare, write_file};
+use super::{Context, Failure, Outcome, Result, eprint_line, interruption};
 use crate::args::FlashArgs;
+use crate::output::{spare, write_file};
 use crate::progress;
 use indicatif::ProgressBar;
 use port::Port;

@@ -1,7 +1,8 @@
 //! Changing the file that a program was read from.
 
+use super::Failure;
 use super::subject::Subject;
-use super::{Failure, write_file};
+use crate::output::rewrite;
 use rungc_frontend::Read;
 use std::fs;
 use std::io;
@@ -38,7 +39,7 @@ impl InPlace {
     pub fn write(&self, text: &str) -> Result<(), Failure> {
         let permissions = fs::metadata(&self.file).map_err(|error| at(&self.file, &error))?;
         let mark = if self.marked { BYTE_ORDER_MARK } else { &[] };
-        write_file(&self.file, &[mark, text.as_bytes()].concat(), true)?;
+        rewrite(&self.file, &[mark, text.as_bytes()].concat())?;
         fs::set_permissions(&self.file, permissions.permissions())
             .map_err(|error| at(&self.file, &error))
     }

@@ -1,7 +1,8 @@
 //! `rungc init`.
 
-use super::{Context, Failure, Outcome, Result, parent_dir, write_file};
+use super::{Context, Failure, Outcome, Result, parent_dir};
 use crate::args::InitArgs;
+use crate::output::write_file;
 use rungc_models::ModelId;
 use rungc_project::{FILE, template};
 use std::path::{Path, PathBuf};

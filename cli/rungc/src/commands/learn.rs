@@ -1,8 +1,9 @@
 //! `rungc learn`.
 
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, parent_dir, print_text, write_file};
+use super::{Context, Failure, Outcome, Result, counted, parent_dir, print_text};
 use crate::args::{FileKind, Input, LearnArgs, Reading, Reporting};
+use crate::output::rewrite;
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::Basic;
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
@@ -147,7 +148,7 @@ fn write(path: &Path, lessons: &[Lesson]) -> std::result::Result<(), Failure> {
         Err(error) => return Err(because(error.to_string())),
     };
     let text = with_tokens(&text, lessons).map_err(because)?;
-    write_file(path, text.as_bytes(), true)
+    rewrite(path, text.as_bytes())
 }
 
 /// Settings with codes after those of their table `[tokens]`.

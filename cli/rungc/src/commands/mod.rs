@@ -32,16 +32,15 @@ pub mod view;
 pub mod xref;
 
 use crate::args::Format;
+use crate::output::write_file;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::{self, CompileOptions, Compiled};
 pub use rungc_syntax::diag::{counted, grouped};
 use rungc_syntax::{SourceKind, Span, codes, text};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::Path;
 use subject::Subject;
-use tempfile::NamedTempFile;
 
 /// Outcome of a command, the worst last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -200,9 +199,9 @@ pub fn print_text(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// Prints a report, or writes it to the requested file; `summary` says what is in it.
+/// Prints a report, or writes it to the requested file, with `force` or not; `summary` says what is in it.
 pub fn put(
-    path: Option<&Path>,
+    (path, force): (Option<&Path>, bool),
     text: &str,
     summary: &str,
     cx: Context,
@@ -210,10 +209,7 @@ pub fn put(
     let Some(path) = path else {
         return print_text(text).map_err(Failure::from);
     };
-    let file = AtomicFile::create(path)?;
-    let written = file.writer()?.write_all(text.as_bytes());
-    written.map_err(|error| file.failed(error))?;
-    file.persist()?;
+    write_file(path, text.as_bytes(), force)?;
     cx.note(&format!("       Wrote {}: {summary}", path.display()));
     Ok(())
 }
@@ -280,121 +276,6 @@ fn counts(totals: &Totals) -> String {
         0 => counts,
         notes => format!("{counts}, {}", counted(notes, "note")),
     }
-}
-
-/// Writes a file whole or not at all; does not replace one unless `force`.
-pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
-    write_whole(path, contents, force, 0o666)
-}
-
-/// As [`write_file`], of a program that can be started.
-pub fn write_executable(
-    path: &Path,
-    contents: &[u8],
-    force: bool,
-) -> std::result::Result<(), Failure> {
-    write_whole(path, contents, force, 0o777)
-}
-
-/// Rejects a path where a file is, unless `force`.
-pub fn spare(path: &Path, force: bool) -> std::result::Result<(), Failure> {
-    match path.exists() && !force {
-        true => Err(Failure::Because(format!(
-            "{} already exists; use --force to overwrite",
-            path.display()
-        ))),
-        false => Ok(()),
-    }
-}
-
-/// Of `mode`, the permissions where the system has them, the user's mask takes its part away.
-fn write_whole(
-    path: &Path,
-    contents: &[u8],
-    force: bool,
-    mode: u32,
-) -> std::result::Result<(), Failure> {
-    spare(path, force)?;
-    let mut file = AtomicFile::with_mode(path, mode)?;
-    let written = file.file.write_all(contents);
-    written.map_err(|error| file.failed(error))?;
-    file.persist()
-}
-
-/// A file that appears whole or not at all: it is written under another name and renamed when complete. If it is
-/// dropped before, nothing has happened.
-pub struct AtomicFile {
-    file: NamedTempFile,
-    path: PathBuf,
-}
-
-impl AtomicFile {
-    /// Creates a file, which replaces an existing one.
-    pub fn create(path: &Path) -> std::result::Result<AtomicFile, Failure> {
-        AtomicFile::with_mode(path, 0o666)
-    }
-
-    fn with_mode(path: &Path, mode: u32) -> std::result::Result<AtomicFile, Failure> {
-        let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
-        if path.exists() && !path.is_file() {
-            let what = "already exists and is not a regular file";
-            return Err(Failure::Because(format!("{} {what}", path.display())));
-        }
-        let folder = parent_dir(path);
-        if folder.exists() && !folder.is_dir() {
-            let (path, folder) = (path.display(), folder.display());
-            return Err(Failure::Because(format!(
-                "{path}: {folder} is not a folder"
-            )));
-        }
-        fs::create_dir_all(folder).map_err(at)?;
-        // The file in the making has a name that means nothing to anybody.
-        let file = temporary(mode).tempfile_in(folder);
-        Ok(AtomicFile {
-            file: file.map_err(|error| at(plain(error)))?,
-            path: path.to_path_buf(),
-        })
-    }
-
-    /// Writer to the file.
-    pub fn writer(&self) -> std::result::Result<BufWriter<File>, Failure> {
-        let file = self.file.reopen().map_err(|error| self.failed(error))?;
-        Ok(BufWriter::new(file))
-    }
-
-    /// Error with the file's name.
-    pub fn failed(&self, error: io::Error) -> Failure {
-        Failure::Because(format!("{}: {error}", self.path.display()))
-    }
-
-    /// Gives the complete file its name.
-    pub fn persist(self) -> std::result::Result<(), Failure> {
-        let path = self.path;
-        let persisted = self.file.persist(&path).map(|_| ());
-        persisted.map_err(|error| Failure::Because(format!("{}: {}", path.display(), error.error)))
-    }
-}
-
-/// Error of the system, without the path that a library may have added to it.
-pub fn plain(error: io::Error) -> io::Error {
-    match (error.raw_os_error(), error.get_ref()) {
-        (None, Some(_)) => error.kind().into(),
-        _ => error,
-    }
-}
-
-/// Makes temporary files with these permissions, which are Unix's.
-#[cfg(unix)]
-fn temporary(mode: u32) -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
-    builder
-}
-
-/// Makes temporary files; there are no permissions of this kind.
-#[cfg(not(unix))]
-fn temporary(_mode: u32) -> tempfile::Builder<'static, 'static> {
-    tempfile::Builder::new()
 }
 
 /// The folder that a path lies in.

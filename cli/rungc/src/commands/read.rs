@@ -3,10 +3,9 @@
 mod client;
 
 use super::convert::written;
-use super::{
-    Context, Failure, Result, conclude, grouped, interruption, print_text, spare, write_file,
-};
+use super::{Context, Failure, Result, conclude, grouped, interruption, print_text};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
+use crate::output::{spare, write_file};
 use crate::progress;
 use crate::report::{Findings, Reporter};
 use client::{Client, Reply};

@@ -23,10 +23,9 @@ mod watch;
 use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};
 use super::view::title;
-use super::{
-    Context, Failure, Result, Verbosity, conclude, eprint_line, findings, parent_dir, read, stem,
-};
+use super::{Context, Failure, Result, Verbosity, conclude, eprint_line, findings, read, stem};
 use crate::args::RunArgs;
+use crate::output::{refuse_outside, spare};
 use crate::report::Reporter;
 use live::Live;
 use recorder::Recorder;
@@ -39,9 +38,7 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
-use rungc_syntax::{DeviceClass, Program, codes};
-use std::fs;
-use std::path::{Path, PathBuf};
+use rungc_syntax::{DeviceClass, Program, codes, inputs};
 pub use watch::STANDARD_ERROR;
 
 /// Number of devices shown by default.
@@ -90,7 +87,6 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
     let over = args.over.as_deref().map(target).transpose()?;
     let described = machine(args, &settings)?;
-    spare_inputs(args, subject)?;
     let wired_up = connecting::settings(&args.serve, subject, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(subject, &mut reporter) {
@@ -127,16 +123,23 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
-    let connections = connecting::connections(wired_up, subject, &module, described.as_ref(), cx)?;
+    let connections = connecting::connections(
+        wired_up,
+        subject,
+        (&module, described.as_ref()),
+        &args.serve,
+        cx,
+    )?;
     let plant = described.as_ref().map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
     let live = page(args, subject, &read, &module, &listed)?;
-    let retain = retained(args, subject);
+    let retain = retained(args, subject)?;
     let recorder = match &args.record {
         Some(path) => {
             repeatable(args, subject, retain.is_some() || !connections.is_empty())?;
+            spare(path, args.force)?;
             let files = (subject.file.as_path(), args.machine.as_deref());
             Some(Recorder::begin(path, files, (&module, &watched)))
         }
@@ -234,17 +237,24 @@ fn machine(
 }
 
 /// File for the latched devices of a run: that of the command line, or that of the project.
-fn retained(args: &RunArgs, subject: &Subject) -> Option<RetainStorage> {
-    let project = subject.project.as_ref();
-    let usual = || {
-        let project = project?;
-        Some(project.at(project.retain.as_deref()?))
+fn retained(
+    args: &RunArgs,
+    subject: &Subject,
+) -> std::result::Result<Option<RetainStorage>, Failure> {
+    let project = subject.project.as_deref();
+    let usual = project.and_then(|project| Some((project, project.at(project.retain.as_deref()?))));
+    let path = match (&args.retain, usual) {
+        (Some(path), _) => path.clone(),
+        (None, Some((project, path))) => {
+            refuse_outside(project, "[retain] file", &path, &args.serve.allow_folder)?;
+            inputs::note(&path);
+            path
+        }
+        (None, None) => return Ok(None),
     };
     let fault = subject.unsaved();
-    Some(RetainStorage {
-        path: args.retain.clone().or_else(usual)?,
-        fault: fault.and_then(|(class, number)| Some((rt_class(class)?, number))),
-    })
+    let fault = fault.and_then(|(class, number)| Some((rt_class(class)?, number)));
+    Ok(Some(RetainStorage { path, fault }))
 }
 
 /// Names the axes of a machine that the program cannot move.
@@ -297,50 +307,6 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
         ))),
         None => Ok(()),
     }
-}
-
-/// Checks that the run's outputs replace existing files, but neither those that the run reads nor each other.
-fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Failure> {
-    let mut used = vec![(real_path(&subject.file), "is the program")];
-    if let Some(machine) = &args.machine {
-        used.push((real_path(machine), "describes the machine"));
-    }
-    let table = args.scope.as_deref().map(scope::table);
-    let writes = [
-        ("--vcd", &args.vcd, "is written by --vcd"),
-        ("--record", &args.record, "is written by --record"),
-        ("--plot", &args.plot, "is written by --plot"),
-        ("--scope", &args.scope, "is written by --scope"),
-        ("--scope", &table, "is written by --scope"),
-        (
-            "--trace-frames",
-            &args.serve.trace_frames,
-            "is written by --trace-frames",
-        ),
-    ];
-    for (option, path, part) in writes {
-        let path = path
-            .as_ref()
-            .filter(|path| *path != Path::new(STANDARD_ERROR));
-        let Some(path) = path else { continue };
-        let real = real_path(path);
-        if let Some((_, part)) = used.iter().find(|(other, _)| *other == real) {
-            let path = path.display();
-            let message = format!("{option} {path}: this file {part}");
-            return Err(Failure::Because(message));
-        }
-        used.push((real, part));
-    }
-    Ok(())
-}
-
-/// The real path of a file, which may not exist yet.
-fn real_path(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| {
-        let folder = fs::canonicalize(parent_dir(path));
-        let folder = folder.unwrap_or_else(|_| parent_dir(path).to_path_buf());
-        folder.join(path.file_name().unwrap_or_default())
-    })
 }
 
 /// Devices that change in a run, as many as fit in a line: the outputs that the program drives, the inputs that are set

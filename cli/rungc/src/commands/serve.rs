@@ -53,6 +53,7 @@ impl ServeArgs {
             can: self.can.clone(),
             trace_frames: self.trace_frames.clone(),
             io: self.io.clone(),
+            allow_folder: self.allow_folder.clone(),
             priority: self.priority,
             of_project: self.of_project,
             page: self.page.clone(),

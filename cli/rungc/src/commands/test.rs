@@ -164,7 +164,7 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     };
     let (passed, failed) = (results.report.passed(), results.report.failures().count());
     put(
-        args.output.as_deref(),
+        (args.output.as_deref(), args.force),
         &text,
         &format!("{passed} passed, {failed} failed"),
         cx,

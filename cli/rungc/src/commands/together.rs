@@ -1,7 +1,7 @@
 //! Parts shared by the programs of one `rungc build` that are written into one folder.
 
-use super::build::vacant;
-use super::{Context, Failure, counted, write_file};
+use super::{Context, Failure, counted};
+use crate::output::{spare, write_file};
 use rungc_firmware::sources::{self, Recipe};
 use rungc_firmware::target::Target;
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ impl Together {
     /// The recipes of a folder, to which that of one more program is added. Fails where its Makefile cannot be written,
     /// or where another program there has another target.
     pub fn at(&mut self, place: Place) -> Result<&mut Vec<Recipe>, Failure> {
-        vacant(&place.folder.join("Makefile"), place.force)?;
+        spare(&place.folder.join("Makefile"), place.force)?;
         let target = place.target;
         let (first, recipes) = self
             .0
@@ -53,7 +53,7 @@ impl Together {
             let paths = files.iter().map(|file| place.folder.join(&file.path));
             let paths: Vec<PathBuf> = paths.collect();
             for path in &paths {
-                vacant(path, place.force)?;
+                spare(path, place.force)?;
             }
             for (path, file) in paths.iter().zip(&files) {
                 write_file(path, file.contents.as_bytes(), place.force)?;

@@ -9,8 +9,9 @@ pub(super) mod test_file;
 use super::check::draw;
 use super::properties::{ExternalWrites, Reader, RequestedProperty, at_writes, module};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, put, read, write_file};
+use super::{Context, Failure, Outcome, Result, put, read};
 use crate::args::VerifyArgs;
+use crate::output::{spare, write_file};
 use crate::report::Reporter;
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -28,6 +29,9 @@ const TIMEOUT_MS: u64 = 60_000;
 pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     if let Some(old) = &args.same_as {
         return same::run(args, old, cx);
+    }
+    if let Some(path) = &args.write_test {
+        spare(path, args.force)?;
     }
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
@@ -207,7 +211,7 @@ fn deliver(
     }
     match document.is_empty() {
         true => Ok(()),
-        false => put(args.output.as_deref(), &document, summary, cx),
+        false => put((args.output.as_deref(), args.force), &document, summary, cx),
     }
 }
 

@@ -1,10 +1,9 @@
 //! `rungc view`.
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{
-    Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem, write_file,
-};
+use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::ViewArgs;
+use crate::output::write_file;
 use crate::report::Reporter;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
@@ -70,7 +69,7 @@ fn view(
                 true => {
                     outputs.claim(path.join(format!("{}.html", stem(subject, &read))), subject)?
                 }
-                false => path.clone(),
+                false => path.to_path_buf(),
             };
             let sheet = Sheet {
                 title: title(subject, &read),

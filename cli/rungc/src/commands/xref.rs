@@ -4,10 +4,9 @@ mod html;
 mod table;
 
 use super::subject::{self, OutputPaths, Subject};
-use super::{
-    Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem, write_file,
-};
+use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::{XrefArgs, XrefTo};
+use crate::output::write_file;
 use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;

@@ -121,3 +121,23 @@ fn the_page_lists_them_all() {
         );
     }
 }
+
+/// A list without step numbers gets those of the model.
+#[test]
+fn an_export_has_step_numbers() {
+    let folder = folder(&[("a.il", LIST.as_bytes())]);
+    convert(folder.path(), "a.il", "csv", "a.csv");
+    let bytes = fs::read(folder.path().join("a.csv")).unwrap();
+    let units = bytes
+        .chunks(2)
+        .map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+    let text = char::decode_utf16(units)
+        .map(Result::unwrap)
+        .collect::<String>();
+    let steps = text
+        .lines()
+        .skip(3)
+        .map(|row| row.split('\t').next().unwrap().trim_matches('"'));
+    let steps: Vec<_> = steps.filter(|step| !step.is_empty()).collect();
+    assert_eq!(steps, ["0", "1", "2", "3", "4", "5", "8", "9", "14", "15"]);
+}

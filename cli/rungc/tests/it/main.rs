@@ -38,6 +38,7 @@ mod live;
 #[cfg(unix)]
 mod mingw;
 mod offline;
+mod outputs;
 #[cfg(unix)]
 mod peers;
 mod plcopen;

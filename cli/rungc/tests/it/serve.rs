@@ -303,7 +303,7 @@ fn logs_that_cannot_be_written() {
     };
     let message = fails("--trace-frames=p.il");
     assert!(
-        message.contains("--trace-frames p.il: this file is the program"),
+        message.contains("--trace-frames p.il: this file is an input of this run"),
         "{message}"
     );
     let message = fails("--trace-frames=no/such/folder.log");

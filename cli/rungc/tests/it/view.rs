@@ -75,6 +75,8 @@ fn a_page_and_a_picture_are_files() {
         let written = std::fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(written.starts_with(start), "{written}");
         assert!(written.contains("T0 K3"));
+        assert_eq!(write(&[]).0, Some(0), "an earlier one is replaced");
+        std::fs::write(folder.path().join(name), "mine\n").unwrap();
         let (code, messages) = write(&[]);
         assert_eq!(code, Some(2));
         assert!(messages.contains("already exists"), "{messages}");

@@ -90,6 +90,21 @@ fn read(path: &Path, values: &mut [i16]) -> io::Result<()> {
     Ok(())
 }
 
+/// Returns true if a file holds numbers alone, as rows write them, or is no regular file.
+///
+/// # Errors
+/// The file cannot be read, or is not there.
+pub fn holds_numbers(path: &Path) -> io::Result<bool> {
+    let file = File::open(path)?;
+    if !file.metadata()?.is_file() {
+        return Ok(true);
+    }
+    let mut text = Vec::new();
+    file.take(LARGEST).read_to_end(&mut text)?;
+    let text = String::from_utf8_lossy(&text);
+    Ok(text.split_whitespace().all(|word| number(word).is_some()))
+}
+
 /// Reads -32768 to 65535.
 fn number(text: &str) -> Option<i16> {
     let number: i32 = text.parse().ok()?;

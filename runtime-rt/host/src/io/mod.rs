@@ -42,6 +42,7 @@ mod text;
 mod topics;
 
 pub use cycle::{Driver, ExchangeError, GiveRow, Io, Of, Opener, TakeRow, Terminals};
+pub use files::holds_numbers;
 pub use host::Environment;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]

@@ -1,11 +1,12 @@
 //! The runtime in a separate folder, which emitted crates share.
 
 use super::{Built, at, bytes, write_folder};
+use crate::output::resolved;
 use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;
 use rungc_runtime_sources::library;
+use std::fs;
 use std::path::{Component, Path, PathBuf};
-use std::{fs, io};
 
 /// Writes the runtime into a folder that does not have it yet; where a crate to be emitted finds it. A relative path
 /// stays relative, so that both can be moved together.
@@ -36,15 +37,6 @@ fn holds(folder: &Path, files: &[(String, String)]) -> bool {
         fs::read(folder.join(path)).is_ok_and(|bytes| bytes == text.as_bytes())
     };
     files.iter().all(is_there)
-}
-
-/// A path without links and `..`, whose end need not exist.
-fn resolved(path: &Path) -> io::Result<PathBuf> {
-    let path = std::path::absolute(path)?;
-    match (dunce::canonicalize(&path), path.parent(), path.file_name()) {
-        (Err(_), Some(parent), Some(name)) => Ok(resolved(parent)?.join(name)),
-        (canonical, _, _) => canonical,
-    }
 }
 
 /// The way from one folder to another, with slashes as manifests have them.

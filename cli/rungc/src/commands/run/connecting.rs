@@ -3,13 +3,15 @@
 use super::super::subject::{self, Subject};
 use super::super::{Context, Failure, eprint_line};
 use crate::args::ServeArgs;
-use rungc_host::io::{Connection, Io};
+use crate::output::{refuse_inputs, refuse_outside};
+use rungc_host::io::{Connection, End, Io, Kind, holds_numbers};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_project::Project;
 use rungc_rt::VirtualHal;
 use rungc_sim::plant::Description;
 use rungc_syntax::DeviceClass;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 /// The settings whose `[io]` a run uses: those that `--io` names, or those of its project when it is served.
@@ -37,8 +39,8 @@ pub fn settings(
 pub fn connections(
     settings: Option<Rc<Project>>,
     subject: &Subject,
-    module: &Module,
-    machine: Option<&Description>,
+    (module, machine): (&Module, Option<&Description>),
+    args: &ServeArgs,
     cx: Context,
 ) -> Result<Vec<Connection>, Failure> {
     let Some(settings) = settings else {
@@ -62,7 +64,41 @@ pub fn connections(
             return Err(Failure::Because(why));
         }
     }
+    for connection in &connections {
+        check_files(&settings, connection, &args.allow_folder)?;
+    }
     Ok(connections)
+}
+
+/// Checks that a connection's files are within folders that it may use, and that what it writes over holds numbers.
+fn check_files(
+    settings: &Project,
+    connection: &Connection,
+    allowed: &[PathBuf],
+) -> Result<(), Failure> {
+    if connection.kind != Kind::Files {
+        return Ok(());
+    }
+    let folder = Path::new(&connection.end);
+    let key = format!("[io.{}] files", connection.name);
+    refuse_outside(settings, &key, folder, allowed)?;
+    for row in &connection.rows {
+        let End::Name(name) = &row.end else { continue };
+        let path = folder.join(name);
+        refuse_outside(settings, &key, &path, allowed)?;
+        if !row.reads {
+            refuse_inputs([path.clone()].into_iter())?;
+            if !holds_numbers(&path).unwrap_or(true) {
+                let why = "holds something else than numbers, which a row would write over";
+                return Err(Failure::Because(format!(
+                    "[io.{}]: {} {why}",
+                    connection.name,
+                    path.display()
+                )));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The connections of a run at work.

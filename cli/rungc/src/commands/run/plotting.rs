@@ -1,6 +1,7 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
-use super::super::{AtomicFile, Failure, file_name};
+use super::super::{Failure, file_name};
+use crate::output::{AtomicFile, Kind};
 use rungc_ir::Module;
 use rungc_rt::Program;
 use rungc_sim::Target;
@@ -61,7 +62,7 @@ pub struct Plotting {
 impl Plotting {
     /// Begins a diagram of the axes, and of what is watched.
     pub fn begin(
-        path: &Path,
+        (path, force): (&Path, bool),
         seen: Seen,
         (watched, over): (&[Target], Option<Target>),
         duration_ms: u64,
@@ -131,7 +132,7 @@ impl Plotting {
             plot,
             over,
             curves,
-            file: AtomicFile::create(path)?,
+            file: AtomicFile::create(path, Kind::Svg, force)?,
         })
     }
 

@@ -4,7 +4,8 @@
 //! are as they are from then on. So the test fails if an output changes in an earlier or in a later scan.
 
 use super::super::verify::test_file::{quoted, relative, table};
-use super::super::{Failure, parent_dir, write_file};
+use super::super::{Failure, parent_dir};
+use crate::output::write_file;
 use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_sim::engines::Interpreter;
@@ -139,7 +140,7 @@ impl Recorder {
     }
 
     /// Writes the test, once it has run and passed.
-    pub fn keep(mut self, scan_ms: u64) -> Result<(), Failure> {
+    pub fn keep(mut self, scan_ms: u64, force: bool) -> Result<(), Failure> {
         if self.steps.len() > MOST_STEPS {
             let why = format!(
                 "--record: the outputs and watched devices change {} times, which no one reads; watch fewer devices or run less long",
@@ -157,7 +158,7 @@ impl Recorder {
         // The test names its program from its own folder.
         fs::create_dir_all(parent_dir(&self.path))?;
         self.try_out(&text)?;
-        write_file(&self.path, text.as_bytes(), true)
+        write_file(&self.path, text.as_bytes(), force)
     }
 
     fn write(&self, text: &mut String, step: &Step, scan_ms: u64) {

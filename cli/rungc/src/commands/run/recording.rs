@@ -1,6 +1,7 @@
 //! `rungc run --vcd`: which devices are recorded, and the file.
 
-use super::super::{AtomicFile, Failure};
+use super::super::Failure;
+use crate::output::{AtomicFile, Kind};
 use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_sim::record::{Reading, Seen, Signal, Vcd};
@@ -21,7 +22,7 @@ pub struct Recording {
 impl Recording {
     /// Begins a recording of a program's inputs and outputs and of what is watched.
     pub fn begin(
-        path: &Path,
+        (path, force): (&Path, bool),
         seen: Seen,
         watched: &[Target],
     ) -> std::result::Result<Self, Failure> {
@@ -36,7 +37,7 @@ impl Recording {
         let of_target = |&target| Some((Signal::of(target), Reading::of(seen, target)?));
         let signals = targets.iter().filter_map(of_target);
         let signals = signals.chain(of_machine).collect();
-        let file = AtomicFile::create(path)?;
+        let file = AtomicFile::create(path, Kind::Vcd, force)?;
         let vcd = Vcd::begin(file.writer()?, &module.name, signals);
         Ok(Recording {
             targets,

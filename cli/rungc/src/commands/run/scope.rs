@@ -1,6 +1,7 @@
 //! `rungc run --scope`: what HM's oscilloscope has recorded (hm-motion-controller §5.6), as a diagram and as a table.
 
-use super::super::{AtomicFile, Failure, eprint_line, file_name};
+use super::super::{Failure, eprint_line, file_name};
+use crate::output::{AtomicFile, Kind};
 use rungc_interp::Machine;
 use rungc_rt::special::{
     D_SCOPE_CHANNELS, D_SCOPE_FIRST, D_SCOPE_MODE, D_SCOPE_PERIOD, D_SCOPE_STATE, D_SCOPE_TAKEN,
@@ -52,7 +53,7 @@ pub struct Scope {
 
 impl Scope {
     /// Begins the files: the diagram, and beside it a table with the same name and the ending `.csv`.
-    pub fn begin(path: &Path, machine: &Machine) -> Result<Self, Failure> {
+    pub fn begin(path: &Path, force: bool, machine: &Machine) -> Result<Self, Failure> {
         let module = machine.module();
         if !module.model.has_oscilloscope() {
             let title = module.model.title;
@@ -62,8 +63,8 @@ impl Scope {
         let name = file_name(rungc_lower::stem(&module.source_name), &module.name);
         Ok(Scope {
             title: format!("Oscilloscope of {name} on {}", module.model.title),
-            diagram: AtomicFile::create(path)?,
-            table: AtomicFile::create(&table(path))?,
+            diagram: AtomicFile::create(path, Kind::Svg, force)?,
+            table: AtomicFile::create(&table(path), Kind::Table, force)?,
             path: path.to_path_buf(),
             state: 0,
             record: None,

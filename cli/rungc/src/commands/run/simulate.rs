@@ -125,15 +125,18 @@ impl Run<'_> {
             plant: plant.as_ref(),
         };
         let recording = match &args.vcd {
-            Some(path) => Some(Recording::begin(path, seen, self.shown)?),
+            Some(path) => Some(Recording::begin((path, args.force), seen, self.shown)?),
             None => None,
         };
         let scope = match &args.scope {
-            Some(path) => Some(Scope::begin(path, &machine)?),
+            Some(path) => Some(Scope::begin(path, args.force, &machine)?),
             None => None,
         };
         let plotting = self.plotting(seen)?;
-        let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
+        let mut watch = Watch::new(
+            module.model,
+            (args.serve.trace_frames.as_deref(), args.force),
+        )?;
         if live.is_some() {
             watch.record();
         }
@@ -208,7 +211,7 @@ impl Run<'_> {
             Failure::Because(message.to_string())
         })?;
         let what = (self.watched, self.over);
-        Plotting::begin(path, seen, what, duration).map(Some)
+        Plotting::begin((path, self.args.force), seen, what, duration).map(Some)
     }
 
     /// Returns true if there may be input from outside before each scan, other than by clients of servers.
@@ -249,7 +252,7 @@ impl<'a> Simulation<'a> {
             recording.keep(1000 * end_ms)?;
         }
         if let Some(recorder) = self.recorder {
-            recorder.keep(args.scan.unwrap_or(USUAL_SCAN_MS))?;
+            recorder.keep(args.scan.unwrap_or(USUAL_SCAN_MS), args.force)?;
         }
         if let Some(plotting) = self.plotting {
             plotting.keep()?;

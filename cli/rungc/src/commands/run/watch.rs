@@ -2,6 +2,7 @@
 
 use super::capture::Capture;
 use crate::commands::{Failure, eprint_line};
+use crate::output::{Kind, permit};
 use crate::report::visible;
 use rungc_models::Model;
 use rungc_sim::serve::{Decoder, Direction, LinkProtocol, Place, Seen, Traffic};
@@ -54,18 +55,25 @@ impl Watch {
     ///
     /// # Errors
     /// A file that cannot be created.
-    pub fn new(model: &Model, trace: Option<&Path>) -> Result<Self, Failure> {
+    pub fn new(model: &Model, (trace, force): (Option<&Path>, bool)) -> Result<Self, Failure> {
         let log = match trace {
             None => Log::Nowhere,
             Some(path) if path == Path::new(STANDARD_ERROR) => Log::StandardError,
             Some(path) => {
                 let because =
                     |error| Failure::Because(format!("--trace-frames {}: {error}", path.display()));
-                let file = File::create(path).map_err(because)?;
                 let extension = path.extension().and_then(|extension| extension.to_str());
-                match extension {
-                    Some("pcap" | "pcapng") => Log::Capture(Capture::begin(file).map_err(because)?),
-                    _ => Log::Text(file),
+                let captures = matches!(extension, Some("pcap" | "pcapng"));
+                let kind = if captures {
+                    Kind::Capture
+                } else {
+                    Kind::Frames
+                };
+                permit(path, kind, force)?;
+                let file = File::create(path).map_err(because)?;
+                match captures {
+                    true => Log::Capture(Capture::begin(file).map_err(because)?),
+                    false => Log::Text(file),
                 }
             }
         };

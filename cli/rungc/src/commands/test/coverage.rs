@@ -70,7 +70,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
     let reached = programs.iter().map(Covered::reached).sum();
     let all = programs.iter().map(|program| program.goals.len()).sum();
     put(
-        args.output.as_deref(),
+        (args.output.as_deref(), args.force),
         &shown,
         &text::share(reached, all),
         cx,
@@ -126,7 +126,7 @@ fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> R
         shown += &mutants::text(program, &all, &fates);
     }
     let summary = format!("{noticed} of {} mutants noticed", noticed + gaps);
-    put(args.output.as_deref(), &shown, &summary, cx)?;
+    put((args.output.as_deref(), args.force), &shown, &summary, cx)?;
     Ok(match gaps {
         0 => Outcome::Success,
         _ => Outcome::Failed,

@@ -1,7 +1,8 @@
 //! Accepting and rejecting traces.
 
-use super::super::{Context, Failure, print_text, write_file};
+use super::super::{Context, Failure, print_text};
 use crate::args::TestArgs;
+use crate::output::rewrite;
 use rungc_sim::plctest::{self, Outcome, Report, Suite, Trace};
 use std::collections::BTreeSet;
 use std::fs;
@@ -51,7 +52,7 @@ pub fn traces(
         };
         match decision {
             Decision::Accept => {
-                write_file(&trace.path, actual.as_bytes(), true)?;
+                rewrite(&trace.path, actual.as_bytes())?;
                 forget(trace);
                 cx.note(&format!("    Accepted {}", trace.path.display()));
                 outcome.failure = None;
@@ -60,7 +61,7 @@ pub fn traces(
                 forget(trace);
                 cx.note(&format!("    Rejected {}", trace.path.display()));
             }
-            Decision::Later => write_file(&trace.pending(), actual.as_bytes(), true)?,
+            Decision::Later => rewrite(&trace.pending(), actual.as_bytes())?,
         }
     }
     Ok(())

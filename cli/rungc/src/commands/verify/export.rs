@@ -2,7 +2,8 @@
 
 use crate::args::VerifyArgs;
 use crate::commands::properties::RequestedProperty;
-use crate::commands::{Context, Failure, counted, spare, write_file};
+use crate::commands::{Context, Failure, counted};
+use crate::output::{Kind, permit, write_file};
 use rungc_ir::Module;
 use rungc_verify::certificate::Certificate;
 use rungc_verify::prove::{Options, system};
@@ -75,7 +76,7 @@ pub fn proofs(
         cx.note("     Nothing was proved, so no certificate is written");
         return Ok(());
     };
-    std::fs::create_dir_all(folder)?;
+    std::fs::create_dir_all(&**folder)?;
     for (name, text) in &files {
         let path = folder.join(name);
         write_file(&path, text.as_bytes(), args.force)?;
@@ -112,7 +113,7 @@ fn solver() -> std::result::Result<(), Failure> {
 /// Has the solver prove a formula, in a file beside it.
 fn prove(formula: &Path, time: Duration, force: bool) -> std::result::Result<(), Failure> {
     let proof = formula.with_extension("drat");
-    spare(&proof, force)?;
+    permit(&proof, Kind::Proof, force)?;
     let output = Command::new(SOLVER)
         .args(["-q", "--no-binary", "-t"])
         .arg(time.as_secs().max(1).to_string())

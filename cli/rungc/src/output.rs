@@ -1,0 +1,295 @@
+//! Files that commands write. One rule decides whether a file that is there may be replaced ([`permit`]):
+//!
+//! - an input of this run never: the program, its settings, a test file, whatever was read;
+//! - an earlier result of the same kind always: a page by a page, a recording by a recording;
+//! - everything else, such as lists, tables, projects and test files, only with `--force`.
+//!
+//! Files are compared by identity: links and other spellings of a path do not matter.
+
+mod kind;
+
+pub use kind::Kind;
+
+use crate::commands::run::STANDARD_ERROR;
+use crate::commands::{Failure, parent_dir};
+use clap::ArgMatches;
+use rungc_project::Project;
+use rungc_syntax::inputs;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::ops::Deref;
+use std::path::{Component, Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Value of an option that names what a command writes. All other paths on the command line are inputs.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct OutputPath(PathBuf);
+
+impl From<OsString> for OutputPath {
+    fn from(path: OsString) -> Self {
+        OutputPath(path.into())
+    }
+}
+
+impl From<PathBuf> for OutputPath {
+    fn from(path: PathBuf) -> Self {
+        OutputPath(path)
+    }
+}
+
+impl Deref for OutputPath {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+/// Notes the inputs that a command line names, and checks that no output is one of them or another output.
+///
+/// # Errors
+/// The option whose file has another part.
+pub fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
+    let Some((_, command)) = matches.subcommand() else {
+        return Ok(());
+    };
+    // Values of other types are no paths.
+    for id in command.ids() {
+        if let Ok(Some(paths)) = command.try_get_many::<PathBuf>(id.as_str()) {
+            paths.for_each(|path| inputs::note(path));
+        }
+    }
+    let mut used: Vec<(String, PathBuf)> = Vec::new();
+    for id in command.ids() {
+        let outputs = command.try_get_many::<OutputPath>(id.as_str());
+        let files = outputs.ok().flatten().into_iter().flatten();
+        for path in files.filter(|path| ***path != *Path::new(STANDARD_ERROR)) {
+            let option = format!("--{}", id.as_str().replace('_', "-"));
+            let real = resolved(path).unwrap_or_else(|_| path.to_path_buf());
+            let part = match used.iter().find(|(_, other)| *other == real) {
+                Some((other, _)) => format!("is written by {other}"),
+                None if is_input(path) => "is an input of this run".to_owned(),
+                None => {
+                    used.push((option, real));
+                    continue;
+                }
+            };
+            let path = path.display();
+            let why = format!("{option} {path}: this file {part}; name another one");
+            return Err(Failure::Because(why));
+        }
+    }
+    Ok(())
+}
+
+/// A path without links and `..`, whose end need not exist.
+pub fn resolved(path: &Path) -> io::Result<PathBuf> {
+    let path = std::path::absolute(path)?;
+    match (dunce::canonicalize(&path), path.parent(), path.file_name()) {
+        (Err(_), Some(parent), Some(name)) => Ok(resolved(parent)?.join(name)),
+        (canonical, _, _) => canonical,
+    }
+}
+
+/// Rejects a path of `key` in a project's settings that leads out of the project's folder, unless the command line
+/// allows the folder that it leads to. Links are followed; within an allowed folder they may lead on.
+///
+/// # Errors
+/// The path, and the option that allows it.
+pub fn refuse_outside(
+    project: &Project,
+    key: &str,
+    path: &Path,
+    allowed: &[PathBuf],
+) -> Result<(), Failure> {
+    let place = |path: &Path| resolved(path).map_err(|error| at(path, error));
+    let own = place(&project.at(Path::new("")).join("."))?;
+    let real = place(path)?;
+    let named = std::path::absolute(path).unwrap_or_default();
+    let is_plain = !path.components().any(|part| part == Component::ParentDir);
+    let allows = |folder: &PathBuf| {
+        let absolute = std::path::absolute(folder).unwrap_or_default();
+        is_plain && named.starts_with(absolute)
+            || resolved(folder).is_ok_and(|folder| real.starts_with(folder))
+    };
+    if real.starts_with(&own) || allowed.iter().any(allows) {
+        return Ok(());
+    }
+    let folder = if real.is_dir() {
+        &*real
+    } else {
+        parent_dir(&real)
+    };
+    Err(Failure::Because(format!(
+        "{}: `{key}` leads out of the project's folder, to {}; `--allow-folder {}` allows it",
+        project.path.display(),
+        real.display(),
+        folder.display()
+    )))
+}
+
+/// Decides whether a command may write a file of this kind: see the module.
+///
+/// # Errors
+/// Why not, and what to do.
+pub fn permit(path: &Path, kind: Kind, force: bool) -> Result<(), Failure> {
+    refuse_input(path)?;
+    match fs::metadata(path) {
+        Ok(found) if !found.is_file() => {
+            let what = "already exists and is not a regular file";
+            Err(Failure::Because(format!("{} {what}", path.display())))
+        }
+        Ok(_) if force || kind.replaces(path) => Ok(()),
+        Ok(_) => Err(Failure::Because(format!(
+            "{} already exists{}; use --force to overwrite",
+            path.display(),
+            kind.difference()
+        ))),
+        // A broken link, or nothing at all.
+        Err(_) => Ok(()),
+    }
+}
+
+/// Rejects files that this run reads.
+pub fn refuse_inputs(paths: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
+    paths.into_iter().try_for_each(|path| refuse_input(&path))
+}
+
+/// Returns true for a file that this run reads, by whatever path.
+fn is_input(path: &Path) -> bool {
+    let is_this = |input: &PathBuf| same_file::is_same_file(input, path).unwrap_or(false);
+    path.is_file() && inputs::all().iter().any(is_this)
+}
+
+/// Rejects a path where a file is that this run reads.
+fn refuse_input(path: &Path) -> Result<(), Failure> {
+    match is_input(path) {
+        true => Err(Failure::Because(format!(
+            "{} is an input of this run, which is never overwritten; name another file",
+            path.display()
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// Rejects a path before long work, where a file is that a command would replace with one that has no kind of its own.
+pub fn spare(path: &Path, force: bool) -> Result<(), Failure> {
+    permit(path, Kind::Own, force)
+}
+
+/// Writes a file whole or not at all, as [`permit`] allows.
+pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
+    write_whole(path, contents, force, 0o666)
+}
+
+/// As [`write_file`], of a program that can be started.
+pub fn write_executable(path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
+    write_whole(path, contents, force, 0o777)
+}
+
+/// Of `mode`, the permissions where the system has them, the user's mask takes its part away.
+fn write_whole(path: &Path, contents: &[u8], force: bool, mode: u32) -> Result<(), Failure> {
+    let mut file = AtomicFile::with_mode(path, (Kind::of(contents), force), mode)?;
+    let written = file.file.write_all(contents);
+    written.map_err(|error| file.failed(error))?;
+    file.persist()
+}
+
+/// Changes a file that the user has named to be changed: a list that is formatted, settings that get a table, an
+/// accepted trace. The new contents appear whole or not at all.
+pub fn rewrite(path: &Path, contents: &[u8]) -> Result<(), Failure> {
+    let file = making(path, 0o666)?;
+    let written = file.as_file().write_all(contents);
+    let persisted = written.and_then(|()| file.persist(path).map_err(|error| error.error));
+    persisted.map_err(|error| at(path, error)).map(drop)
+}
+
+/// A file that appears whole or not at all: it is written under another name and renamed when complete. If it is
+/// dropped before, nothing has happened.
+pub struct AtomicFile {
+    file: NamedTempFile,
+    path: PathBuf,
+    kind: Kind,
+    force: bool,
+}
+
+impl AtomicFile {
+    /// Creates a file of this kind, as [`permit`] allows.
+    pub fn create(path: &Path, kind: Kind, force: bool) -> Result<AtomicFile, Failure> {
+        AtomicFile::with_mode(path, (kind, force), 0o666)
+    }
+
+    fn with_mode(
+        path: &Path,
+        (kind, force): (Kind, bool),
+        mode: u32,
+    ) -> Result<AtomicFile, Failure> {
+        permit(path, kind, force)?;
+        Ok(AtomicFile {
+            file: making(path, mode)?,
+            path: path.to_path_buf(),
+            kind,
+            force,
+        })
+    }
+
+    /// Writer to the file.
+    pub fn writer(&self) -> Result<BufWriter<File>, Failure> {
+        let file = self.file.reopen().map_err(|error| self.failed(error))?;
+        Ok(BufWriter::new(file))
+    }
+
+    /// Error with the file's name.
+    pub fn failed(&self, error: io::Error) -> Failure {
+        at(&self.path, error)
+    }
+
+    /// Gives the complete file its name, unless another output of this run has it by now.
+    pub fn persist(self) -> Result<(), Failure> {
+        let path = self.path;
+        permit(&path, self.kind, self.force)?;
+        let persisted = self.file.persist(&path).map(|_| ());
+        persisted.map_err(|error| at(&path, error.error))
+    }
+}
+
+/// A file in the making, beside the one that it becomes. Its name means nothing to anybody.
+fn making(path: &Path, mode: u32) -> Result<NamedTempFile, Failure> {
+    let folder = parent_dir(path);
+    if folder.exists() && !folder.is_dir() {
+        let (path, folder) = (path.display(), folder.display());
+        return Err(Failure::Because(format!(
+            "{path}: {folder} is not a folder"
+        )));
+    }
+    fs::create_dir_all(folder).map_err(|error| at(path, error))?;
+    let file = temporary(mode).tempfile_in(folder);
+    file.map_err(|error| at(path, plain(error)))
+}
+
+fn at(path: &Path, error: io::Error) -> Failure {
+    Failure::Because(format!("{}: {error}", path.display()))
+}
+
+/// Error of the system, without the path that a library may have added to it.
+pub fn plain(error: io::Error) -> io::Error {
+    match (error.raw_os_error(), error.get_ref()) {
+        (None, Some(_)) => error.kind().into(),
+        _ => error,
+    }
+}
+
+/// Makes temporary files with these permissions, which are Unix's.
+#[cfg(unix)]
+fn temporary(mode: u32) -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    builder
+}
+
+/// Makes temporary files; there are no permissions of this kind.
+#[cfg(not(unix))]
+fn temporary(_mode: u32) -> tempfile::Builder<'static, 'static> {
+    tempfile::Builder::new()
+}

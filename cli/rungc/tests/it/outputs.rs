@@ -1,0 +1,363 @@
+//! Files that are there already, of every option that names an output.
+
+use crate::common::{folder, free_port, rungc, text};
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+use tempfile::TempDir;
+
+/// The options: see the file.
+const OPTIONS: &str = include_str!("../outputs.txt");
+
+/// Takes samples with the oscilloscope of HM.
+const SCOPE: &str = include_str!("../../../../examples/programs/cam.il");
+
+/// Files of kinds that people write, and files of theirs that look like results.
+const OWN: [(&str, &[u8]); 16] = [
+    ("a.il", b"LD X0\nOUT Y0\nEND\n"),
+    ("b.il", b"LD X1\nOUT Y0\nEND\n"),
+    ("other.il", b"LD X7\nOUT Y7\nEND\n"),
+    ("scope.il", SCOPE.as_bytes()),
+    ("t.plctest.toml", TEST.as_bytes()),
+    ("rungc.toml", b"[project]\nprogram = \"a.il\"\n"),
+    ("board.toml", b"name = \"mine\"\n"),
+    ("export.csv", b"\"0\"\t\"LD\"\t\"X000\"\n"),
+    ("ladder.txt", b"--| X0 |--( Y0 )--\n"),
+    ("notes.md", b"# Notes\n\n1 of 2 done\n"),
+    ("mine.c", b"int main(void) { return 0; }\n"),
+    (
+        "mine.html",
+        b"<!DOCTYPE html>\n<html><body>mine</body></html>\n",
+    ),
+    (
+        "mine.svg",
+        b"<?xml version=\"1.0\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n",
+    ),
+    ("mine.pdf", b"%PDF-1.7\nmine\n"),
+    ("package.json", b"{\n  \"name\": \"mine\"\n}\n"),
+    (
+        "project.xml",
+        b"<?xml version=\"1.0\"?>\n<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"/>\n",
+    ),
+];
+
+const TEST: &str = "\
+topic = \"a test\"
+model = \"fx3u\"
+program = { file = \"a.il\" }
+[[case]]
+name = \"on\"
+[[case.step]]
+set = { X000 = 1 }
+scans = 1
+expect = { Y000 = 1 }
+";
+
+/// A line of the table.
+struct Line {
+    command: &'static str,
+    option: String,
+    arguments: &'static str,
+    fresh: &'static str,
+    twice: &'static str,
+}
+
+fn lines() -> impl Iterator<Item = Line> {
+    let lines = OPTIONS.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| {
+        let fields: Vec<&str> = line.split(" | ").map(str::trim).collect();
+        let [command, option, arguments, fresh, twice] = fields[..] else {
+            panic!("five fields: {line}")
+        };
+        let option = option.replace('_', "-");
+        Line {
+            command,
+            option,
+            arguments,
+            fresh,
+            twice,
+        }
+    })
+}
+
+impl Line {
+    fn run(&self, at: &Path, out: &str, force: bool) -> Output {
+        let line = self.arguments.replace("OUT", out);
+        let line = line.replace("PORT", &format!("127.0.0.1:{}", free_port()));
+        let force = if force { " --force" } else { "" };
+        let line = line + force;
+        rungc(at, &line.split_whitespace().collect::<Vec<_>>())
+    }
+}
+
+fn own() -> TempDir {
+    folder(&OWN)
+}
+
+/// The files that have changed or are gone.
+fn changed(at: &Path) -> Vec<&'static str> {
+    let is_changed = |(name, contents): &&(&'static str, &'static [u8])| {
+        fs::read(at.join(name)).ok().as_deref() != Some(*contents)
+    };
+    OWN.iter()
+        .filter(is_changed)
+        .map(|(name, _)| *name)
+        .collect()
+}
+
+/// A line for each option.
+fn options() -> impl Iterator<Item = Line> {
+    let mut known = std::collections::BTreeSet::new();
+    lines().filter(move |line| known.insert((line.command, line.option.clone())))
+}
+
+#[test]
+fn no_option_replaces_what_people_write() {
+    let folder = own();
+    let at = folder.path();
+    for line in lines() {
+        for (name, _) in OWN {
+            let output = line.run(at, name, false);
+            let said = text(&output.stderr);
+            assert_eq!(
+                output.status.code(),
+                Some(2),
+                "{} {} {name}: {said}",
+                line.command,
+                line.option
+            );
+            assert_eq!(
+                changed(at),
+                [""; 0],
+                "{} {}: {said}",
+                line.command,
+                line.option
+            );
+        }
+    }
+}
+
+#[test]
+fn no_option_replaces_an_input_by_any_name() {
+    let folder = own();
+    let at = folder.path();
+    fs::create_dir(at.join("sub")).unwrap();
+    fs::hard_link(at.join("a.il"), at.join("hard.svg")).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("a.il", at.join("soft.html")).unwrap();
+    for line in options() {
+        let program = if line.arguments.contains("scope.il") {
+            "scope.il"
+        } else {
+            "a.il"
+        };
+        for path in [program, &format!("./sub/../{program}"), "rungc.toml"] {
+            let output = line.run(at, path, true);
+            let said = text(&output.stderr);
+            assert_eq!(
+                output.status.code(),
+                Some(2),
+                "{} {} {path}: {said}",
+                line.command,
+                line.option
+            );
+        }
+        for path in ["hard.svg", "soft.html"] {
+            let output = line.run(at, path, false);
+            let said = text(&output.stderr);
+            assert_eq!(
+                output.status.code(),
+                Some(2),
+                "{} {} {path}: {said}",
+                line.command,
+                line.option
+            );
+        }
+        assert_eq!(changed(at), [""; 0], "{} {}", line.command, line.option);
+    }
+}
+
+#[test]
+fn results_replace_earlier_ones() {
+    for line in lines().filter(|line| line.twice != "never") {
+        let folder = own();
+        let at = folder.path();
+        let of = format!("{} {} {}", line.command, line.option, line.fresh);
+        let first = line.run(at, line.fresh, false);
+        assert!(
+            at.join(line.fresh).exists(),
+            "{of}: {}",
+            text(&first.stderr)
+        );
+        let again = line.run(at, line.fresh, false);
+        let said = text(&again.stderr);
+        let refused = said.contains("--force");
+        assert_eq!(refused, line.twice == "force", "{of}: {said}");
+        if refused {
+            assert_eq!(again.status.code(), Some(2), "{of}: {said}");
+            let forced = line.run(at, line.fresh, true);
+            assert_eq!(
+                forced.status.code(),
+                first.status.code(),
+                "{of}: {}",
+                text(&forced.stderr)
+            );
+        } else {
+            assert_eq!(again.status.code(), first.status.code(), "{of}: {said}");
+        }
+        assert_eq!(changed(at), [""; 0], "{of}");
+    }
+}
+
+#[test]
+fn outputs_do_not_replace_each_other() {
+    let folder = own();
+    let at = folder.path();
+    let run = ["run", "a.il", "--for", "20ms", "--watch", "Y000"];
+    for (vcd, plot) in [
+        ("x.vcd", "x.vcd"),
+        ("x.vcd", "./x.vcd"),
+        ("./x.vcd", "sub/../x.vcd"),
+    ] {
+        let _ = fs::create_dir(at.join("sub"));
+        let output = rungc(
+            at,
+            &[&run[..], &["--vcd", vcd, "--plot", plot, "--force"]].concat(),
+        );
+        let said = text(&output.stderr);
+        assert!(said.contains("is written by --"), "{said}");
+        assert!(!at.join("x.vcd").exists());
+    }
+}
+
+#[test]
+fn files_beside_an_output_are_outputs_too() {
+    let folder = own();
+    let at = folder.path();
+    let cert = at.join("cert");
+    fs::create_dir(&cert).unwrap();
+    fs::write(cert.join("step.cnf"), "mine\n").unwrap();
+    let proof = ["verify", "a.il", "--never", "Y001", "--certificate", "cert"];
+    let output = rungc(at, &proof);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    assert_eq!(fs::read_to_string(cert.join("step.cnf")).unwrap(), "mine\n");
+    // The table of the oscilloscope has the name of its drawing.
+    let scope = [
+        "run",
+        "scope.il",
+        "--model",
+        "hm",
+        "--for",
+        "200ms",
+        "--scope",
+        "export.svg",
+    ];
+    let output = rungc(at, &scope);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    // A program in the folder of its own sources.
+    fs::create_dir(at.join("c")).unwrap();
+    fs::write(at.join("c/a.c"), OWN[0].1).unwrap();
+    let build = ["build", "c/a.c", "--emit", "c", "-o", "c", "--force"];
+    let output = rungc(at, &build);
+    let said = text(&output.stderr);
+    assert!(said.contains("c/a.c is an input of this run"), "{said}");
+    assert_eq!(fs::read(at.join("c/a.c")).unwrap(), OWN[0].1);
+    assert_eq!(changed(at), [""; 0]);
+}
+
+/// A program with a latched device.
+const MOTOR: &str = "LD X0\nSET M500\nOUT Y0\nEND\n";
+
+/// A project in a folder, beside a file of somebody else.
+fn strange(settings: &str) -> TempDir {
+    let folder = folder(&[("mine.txt", b"mine\n")]);
+    let project = folder.path().join("project");
+    fs::create_dir_all(project.join("panel")).unwrap();
+    fs::write(project.join("motor.il"), MOTOR).unwrap();
+    fs::write(project.join("rungc.toml"), settings).unwrap();
+    fs::write(project.join("panel/notes.txt"), "notes\n").unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("..", folder.path().join("project/link")).unwrap();
+    folder
+}
+
+#[test]
+fn settings_do_not_lead_out_of_their_project() {
+    let build = ["build"];
+    let serve = ["serve", "--for", "50ms"];
+    let io = |files: &str, row: &str| {
+        format!(
+            "[project]\nprogram = \"motor.il\"\n[io.a]\nfiles = \"{files}\"\nY000 = \"write {row}\"\n"
+        )
+    };
+    let output = |path: &str| {
+        format!("[project]\nprogram = \"motor.il\"\n[build]\nemit = \"c\"\noutput = \"{path}\"\n")
+    };
+    let retain =
+        |path: &str| format!("[project]\nprogram = \"motor.il\"\n[retain]\nfile = \"{path}\"\n");
+    let mut cases = vec![
+        (io("..", "new.txt"), &serve[..]),
+        (io(".", "../new.txt"), &serve),
+        (io("panel/../..", "new.txt"), &serve),
+        (io(".", "motor.il"), &serve),
+        (io(".", "rungc.toml"), &serve),
+        (io("panel", "notes.txt"), &serve),
+        (output("../new"), &build),
+        (output("panel/../../new"), &build),
+        (retain("../new.retain"), &["run"][..]),
+    ];
+    if cfg!(unix) {
+        cases.extend([
+            (io("link", "new.txt"), &serve[..]),
+            (io(".", "link/new.txt"), &serve),
+            (output("link/new"), &build),
+            (retain("link/new.retain"), &["run"]),
+        ]);
+    }
+    for (settings, command) in cases {
+        let folder = strange(&settings);
+        let at = folder.path();
+        let run = rungc(&at.join("project"), command);
+        let said = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{settings}: {said}");
+        let mut names: Vec<_> = fs::read_dir(at)
+            .unwrap()
+            .map(|e| e.unwrap().file_name())
+            .collect();
+        names.sort();
+        assert_eq!(names, ["mine.txt", "project"], "{settings}");
+        assert_eq!(
+            fs::read_to_string(at.join("project/motor.il")).unwrap(),
+            MOTOR
+        );
+        // The option that the message names.
+        let Some(option) = said.split("`--allow-folder ").nth(1) else {
+            continue;
+        };
+        let allowed = option.split('`').next().unwrap();
+        let run = rungc(
+            &at.join("project"),
+            &[command, &["--allow-folder", allowed]].concat(),
+        );
+        assert_eq!(
+            run.status.code(),
+            Some(0),
+            "{settings}: {}",
+            text(&run.stderr)
+        );
+    }
+}
+
+#[test]
+fn a_refused_folder_is_named_with_the_option() {
+    let folder =
+        strange("[project]\nprogram = \"motor.il\"\n[io.a]\nfiles = \"..\"\nY000 = \"write x\"\n");
+    let run = rungc(&folder.path().join("project"), &["serve", "--for", "50ms"]);
+    let place = dunce::canonicalize(folder.path()).unwrap();
+    let said = text(&run.stderr).replace(&place.display().to_string(), "FOLDER");
+    let last = said.lines().last().unwrap();
+    insta::assert_snapshot!(
+        last,
+        @"rungc: FOLDER/project/rungc.toml: `[io.a] files` leads out of the project's folder, to FOLDER; `--allow-folder FOLDER` allows it"
+    );
+}
