@@ -678,10 +678,7 @@ mod tests {
                 if is::<OutputPath>(arg) {
                     outputs.insert(format!("{command} --{id}"));
                 } else if is::<PathBuf>(arg) || is_path {
-                    assert!(
-                        INPUTS.contains(&id),
-                        "{command} {id}: an output has the type OutputPath"
-                    );
+                    assert!(INPUTS.contains(&id), "{command} {id}: not an OutputPath");
                 }
             }
         }

@@ -54,7 +54,7 @@ pub fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((_, command)) = matches.subcommand() else {
         return Ok(());
     };
-    // Values of other types are no paths.
+    // Values of other types are not paths.
     for id in command.ids() {
         if let Ok(Some(paths)) = command.try_get_many::<PathBuf>(id.as_str()) {
             paths.for_each(|path| inputs::note(path));
@@ -173,7 +173,7 @@ fn refuse_input(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Rejects a path before long work, where a file is that a command would replace with one that has no kind of its own.
+/// Rejects a path before long work, where a file is that a command would replace with one of no recognisable kind.
 pub fn spare(path: &Path, force: bool) -> Result<(), Failure> {
     permit(path, Kind::Own, force)
 }

@@ -100,7 +100,7 @@ pub enum ReadError {
         /// Its path.
         path: String,
     },
-    /// A file that is no program.
+    /// A file that is not a program.
     #[error("`{name}` is {what}: {help}")]
     NoProgram {
         /// The file's name.

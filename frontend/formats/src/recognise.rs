@@ -1,8 +1,8 @@
-//! Files that are no programs: what each is, by its content, and what to do with it.
+//! Files that are not programs: what each is, by its content, and what to do with it.
 
 use crate::{csv, encoding, gx, il, image, ladder_text, plcopen};
 
-/// A file that is no program.
+/// A file that is not a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Recognised {
     /// Description of the file: `a ZIP archive`.
@@ -11,7 +11,7 @@ pub struct Recognised {
     pub help: &'static str,
 }
 
-/// Export of the list, for files that editors write in formats of their own.
+/// Export of the list, for files that editors write in their own formats.
 const EXPORT: &str = "open it in its editor, and export the program as a list (CSV) or save its instruction list as text";
 const PICTURE: &str = "a program is read from the editor's project or list export; `rungc convert --to il` takes ladders drawn in characters";
 const DOCUMENT: &str = "save the instruction list in it as plain text";
@@ -67,7 +67,7 @@ const MAGIC: [(&[u8], Recognised); 22] = {
     ]
 };
 
-/// Endings of files with content of their own. Only binary content goes by its name.
+/// Endings of files with their own content. Only binary content goes by its name.
 const ENDINGS: [(&str, &str, &str); 13] = [
     (
         "gx3",
@@ -172,7 +172,7 @@ const PARTS: [(&str, Recognised); 8] = [
     ),
 ];
 
-/// Recognises a file that is no program; `None` for one that may be a program.
+/// Recognises a file that is not a program; `None` for one that may be a program.
 pub fn recognise(name: &str, bytes: &[u8]) -> Option<Recognised> {
     let ending = name
         .rsplit_once('.')
@@ -247,7 +247,7 @@ const HEAD: usize = 64 << 10;
 /// Number of lines of a text that decide.
 const LINES: usize = 60;
 
-/// A text that is no program.
+/// A text that is not a program.
 fn of_text(text: &str) -> Option<Recognised> {
     let is = |what, help| Some(Recognised { what, help });
     let text = text.trim_start_matches('\u{FEFF}');

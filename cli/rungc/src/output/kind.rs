@@ -23,7 +23,7 @@ pub enum Kind {
     Proof,
     /// A table of uses of devices, or of samples.
     Table,
-    /// A report, for people or for programs: JSON, SARIF, JUnit, LCOV.
+    /// A report, human-readable or for programs: JSON, SARIF, JUnit, LCOV.
     Report,
     /// A file that people write or edit, or that has no recognisable content: it is never replaced unasked.
     Own,
@@ -71,7 +71,7 @@ impl Kind {
     pub fn difference(self) -> &'static str {
         match self {
             Kind::Own => "",
-            _ => " and is no earlier result of this kind",
+            _ => " and is not an earlier result of this kind",
         }
     }
 }

@@ -254,7 +254,7 @@ fn files_beside_an_output_are_outputs_too() {
     ];
     let output = rungc(at, &scope);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
-    // A program in the folder of its own sources.
+    // A program in the folder of its sources.
     fs::create_dir(at.join("c")).unwrap();
     fs::write(at.join("c/a.c"), OWN[0].1).unwrap();
     let build = ["build", "c/a.c", "--emit", "c", "-o", "c", "--force"];

@@ -90,7 +90,7 @@ fn read(path: &Path, values: &mut [i16]) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns true if a file holds numbers alone, as rows write them, or is no regular file.
+/// Returns true if a file holds numbers alone, as rows write them, or is not a regular file.
 ///
 /// # Errors
 /// The file cannot be read, or is not there.
