@@ -1,7 +1,10 @@
 /* Limits: servers, connections to them, and clients that the table distinguishes. */
 #define SERVERS 8
-#define CONNECTIONS 32
+#define CONNECTIONS MAX_CONNECTIONS
 #define CLIENTS 64
+
+/* Milliseconds after which a silent connection gives way to a new one if a server has no more room. */
+#define IDLE_MS (IDLE_LIMIT * 1000u)
 
 /* Bytes that one connection may have carried out between two scans. */
 #define AT_ONCE 4096
@@ -12,20 +15,22 @@ typedef struct {
     rungc_service service;
     const char *name;
     char address[80];
+    size_t limit;   /* connections at once */
+    bool is_full;   /* from a refusal until there is room again */
 } tcp_server;
 
 /* Traffic of a client's connections. */
 typedef struct {
     size_t server;
     char address[64];
-    unsigned long requests, answers, rejected;
+    unsigned long requests, answers, rejected, stops;
 } tcp_client;
 
 /* A connection to a server. */
 typedef struct {
     int file; /* -1: none */
     tcp_client *client;
-    uint32_t last_poll; /* poll of the last reception */
+    uint32_t last_ms; /* time of the last reception */
     rungc_connection parser;
     uint8_t to_send[2 * RUNGC_LONGEST_REPLY];
     size_t waiting;
@@ -36,7 +41,8 @@ static size_t tcp_server_count;
 static tcp_client tcp_clients[CLIENTS];
 static size_t tcp_client_count;
 static tcp_connection tcp_connections[CONNECTIONS];
-static uint32_t polls;
+static size_t connection_limit = USUAL_CONNECTIONS;
+static uint32_t poll_ms; /* time of this poll */
 
 /* An address as text; with its port, if there is room for one. */
 static void name_address(const struct sockaddr_storage *address, socklen_t length, char *host, size_t host_size, char *both, size_t size)
@@ -100,6 +106,20 @@ static bool listen_at(tcp_server *server, const struct addrinfo *at)
     return true;
 }
 
+/* Sets how many connections each server opened from now on has at once. */
+static bool limit_connections(const char *text)
+{
+    char *end = NULL;
+    const unsigned long limit = strtoul(text, &end, 10);
+
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || limit == 0u || limit > CONNECTIONS) {
+        print(stderr, "PROGRAM: --clients %s: a number of connections from 1 to %d\n", text, CONNECTIONS);
+        return false;
+    }
+    connection_limit = (size_t)limit;
+    return true;
+}
+
 /* Opens a server. */
 static bool open_server(rungc_server_protocol protocol, const char *name, const char *text)
 {
@@ -115,6 +135,7 @@ static bool open_server(rungc_server_protocol protocol, const char *name, const 
     tcp_server *const server = &tcp_servers[tcp_server_count];
     server->service = (rungc_service){.protocol = protocol, .family = FAMILY, .type_code = TYPE_CODE};
     server->name = name;
+    server->limit = connection_limit;
     const bool listens = listen_at(server, found);
     freeaddrinfo(found);
     if (!listens) {
@@ -157,28 +178,43 @@ static void close_connection(tcp_connection *connection)
     connection->file = -1;
 }
 
-/* A place for a new connection: a free one, or that of the connection which has been silent longest. */
-static tcp_connection *free_connection(void)
+static bool is_open(const tcp_connection *connection)
 {
-    tcp_connection *longest = &tcp_connections[0];
+    return connection->client != NULL && connection->file >= 0;
+}
+
+/* A place for a new connection to a server: a free one, or that of a connection which has been silent too long; NULL if there is none. */
+static tcp_connection *free_connection(size_t server)
+{
+    tcp_connection *free = NULL;
+    tcp_connection *idle = NULL;
+    size_t count = 0;
 
     for (size_t i = 0; i < CONNECTIONS; i++) {
         tcp_connection *const connection = &tcp_connections[i];
-        if (connection->client == NULL || connection->file < 0) {
-            return connection;
-        }
-        if (polls - connection->last_poll > polls - longest->last_poll) {
-            longest = connection;
+        if (!is_open(connection)) {
+            free = connection;
+        } else if (connection->client->server == server) {
+            const uint32_t silent_ms = poll_ms - connection->last_ms;
+            count++;
+            if (silent_ms >= IDLE_MS && (idle == NULL || silent_ms > poll_ms - idle->last_ms)) {
+                idle = connection;
+            }
         }
     }
-    close_connection(longest);
-    return longest;
+    if (free != NULL && count < tcp_servers[server].limit) {
+        return free;
+    }
+    if (idle != NULL) {
+        close_connection(idle);
+    }
+    return idle;
 }
 
 /* Takes the connections that are waiting. */
 static void accept_clients(size_t at)
 {
-    const tcp_server *const server = &tcp_servers[at];
+    tcp_server *const server = &tcp_servers[at];
     struct sockaddr_storage address;
     socklen_t length = sizeof address;
     char host[64];
@@ -194,10 +230,19 @@ static void accept_clients(size_t at)
         }
         /* An answer is one small packet: waiting for more only delays it. */
         (void)setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-        tcp_connection *const connection = free_connection();
+        tcp_connection *const connection = free_connection(at);
+        if (connection == NULL) {
+            close(file);
+            if (!server->is_full) {
+                server->is_full = true;
+                print(stderr, "PROGRAM: %s refuses %s: all %lu connections are in use (--clients allows more)\n", server->address, host, (unsigned long)server->limit);
+            }
+            continue;
+        }
+        server->is_full = false;
         connection->file = file;
         connection->client = client_of(at, host);
-        connection->last_poll = polls;
+        connection->last_ms = poll_ms;
         connection->waiting = 0;
         rungc_connect(&connection->parser, server->service);
     }
@@ -209,7 +254,7 @@ static bool has_room(const tcp_connection *connection)
     return connection->waiting <= sizeof connection->to_send - RUNGC_LONGEST_REPLY;
 }
 
-/* Takes a character, and carries out and answers the request that it ends; false if nothing that follows can be a request. */
+/* Takes a character, and carries out and answers the request that it ends; false if the beginning of the next request is unknown. */
 static bool feed(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
 {
     static rungc_reply reply;
@@ -225,7 +270,11 @@ static bool feed(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
     memcpy(connection->to_send + connection->waiting, reply.bytes, reply.length);
     connection->waiting += reply.length;
     if (reply.request != RUNGC_REQUEST_NONE) {
-        PROGRAM_set_running(plc, reply.request == RUNGC_REQUEST_RUN);
+        const bool runs = reply.request == RUNGC_REQUEST_RUN;
+        const tcp_client *const client = connection->client;
+        connection->client->stops += runs ? 0u : 1u;
+        print(stderr, "PROGRAM: %s switches to %s (%s)\n", client->address, runs ? "RUN" : "STOP", tcp_servers[client->server].name);
+        PROGRAM_set_running(plc, runs);
     }
     return result != RUNGC_FEED_RESULT_LOST;
 }
@@ -264,7 +313,7 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
         if (taken == 0u) {
             break;
         }
-        connection->last_poll = polls;
+        connection->last_ms = poll_ms;
         left -= taken < left ? taken : left;
         if (recv(connection->file, bytes, taken, 0) < 0) {
             open = false;
@@ -274,17 +323,17 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
 }
 
 /* Carries out and answers the requests of clients since the last scan. */
-static void poll_servers(PROGRAM_plc *plc)
+static void poll_servers(PROGRAM_plc *plc, uint32_t now_ms)
 {
-    polls++;
-    for (size_t i = 0; i < tcp_server_count; i++) {
-        accept_clients(i);
-    }
+    poll_ms = now_ms;
     for (size_t i = 0; i < CONNECTIONS; i++) {
         tcp_connection *const connection = &tcp_connections[i];
-        if (connection->client != NULL && connection->file >= 0 && !serve(plc, connection)) {
+        if (is_open(connection) && !serve(plc, connection)) {
             close_connection(connection);
         }
+    }
+    for (size_t i = 0; i < tcp_server_count; i++) {
+        accept_clients(i);
     }
 }
 
@@ -302,11 +351,11 @@ static void print_connections(void)
             const tcp_client *const client = &tcp_clients[i];
             if (client->server == server) {
                 any = true;
-                print(stderr, ROW, address, client->address, name, client->requests, client->answers, client->rejected);
+                print(stderr, ROW, address, client->address, name, client->requests, client->answers, client->rejected, client->stops);
             }
         }
         if (!any) {
-            print(stderr, ROW, address, "-", name, 0ul, 0ul, 0ul);
+            print(stderr, ROW, address, "-", name, 0ul, 0ul, 0ul, 0ul);
         }
     }
 }

@@ -11,9 +11,16 @@ static bool is_line(const char *text)
     return strchr(text, '/') != NULL;
 }
 
-static void poll_servers(PROGRAM_plc *plc)
+static bool limit_connections(const char *text)
+{
+    (void)text;
+    return true;
+}
+
+static void poll_servers(PROGRAM_plc *plc, uint32_t now_ms)
 {
     (void)plc;
+    (void)now_ms;
 }
 
 static void print_connections(void)

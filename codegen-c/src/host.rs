@@ -8,7 +8,7 @@ use crate::{Options, template, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
-use rungc_rt::comm::service::{ServerProtocol, TABLE_HEADING};
+use rungc_rt::comm::service::{IDLE_S, MAX_CLIENTS, ServerProtocol, TABLE_HEADING, USUAL_CLIENTS};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -177,7 +177,10 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     };
     let environment = environment::parts(module, io);
     let (serve, connections) = match servers {
-        true => ("        poll_servers(plc);\n", "    print_connections();\n"),
+        true => (
+            "        poll_servers(plc, now_ms);\n",
+            "    print_connections();\n",
+        ),
         false => ("", ""),
     };
     let [begin_clients, ask, asked] = clients::calls(module, servers);
@@ -367,6 +370,7 @@ fn valued(module: &Module, host: &Host) -> String {
             Takes::Retained => "keep_in(argv[++i])".to_string(),
             Takes::Io => environment::option(module, "describe"),
             Takes::Log => environment::option(module, "open_log"),
+            Takes::Clients => "limit_connections(argv[++i])".to_string(),
             Takes::Address(protocol) => open_server(protocol),
             Takes::AddressOrLine(protocol, port) => {
                 let open = open_server(protocol);
@@ -412,12 +416,15 @@ fn server_code(module: &Module, servers: bool) -> String {
     let code = by_system(&windows, &posix) + "\n";
     code.replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
         .replace("TYPE_CODE", &module.model.type_code().to_string())
+        .replace("MAX_CONNECTIONS", &MAX_CLIENTS.to_string())
+        .replace("USUAL_CONNECTIONS", &USUAL_CLIENTS.to_string())
+        .replace("IDLE_LIMIT", &IDLE_S.to_string())
         .replace("HEADING", TABLE_HEADING)
         .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))
 }
 
 /// Format of a row in the table of connections.
-const TABLE_ROW: &str = "%-21s  %-15s  %-16s  %8lu  %8lu  %8lu";
+const TABLE_ROW: &str = "%-21s  %-15s  %-16s  %8lu  %8lu  %8lu  %8lu";
 
 /// The serial ports, and what drives them.
 fn lines(module: &Module) -> String {

@@ -50,7 +50,7 @@ const OUTSIDE_USES: [&str; 2] = [
 const SERVERS_USES: [&str; 3] = [
     "rungc_host::servers::Servers",
     "rungc_rt::Ports",
-    "rungc_rt::comm::service::{Service, ServerProtocol, address}",
+    "rungc_rt::comm::service::{MAX_CLIENTS, Service, ServerProtocol, address}",
 ];
 
 /// Imports of clients of other servers.
@@ -245,6 +245,7 @@ fn open(module: &Module, host: &Host) -> String {
             }
             Takes::Io => "environment().describe(&value)".to_string(),
             Takes::Log => "environment().log(&value)".to_string(),
+            Takes::Clients => "limit_clients(&mut servers, &value)".to_string(),
             Takes::Address(protocol) => open_server(protocol),
             Takes::AddressOrLine(protocol, port) => {
                 let open = open_server(protocol);
@@ -361,7 +362,7 @@ const EXCHANGE: &str =
     "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
 
 /// Clients are answered between two scans.
-const POLL: &str = "        if let Some(running) = servers.poll(&mut plc) {
+const POLL: &str = "        if let Some(running) = servers.poll(&mut plc, report) {
             plc.set_running(running);
         }
 ";

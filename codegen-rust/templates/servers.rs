@@ -14,3 +14,10 @@ fn open_server(servers: &mut Servers, protocol: ServerProtocol, value: &str) -> 
     report!("{name} at {at}");
     Ok(())
 }
+
+/// Sets how many connections a server has at once: `--clients 64`.
+fn limit_clients(servers: &mut Servers, value: &str) -> Result<(), String> {
+    let clients = value.parse().ok().filter(|count| (1..=MAX_CLIENTS).contains(count));
+    servers.set_clients(clients.ok_or_else(|| format!("a number of connections from 1 to {MAX_CLIENTS}"))?);
+    Ok(())
+}

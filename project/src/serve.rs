@@ -18,6 +18,8 @@ pub struct Serve {
     pub mc: Vec<SocketAddr>,
     /// Addresses at which all devices are served by the programming port's protocol.
     pub fx: Vec<FxEnd>,
+    /// Connections that each server has at once.
+    pub clients: Option<u16>,
     /// Connections of the serial ports.
     pub serial: Vec<SerialLine>,
     /// Devices that an emitted program stores, so that its ports serve them, in addition to those that the program

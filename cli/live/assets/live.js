@@ -20,8 +20,14 @@ const events = new EventSource("events");
 events.addEventListener("message", ({ data }) => {
   for (const [name, value] of Object.entries(JSON.parse(data))) parts[name]?.(value);
 });
+let page;
+events.addEventListener("page", ({ data }) => {
+  // After a restart with another program, the page is a different one.
+  if (page && page !== data) location.reload();
+  page = data;
+});
 events.addEventListener("open", () => lose(false));
-events.addEventListener("error", () => lose(true));
+events.addEventListener("error", () => lose(true, events.readyState === EventSource.CLOSED));
 
 document.getElementById("theme").addEventListener("click", () => {
   const root = document.documentElement;

@@ -129,8 +129,10 @@ export function showLog(entries) {
   if (atEnd) log.scrollTop = log.scrollHeight;
 }
 
-export function lose(lost) {
-  find("lost").hidden = !lost;
+export function lose(lost, forGood = false) {
+  document.body.classList.toggle("lost", lost);
+  find("lost").hidden = !lost || forGood;
+  find("refused").hidden = !forGood;
   if (lost) {
     find("mode").textContent = "not connected";
     find("mode").dataset.mode = "lost";

@@ -2,18 +2,19 @@
 
 use serde::Deserialize;
 
+// Variants without fields are structs, so that unknown fields are rejected there, too.
 /// Command of the page. Devices have the names of test files: `M0`, `D0.i32`, `T0.value`.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Command {
     /// Puts the PLC in RUN.
-    Run,
+    Run {},
     /// Puts the PLC in STOP.
-    Stop,
+    Stop {},
     /// Lets time stand still after the scan that is executed.
-    Pause,
+    Pause {},
     /// Lets time pass again.
-    Continue,
+    Continue {},
     /// Executes this number of scans, and lets time stand still after them.
     Scan {
         /// From 1.
@@ -49,7 +50,7 @@ pub enum Command {
         device: String,
     },
     /// Releases all forced devices.
-    ReleaseAll,
+    ReleaseAll {},
     /// Adds a device to the watch list.
     Watch {
         /// Its name.
@@ -83,14 +84,14 @@ impl Command {
     /// Returns true if it changes the PLC.
     pub fn changes_plc(&self) -> bool {
         match self {
-            Command::Run
-            | Command::Stop
+            Command::Run {}
+            | Command::Stop {}
             | Command::Set { .. }
             | Command::Force { .. }
             | Command::Release { .. }
-            | Command::ReleaseAll => true,
-            Command::Pause
-            | Command::Continue
+            | Command::ReleaseAll {} => true,
+            Command::Pause {}
+            | Command::Continue {}
             | Command::Scan { .. }
             | Command::Back { .. }
             | Command::Pace { .. }

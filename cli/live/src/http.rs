@@ -161,11 +161,14 @@ fn parse(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Rejection> {
     if header("transfer-encoding")?.is_some() {
         return Err(Rejection::BadRequest);
     }
-    let length = header("content-length")?.map(|length| length.parse());
-    let length: usize = length
-        .transpose()
-        .map_err(|_| Rejection::BadRequest)?
-        .unwrap_or(0);
+    let length = match header("content-length")? {
+        None => 0,
+        // `parse` alone takes a sign.
+        Some(digits) if digits.bytes().all(|byte| byte.is_ascii_digit()) => {
+            digits.parse().map_err(|_| Rejection::BadRequest)?
+        }
+        Some(_) => return Err(Rejection::BadRequest),
+    };
     if length > BODY {
         return Err(Rejection::TooLarge);
     }
@@ -230,7 +233,10 @@ mod tests {
             rejected(&with("Transfer-Encoding: chunked")),
             Some(BadRequest)
         );
-        assert_eq!(rejected(&with("Content-Length: -1")), Some(BadRequest));
+        for length in ["-1", "+36", "", "0x10", "1 2", "99999999999999999999"] {
+            let header = format!("Content-Length: {length}");
+            assert_eq!(rejected(&with(&header)), Some(BadRequest), "{length}");
+        }
         let long = format!("Content-Length: {}", BODY + 1);
         assert_eq!(rejected(&with(&long)), Some(TooLarge));
         let many: Vec<_> = (0..65).map(|n| format!("A{n}: b")).collect();

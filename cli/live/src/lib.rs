@@ -11,12 +11,14 @@ mod markup;
 mod probe;
 mod scene;
 mod server;
+mod token;
 
 pub use command::Command;
 pub use frame::{Frame, Log};
 pub use markup::page;
 pub use scene::Scene;
 pub use server::{Order, Server};
+pub use token::token;
 
 /// Text of a file of `assets/`: a module, the style or a panel of the page.
 macro_rules! asset {

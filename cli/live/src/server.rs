@@ -2,12 +2,15 @@
 //!
 //! The address is one of this machine alone. A page of another origin cannot use it: the name that the browser was
 //! given (`Host`) must be this address, which defeats names that are made to lead here (DNS rebinding); a request from
-//! a page must come from this one (`Origin`); and without the token, nothing is answered but a rejection.
+//! a page must come from this one (`Origin`); and without the token, nothing is answered but a rejection. A client that
+//! connects and sends no request gives way to others.
 
 use crate::asset;
 use crate::command::Command;
 use crate::frame::Frame;
 use crate::http::{PATIENCE, Rejection, Request, begin_events, respond};
+use std::collections::VecDeque;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -55,12 +58,16 @@ struct Shared {
     address: SocketAddr,
     token: String,
     html: String,
+    /// A number that distinguishes this page from that of another program.
+    page: u64,
     read_only: bool,
     frame: Mutex<(u64, Arc<Frame>)>,
     changed: Condvar,
     /// Numbers of open connections, and of streams of events among them.
     open: AtomicUsize,
     watching: AtomicUsize,
+    /// Connections whose requests have not come yet, the oldest first, by the client's address.
+    silent: Mutex<VecDeque<(SocketAddr, TcpStream)>>,
 }
 
 /// The server of a page.
@@ -70,25 +77,35 @@ pub struct Server {
 }
 
 impl Server {
-    /// Serves this page at an address of this machine alone. A page that is only read takes no commands.
+    /// Serves this page at an address of this machine alone, under a path that begins with a secret token. A page that
+    /// is only read takes no commands.
     ///
     /// # Errors
-    /// An address that others can reach or that cannot be had, and a system without random numbers.
-    pub fn open(address: SocketAddr, html: String, read_only: bool) -> io::Result<Server> {
+    /// An address that others can reach or that cannot be had.
+    pub fn open(
+        address: SocketAddr,
+        token: String,
+        html: String,
+        read_only: bool,
+    ) -> io::Result<Server> {
         if !address.ip().is_loopback() {
             let why = "the page is served to this machine alone: use a port or an address such as 127.0.0.1:8080";
             return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
         }
         let listener = TcpListener::bind(address)?;
+        let mut hasher = DefaultHasher::new();
+        html.hash(&mut hasher);
         let shared = Arc::new(Shared {
             address: listener.local_addr()?,
-            token: token()?,
+            token,
             html,
+            page: hasher.finish(),
             read_only,
             frame: Mutex::default(),
             changed: Condvar::new(),
             open: AtomicUsize::new(0),
             watching: AtomicUsize::new(0),
+            silent: Mutex::default(),
         });
         let (sender, orders) = channel();
         let accepting = Arc::clone(&shared);
@@ -129,13 +146,6 @@ impl Server {
     }
 }
 
-/// 128 random bits, as hexadecimal digits.
-fn token() -> io::Result<String> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(io::Error::other)?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
 fn accept(listener: &TcpListener, shared: &Arc<Shared>, orders: &Sender<Order>) {
     for stream in listener.incoming() {
         let Ok(mut stream) = stream else {
@@ -145,10 +155,11 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>, orders: &Sender<Order>) 
         };
         let _ = stream.set_write_timeout(Some(PATIENCE));
         let _ = stream.set_nodelay(true);
-        if shared.open.load(Ordering::Relaxed) >= CONNECTIONS {
+        if shared.open.load(Ordering::Relaxed) >= CONNECTIONS && !shared.close_silent() {
             Rejection::Busy.send(&mut stream);
             continue;
         }
+        shared.is_silent(&stream);
         shared.open.fetch_add(1, Ordering::Relaxed);
         let (of_thread, orders) = (Arc::clone(shared), orders.clone());
         let begun = thread::Builder::new()
@@ -176,13 +187,42 @@ fn linger(stream: &mut TcpStream) {
 }
 
 impl Shared {
+    fn silent(&self) -> MutexGuard<'_, VecDeque<(SocketAddr, TcpStream)>> {
+        self.silent.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes a connection whose request is still to come.
+    fn is_silent(&self, stream: &TcpStream) {
+        if let (Ok(peer), Ok(stream)) = (stream.peer_addr(), stream.try_clone()) {
+            self.silent().push_back((peer, stream));
+        }
+    }
+
+    /// Notes that the request of a connection has come, or that it has ended.
+    fn is_not_silent(&self, stream: &TcpStream) {
+        if let Ok(peer) = stream.peer_addr() {
+            self.silent().retain(|(other, _)| *other != peer);
+        }
+    }
+
+    /// Closes the connection that has been silent longest; false if none is.
+    fn close_silent(&self) -> bool {
+        let Some((_, stream)) = self.silent().pop_front() else {
+            return false;
+        };
+        let _ = stream.shutdown(Shutdown::Both);
+        true
+    }
+
     fn frame(&self) -> MutexGuard<'_, (u64, Arc<Frame>)> {
         self.frame.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Answers the request of a connection.
     fn serve(&self, stream: &mut TcpStream, orders: &Sender<Order>) -> Result<(), Rejection> {
-        let request = Request::read(stream)?;
+        let request = Request::read(stream);
+        self.is_not_silent(stream);
+        let request = request?;
         let name = self.admit(&request)?;
         match (&*request.method, name) {
             ("GET", "") => self.send(stream, "text/html", &self.html),
@@ -245,6 +285,7 @@ impl Shared {
 
     fn stream(&self, stream: &mut TcpStream) -> io::Result<()> {
         begin_events(stream)?;
+        write!(stream, "event: page\ndata: {:016x}\n\n", self.page)?;
         // A frame from before anyone watched is outdated.
         let mut number = self.frame().0;
         let mut last: Option<Arc<Frame>> = None;

@@ -2,7 +2,7 @@
 
 use crate::cycle::keeps_any;
 use rungc_ir::Module;
-use rungc_rt::comm::service::ServerProtocol;
+use rungc_rt::comm::service::{ServerProtocol, USUAL_CLIENTS};
 use rungc_syntax::text::one_line;
 use std::fmt::Write;
 
@@ -29,6 +29,8 @@ pub enum Takes {
     Address(ServerProtocol),
     /// That of one that speaks what this port does: or what the port is connected to.
     AddressOrLine(ServerProtocol, u8),
+    /// Maximum number of connections of the servers named after it.
+    Clients,
     /// The file that keeps latched devices from run to run.
     Retained,
     /// The file that describes connections.
@@ -68,7 +70,14 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
         name: "--retain",
         takes: Takes::Retained,
     });
-    let servers = servers.into_iter().filter(|_| host.servers);
+    let clients = Valued {
+        name: "--clients",
+        takes: Takes::Clients,
+    };
+    let servers = [clients]
+        .into_iter()
+        .chain(servers)
+        .filter(|_| host.servers);
     let outside = [("--io", Takes::Io), ("--log", Takes::Log)];
     let outside = outside.map(|(name, takes)| Valued { name, takes });
     let outside = outside.into_iter().filter(|_| host.io);
@@ -110,6 +119,10 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                     &format!("connect a serial port: {ends}"),
                 );
             }
+            Takes::Clients => option(
+                &format!("{name} N"),
+                &format!("connections of each server named after it (default {USUAL_CLIENTS})"),
+            ),
             Takes::Retained => option(
                 &format!("{name} FILE"),
                 "keep latched devices in this file from run to run",

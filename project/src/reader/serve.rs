@@ -3,6 +3,7 @@
 use super::{Reader, SERVED, Value, span};
 use crate::serve::{self, FxEnd, Line, LineEnd, SerialLine};
 use crate::{Named, Project};
+use rungc_rt::comm::service::MAX_CLIENTS;
 use toml::de::DeTable;
 
 /// Keys of addresses.
@@ -10,6 +11,9 @@ pub(super) const ADDRESSES: [&str; 3] = ["modbus-tcp", "mc", "fx"];
 
 /// Key of the table of serial lines.
 pub(super) const SERIAL: &str = "serial";
+
+/// Key of the limit of connections.
+const CLIENTS: &str = "clients";
 
 /// Key of what the CAN card is connected to.
 const CAN: &str = "can";
@@ -19,7 +23,7 @@ impl Reader {
         let classes = SERVED.iter().map(|class| class.prefix());
         let keys: Vec<_> = ADDRESSES
             .into_iter()
-            .chain([SERIAL, CAN])
+            .chain([CLIENTS, SERIAL, CAN])
             .chain(classes)
             .collect();
         self.known("serve", table, &keys);
@@ -27,6 +31,11 @@ impl Reader {
         project.serve.modbus_tcp = self.ends(table, modbus_tcp, serve::address);
         project.serve.mc = self.ends(table, mc, serve::address);
         project.serve.fx = self.ends(table, fx, str::parse::<FxEnd>);
+        if let Some(value) = table.get(CLIENTS) {
+            let range = 1..=MAX_CLIENTS as u32;
+            let clients = self.number(table, span(value.span()), CLIENTS, range, None);
+            project.serve.clients = clients.and_then(|clients| clients.try_into().ok());
+        }
         if let Some(value) = table.get(SERIAL) {
             self.lines(value, project);
         }

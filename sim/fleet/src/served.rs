@@ -1,7 +1,7 @@
 //! Modbus TCP: a port for each PLC of a group, or units of a port.
 
 use crate::engine::{At, Engine};
-use rungc_host::servers::Server;
+use rungc_host::servers::{Limits, Server, ServerEvent};
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::Service;
 use rungc_rt::{Class, FIRST_COUNTER32};
@@ -64,7 +64,8 @@ impl Served {
                 })?;
                 address.set_port(port);
             }
-            let server = Server::bind(address, service).map_err(|error| (address, error))?;
+            let server = Server::bind(address, service, Limits::default())
+                .map_err(|error| (address, error))?;
             doors.push(Door {
                 server,
                 plcs: plc..count.min(plc + share),
@@ -100,9 +101,11 @@ impl Served {
                 type_code: self.type_code,
                 request: None,
             };
-            for (_, exchange) in door.server.poll(&mut map) {
-                self.requests[0] += 1;
-                self.requests[1] += u64::from(exchange.rejected);
+            for (_, event) in door.server.poll(&mut map) {
+                if let ServerEvent::Exchange(exchange) = event {
+                    self.requests[0] += 1;
+                    self.requests[1] += u64::from(exchange.rejected);
+                }
             }
             if let Some((plc, running)) = map.request {
                 switch(plc, running);

@@ -1,8 +1,10 @@
 //! Names in `set`, `init` and `expect`: `M0`, `D0.i32`, `K4M0`, `T0.value`, `Y000.pulses`.
 
+use rungc_models::runs::is_counter32;
 use rungc_rt::modules::{BOARD, Quantity};
 use rungc_syntax::DeviceClass;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// A channel of a special module, `0:CH1.mA`, or one of its terminals, `101:X5`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -188,6 +190,27 @@ impl Target {
             }
             None => Err(format!("`{name}` has no value")),
         }
+    }
+
+    /// The integers it can hold, signed or unsigned; `None` if it holds no integer.
+    pub fn integers(self) -> Option<RangeInclusive<i64>> {
+        const WORD: RangeInclusive<i64> = -0x8000..=0xffff;
+        const DOUBLE: RangeInclusive<i64> = -0x8000_0000..=0xffff_ffff;
+        match self {
+            Target::Bit(..) => Some(0..=1),
+            Target::Current(class, number) if is_counter32(class, number) => Some(DOUBLE),
+            Target::Word(..) | Target::Current(..) | Target::Nibbles(4, ..) => Some(WORD),
+            Target::Pair(..) | Target::Nibbles(8, ..) | Target::Pulses(_) => Some(DOUBLE),
+            Target::Nibbles(digits, ..) => Some(0..=(1 << (4 * u32::from(digits))) - 1),
+            Target::Float(..) | Target::Text(..) | Target::Frequency(_) | Target::Channel(_) => {
+                None
+            }
+        }
+    }
+
+    /// Returns true if a pair of words can hold this float.
+    pub fn is_float(value: f64) -> bool {
+        (value as f32).is_finite()
     }
 
     /// The devices it covers, as (class, first, count); a text covers `text_len` bytes, a channel of a module none.

@@ -6,6 +6,7 @@ use clap::Args;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::Model;
 use rungc_project::serve::{FxEnd, Line, Serve, address};
+use rungc_rt::comm::service::MAX_CLIENTS;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -18,13 +19,17 @@ pub struct ServeArgs {
     /// device.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub modbus_tcp: Vec<SocketAddr>,
-    /// Serve all devices over the MC protocol (binary 1E and 3E frames), as --modbus-tcp does.
+    /// Serve all devices over the MC protocol (1E and 3E frames, binary and ASCII), as --modbus-tcp does.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub mc: Vec<SocketAddr>,
     /// Serve all devices over the programming port's protocol, as --modbus-tcp does; or connect the programming port to
     /// a line, as with --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
     #[arg(long, value_name = "ADDRESS or DEVICE")]
     pub fx: Vec<FxEnd>,
+    /// Allow each server this many connections at once (default: 64). One more is refused, unless another one has been
+    /// silent for a minute.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=MAX_CLIENTS as i64), value_name = "N")]
+    pub clients: Option<u16>,
     /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that
     /// clients open (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket
     /// (`COM1=tcp-listen:4001`). Runs in real time. The program sets the line's format and protocol. A lost device is

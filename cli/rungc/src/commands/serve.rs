@@ -49,6 +49,7 @@ impl ServeArgs {
             modbus_tcp: given(&self.modbus_tcp, &settings.modbus_tcp),
             mc: given(&self.mc, &settings.mc),
             fx: given(&self.fx, &settings.fx),
+            clients: self.clients.or(settings.clients),
             serial: self.serial.iter().chain(usual).cloned().collect(),
             can: self.can.clone(),
             trace_frames: self.trace_frames.clone(),

@@ -70,15 +70,20 @@ pub fn parse(text: &str) -> std::result::Result<Setting, String> {
 /// Checks that a device can be set to a value; the error states the reason if not.
 pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
     let fits = match target {
-        Target::Bit(..) => value == 0.0 || value == 1.0,
-        Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
-        Target::Float(..) => true,
+        Target::Float(..) => Target::is_float(value),
         Target::Channel(_) => value.abs() <= MOST_SIGNAL,
         Target::Text(..) => return Err("characters cannot be set here".to_string()),
         Target::Pulses(_) | Target::Frequency(_) => {
             return Err("only the program can send pulses".to_string());
         }
-        _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
+        Target::Bit(..)
+        | Target::Word(..)
+        | Target::Current(..)
+        | Target::Pair(..)
+        | Target::Nibbles(..) => {
+            let range = target.integers();
+            value.fract() == 0.0 && range.is_some_and(|range| range.contains(&(value as i64)))
+        }
     };
     match fits {
         true => Ok(()),
@@ -102,11 +107,30 @@ mod tests {
             }
         );
         assert_eq!(setting("D0.i32=-70000").unwrap().value, -70000.0);
+        for right in [
+            "C200.value=70000",
+            "K4M0=-1",
+            "K8M0=4294967295",
+            "D0.f32=3.4e38",
+        ] {
+            assert!(setting(right).is_ok(), "{right}");
+        }
         for wrong in [
             "X000",
             "X000=2",
             "X008=1",
             "D0=70000",
+            "D0=-32769",
+            "D0=1e30",
+            "D0=nan",
+            "D0.f32=1e39",
+            "D0.f32=-inf",
+            "D0.i32=4294967296",
+            "T0.value=65536",
+            "C199.value=70000",
+            "K1M0=16",
+            "K1M0=-1",
+            "K5M0=1048576",
             "D0=x",
             "D0=1@soon",
             "Q1=1",

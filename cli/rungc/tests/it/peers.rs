@@ -343,6 +343,16 @@ fn pymcprotocol_reads_and_writes() {
 }
 
 #[test]
+fn pymcprotocol_and_fx3u_mcprotocol_read_and_write_in_ascii() {
+    by_tcp(
+        python("fx3u_mcprotocol", "mc_ascii.py"),
+        SUM,
+        "fx3u",
+        ["--mc", "MC protocol"],
+    );
+}
+
+#[test]
 fn mcprotocol_reads_and_writes_in_both_frames() {
     let folder = program(SUM);
     for frame in ["1E", "3E"] {

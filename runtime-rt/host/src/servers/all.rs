@@ -1,6 +1,6 @@
 //! The servers of a program.
 
-use super::Server;
+use super::{Limits, Server, ServerEvent};
 use rungc_rt::Plc;
 use rungc_rt::comm::Served;
 use rungc_rt::comm::service::{Service, TABLE_HEADING};
@@ -11,6 +11,7 @@ use std::net::{IpAddr, SocketAddr};
 /// The servers of a program, and what has gone over their connections.
 #[derive(Debug, Default)]
 pub struct Servers {
+    limits: Limits,
     servers: Vec<Open>,
     /// By the server's place in `servers`, and by client.
     clients: BTreeMap<(usize, IpAddr), Counts>,
@@ -29,6 +30,7 @@ struct Counts {
     requests: u64,
     answers: u64,
     rejected: u64,
+    stops: u64,
 }
 
 impl Servers {
@@ -37,28 +39,41 @@ impl Servers {
         Self::default()
     }
 
+    /// Sets the maximum number of connections of each server opened from now on.
+    pub fn set_clients(&mut self, clients: usize) {
+        self.limits.clients = clients;
+    }
+
     /// Opens one more; returns where it listens: port 0 has become a free one.
     ///
     /// # Errors
     /// What the system says: the address is taken, or not to be had.
     pub fn open(&mut self, service: Service, address: SocketAddr) -> io::Result<SocketAddr> {
-        let server = Server::bind(address, service)?;
+        let server = Server::bind(address, service, self.limits)?;
         let address = server.address()?;
         self.servers.push(Open { server, address });
         Ok(address)
     }
 
     /// Carries out and answers the requests of clients since the last call; returns RUN or STOP if one has requested
-    /// it.
-    pub fn poll(&mut self, plc: &mut dyn Plc) -> Option<bool> {
+    /// it. Reports who stops or starts the PLC, and that a connection is refused.
+    pub fn poll(&mut self, plc: &mut dyn Plc, mut report: impl FnMut(&str)) -> Option<bool> {
         let mut request = None;
-        for (n, Open { server, .. }) in self.servers.iter_mut().enumerate() {
+        for (n, Open { server, address }) in self.servers.iter_mut().enumerate() {
             let mut map = Served::new(plc, server.service().type_code);
-            for (client, exchange) in server.poll(&mut map) {
+            for (client, event) in server.poll(&mut map) {
+                let ServerEvent::Exchange(exchange) = event else {
+                    report(&full(*address, client, self.limits));
+                    continue;
+                };
                 let counts = self.clients.entry((n, client.ip())).or_default();
                 counts.requests += 1;
                 counts.answers += u64::from(!exchange.reply.is_empty());
                 counts.rejected += u64::from(exchange.rejected);
+                if let Some(running) = exchange.running {
+                    counts.stops += u64::from(!running);
+                    report(&switched(running, client, server.service()));
+                }
             }
             request = map.take_request().or(request);
         }
@@ -71,7 +86,12 @@ impl Servers {
         for (n, Open { server, address }) in self.servers.iter().enumerate() {
             let protocol = server.service().protocol.name();
             let mut row = |client: &str, counts: &Counts| {
-                let counts = [counts.requests, counts.answers, counts.rejected];
+                let counts = [
+                    counts.requests,
+                    counts.answers,
+                    counts.rejected,
+                    counts.stops,
+                ];
                 rows.push(self::row(&address.to_string(), client, protocol, counts));
             };
             let mut clients = self.clients.range((n, IpAddr::from([0; 4]))..).peekable();
@@ -89,10 +109,29 @@ impl Servers {
     }
 }
 
-/// A row of the table: a server, its client, the protocol, and how many requests, answers and rejections.
-pub(super) fn row(server: &str, client: &str, protocol: &str, counts: [u64; 3]) -> String {
-    let [requests, answers, rejected] = counts;
+/// Message that a server refuses a client.
+pub fn full(server: SocketAddr, client: SocketAddr, limits: Limits) -> String {
     format!(
-        "{server:<21}  {client:<15}  {protocol:<16}  {requests:>8}  {answers:>8}  {rejected:>8}"
+        "{server} refuses {}: all {} connections are in use (--clients allows more)",
+        client.ip(),
+        limits.clients
+    )
+}
+
+/// Message that a client switches the PLC to RUN or STOP.
+pub fn switched(running: bool, client: SocketAddr, service: Service) -> String {
+    let state = if running { "RUN" } else { "STOP" };
+    format!(
+        "{} switches to {state} ({})",
+        client.ip(),
+        service.protocol.name()
+    )
+}
+
+/// A row of the table: a server, its client, the protocol, and how many requests, answers, rejections and stops.
+pub(super) fn row(server: &str, client: &str, protocol: &str, counts: [u64; 4]) -> String {
+    let [requests, answers, rejected, stops] = counts;
+    format!(
+        "{server:<21}  {client:<15}  {protocol:<16}  {requests:>8}  {answers:>8}  {rejected:>8}  {stops:>8}"
     )
 }

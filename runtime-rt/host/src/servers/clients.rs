@@ -94,7 +94,7 @@ impl Clients {
     pub fn table(&self) -> Vec<String> {
         let rows = self.clients.iter().map(|peer| {
             let tally = peer.client.tally;
-            let counts = [tally.requests, tally.answers, tally.rejected].map(u64::from);
+            let counts = [tally.requests, tally.answers, tally.rejected, 0].map(u64::from);
             super::all::row(
                 &peer.address.to_string(),
                 "by PLC",

@@ -2,13 +2,28 @@
 
 use super::{Dialogue, Exchange};
 use rungc_rt::comm::Map;
-use rungc_rt::comm::service::Service;
+use rungc_rt::comm::service::{IDLE_S, Service, USUAL_CLIENTS};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// Connections at once. When one more comes, the one that has been silent longest gives way.
-const CONNECTIONS: usize = 16;
+/// Limits of a server's connections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Connections at once. One more is refused, unless another one is idle.
+    pub clients: usize,
+    /// Time after which a silent connection is idle, so that it gives way to a new one.
+    pub idle: Duration,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            clients: USUAL_CLIENTS,
+            idle: Duration::from_secs(IDLE_S.into()),
+        }
+    }
+}
 
 /// Bytes that one connection may have carried out between two scans.
 const AT_ONCE: usize = 4096;
@@ -21,7 +36,19 @@ const UNREAD: usize = 1 << 16;
 pub struct Server {
     listener: TcpListener,
     service: Service,
+    limits: Limits,
     connections: Vec<Connection>,
+    /// True from a refusal until there is room again.
+    is_full: bool,
+}
+
+/// Event of a server.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ServerEvent {
+    /// A request and its answer.
+    Exchange(Exchange),
+    /// A connection is refused, the first one since there was room.
+    Full,
 }
 
 #[derive(Debug)]
@@ -41,13 +68,15 @@ impl Server {
     ///
     /// # Errors
     /// What the system says: the address is taken, or not to be had.
-    pub fn bind(address: SocketAddr, service: Service) -> io::Result<Self> {
+    pub fn bind(address: SocketAddr, service: Service, limits: Limits) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
         Ok(Server {
             listener,
             service,
+            limits,
             connections: Vec::new(),
+            is_full: false,
         })
     }
 
@@ -71,15 +100,38 @@ impl Server {
 
     /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the
     /// address of each client.
-    pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, Exchange)> {
+    pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, ServerEvent)> {
+        let mut events = Vec::new();
+        self.connections
+            .retain_mut(|connection| connection.poll(map, &mut events));
         // A listener that fails (too many open files) is polled again after the next scan.
         while let Ok((stream, peer)) = self.listener.accept() {
-            self.accept(stream, peer);
+            if self.has_room() {
+                self.is_full = false;
+                self.accept(stream, peer);
+            } else if !std::mem::replace(&mut self.is_full, true) {
+                events.push((peer, ServerEvent::Full));
+            }
         }
-        let mut exchanges = Vec::new();
-        self.connections
-            .retain_mut(|connection| connection.poll(map, &mut exchanges));
-        exchanges
+        events
+    }
+
+    /// Returns true if there is room for one more connection. If all are taken, an idle one is closed.
+    fn has_room(&mut self) -> bool {
+        if self.connections.len() < self.limits.clients {
+            return true;
+        }
+        let connections = self.connections.iter().enumerate();
+        let idle = connections
+            .filter(|(_, connection)| connection.last_received.elapsed() >= self.limits.idle)
+            .min_by_key(|(_, connection)| connection.last_received);
+        match idle {
+            Some((index, _)) => {
+                self.connections.swap_remove(index);
+                true
+            }
+            None => false,
+        }
     }
 
     fn accept(&mut self, stream: TcpStream, peer: SocketAddr) {
@@ -88,13 +140,6 @@ impl Server {
         }
         // An answer is one small packet: waiting for more only delays it.
         let _ = stream.set_nodelay(true);
-        if self.connections.len() == CONNECTIONS {
-            let silent = self.connections.iter().enumerate();
-            let longest = silent.min_by_key(|(_, connection)| connection.last_received);
-            if let Some(n) = longest.map(|(n, _)| n) {
-                self.connections.swap_remove(n);
-            }
-        }
         self.connections.push(Connection {
             stream,
             peer,
@@ -108,7 +153,7 @@ impl Server {
 
 impl Connection {
     /// Does what there is to do; false when the connection is over.
-    fn poll(&mut self, map: &mut dyn Map, exchanges: &mut Vec<(SocketAddr, Exchange)>) -> bool {
+    fn poll(&mut self, map: &mut dyn Map, events: &mut Vec<(SocketAddr, ServerEvent)>) -> bool {
         let mut left = AT_ONCE;
         while left > 0 && !self.closes && self.to_send.len() < UNREAD {
             let mut bytes = [0; 512];
@@ -121,7 +166,7 @@ impl Connection {
                     let reaction = self.dialogue.receive(&bytes[..count], map);
                     self.to_send.extend(reaction.reply);
                     let of_peer = reaction.exchanges.into_iter();
-                    exchanges.extend(of_peer.map(|exchange| (self.peer, exchange)));
+                    events.extend(of_peer.map(|it| (self.peer, ServerEvent::Exchange(it))));
                     self.closes |= reaction.closes;
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,

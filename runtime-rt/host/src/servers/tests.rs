@@ -1,6 +1,6 @@
 //! Servers talked to over real sockets, and dialogues over none.
 
-use super::{Dialogue, Reaction, Server};
+use super::{Dialogue, Limits, Reaction, Server, ServerEvent};
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_rt::{Class, Ports};
@@ -13,6 +13,7 @@ use std::time::Duration;
 struct Registers {
     words: Vec<i16>,
     running: bool,
+    requested: Option<bool>,
 }
 
 impl Registers {
@@ -20,6 +21,7 @@ impl Registers {
         Registers {
             words: vec![0; 512],
             running: true,
+            requested: None,
         }
     }
 }
@@ -61,6 +63,11 @@ impl Map for Registers {
 
     fn request_running(&mut self, running: bool) {
         self.running = running;
+        self.requested = Some(running);
+    }
+
+    fn requested_running(&self) -> Option<bool> {
+        self.requested
     }
 
     fn type_code(&self) -> u16 {
@@ -113,26 +120,28 @@ fn a_programming_port_waits_for_the_next_request() {
 }
 
 /// A server, and where it listens.
-fn server() -> (Server, SocketAddr) {
+fn server(limits: Limits) -> (Server, SocketAddr) {
     let any = SocketAddr::from(([127, 0, 0, 1], 0));
-    let server = Server::bind(any, service(ServerProtocol::ModbusTcp)).unwrap();
+    let server = Server::bind(any, service(ServerProtocol::ModbusTcp), limits).unwrap();
     let address = server.address().unwrap();
     (server, address)
 }
 
-/// Runs a client while the server is polled continuously.
-fn while_served<R: Send>(
+/// Runs a client while the server is polled continuously. Returns the server's events.
+fn while_served(
     server: &mut Server,
     plc: &mut Registers,
-    client: impl FnOnce() -> R + Send,
-) -> R {
+    client: impl FnOnce() + Send,
+) -> Vec<ServerEvent> {
     thread::scope(|scope| {
         let client = scope.spawn(client);
+        let mut events = Vec::new();
         while !client.is_finished() {
-            server.poll(plc);
+            events.extend(server.poll(plc).into_iter().map(|(_, event)| event));
             thread::sleep(Duration::from_millis(1));
         }
-        client.join().unwrap()
+        client.join().unwrap();
+        events
     })
 }
 
@@ -152,7 +161,7 @@ fn read(stream: &mut TcpStream, length: usize) -> Vec<u8> {
 
 #[test]
 fn clients_are_answered_over_sockets() {
-    let (mut server, address) = server();
+    let (mut server, address) = server(Limits::default());
     let mut plc = Registers::new();
     while_served(&mut server, &mut plc, || {
         let [mut one, mut other] = [connect(address), connect(address)];
@@ -169,20 +178,26 @@ fn clients_are_answered_over_sockets() {
     assert_eq!(plc.words[100], 7);
 }
 
+/// Connects, sends half a request, and waits.
+fn half_requests(address: SocketAddr, count: usize) -> Vec<TcpStream> {
+    let half_request = |_| {
+        let mut stream = connect(address);
+        stream.write_all(&READ_D100[..6]).unwrap();
+        stream
+    };
+    (0..count).map(half_request).collect()
+}
+
 #[test]
 fn idle_connections_give_way() {
-    let (mut server, address) = server();
+    let (mut server, address) = server(Limits {
+        clients: 16,
+        idle: Duration::ZERO,
+    });
     let mut plc = Registers::new();
     plc.words[100] = 7;
     while_served(&mut server, &mut plc, || {
-        // Each of them sends half a request, and waits.
-        let idle: Vec<TcpStream> = (0..40)
-            .map(|_| {
-                let mut stream = connect(address);
-                stream.write_all(&READ_D100[..6]).unwrap();
-                stream
-            })
-            .collect();
+        let idle = half_requests(address, 40);
         let mut client = connect(address);
         client.write_all(&READ_D100).unwrap();
         assert_eq!(read(&mut client, 11), D100_IS_7);
@@ -191,17 +206,85 @@ fn idle_connections_give_way() {
 }
 
 #[test]
+fn newcomers_are_refused_rather_than_regular_clients_thrown_out() {
+    let (mut server, address) = server(Limits {
+        clients: 2,
+        ..Limits::default()
+    });
+    let mut plc = Registers::new();
+    plc.words[100] = 7;
+    let events = while_served(&mut server, &mut plc, || {
+        let mut regular = [connect(address), connect(address)];
+        for stream in &mut regular {
+            stream.write_all(&READ_D100).unwrap();
+            assert_eq!(read(stream, 11), D100_IS_7);
+        }
+        for mut newcomer in half_requests(address, 3) {
+            // Closed with unread bytes, a connection may also be reset.
+            let mut rest = Vec::new();
+            let _ = newcomer.read_to_end(&mut rest);
+            assert_eq!(rest, []);
+        }
+        let [first, mut second] = regular;
+        second.write_all(&READ_D100).unwrap();
+        assert_eq!(read(&mut second, 11), D100_IS_7);
+        drop(first);
+        // There is room again as soon as the server has noticed.
+        let answered = (0..10_000).any(|_| {
+            let mut newcomer = connect(address);
+            let mut reply = [0; 11];
+            newcomer.write_all(&READ_D100).is_ok() && newcomer.read_exact(&mut reply).is_ok()
+        });
+        assert!(answered);
+    });
+    let refusals = events.iter().filter(|event| **event == ServerEvent::Full);
+    assert_eq!(refusals.count(), 1);
+}
+
+#[test]
 fn a_client_that_does_not_read_is_cut_off() {
-    let (mut server, address) = server();
+    let (mut server, address) = server(Limits::default());
     let mut plc = Registers::new();
     let read_125 = [0, 2, 0, 0, 0, 6, 1, 3, 0, 0, 0, 125];
-    let cut_off = while_served(&mut server, &mut plc, || {
+    while_served(&mut server, &mut plc, || {
         let mut stream = connect(address);
         stream
             .set_write_timeout(Some(Duration::from_secs(300)))
             .unwrap();
         // 260 bytes come back for each 12; buffers of the system take some megabytes.
-        (0..1_000_000).any(|_| stream.write_all(&read_125).is_err())
+        assert!((0..1_000_000).any(|_| stream.write_all(&read_125).is_err()));
     });
-    assert!(cut_off);
+}
+
+/// A request whose length is wrong must not hide commands (remote STOP, `14 FF 0A 00`) in what follows it.
+#[test]
+fn nothing_after_a_wrong_length_is_carried_out() {
+    let stop = [0x14, 0xff, 0x0a, 0];
+    let head = [0x50, 0, 0, 0xff, 0xff, 3, 0];
+    for body in [
+        &[0x01, 0, 0x0a][..],
+        &[0x06, 0, 4, 0, 1, 4, 0, 0],
+        &[0, 0],
+        // Write of two words with one.
+        &[0x0e, 0, 4, 0, 1, 0x14, 0, 0, 100, 0, 0, 0xa8, 2, 0, 1, 0],
+    ] {
+        let mut dialogue = Dialogue::new(service(ServerProtocol::Mc));
+        let mut plc = Registers::new();
+        let reaction = dialogue.receive(&[&head, body, &stop].concat(), &mut plc);
+        assert!(reaction.closes && plc.running, "{body:x?}");
+        assert_eq!(reaction.reply[..2], [0xd0, 0]);
+    }
+    let in_ascii = b"500000FF03FF000004000A14FF0A00";
+    let mut plc = Registers::new();
+    let reaction = Dialogue::new(service(ServerProtocol::Mc)).receive(in_ascii, &mut plc);
+    assert!(reaction.closes && plc.running);
+}
+
+#[test]
+fn who_stops_the_plc_is_known() {
+    let mut dialogue = Dialogue::new(service(ServerProtocol::Mc));
+    let mut plc = Registers::new();
+    let reaction = dialogue.receive(b"14FF000A01FF000A442000000064010013FF000A", &mut plc);
+    let switched: Vec<_> = reaction.exchanges.iter().map(|it| it.running).collect();
+    assert_eq!(switched, [Some(false), None, Some(true)]);
 }

@@ -31,6 +31,10 @@ pub trait Map {
     fn running(&self) -> bool;
     /// Asks for RUN or STOP; the PLC changes over before its next scan.
     fn request_running(&mut self, running: bool);
+    /// The latest request for RUN or STOP that has not been carried out yet.
+    fn requested_running(&self) -> Option<bool> {
+        None
+    }
     /// Code of model and version, which D8001 shows.
     fn type_code(&self) -> u16;
     /// A byte of the program memory by its offset from 8000h, if the program can be read.
@@ -142,6 +146,10 @@ impl<P: Plc + ?Sized> Map for Served<'_, P> {
 
     fn running(&self) -> bool {
         self.plc.sys().running
+    }
+
+    fn requested_running(&self) -> Option<bool> {
+        self.request
     }
 
     fn request_running(&mut self, running: bool) {

@@ -1,6 +1,7 @@
-//! MC protocol in binary, as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do). This is what
-//! SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the public
-//! descriptions of both frames, and after what the libraries pymcprotocol and mcprotocol send.
+//! MC protocol as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do), in binary and in ASCII.
+//! This is what SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the public
+//! descriptions of both frames (FX3U-ENET-ADP user's manual, chapter 7), and after what the libraries pymcprotocol,
+//! mcprotocol and fx3u-mcprotocol send. The first character of a request tells its frame and code apart.
 //!
 //! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The
 //! protocol has no authentication.
@@ -13,36 +14,102 @@ mod tests;
 
 use super::{Cut, Frame, LineFault, Map};
 
-/// Maximum number of bytes of a request: 7168 bits or 960 words, with their frame.
-pub const LONGEST: usize = 21 + 7168 / 2;
+/// Maximum number of characters of a request: 960 words in ASCII, with their frame.
+pub const LONGEST: usize = 42 + 4 * 960;
 
-/// First byte of a request in frame 3E; the second one is 0.
-const REQUEST_3E: u8 = 0x50;
+/// Code of a frame's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Code {
+    /// Bytes, the low one first.
+    Binary,
+    /// Hexadecimal digits, the high one first.
+    Ascii,
+}
+
+impl Code {
+    /// Characters that a byte takes.
+    const fn width(self) -> usize {
+        match self {
+            Code::Binary => 1,
+            Code::Ascii => 2,
+        }
+    }
+}
+
+/// Frame of a request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Frame1e(Code),
+    Frame3e(Code),
+}
+
+impl Form {
+    /// Frame and code of a request.
+    ///
+    /// # Errors
+    /// [`Refusal::Length`] if too few characters are there, and [`Refusal::Command`] if no request begins like this.
+    fn of(received: &[u8]) -> Result<Form, Refusal> {
+        const REQUEST_3E: &[u8] = &[0x50, 0];
+        const REQUEST_3E_ASCII: &[u8] = b"5000";
+        match received {
+            [] => Err(Refusal::Length),
+            [b'0' | b'1', ..] => {
+                let command = Fields::new(received, Code::Ascii).number(1)?;
+                frame_1e::check_command(command).map(|()| Form::Frame1e(Code::Ascii))
+            }
+            [0x50 | b'5', ..] => {
+                let (head, code) = if received.starts_with(b"5") {
+                    (REQUEST_3E_ASCII, Code::Ascii)
+                } else {
+                    (REQUEST_3E, Code::Binary)
+                };
+                if received.starts_with(head) {
+                    Ok(Form::Frame3e(code))
+                } else if head.starts_with(received) {
+                    Err(Refusal::Length)
+                } else {
+                    Err(Refusal::Command)
+                }
+            }
+            [command, ..] => {
+                frame_1e::check_command(u32::from(*command)).map(|()| Form::Frame1e(Code::Binary))
+            }
+        }
+    }
+}
 
 /// Decides whether the bytes received so far form a request of either frame.
 pub fn cut(received: &[u8]) -> Cut {
-    let whole = match received {
-        [REQUEST_3E] => return Cut::More,
-        [REQUEST_3E, 0, ..] => frame_3e::length(received),
-        [command, ..] if frame_1e::is_command(*command) => frame_1e::length(received),
-        _ => return Cut::Drop,
-    };
-    match whole {
-        Some(length) if length > LONGEST => Cut::Drop,
-        Some(length) if length <= received.len() => Cut::Whole,
-        _ => Cut::More,
+    let length = Form::of(received).and_then(|form| match form {
+        Form::Frame1e(code) => frame_1e::length(received, code),
+        Form::Frame3e(code) => frame_3e::length(received, code),
+    });
+    match length {
+        Ok(length) if length > LONGEST => Cut::Drop,
+        Ok(length) if length <= received.len() => Cut::Whole,
+        Ok(_) | Err(Refusal::Length) => Cut::More,
+        Err(_) => Cut::Drop,
     }
 }
 
 /// Answers a request of either frame; silence if it is neither.
 ///
 /// # Errors
-/// What is wrong with the request. The answer says so as well.
+/// What is wrong with the request. The answer says so as well. After [`LineFault::Length`] the beginning of the next
+/// request is unknown.
 pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault> {
-    match request {
-        [REQUEST_3E, 0, ..] => frame_3e::answer(request, map, reply),
-        [command, ..] if frame_1e::is_command(*command) => frame_1e::answer(request, map, reply),
-        _ => Err(LineFault::Form),
+    match Form::of(request) {
+        Ok(Form::Frame1e(code)) => frame_1e::answer(
+            Fields::new(request, code),
+            map,
+            &mut Reply { frame: reply, code },
+        ),
+        Ok(Form::Frame3e(code)) => frame_3e::answer(
+            Fields::new(request, code),
+            map,
+            &mut Reply { frame: reply, code },
+        ),
+        Err(_) => Err(LineFault::Form),
     }
 }
 
@@ -59,6 +126,8 @@ enum Refusal {
     Length,
     /// A value that is not allowed.
     Data,
+    /// A character that is no digit of a number in ASCII.
+    Digit,
 }
 
 impl Refusal {
@@ -68,35 +137,107 @@ impl Refusal {
             Refusal::Points | Refusal::Data => LineFault::Data,
             Refusal::Device => LineFault::Address,
             Refusal::Length => LineFault::Length,
+            Refusal::Digit => LineFault::Unknown,
         }
     }
 }
 
-/// The bytes of a request that have not been read yet; numbers come with their low byte first.
+/// The characters of a request that have not been read yet.
 #[derive(Clone, Copy, Debug)]
-struct Fields<'a>(&'a [u8]);
+struct Fields<'a> {
+    left: &'a [u8],
+    code: Code,
+}
 
 impl<'a> Fields<'a> {
-    fn take(&mut self, count: usize) -> Result<&'a [u8], Refusal> {
-        let (taken, rest) = self.0.split_at_checked(count).ok_or(Refusal::Length)?;
-        self.0 = rest;
+    fn new(left: &'a [u8], code: Code) -> Self {
+        Fields { left, code }
+    }
+
+    /// Characters as they are.
+    fn characters(&mut self, count: usize) -> Result<&'a [u8], Refusal> {
+        let (taken, rest) = self.left.split_at_checked(count).ok_or(Refusal::Length)?;
+        self.left = rest;
         Ok(taken)
+    }
+
+    /// The characters of this many bytes.
+    fn skip(&mut self, bytes: usize) -> Result<&'a [u8], Refusal> {
+        self.characters(bytes * self.code.width())
     }
 
     /// A number of up to four bytes.
     fn number(&mut self, bytes: usize) -> Result<u32, Refusal> {
-        let taken = self.take(bytes)?;
-        Ok(taken
-            .iter()
-            .rev()
-            .fold(0, |number, &byte| number << 8 | u32::from(byte)))
+        let taken = self.skip(bytes)?;
+        match self.code {
+            Code::Binary => Ok(taken
+                .iter()
+                .rev()
+                .fold(0, |number, &byte| number << 8 | u32::from(byte))),
+            Code::Ascii => digits(taken, 16),
+        }
     }
 
     fn end(self) -> Result<(), Refusal> {
-        if self.0.is_empty() {
+        if self.left.is_empty() {
             Ok(())
         } else {
             Err(Refusal::Length)
+        }
+    }
+}
+
+/// Value of at most eight digits.
+fn digits(text: &[u8], base: u32) -> Result<u32, Refusal> {
+    text.iter().try_fold(0, |number, &digit| {
+        let digit = char::from(digit).to_digit(base).ok_or(Refusal::Digit)?;
+        Ok(number * base + digit)
+    })
+}
+
+/// An answer in the code of its request.
+struct Reply<'a, 'b> {
+    frame: &'a mut Frame<'b>,
+    code: Code,
+}
+
+impl Reply<'_, '_> {
+    /// Appends a number of up to four bytes.
+    fn number(&mut self, value: u32, bytes: usize) {
+        match self.code {
+            Code::Binary => self
+                .frame
+                .extend(value.to_le_bytes().get(..bytes).unwrap_or_default()),
+            Code::Ascii => self.frame.push_hex(value, 2 * bytes as u32),
+        }
+    }
+
+    /// Replaces the number at a place.
+    fn replace(&mut self, place: usize, value: u32, bytes: usize) {
+        let end = self.frame.len();
+        self.number(value, bytes);
+        let width = bytes * self.code.width();
+        for index in 0..width {
+            let character = self.frame.as_slice().get(end + index).copied();
+            self.frame.set(place + index, character.unwrap_or_default());
+        }
+        self.frame.truncate(end);
+    }
+
+    /// Appends bits: two to a byte, the first in the high half, or a digit for each.
+    fn bits(&mut self, count: u32, on: impl Fn(u32) -> bool) {
+        match self.code {
+            Code::Binary => {
+                let half = |index| u8::from(index < count && on(index));
+                for index in (0..count).step_by(2) {
+                    self.frame.push(half(index) << 4 | half(index + 1));
+                }
+            }
+            Code::Ascii => {
+                for index in 0..count {
+                    self.frame.push(b'0' + u8::from(on(index)));
+                }
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Cut, Frame, LineFault, Map, Memory, Ports, fx_port, mc};
 use core::net::{Ipv4Addr, SocketAddr};
 
 /// Maximum number of characters of a request of any service.
-pub const LONGEST_REQUEST: usize = 3605;
+pub const LONGEST_REQUEST: usize = 3882;
 
 /// More characters than an answer of any service has.
 pub const LONGEST_REPLY: usize = 8192;
@@ -17,10 +17,19 @@ const _: () = assert!(
         && tcp::LONGEST <= LONGEST_REQUEST
 );
 
-/// The heading of a host's table of connections. Its columns are 21, 15, 16 and three times 8 characters wide, two
+/// Connections that a host's server has at once, unless it is told otherwise.
+pub const USUAL_CLIENTS: usize = 64;
+
+/// Maximum number of connections that a host's server may be allowed.
+pub const MAX_CLIENTS: usize = 256;
+
+/// Seconds after which a silent connection gives way to a new one if a server has no more room. Clients that poll are
+/// not silent for as long.
+pub const IDLE_S: u32 = 60;
+
+/// The heading of a host's table of connections. Its columns are 21, 15, 16 and four times 8 characters wide, two
 /// apart.
-pub const TABLE_HEADING: &str =
-    "server                 client           protocol          requests   answers  rejected";
+pub const TABLE_HEADING: &str = "server                 client           protocol          requests   answers  rejected     stops";
 
 /// The protocols of servers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,7 +37,7 @@ pub const TABLE_HEADING: &str =
 pub enum ServerProtocol {
     /// Modbus TCP, with the address table of the model.
     ModbusTcp = 0,
-    /// MC protocol, frames 1E and 3E in binary.
+    /// MC protocol, frames 1E and 3E, in binary and in ASCII.
     Mc = 1,
     /// The programming port's protocol, as the model speaks it.
     ProgrammingPort = 2,
@@ -113,7 +122,8 @@ pub enum FeedResult {
     Request = 1,
     /// The last of a request, which has been rejected.
     Rejected = 2,
-    /// Not part of a request; nothing that follows can be one, so the connection is to be closed.
+    /// Not part of a request, or the last of one with a wrong length. Where the next request begins is unknown, so the
+    /// connection is to be closed after the answer.
     Lost = 3,
 }
 
@@ -156,6 +166,9 @@ impl Connection {
             Cut::More | Cut::Restart => FeedResult::More,
             Cut::Whole => match self.answer(map, reply) {
                 Ok(()) => FeedResult::Request,
+                Err(LineFault::Length) if self.service.protocol == ServerProtocol::Mc => {
+                    FeedResult::Lost
+                }
                 Err(_) => FeedResult::Rejected,
             },
             Cut::Drop if self.service.is_lost_after_drop() => FeedResult::Lost,

@@ -238,7 +238,9 @@ impl Reader<'_> {
     /// A 16-bit value.
     fn word(&mut self, value: &Spanned<Scalar>) -> Option<i16> {
         let given = self.of_row(value.get_ref(), value.span().start);
-        let word = integer(&given, 16).map(|v| v as i16);
+        let word = integer(&given)
+            .filter(|v| (-0x8000..=0xffff).contains(v))
+            .map(|v| v as i16);
         if word.is_none() {
             let message = "this value must be a 16-bit integer".to_string();
             self.report(value.span().start, message);

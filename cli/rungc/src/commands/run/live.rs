@@ -5,12 +5,13 @@ use crate::commands::{Failure, eprint_line};
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Machine;
 use rungc_ladder::build;
-use rungc_live::{Command, Frame, Log, Order, Scene, Server};
+use rungc_live::{Command, Frame, Log, Order, Scene, Server, token};
 use rungc_models::Model;
 use rungc_rt::{Plc, Program as _, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
 use rungc_sim::record::{Reading, Seen};
+use rungc_runtime_sources::cache;
 use rungc_syntax::{DeviceClass, Program};
 use serde_json::{Value, json};
 use std::net::SocketAddr;
@@ -20,6 +21,9 @@ use std::time::{Duration, Instant};
 const EVERY: Duration = Duration::from_millis(100);
 /// The slowest pace.
 const SLOWEST: u32 = 1000;
+/// Maximum numbers of watched devices and of breakpoints.
+const MAX_WATCHED: usize = 256;
+const MAX_BREAKS: usize = 64;
 
 /// Settings of a page, and its address.
 pub struct Page<'a> {
@@ -158,7 +162,9 @@ impl Live {
         let ladder = build::ladder(&resolved);
         let (html, scene) = rungc_live::page(page.title, &resolved, &ladder, page.read_only);
         let address = page.address;
-        let server = Server::open(address, html, page.read_only)
+        let folder = cache::folder().ok();
+        let server = token(folder.as_deref())
+            .and_then(|token| Server::open(address, token, html, page.read_only))
             .map_err(|error| Failure::Because(format!("--page {address}: {error}")))?;
         eprint_line(&format!("rungc: page at {}", server.url()));
         Ok(Live {
@@ -346,10 +352,10 @@ impl Live {
     ) -> Result<Option<u32>, String> {
         let now_ms = running.now_ms;
         match command {
-            Command::Run => running.machine.set_running(true),
-            Command::Stop => running.machine.set_running(false),
-            Command::Pause => self.pause("by hand".to_string()),
-            Command::Continue => self.resume(None),
+            Command::Run {} => running.machine.set_running(true),
+            Command::Stop {} => running.machine.set_running(false),
+            Command::Pause {} => self.pause("by hand".to_string()),
+            Command::Continue {} => self.resume(None),
             Command::Back { count } => return Ok(Some(*count)),
             Command::Scan { count: 0 } => return Err("execute at least one scan".to_string()),
             Command::Scan { count } => self.resume(Some(*count)),
@@ -377,13 +383,14 @@ impl Live {
                 self.log
                     .write(now_ms, "event", &format!("{target} released"));
             }
-            Command::ReleaseAll => {
+            Command::ReleaseAll {} => {
                 self.control.forced.clear();
                 self.note(now_ms, "event", "all devices released");
             }
             Command::Watch { device } => {
                 let target = running.device(device)?;
                 if !self.watched.contains(&target) {
+                    check_count(self.watched.len(), MAX_WATCHED, "watched devices")?;
                     self.watched.push(target);
                 }
             }
@@ -396,6 +403,7 @@ impl Live {
                 if let Some(value) = value {
                     fits(target, *value)?;
                 }
+                check_count(self.breaks.len(), MAX_BREAKS, "breakpoints")?;
                 let now = Reading::of(running.seen(), target);
                 self.breaks.push(Break::Device(target, *value, now));
             }
@@ -404,6 +412,7 @@ impl Live {
                 let index = network.checked_sub(1).filter(|index| *index < count);
                 let index =
                     index.ok_or_else(|| format!("networks are numbered from 1 to {count}"))?;
+                check_count(self.breaks.len(), MAX_BREAKS, "breakpoints")?;
                 let is = self.scene.reaches(index, running.seen());
                 self.breaks.push(Break::Network(index, is));
             }
@@ -494,5 +503,13 @@ fn number(reading: &Reading) -> Option<f64> {
         Reading::Integer(value, _) => Some(*value as f64),
         Reading::Float(value) => Some(*value),
         Reading::Text(_) => None,
+    }
+}
+
+/// Checks that there is room for one more.
+fn check_count(count: usize, most: usize, what: &str) -> Result<(), String> {
+    match count < most {
+        true => Ok(()),
+        false => Err(format!("there are {most} {what} already")),
     }
 }

@@ -3,7 +3,7 @@
 use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, eprint_line};
-use rungc_host::servers::{Clients, Server};
+use rungc_host::servers::{Clients, Limits, Server, ServerEvent, full, switched};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_models::Model;
@@ -20,6 +20,7 @@ use std::net::SocketAddr;
 /// The servers of a run.
 pub struct Servers {
     servers: Vec<Open>,
+    limits: Limits,
     type_code: u16,
 }
 
@@ -104,16 +105,24 @@ impl Servers {
             ServerProtocol::Mc => &args.mc,
             ServerProtocol::ProgrammingPort => &of_fx,
         };
+        let limits = args.clients.map_or_else(Limits::default, |clients| Limits {
+            clients: clients.into(),
+            ..Limits::default()
+        });
         let mut servers = Vec::new();
         for protocol in ServerProtocol::all() {
             let service = Service::new(protocol, model.ports, type_code);
             for &address in addresses(protocol) {
-                let open = open(service, address)?;
+                let open = open(service, address, limits)?;
                 watch.open(&open.place(None), LinkProtocol::Tcp(protocol));
                 servers.push(open);
             }
         }
-        Ok(Servers { servers, type_code })
+        Ok(Servers {
+            servers,
+            limits,
+            type_code,
+        })
     }
 
     /// Carries out and answers the requests of clients since the last scan; `at_us` is the time since the run began, in
@@ -125,9 +134,17 @@ impl Servers {
         let mut any = false;
         let mut map = Served::new(machine, self.type_code);
         for open in &mut self.servers {
-            for (client, exchange) in open.server.poll(&mut map) {
-                any = true;
+            for (client, event) in open.server.poll(&mut map) {
                 let server = open.address;
+                let ServerEvent::Exchange(exchange) = event else {
+                    eprint_line(&format!("rungc: {}", full(server, client, self.limits)));
+                    continue;
+                };
+                any = true;
+                if let Some(running) = exchange.running {
+                    let message = switched(running, client, open.server.service());
+                    eprint_line(&format!("rungc: {message}"));
+                }
                 let frames = [
                     (Direction::In, &exchange.request),
                     (Direction::Out, &exchange.reply),
@@ -161,9 +178,9 @@ impl Open {
     }
 }
 
-fn open(service: Service, address: SocketAddr) -> Result<Open, Failure> {
+fn open(service: Service, address: SocketAddr, limits: Limits) -> Result<Open, Failure> {
     let name = service.protocol.name();
-    let server = Server::bind(address, service)
+    let server = Server::bind(address, service, limits)
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));
     let (address, server) = server?;

@@ -1,7 +1,7 @@
 //! Devices of both frames, and what batch commands do to them.
 
-use super::{Fields, Refusal};
-use crate::comm::{Frame, Map};
+use super::{Code, Fields, Refusal, Reply, digits};
+use crate::comm::Map;
 use crate::plc::Class;
 use crate::runs::FIRST_COUNTER32;
 
@@ -14,48 +14,111 @@ pub(super) struct Device {
     pub(super) first: u32,
 }
 
-/// Class, and whether a point is a bit; code in frame 1E, code in frame 3E.
-type Code = (Class, bool, u16, u8);
+/// A row of the table of devices.
+struct Row {
+    class: Class,
+    /// True if a point is a bit.
+    is_bit: bool,
+    /// Code in frame 1E.
+    code_1e: u16,
+    /// Code in frame 3E.
+    code_3e: u8,
+    /// Name in frame 3E in ASCII, where a space may stand for the asterisk.
+    name: [u8; 2],
+}
+
+const fn row(class: Class, is_bit: bool, code_1e: u16, code_3e: u8, name: [u8; 2]) -> Row {
+    Row {
+        class,
+        is_bit,
+        code_1e,
+        code_3e,
+        name,
+    }
+}
 
 /// Codes of devices. R has two in frame 3E: as a bank and as one file.
-const CODES: &[Code] = &[
-    (Class::X, true, 0x5820, 0x9c),
-    (Class::Y, true, 0x5920, 0x9d),
-    (Class::M, true, 0x4d20, 0x90),
-    (Class::S, true, 0x5320, 0x98),
-    (Class::T, true, 0x5453, 0xc1),
-    (Class::C, true, 0x4353, 0xc4),
-    (Class::T, false, 0x544e, 0xc2),
-    (Class::C, false, 0x434e, 0xc5),
-    (Class::D, false, 0x4420, 0xa8),
-    (Class::R, false, 0x5220, 0xaf),
-    (Class::R, false, 0x5220, 0xb0),
+const ROWS: &[Row] = &[
+    row(Class::X, true, 0x5820, 0x9c, *b"X*"),
+    row(Class::Y, true, 0x5920, 0x9d, *b"Y*"),
+    row(Class::M, true, 0x4d20, 0x90, *b"M*"),
+    row(Class::S, true, 0x5320, 0x98, *b"S*"),
+    row(Class::T, true, 0x5453, 0xc1, *b"TS"),
+    row(Class::C, true, 0x4353, 0xc4, *b"CS"),
+    row(Class::T, false, 0x544e, 0xc2, *b"TN"),
+    row(Class::C, false, 0x434e, 0xc5, *b"CN"),
+    row(Class::D, false, 0x4420, 0xa8, *b"D*"),
+    row(Class::R, false, 0x5220, 0xaf, *b"R*"),
+    row(Class::R, false, 0x5220, 0xb0, *b"ZR"),
 ];
 
-impl Device {
-    fn find(first: u32, has: impl Fn(&Code) -> bool) -> Result<Device, Refusal> {
-        // No PLC has as many; so sums of numbers and counts do not overflow.
-        let is_near = first <= 0xff_ffff;
-        let code = CODES.iter().find(|code| is_near && has(code));
-        code.map_or(Err(Refusal::Device), |&(class, is_bit, ..)| {
-            Ok(Device {
-                class,
-                is_bit,
-                first,
-            })
+impl Row {
+    /// Device of the row. No PLC has as many devices as numbers may say, so sums of numbers and counts do not overflow.
+    fn device(&self, first: u32) -> Result<Device, Refusal> {
+        if first > 0xff_ffff {
+            return Err(Refusal::Device);
+        }
+        Ok(Device {
+            class: self.class,
+            is_bit: self.is_bit,
+            first,
         })
     }
 
-    /// A device of frame 1E: number in four bytes, code in two.
-    pub(super) fn of_1e(fields: &mut Fields) -> Result<Device, Refusal> {
-        let (first, code) = (fields.number(4)?, fields.number(2)?);
-        Device::find(first, |row| u32::from(row.2) == code)
+    /// Base of numbers in ASCII: hexadecimal for terminals, else decimal.
+    fn base(&self) -> u32 {
+        match self.class {
+            Class::X | Class::Y => 16,
+            _ => 10,
+        }
     }
 
-    /// A device of frame 3E: number in three bytes, code in one.
+    fn find(is: impl Fn(&Row) -> bool) -> Result<&'static Row, Refusal> {
+        ROWS.iter().find(|row| is(row)).ok_or(Refusal::Device)
+    }
+}
+
+impl Device {
+    /// Number and code of a device of frame 1E: four bytes and two; in ASCII the code comes first.
+    pub(super) fn number_of_1e(fields: &mut Fields) -> Result<(u32, u32), Refusal> {
+        match fields.code {
+            Code::Binary => Ok((fields.number(4)?, fields.number(2)?)),
+            Code::Ascii => {
+                let code = fields.number(2)?;
+                Ok((fields.number(4)?, code))
+            }
+        }
+    }
+
+    /// The device with a number and a code of frame 1E.
+    pub(super) fn with_code_1e(first: u32, code: u32) -> Result<Device, Refusal> {
+        Row::find(|row| u32::from(row.code_1e) == code)?.device(first)
+    }
+
+    /// A device of frame 1E.
+    pub(super) fn of_1e(fields: &mut Fields) -> Result<Device, Refusal> {
+        let (first, code) = Device::number_of_1e(fields)?;
+        Device::with_code_1e(first, code)
+    }
+
+    /// A device of frame 3E: number in three bytes, code in one; in ASCII a name of two characters and six digits, of
+    /// which the first may be spaces.
     pub(super) fn of_3e(fields: &mut Fields) -> Result<Device, Refusal> {
-        let (first, code) = (fields.number(3)?, fields.number(1)?);
-        Device::find(first, |row| u32::from(row.3) == code)
+        match fields.code {
+            Code::Binary => {
+                let (first, code) = (fields.number(3)?, fields.number(1)?);
+                Row::find(|row| u32::from(row.code_3e) == code)?.device(first)
+            }
+            Code::Ascii => {
+                let (name, number) = (fields.characters(2)?, fields.characters(6)?);
+                let is_name = |row: &Row| {
+                    let [first, second] = row.name;
+                    name == row.name || second == b'*' && name == [first, b' ']
+                };
+                let row = Row::find(is_name)?;
+                row.device(digits(number.trim_ascii_start(), row.base())?)
+            }
+        }
     }
 
     /// Returns true if these are 32-bit counters as words.
@@ -134,13 +197,13 @@ impl Device {
         self,
         count: u32,
         map: &dyn Map,
-        reply: &mut Frame,
+        reply: &mut Reply,
     ) -> Result<(), Refusal> {
         if !self.has_words(count, map) {
             return Err(Refusal::Device);
         }
         for index in 0..count {
-            reply.push_le16(self.word(index, map)?);
+            reply.number(u32::from(self.word(index, map)?), 2);
         }
         Ok(())
     }
@@ -152,7 +215,7 @@ impl Device {
         mut data: Fields,
         map: &mut dyn Map,
     ) -> Result<(), Refusal> {
-        if data.0.len() != 2 * count as usize {
+        if data.left.len() != 2 * count as usize * data.code.width() {
             return Err(Refusal::Length);
         }
         if !self.has_words(count, map) {
@@ -164,42 +227,50 @@ impl Device {
         Ok(())
     }
 
-    /// Appends `count` bits, two to a byte, the first in the high half.
+    /// Appends `count` bits.
     pub(super) fn read_bits(
         self,
         count: u32,
         map: &dyn Map,
-        reply: &mut Frame,
+        reply: &mut Reply,
     ) -> Result<(), Refusal> {
         if !self.is_bit || !map.has_bits(self.class, self.first, count) {
             return Err(Refusal::Device);
         }
-        let on = |index| {
-            let is_asked = index < count;
-            u8::from(is_asked && map.bit(self.class, self.first + index) == Some(true))
-        };
-        for index in (0..count).step_by(2) {
-            reply.push(on(index) << 4 | on(index + 1));
-        }
+        reply.bits(count, |index| {
+            map.bit(self.class, self.first + index) == Some(true)
+        });
         Ok(())
     }
 
-    /// Writes `count` bits, which are all that follows.
+    /// Writes `count` bits, which are all that follows: two to a byte, the first in the high half, or a digit for each.
     pub(super) fn write_bits(
         self,
         count: u32,
         data: Fields,
         map: &mut dyn Map,
     ) -> Result<(), Refusal> {
-        if data.0.len() != count.div_ceil(2) as usize {
+        let expected = match data.code {
+            Code::Binary => count.div_ceil(2),
+            Code::Ascii => count,
+        };
+        if data.left.len() != expected as usize {
             return Err(Refusal::Length);
         }
         if !self.is_bit || !map.has_bits(self.class, self.first, count) {
             return Err(Refusal::Device);
         }
-        let halves = data.0.iter().flat_map(|byte| [byte >> 4, byte & 15]);
-        for (number, half) in (self.first..self.first + count).zip(halves) {
-            let _ = map.set_bit(self.class, number, half != 0);
+        if data.code == Code::Ascii && !data.left.iter().all(|digit| matches!(digit, b'0' | b'1')) {
+            return Err(Refusal::Data);
+        }
+        for (index, number) in (self.first..self.first + count).enumerate() {
+            let on = match (data.code, data.left.get(index), data.left.get(index / 2)) {
+                (Code::Ascii, Some(digit), _) => *digit == b'1',
+                (Code::Binary, _, Some(pair)) if index % 2 == 0 => pair >> 4 != 0,
+                (Code::Binary, _, Some(pair)) => pair & 15 != 0,
+                _ => false,
+            };
+            let _ = map.set_bit(self.class, number, on);
         }
         Ok(())
     }

@@ -1,8 +1,9 @@
-//! Frame 1E: `command PC timer(2) …`, answered by `command + 80h, end code, data`.
+//! Frame 1E: `command PC timer(2) …`, answered by `command + 80h, end code, data`. In ASCII each byte is two digits; bits
+//! of batches are a digit each, and a zero makes their number even.
 
 use super::device::Device;
-use super::{Fields, Refusal, points};
-use crate::comm::{Frame, LineFault, Map};
+use super::{Code, Fields, Refusal, Reply, points};
+use crate::comm::{LineFault, Map};
 
 const READ_BITS: u8 = 0x00;
 const READ_WORDS: u8 = 0x01;
@@ -36,33 +37,49 @@ const THIS_PC: u8 = 0xff;
 /// PC type of FX3U and FX3UC.
 const TYPE_FX3U: u8 = 0xf3;
 
-/// Returns true if the first byte of a request is a command of this frame.
-pub(super) fn is_command(byte: u8) -> bool {
-    matches!(byte, READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK)
+/// Checks the first byte of a request.
+///
+/// # Errors
+/// [`Refusal::Command`] if it is no command of this frame.
+pub(super) fn check_command(command: u32) -> Result<(), Refusal> {
+    match u8::try_from(command) {
+        Ok(READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK) => Ok(()),
+        _ => Err(Refusal::Command),
+    }
 }
 
-/// The length of a request, as far as it shows.
-pub(super) fn length(received: &[u8]) -> Option<usize> {
-    let command = *received.first()?;
-    let rest = received.get(HEAD..)?;
-    let batch = || Some((Fields(rest.get(..6)?), usize::from(*rest.get(6)?)));
-    let data = match command {
-        READ_BITS | READ_WORDS => BATCH,
+/// The length of a request.
+///
+/// # Errors
+/// [`Refusal::Length`] if it does not show yet.
+pub(super) fn length(received: &[u8], code: Code) -> Result<usize, Refusal> {
+    let mut fields = Fields::new(received, code);
+    let command = fields.number(1)? as u8;
+    fields.skip(HEAD - 1)?;
+    let (bytes, characters) = match command {
+        READ_BITS | READ_WORDS => (BATCH, 0),
         WRITE_BITS => {
-            let (_, count) = batch()?;
-            BATCH + (if count == 0 { 256 } else { count }).div_ceil(2)
+            Device::number_of_1e(&mut fields)?;
+            (BATCH + bits(fields.number(1)?).div_ceil(2) as usize, 0)
         }
         WRITE_WORDS => {
-            let (mut device, count) = batch()?;
-            let is_double = Device::of_1e(&mut device).is_ok_and(Device::is_counter32);
-            BATCH + count * if is_double { 4 } else { 2 }
+            let (first, device_code) = Device::number_of_1e(&mut fields)?;
+            let is_double =
+                Device::with_code_1e(first, device_code).is_ok_and(Device::is_counter32);
+            let count = fields.number(1)? as usize;
+            (BATCH + count * if is_double { 4 } else { 2 }, 0)
         }
-        TEST_BITS => 2 + 7 * usize::from(*rest.first()?),
-        TEST_WORDS => 2 + 8 * usize::from(*rest.first()?),
-        LOOP_BACK => 1 + usize::from(*rest.first()?),
-        _ => 0,
+        TEST_BITS => (2 + 7 * fields.number(1)? as usize, 0),
+        TEST_WORDS => (2 + 8 * fields.number(1)? as usize, 0),
+        LOOP_BACK => (1, fields.number(1)? as usize),
+        _ => (0, 0),
     };
-    Some(HEAD + data)
+    Ok((HEAD + bytes) * code.width() + characters)
+}
+
+/// Points of a batch of bits, of which 0 are 256.
+fn bits(count: u32) -> u32 {
+    if count == 0 { 256 } else { count }
 }
 
 /// Reason to reject a frame, in the codes of this frame.
@@ -79,34 +96,34 @@ impl From<Refusal> for Refused {
 }
 
 pub(super) fn answer(
-    request: &[u8],
+    request: Fields,
     map: &mut dyn Map,
-    reply: &mut Frame,
+    reply: &mut Reply,
 ) -> Result<(), LineFault> {
-    let command = request.first().copied().unwrap_or(0);
-    reply.push(command | 0x80);
-    reply.push(0);
-    let Err(refused) = execute(command, request, map, reply) else {
+    let mut fields = request;
+    let command = fields.number(1).map_err(Refusal::fault)?;
+    reply.number(command | 0x80, 1);
+    let end_code = reply.frame.len();
+    reply.number(0, 1);
+    let Err(refused) = execute(command as u8, request, map, reply) else {
         return Ok(());
     };
-    reply.truncate(2);
+    reply.frame.truncate(end_code);
     match refused {
         Refused::ByPlc(code, fault) => {
-            reply.set(1, 0x5b);
-            reply.push(code);
-            reply.push(0);
+            reply.number(0x5b, 1);
+            reply.number(code.into(), 1);
+            reply.number(0, 1);
             Err(fault)
         }
         Refused::By(refusal) => {
-            reply.set(
-                1,
-                match refusal {
-                    Refusal::Command | Refusal::Length => 0x50,
-                    Refusal::Device => 0x56,
-                    Refusal::Points => 0x57,
-                    Refusal::Data => 0x54,
-                },
-            );
+            let code = match refusal {
+                Refusal::Command | Refusal::Length => 0x50,
+                Refusal::Device => 0x56,
+                Refusal::Points => 0x57,
+                Refusal::Data | Refusal::Digit => 0x54,
+            };
+            reply.number(code, 1);
             Err(refusal.fault())
         }
     }
@@ -114,19 +131,19 @@ pub(super) fn answer(
 
 fn execute(
     command: u8,
-    request: &[u8],
+    request: Fields,
     map: &mut dyn Map,
-    reply: &mut Frame,
+    reply: &mut Reply,
 ) -> Result<(), Refused> {
-    if length(request) != Some(request.len()) {
+    if length(request.left, request.code)? != request.left.len() {
         return Err(Refusal::Length.into());
     }
-    let mut fields = Fields(request);
-    fields.take(1)?;
+    let mut fields = request;
+    fields.skip(1)?;
     if fields.number(1)? != u32::from(THIS_PC) {
         return Err(Refused::ByPlc(0x10, LineFault::Station));
     }
-    fields.take(2)?;
+    fields.skip(2)?;
     match command {
         READ_BITS..=WRITE_WORDS => Ok(batch(command, fields, map, reply)?),
         TEST_BITS => Ok(test(true, MOST_TESTED.0, fields, map)?),
@@ -136,12 +153,12 @@ fn execute(
             Ok(())
         }
         PC_TYPE => {
-            reply.push(TYPE_FX3U);
-            reply.push(0);
+            reply.number(TYPE_FX3U.into(), 1);
+            reply.number(0, 1);
             Ok(())
         }
         _ => {
-            reply.extend(fields.0);
+            reply.frame.extend(fields.left);
             Ok(())
         }
     }
@@ -151,18 +168,13 @@ fn batch(
     command: u8,
     mut fields: Fields,
     map: &mut dyn Map,
-    reply: &mut Frame,
+    reply: &mut Reply,
 ) -> Result<(), Refusal> {
     let device = Device::of_1e(&mut fields)?;
     let count = fields.number(1)?;
-    fields.take(1)?;
+    fields.skip(1)?;
     if command == READ_BITS || command == WRITE_BITS {
-        let count = if count == 0 { 256 } else { count };
-        return if command == READ_BITS {
-            device.read_bits(points(count, MOST_BITS.0)?, map, reply)
-        } else {
-            device.write_bits(points(count, MOST_BITS.1)?, fields, map)
-        };
+        return batch_of_bits(device, bits(count), command, fields, map, reply);
     }
     if device.is_counter32() {
         return counters32(
@@ -187,6 +199,30 @@ fn batch(
     }
 }
 
+/// In ASCII, an odd number of bits has a zero after it (FX3U-ENET-ADP user's manual 7.5).
+fn batch_of_bits(
+    device: Device,
+    count: u32,
+    command: u8,
+    mut fields: Fields,
+    map: &mut dyn Map,
+    reply: &mut Reply,
+) -> Result<(), Refusal> {
+    let is_filled = reply.code == Code::Ascii && count % 2 == 1;
+    if command == READ_BITS {
+        device.read_bits(points(count, MOST_BITS.0)?, map, reply)?;
+        if is_filled {
+            reply.frame.push(b'0');
+        }
+        return Ok(());
+    }
+    let count = points(count, MOST_BITS.1)?;
+    if is_filled {
+        fields.left = fields.left.get(..count as usize).ok_or(Refusal::Length)?;
+    }
+    device.write_bits(count, fields, map)
+}
+
 /// Values of 32-bit counters take four bytes each.
 fn counters32(
     device: Device,
@@ -194,7 +230,7 @@ fn counters32(
     command: u8,
     mut fields: Fields,
     map: &mut dyn Map,
-    reply: &mut Frame,
+    reply: &mut Reply,
 ) -> Result<(), Refusal> {
     let all = (device.first..device.first + count).map(|first| Device { first, ..device });
     if !all.clone().all(|counter| counter.has_double_word(map)) {
@@ -202,7 +238,7 @@ fn counters32(
     }
     for counter in all {
         if command == READ_WORDS {
-            reply.extend(&counter.double_word(map)?.to_le_bytes());
+            reply.number(counter.double_word(map)?, 4);
         } else {
             counter.set_double_word(fields.number(4)?, map);
         }
@@ -213,12 +249,12 @@ fn counters32(
 /// Single bits or words, each with its device.
 fn test(bit: bool, most: u32, mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
     let count = points(fields.number(1)?, most)?;
-    fields.take(1)?;
+    fields.skip(1)?;
     let bytes = if bit { 1 } else { 2 };
     let mut checked = fields;
     for _ in 0..count {
         let device = Device::of_1e(&mut checked)?;
-        checked.take(bytes)?;
+        checked.skip(bytes)?;
         if !device.exists(bit, map) {
             return Err(Refusal::Device);
         }

@@ -1,14 +1,17 @@
 //! Frame 3E: `50 00 network PC module(2) station length(2) timer(2) command(2) subcommand(2) …`, answered by
-//! `D0 00 network PC module(2) station length(2) end code(2) data`. Length counts what follows it.
+//! `D0 00 network PC module(2) station length(2) end code(2) data`. Length counts the characters that follow it. In
+//! ASCII each byte is two digits, bits are a digit each, and devices are written with their names.
 
 use super::device::Device;
-use super::{Fields, Refusal, points};
-use crate::comm::{Frame, LineFault, Map};
+use super::{Code, Fields, Refusal, Reply, points};
+use crate::comm::{LineFault, Map};
 
 /// Bytes up to and with the length.
 const HEAD: usize = 9;
 /// Bytes from the network number to the station, which the answer repeats.
-const ROUTE: core::ops::Range<usize> = 2..7;
+const ROUTE: usize = 5;
+/// Bytes before the length.
+const BEFORE_LENGTH: usize = 7;
 
 const BATCH_READ: u32 = 0x0401;
 const BATCH_WRITE: u32 = 0x1401;
@@ -21,6 +24,7 @@ const ECHO: u32 = 0x0619;
 
 const MOST_WORDS: u32 = 960;
 const MOST_BITS: u32 = 7168;
+const MOST_BITS_ASCII: u32 = 3584;
 /// Words and double words of a random read.
 const MOST_READ: u32 = 192;
 /// Twelfths and fourteenths of this many words and double words may be written at random.
@@ -33,59 +37,76 @@ const MOST_ECHO: u32 = 960;
 /// Name of the PLC, in 16 characters; the code that follows is that of D8001.
 const NAME: &[u8; 16] = b"RUNGC           ";
 
-/// The length of a request, as far as it shows.
-pub(super) fn length(received: &[u8]) -> Option<usize> {
-    let length = received.get(HEAD - 2..HEAD)?;
-    Some(HEAD + usize::from(length[0]) + 256 * usize::from(length[1]))
+/// The length of a request.
+///
+/// # Errors
+/// [`Refusal::Length`] if it does not show yet.
+pub(super) fn length(received: &[u8], code: Code) -> Result<usize, Refusal> {
+    let mut fields = Fields::new(received, code);
+    fields.skip(BEFORE_LENGTH)?;
+    let length = fields.number(2)?;
+    Ok(HEAD * code.width() + length as usize)
 }
 
 pub(super) fn answer(
-    request: &[u8],
+    request: Fields,
     map: &mut dyn Map,
-    reply: &mut Frame,
+    reply: &mut Reply,
 ) -> Result<(), LineFault> {
-    let Some(route) = request.get(ROUTE) else {
+    let mut head = request;
+    let (Ok(_), Ok(route)) = (head.skip(2), head.skip(ROUTE)) else {
         return Err(LineFault::Length);
     };
-    reply.extend(&[0xd0, 0]);
-    reply.extend(route);
-    reply.extend(&[0; 4]);
-    let data = reply.len();
+    reply.number(0xd0, 1);
+    reply.number(0, 1);
+    reply.frame.extend(route);
+    let length = reply.frame.len();
+    reply.number(0, 2);
+    let end_code = reply.frame.len();
+    reply.number(0, 2);
+    let data = reply.frame.len();
     let outcome = execute(request, map, reply);
     if let Err(refusal) = outcome {
-        reply.truncate(data);
-        let code: u16 = match refusal {
+        reply.frame.truncate(data);
+        let code = match refusal {
+            Refusal::Digit => 0xc050,
             Refusal::Command => 0xc059,
             Refusal::Points => 0xc051,
             Refusal::Device => 0xc056,
             Refusal::Length => 0xc061,
             Refusal::Data => 0xc05c,
         };
-        reply.set(data - 2, code as u8);
-        reply.set(data - 1, (code >> 8) as u8);
+        reply.replace(end_code, code, 2);
         // The rejected request: route and command.
-        reply.extend(route);
-        reply.extend(request.get(HEAD + 2..HEAD + 6).unwrap_or(&[0; 4]));
+        reply.frame.extend(route);
+        match head.skip(4).and_then(|_| head.skip(4)) {
+            Ok(command) => reply.frame.extend(command),
+            Err(_) => reply.number(0, 4),
+        }
     }
-    let length = (reply.len() - HEAD) as u16;
-    reply.set(HEAD - 2, length as u8);
-    reply.set(HEAD - 1, (length >> 8) as u8);
+    reply.replace(length, (reply.frame.len() - end_code) as u32, 2);
     outcome.map_err(Refusal::fault)
 }
 
-fn execute(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), Refusal> {
-    if length(request) != Some(request.len()) {
+fn execute(request: Fields, map: &mut dyn Map, reply: &mut Reply) -> Result<(), Refusal> {
+    let code = request.code;
+    if length(request.left, code)? != request.left.len() {
         return Err(Refusal::Length);
     }
-    let mut fields = Fields(request);
-    fields.take(HEAD + 2)?;
+    let mut fields = request;
+    fields.skip(HEAD + 2)?;
     let (command, subcommand) = (fields.number(2)?, fields.number(2)?);
     match (command, subcommand) {
         (BATCH_READ | BATCH_WRITE, 0 | 1) => {
             let device = Device::of_3e(&mut fields)?;
             let count = fields.number(2)?;
             let is_bits = subcommand == 1;
-            let count = points(count, if is_bits { MOST_BITS } else { MOST_WORDS })?;
+            let most = match (is_bits, code) {
+                (false, _) => MOST_WORDS,
+                (true, Code::Binary) => MOST_BITS,
+                (true, Code::Ascii) => MOST_BITS_ASCII,
+            };
+            let count = points(count, most)?;
             if command == BATCH_READ {
                 fields.end()?;
             }
@@ -100,23 +121,23 @@ fn execute(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), R
         (RANDOM_WRITE, 0) => random_write(fields, map),
         (RANDOM_WRITE, 1) => random_write_bits(fields, map),
         (REMOTE_RUN | REMOTE_STOP, 0) => {
-            fields.take(if command == REMOTE_RUN { 4 } else { 2 })?;
+            fields.skip(if command == REMOTE_RUN { 4 } else { 2 })?;
             fields.end()?;
             map.request_running(command == REMOTE_RUN);
             Ok(())
         }
         (CPU_TYPE, 0) => {
             fields.end()?;
-            reply.extend(NAME);
-            reply.push_le16(map.type_code());
+            reply.frame.extend(NAME);
+            reply.number(map.type_code().into(), 2);
             Ok(())
         }
         (ECHO, 0) => {
-            let echo = fields.0;
+            let echo = fields.left;
             let count = points(fields.number(2)?, MOST_ECHO)?;
-            fields.take(count as usize)?;
+            fields.characters(count as usize)?;
             fields.end()?;
-            reply.extend(echo);
+            reply.frame.extend(echo);
             Ok(())
         }
         _ => Err(Refusal::Command),
@@ -124,7 +145,7 @@ fn execute(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), R
 }
 
 /// Words and double words, each with its device.
-fn random_read(mut fields: Fields, map: &dyn Map, reply: &mut Frame) -> Result<(), Refusal> {
+fn random_read(mut fields: Fields, map: &dyn Map, reply: &mut Reply) -> Result<(), Refusal> {
     let (words, doubles) = (fields.number(1)?, fields.number(1)?);
     points(words + doubles, MOST_READ)?;
     for _ in 0..words {
@@ -132,7 +153,7 @@ fn random_read(mut fields: Fields, map: &dyn Map, reply: &mut Frame) -> Result<(
     }
     for _ in 0..doubles {
         let value = Device::of_3e(&mut fields)?.double_word(map)?;
-        reply.extend(&value.to_le_bytes());
+        reply.number(value, 4);
     }
     fields.end()
 }
@@ -148,7 +169,7 @@ fn random_write(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
         } else {
             (device.has_double_word(map), 4)
         };
-        checked.take(bytes)?;
+        checked.skip(bytes)?;
         if !exists {
             return Err(Refusal::Device);
         }

@@ -252,10 +252,113 @@ fn refusals_of_1e() {
     assert_eq!(map.writes, 0);
 }
 
+fn ask_in_ascii(map: &mut Watched, request: &str) -> String {
+    let request = request.as_bytes();
+    assert_eq!(cut(request), Cut::Whole);
+    for length in 1..request.len() {
+        assert_eq!(cut(&request[..length]), Cut::More);
+    }
+    String::from_utf8(exchange(map, request).0).unwrap()
+}
+
+/// Requests of fx3u-mcprotocol 1.0.0 and of the FX3U-ENET-ADP user's manual, chapter 7.
+#[test]
+fn frames_of_1e_in_ascii() {
+    let mut map = Watched::new();
+    map.plc.set_d(100, &[0x1234, -2]);
+    map.plc.set_m(100, "01001101");
+    for (request, reply) in [
+        ("01FF000A4420000000640200", "81001234FFFE"),
+        ("00FF000A4D20000000640800", "800001001101"),
+        // A zero after an odd number of bits.
+        ("00FF000A4D20000000640500", "8000010010"),
+        ("02FF000A4D200000003203001110", "8200"),
+        ("03FF000A4420000001F402001234ABCD", "8300"),
+        // 32-bit counters, the high word first.
+        ("03FF000A434E000000C8010000BC614E", "8300"),
+        ("01FF000A434E000000C80100", "810000BC614E"),
+        ("05FF000A020044200000000A12344D20000000400003", "8500"),
+        ("04FF000A01004D200000000A01", "8400"),
+        ("14FF000A", "9400"),
+        ("15FF000A", "9500F300"),
+        ("16FF000A05ABCDE", "960005ABCDE"),
+        ("0100000A4420000000640200", "815B1000"),
+        ("01FF000A4120000000640200", "8156"),
+        ("01FF000A4420000000644100", "8157"),
+        ("02FF000A4D200000003203001120", "8254"),
+    ] {
+        assert_eq!(ask_in_ascii(&mut map, request), reply, "{request}");
+    }
+    assert_eq!(map.plc.d(500, 2), [0x1234, 0xabcd_u16 as i16]);
+    assert_eq!(map.plc.m(50, 3), "111");
+    assert_eq!(map.counter32(200), Some(12_345_678));
+    assert_eq!(map.plc.d(10, 1), [0x1234]);
+    assert_eq!(map.plc.m(64, 2), "11");
+    assert_eq!(map.request, Some(false));
+}
+
+/// Frame 3E in ASCII around a body, the timer first.
+fn in_3e(head: &str, body: &str) -> String {
+    std::format!("{head}00FF03FF00{:04X}{body}", body.len())
+}
+
+/// Requests of pymcprotocol 0.3 in ASCII.
+#[test]
+fn frames_of_3e_in_ascii() {
+    let mut map = Watched::new();
+    map.plc.set_d(100, &[0x1234, 2, -4323]);
+    map.plc.set_m(103, "11");
+    for (request, reply) in [
+        ("000404010000D*0001000003", "000012340002EF1D"),
+        ("000404010001M*0001000005", "000000011"),
+        // Spaces instead of the asterisk and of leading zeros.
+        ("000404010000D    1000001", "00001234"),
+        ("000414010000D*00100000020013FFFE", "0000"),
+        // Terminals in hexadecimal digits.
+        ("000414010001Y*0000100003011", "0000"),
+        ("0004140200000101D*001010000AD*00101200020001", "0000"),
+        ("0004040300000101D*001010D*001012", "0000000A00020001"),
+        ("00041402000102M*00005001M*00005201", "0000"),
+        ("0004140200000001CN00020000BC614E", "0000"),
+        ("0004061900000005ABCDE", "00000005ABCDE"),
+        ("000401010000", "0000RUNGC           5E38"),
+        ("0004100200000001", "0000"),
+        // Refusals: digits, lengths, points, devices, values.
+        ("00040401000XD*0001000003", "C05000FF03FF000401000X"),
+        ("000404010000D*00010000 3", "C05000FF03FF0004010000"),
+        ("000404010000D*000100000", "C06100FF03FF0004010000"),
+        ("0004", "C06100FF03FF0000000000"),
+        ("000404010001M*0001000E01", "C05100FF03FF0004010001"),
+        ("000404010000W*0001000001", "C05600FF03FF0004010000"),
+        ("000414010001M*00010000012", "C05C00FF03FF0014010001"),
+        ("000410030000", "C05900FF03FF0010030000"),
+    ] {
+        let answer = ask_in_ascii(&mut map, &in_3e("5000", request));
+        assert_eq!(answer, in_3e("D000", reply), "{request}");
+    }
+    assert_eq!(map.plc.d(1000, 2), [0x13, -2]);
+    let y = [16, 17, 18].map(|n| map.bit(Class::Y, n));
+    assert_eq!(y, [Some(false), Some(true), Some(true)]);
+    assert_eq!(map.plc.m(50, 3), "101");
+    assert_eq!(map.counter32(200), Some(12_345_678));
+    assert_eq!(map.request, Some(false));
+    for no_request in [
+        "5001",
+        "06",
+        "0G",
+        "500000FF03FF00FFFF",
+        "500000FF03FF000X18",
+    ] {
+        assert_eq!(cut(no_request.as_bytes()), Cut::Drop, "{no_request}");
+    }
+}
+
 /// Returns true if an answer reports success.
 fn is_done(reply: &[u8]) -> bool {
     match reply {
         [0xd0, 0, _, _, _, _, _, _, _, code @ ..] => code.starts_with(&[0, 0]),
+        [b'D', b'0', ..] => reply.get(18..22) == Some(b"0000"),
+        [b'8' | b'9', _, code @ ..] if code.len() >= 2 => code.starts_with(b"00"),
         [_, code, ..] => *code == 0,
         _ => false,
     }
@@ -278,7 +381,9 @@ proptest! {
         let body = [&[4, 0][..], &command, &[low, high, 0, code, short, 0], &data].concat();
         let three = [&[0x50, 0, 0, 0xff, 0xff, 3, 0, body.len() as u8, 0][..], &body].concat();
         let one = [&[command[0] & 7, 0xff, 0, 0, low, high, 0, 0, 0x20, 0x44, short, 0][..], &data].concat();
-        for request in [three.as_slice(), &one, &data] {
+        let digits = |bytes: &[u8]| hex(bytes).replace(' ', "").into_bytes();
+        let [three_digits, one_digits] = [digits(&three), digits(&one)];
+        for request in [three.as_slice(), &one, &data, &three_digits, &one_digits] {
             let mut map = Watched::new();
             cut(request);
             let (reply, outcome) = exchange(&mut map, request);
