@@ -40,3 +40,36 @@ X007-X010 = "read b"
     assert_eq!(why.message, "X777 does not exist on Mitsubishi FX1S");
     assert_eq!(project.source.slice(why.span), "X777");
 }
+
+/// Executables read connections line by line, without a library for TOML. What they cannot read so they refuse: none of
+/// the connections that rungc makes is left out.
+#[test]
+fn executables_connect_what_rungc_connects_or_refuse() {
+    let rows = "files = '.'\nX000 = 'read a'\n";
+    let mut agreed = 0;
+    for text in [
+        format!("[io.a]\n{rows}"),
+        format!("[ io . 'a' ] # panel\n{rows}"),
+        format!("[\"io\".a]\n{rows}[io.\"b\"]\nfiles = '.'\nX001 = 'read b'\n"),
+        format!("[verify]\nassume = [\n  'X0',\n]\n[io.a]\n{rows}"),
+        format!("[io.a]\n{rows}[project]\nmodel = 'fx3u'\n"),
+        format!("[io]\n[io.a]\n{rows}"),
+        "[io]\na = { files = '.', X000 = 'read a' }\n".to_string(),
+        "[io]\na.files = '.'\na.X000 = 'read a'\n".to_string(),
+        "io.a.files = '.'\nio.a.X000 = 'read a'\n".to_string(),
+        "io.a = { files = '.', X000 = 'read a' }\n".to_string(),
+        "\"io\" = { a = { files = '.', X000 = 'read a' } }\n".to_string(),
+        format!("[io.a]\n{rows}[io]\nb.files = '.'\nb.X001 = 'read b'\n"),
+        format!("[io.a]\n{rows}[io.b] \nfiles = \"\"\"\n.\"\"\"\nX001 = 'read b'\n"),
+        format!("[io.a]\n{rows}[io.b]\n'files' = '.'\nX001 = 'read b'\n"),
+    ] {
+        let ours = parse(&text).unwrap().io;
+        assert!(!ours.is_empty(), "{text}");
+        if let Ok(theirs) = rungc_host::io::parse(&text) {
+            agreed += 1;
+            let ours: Vec<_> = ours.iter().map(|one| &one.connection).collect();
+            assert_eq!(ours, theirs.iter().collect::<Vec<_>>(), "{text}");
+        }
+    }
+    assert!(agreed >= 6, "{agreed}");
+}

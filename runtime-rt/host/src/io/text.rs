@@ -3,31 +3,45 @@
 use super::settings::{Connection, SettingError, overlap};
 
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
-/// What `rungc` itself reads as TOML, such as inline tables, is rejected here.
 ///
 /// # Errors
-/// The first mistake, with its line.
+/// The first mistake, with its line. What else TOML permits for connections, such as inline tables and dotted keys, is one:
+/// nothing that `rungc` would connect is left out in silence.
 pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
     let mut tables: Vec<Lines<'_>> = Vec::new();
-    let mut inside = false;
+    let mut place = Place::Root;
     for (n, line) in (1..).zip(text.lines()) {
         let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        if line.contains("\"\"\"") || line.contains("'''") {
+            return Err(format!("line {n}: write a text in one line"));
+        }
         if let Some(header) = line.strip_prefix('[') {
-            let name = header.split(']').next().unwrap_or_default().trim();
-            let name = name.strip_prefix("io.").map(str::trim);
-            inside = name.is_some();
-            if let Some(name) = name {
+            place = Place::of(header).ok_or_else(|| format!("line {n}: {FORM}"))?;
+            if let Place::Connection(name) = place {
                 tables.push(Lines {
                     name,
                     at: n,
                     pairs: Vec::new(),
                 });
             }
-        } else if inside && !line.is_empty() && !line.starts_with('#') {
-            let pair = pair(line).ok_or_else(|| format!("line {n}: write `key = \"value\"`"))?;
-            if let Some(table) = tables.last_mut() {
-                table.pairs.push((n, pair));
+            continue;
+        }
+        match place {
+            Place::Connection(_) => {
+                let pair =
+                    pair(line).ok_or_else(|| format!("line {n}: write `key = \"value\"`"))?;
+                if let Some(table) = tables.last_mut() {
+                    table.pairs.push((n, pair));
+                }
             }
+            Place::Io => return Err(format!("line {n}: {FORM}")),
+            Place::Root if part(line.split(['=', '.']).next()) == "io" => {
+                return Err(format!("line {n}: {FORM}"));
+            }
+            Place::Root | Place::Other => {}
         }
     }
     let connections: Result<Vec<_>, String> = tables.iter().map(Lines::read).collect();
@@ -42,6 +56,46 @@ pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
         )),
         None => Ok(connections),
     }
+}
+
+/// How connections are written.
+const FORM: &str = "write each connection as a table of its own, `[io.NAME]`, with a key and its value in each line";
+
+/// Table that a line belongs to.
+#[derive(Clone, Copy)]
+enum Place<'a> {
+    /// None: the beginning of the file.
+    Root,
+    /// `[io]`, which has no keys of its own.
+    Io,
+    /// `[io.NAME]`.
+    Connection(&'a str),
+    /// Another table.
+    Other,
+}
+
+impl<'a> Place<'a> {
+    /// The place after a header, of which this is the rest after its bracket; `None` if it is a connection in another
+    /// form.
+    fn of(header: &'a str) -> Option<Place<'a>> {
+        let is_list = header.starts_with('[');
+        let name = header.trim_start_matches('[').split(']').next();
+        let mut parts = name.unwrap_or_default().split('.');
+        if part(parts.next()) != "io" {
+            return Some(Place::Other);
+        }
+        match (parts.next(), parts.next()) {
+            _ if is_list => None,
+            (None, _) => Some(Place::Io),
+            (name @ Some(_), None) => Some(Place::Connection(part(name))),
+            _ => None,
+        }
+    }
+}
+
+/// A part of a dotted key, without its quotes.
+fn part(text: Option<&str>) -> &str {
+    text.unwrap_or_default().trim().trim_matches(['"', '\''])
 }
 
 /// A table, with the numbers of its lines.
