@@ -34,7 +34,7 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
 /**
  * Maximum number of characters of a request of any service.
  */
-#define RUNGC_LONGEST_REQUEST 3605
+#define RUNGC_LONGEST_REQUEST 3882
 
 /**
  * More characters than an answer of any service has.
@@ -465,7 +465,7 @@ enum rungc_server_protocol
      */
     RUNGC_SERVER_PROTOCOL_MODBUS_TCP = 0,
     /**
-     * MC protocol, frames 1E and 3E in binary.
+     * MC protocol, frames 1E and 3E, in binary and in ASCII.
      */
     RUNGC_SERVER_PROTOCOL_MC = 1,
     /**
@@ -502,7 +502,8 @@ enum rungc_feed_result
      */
     RUNGC_FEED_RESULT_REJECTED = 2,
     /**
-     * Not part of a request; nothing that follows can be one, so the connection is to be closed.
+     * Not part of a request, or the last of one with a wrong length. Where the next request begins is unknown, so the
+     * connection is to be closed after the answer.
      */
     RUNGC_FEED_RESULT_LOST = 3,
 };

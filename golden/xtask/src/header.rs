@@ -100,9 +100,18 @@ pub fn make() -> Result<Made, Problem> {
         tab_width: 4,
         usize_is_size_t: true,
         export: ExportConfig {
-            exclude: ["Sys", "Timer", "Counter16", "Counter32"]
-                .map(str::to_string)
-                .into(),
+            // Limits of hosts' servers are data for emitted code, not for the library's users.
+            exclude: [
+                "Sys",
+                "Timer",
+                "Counter16",
+                "Counter32",
+                "USUAL_CLIENTS",
+                "MAX_CLIENTS",
+                "IDLE_S",
+            ]
+            .map(str::to_string)
+            .into(),
             // Only the functions below take them, which cbindgen does not see: a macro makes them.
             include: ["Operand", "OperandKind", "Site", "Axis"]
                 .map(str::to_string)
