@@ -132,7 +132,10 @@ impl Page {
         let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
         stream.write_all(request.as_bytes()).unwrap();
         let mut lines = BufReader::new(stream).lines().map_while(Result::ok);
-        let data = lines.find_map(|line| Some(line.strip_prefix("data: ")?.to_string()));
+        let is_frame = |line: &String| line.starts_with("data: {");
+        let data = lines
+            .find(is_frame)
+            .map(|line| line["data: ".len()..].to_string());
         serde_json::from_str(&data.expect("an event comes")).unwrap()
     }
 
@@ -388,7 +391,7 @@ fn a_page_of_16000_steps_is_sent_what_changes() {
     let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
     stream.write_all(request.as_bytes()).unwrap();
     let lines = BufReader::new(stream).lines().map_while(Result::ok);
-    let data = lines.filter(|line| line.starts_with("data: "));
+    let data = lines.filter(|line| line.starts_with("data: {"));
     let sizes: Vec<usize> = data.take(30).map(|line| line.len()).collect();
     // First all networks, then those that have changed: at most the tenth that counts.
     assert!(sizes[0] > 20_000, "{sizes:?}");
@@ -527,8 +530,19 @@ fn slow_clients_hold_up_neither_the_run_nor_others() {
     let answer = text(&answer);
     assert!(answer.is_empty() || answer.contains("408"), "{answer}");
     assert_eq!(page.command(PAUSE, JSON), 200);
-    // More than there may be are sent away, and those that are there stay.
-    let crowd: Vec<_> = (0..40).map(|_| page.connect()).collect();
+    // A crowd that sends nothing gives way.
+    let silent: Vec<_> = (0..40).map(|_| page.connect()).collect();
+    for _ in 0..10 {
+        assert_eq!(page.get("", &page.host()), 200);
+    }
+    drop(silent);
+    // More pages than there may be are sent away, and those that are there stay.
+    let watching = |_| {
+        let mut stream = page.connect();
+        stream.write_all(events.as_bytes()).unwrap();
+        stream
+    };
+    let crowd: Vec<_> = (0..40).map(watching).collect();
     soon("more are sent away", || page.get("", &page.host()) == 503);
     drop(crowd);
     soon("the crowd has gone", || page.get("", &page.host()) == 200);
