@@ -226,6 +226,11 @@ fn serves(program: &Path) {
     let read = [1, 0xff, 10, 0, 200, 0, 0, 0, 0x20, 0x44, 1, 0];
     assert_eq!(ask(&mc, &read, 4), [0x81, 0, 7, 0]);
     assert_eq!(ask(&fx, b"\x05", 1), [6]);
+    // In ASCII: remote STOP and RUN are reported.
+    assert_eq!(ask(&mc, b"14FF000A", 4), b"9400");
+    host.says("127.0.0.1 switches to STOP (MC protocol)");
+    assert_eq!(ask(&mc, b"13FF000A", 4), b"9300");
+    host.says("127.0.0.1 switches to RUN (MC protocol)");
     // No request at all: the connection is closed.
     let mut stream = TcpStream::connect(&modbus).unwrap();
     stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
@@ -241,7 +246,7 @@ fn serves(program: &Path) {
     let words: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(
         words,
-        ["127.0.0.1", "Modbus", "TCP", "3", "2", "2"],
+        ["127.0.0.1", "Modbus", "TCP", "3", "2", "2", "0"],
         "{row}"
     );
     assert_eq!(host.child.wait().unwrap().code(), Some(0));
