@@ -4,6 +4,7 @@ use super::line::{LineFormat, Received};
 use super::modbus::{self, Framing, LONGEST_RTU};
 use super::parts::{Progress, Status};
 use super::port::{FRAME, Session};
+use super::port_protocol::GIVEN_UP_US;
 use super::slaves::{Slave, role};
 use super::wiring::{PortWiring, note_programming_port};
 use super::{
@@ -87,6 +88,14 @@ pub(super) trait Handler: Sync {
     fn receive_can(&self, _plc: &mut dyn Plc, _frame: &CanFrame) -> bool {
         false
     }
+
+    /// Silence after which a frame that has a length or an end is given up, in microseconds.
+    fn given_up_us(&self, _wiring: &PortWiring, _plc: &dyn Plc) -> u32 {
+        GIVEN_UP_US
+    }
+
+    /// Takes notice that the rest of a frame of `length` characters has not come.
+    fn give_up(&self, _session: &mut Session, _length: usize) {}
 
     /// Does what is due, at the end of each call.
     fn poll(&self, _session: &mut Session) {}
@@ -247,6 +256,17 @@ impl Handler for ComputerLink {
     fn receive(&self, session: &mut Session, length: usize) {
         session.answer::<FRAME>(length, |slave, request, remote, map, reply| {
             computer_link::answer(slave.computer_link(), remote, request, map, reply)
+        });
+    }
+
+    /// The time-out of the port (FX communication manual 12.4.2: the monitor timer).
+    fn given_up_us(&self, wiring: &PortWiring, plc: &dyn Plc) -> u32 {
+        wiring.time_out_us(plc)
+    }
+
+    fn give_up(&self, session: &mut Session, length: usize) {
+        session.answer::<FRAME>(length, |slave, request, remote, map, reply| {
+            computer_link::answer_late(slave.computer_link(), remote, request, map, reply)
         });
     }
 

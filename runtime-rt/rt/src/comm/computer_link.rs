@@ -51,6 +51,13 @@ const MOST_WORDS_TESTED: u32 = 10;
 /// Maximum number of characters of TT.
 const MOST_LOOPED: u32 = 254;
 
+/// Station number of a request for all PLCs on the line.
+const TO_ALL: u8 = 0xff;
+/// Commands of requests.
+const COMMANDS: [&[u8]; 11] = [
+    b"BR", b"WR", b"BW", b"WW", b"BT", b"WT", b"RR", b"RS", b"PC", b"GW", b"TT",
+];
+
 /// Relay that GW sets in all PLCs on the line.
 const M_GLOBAL: u32 = 8126;
 
@@ -207,7 +214,11 @@ pub fn answer(
     let Some((station, command)) = address_of(text) else {
         return Ok(());
     };
-    let is_global = station == 0xff && command == b"GW";
+    let to_all = station == TO_ALL;
+    let is_global = to_all && command == b"GW";
+    if to_all && !is_global && settings.dialect != Dialect::Hm {
+        return Err(LineFault::Command);
+    }
     if station != settings.station && !is_global {
         return Ok(());
     }
@@ -241,6 +252,30 @@ pub fn answer(
             terminate(settings, reply);
             refusal.fault()
         }
+    }
+}
+
+/// Answers a request of format 1 whose length is unknown, after silence; the rest of any other has not come.
+///
+/// # Errors
+/// [`LineFault::TimeOut`] for an incomplete request for this station; what is wrong with one of unknown length.
+pub fn answer_late(
+    settings: Settings,
+    remote: &mut Remote,
+    request: &[u8],
+    map: &mut dyn Map,
+    reply: &mut Frame,
+) -> Result<(), LineFault> {
+    let Some((station, command)) = address_of(request) else {
+        return Ok(());
+    };
+    let unknown = command.len() == 2 && !COMMANDS.contains(&command);
+    if unknown && !settings.crlf {
+        return answer(settings, remote, request, map, reply);
+    }
+    match [settings.station, TO_ALL].contains(&station) {
+        true => Err(LineFault::TimeOut),
+        false => Ok(()),
     }
 }
 

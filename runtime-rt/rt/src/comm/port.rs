@@ -272,7 +272,11 @@ where
         if self.ends_by_silence() && whole {
             self.take_frame();
         } else {
+            let received = usize::from(self.status.received);
             self.drop_frame();
+            if whole {
+                self.give_up(received);
+            }
         }
     }
 

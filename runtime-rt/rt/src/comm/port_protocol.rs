@@ -10,7 +10,7 @@ use super::{Cut, LineFault};
 
 /// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line
 /// §2.5.2.1).
-const GIVEN_UP_US: u32 = 1_000_000;
+pub(super) const GIVEN_UP_US: u32 = 1_000_000;
 
 /// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off
 /// must not hold up the others.
@@ -69,6 +69,9 @@ pub(super) trait PortProtocol {
     fn cut(&mut self, _received: usize) -> Cut {
         Cut::Drop
     }
+
+    /// Takes notice that the rest of a frame of `length` characters has not come.
+    fn give_up(&mut self, _length: usize) {}
 
     /// Does what is due, at the end of each call.
     fn poll(&mut self) {}
@@ -143,7 +146,15 @@ impl PortProtocol for Session<'_> {
         } else if Protocols::LINKS.contains(self.status.protocol) {
             LINK_GIVEN_UP_US
         } else {
-            GIVEN_UP_US
+            let handler = self.own.handler;
+            let given_up_us = handler.map(|handler| handler.given_up_us(self.own.wiring, self.plc));
+            given_up_us.unwrap_or(GIVEN_UP_US)
+        }
+    }
+
+    fn give_up(&mut self, length: usize) {
+        if let Some(handler) = self.own.handler {
+            handler.give_up(self, length);
         }
     }
 
