@@ -4,7 +4,8 @@ use crate::plant::{Axis, Plant, Process};
 use crate::target::Target;
 use rungc_interp::{Machine, rt_class};
 use rungc_models::runs::is_counter32;
-use rungc_rt::{Class, Plc, VirtualHal};
+use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_syntax::DeviceClass;
 use std::fmt;
 
 /// Maximum number of characters of a text that are read.
@@ -54,6 +55,11 @@ impl Reading {
             Target::Channel(channel) => {
                 let signal = hal.signal(channel.unit, channel.number, channel.quantity)?;
                 Reading::Float(f64::from(signal) / 1e6)
+            }
+            // An output is its terminal, as in test files: pulses show there, and M8034 switches it off.
+            Target::Bit(DeviceClass::Y, n) => {
+                machine.bit(Class::Y, n)?;
+                Reading::Bit(machine.output(n))
             }
             Target::Bit(class, n) => Reading::Bit(machine.bit(rt_class(class)?, n)?),
             Target::Current(class, n) if is_counter32(class, n) => {
