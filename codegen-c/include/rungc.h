@@ -644,11 +644,14 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     }
 }
 
-/* Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it. */
+/* Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it. The contact of
+ * a retentive one closes when its coil is executed next. */
 static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_t unit_ms, unsigned options)
 {
     if (timer->coil != 0u) {
+        const bool closes = timer->done || ((options & PLC_RETENTIVE) == 0u);
         plc_timer_run(timer, true, timer->preset, sys, unit_ms, options);
+        timer->done = timer->done && closes;
     }
 }
 
@@ -739,6 +742,19 @@ static inline void plc_count32_reset(plc_counter32 *counter)
 {
     counter->value = 0;
     counter->done = false;
+}
+
+/* RST C that holds the counter at 0 until the next execution of its coil is over: that one does not count. */
+static inline void plc_count16_hold(plc_counter16 *counter)
+{
+    plc_count16_reset(counter);
+    counter->coil = true;
+}
+
+static inline void plc_count32_hold(plc_counter32 *counter)
+{
+    plc_count32_reset(counter);
+    counter->coil = true;
 }
 
 #endif

@@ -826,6 +826,14 @@ typedef struct rungc_layout {
      */
     uint16_t value_error;
     /**
+     * True if M8004 and D8004 show errors of ports.
+     */
+    bool sums_up_ports;
+    /**
+     * True if errors enter the log.
+     */
+    bool logs_errors;
+    /**
      * Offset of its pulse outputs.
      */
     size_t axes;

@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::expr::Around;
 use crate::fields::PrintStorage;
-use crate::helpers::reset_function;
+use crate::helpers::{hold_function, reset_function};
 use crate::writer::Writer;
 use rungc_ir::node::{Access, AccessKind, Block, Expr, ExprId, IndexedCoil, Place, TimerCoil};
 use rungc_models::runs::is_counter32;
@@ -323,7 +323,9 @@ impl Writer<'_, '_> {
         self.number(code, place);
     }
 
-    pub(crate) fn reset(&mut self, code: &mut Code, place: &Place) {
+    /// RST of a timer or counter. A counter that it `holds` does not count at the next execution of its coil; no index
+    /// leads to such a one.
+    pub(crate) fn reset(&mut self, code: &mut Code, place: &Place, holds: bool) {
         let mut name = String::new();
         let of_iteration = self.access_iteration(&mut name, place);
         if place.index.is_some() && !of_iteration {
@@ -338,7 +340,11 @@ impl Writer<'_, '_> {
         if !of_iteration {
             self.fields.access(&mut name, place.class, place.number);
         }
-        let _ = write!(code.text(), "{}(&{name});", reset_function(field.kind));
+        let function = match holds {
+            true => hold_function(field.kind),
+            false => reset_function(field.kind),
+        };
+        let _ = write!(code.text(), "{function}(&{name});");
     }
 }
 

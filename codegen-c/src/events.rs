@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub fn forget(module: &Module) -> String {
     let mut out = String::new();
     // Writing to a String does not fail.
-    for flag in &module.flags {
+    for flag in module.flags.iter().filter(|flag| !flag.retained) {
         let _ = writeln!(out, "    plc->{} = false;", flag.name);
     }
     for (flag, _) in module.periods() {

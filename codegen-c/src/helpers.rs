@@ -405,6 +405,16 @@ impl std::fmt::Display for Device {
     }
 }
 
+/// The function of rungc.h that resets a counter and holds it for the next execution of its coil.
+pub(crate) fn hold_function(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Counter32 => "plc_count32_hold",
+        Kind::Counter16 | Kind::Timer | Kind::Bit | Kind::NumericBit | Kind::Word => {
+            "plc_count16_hold"
+        }
+    }
+}
+
 /// The function of rungc.h that resets a timer or counter.
 pub(crate) fn reset_function(kind: Kind) -> &'static str {
     match kind {

@@ -3,6 +3,7 @@
 use crate::code::Code;
 use crate::expr::Around;
 use crate::page::Page;
+use crate::unit::watchdog_begins;
 use crate::writer::{Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
@@ -150,7 +151,7 @@ impl Writer<'_, '_> {
                 let arguments = [count.down, count.preset];
                 self.counter(code, "plc_count32_once", count.number, &arguments);
             }
-            Action::Reset(place) => self.reset(code, place),
+            Action::Reset { place, holds } => self.reset(code, place, *holds),
             Action::Block(block) => self.block(code, *block),
             Action::Call(call) => self.runtime_call(code, call),
             Action::Fetch(fetch) => {
@@ -166,6 +167,10 @@ impl Writer<'_, '_> {
                 code.argument(fault);
                 code.argument(*step as u16);
                 code.close(");");
+            }
+            Action::RestartWatchdog => {
+                let begins = watchdog_begins(module, self.fields);
+                code.push_str(&begins.unwrap_or_default());
             }
             Action::Stop => {
                 page.line("plc->error.stop = PLC_STOP_M8037;");

@@ -3,6 +3,7 @@
 use crate::fields::PrintField;
 use crate::text;
 use rungc_emit::areas::{self, Area};
+use rungc_emit::cycle;
 use rungc_emit::storage::{Kind, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -61,6 +62,13 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         module.model.error_relay.number()
     ));
     layout.push(format!(".value_error = {}", module.model.value_error));
+    let rules = cycle::error_rules(module, fields);
+    if rules.sums_up_ports {
+        layout.push(".sums_up_ports = true".to_string());
+    }
+    if rules.logs {
+        layout.push(".logs_errors = true".to_string());
+    }
     let on_error = match module.may_fail() {
         true => {
             format!(

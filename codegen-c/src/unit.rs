@@ -9,7 +9,7 @@ use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};
-use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
+use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay, WATCHDOG_CODE};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -151,6 +151,18 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
     }
 }
 
+/// The statement by which the watchdog gives a scan its time, if there is one.
+pub(crate) fn watchdog_begins(module: &Module, fields: &Storage) -> Option<String> {
+    Some(match cycle::budget(module, fields)? {
+        Budget::Register(register) => {
+            let mut ms = String::new();
+            fields.access(&mut ms, DeviceClass::D, register);
+            format!("plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});")
+        }
+        Budget::Steps(steps) => format!("plc->steps_left = {steps}u;"),
+    })
+}
+
 /// Writes what belongs to the module as a whole.
 pub struct Printer<'a> {
     pub(crate) module: &'a Module,
@@ -198,6 +210,18 @@ impl Printer<'_> {
         }
     }
 
+    /// The statements by which an error enters the log, if the program keeps one.
+    fn log_error(&self, indent: &str, code: &str) -> String {
+        let name = self.name();
+        match cycle::error_rules(self.module, self.fields).logs {
+            true => format!(
+                "{indent}rungc_map map = {name}_map(plc);\n\
+                 {indent}rungc_log_error(&map, rungc_at(0), rungc_K({code}));\n"
+            ),
+            false => String::new(),
+        }
+    }
+
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
     fn fault(&self, out: &mut String) {
         let mut lines = "    plc->error.code = code;\n    plc->error.step = step;\n".to_string();
@@ -212,6 +236,7 @@ impl Printer<'_> {
             _ => self.show(&mut lines, "    ", &first),
         }
         self.show(&mut lines, "    ", &each);
+        lines.push_str(&self.log_error("    ", "code"));
         lines.push_str(CALL_ON_ERROR);
         let name = self.name();
         let _ = write!(
@@ -223,16 +248,8 @@ impl Printer<'_> {
 
     /// A scan begins: the watchdog gives it its time, if it has one.
     fn watchdog_begins(&self) -> String {
-        match cycle::budget(self.module, self.fields) {
-            Some(Budget::Register(register)) => {
-                let ms = self.stored(DeviceClass::D, register).unwrap_or_default();
-                format!(
-                    "    plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});\n"
-                )
-            }
-            Some(Budget::Steps(steps)) => format!("    plc->steps_left = {steps}u;\n"),
-            None => String::new(),
-        }
+        let begins = watchdog_begins(self.module, self.fields);
+        begins.map_or_else(String::new, |begins| format!("    {begins}\n"))
     }
 
     /// Writes the watchdog, which stops a scan that does not end.
@@ -243,6 +260,7 @@ impl Printer<'_> {
         );
         let shows = cycle::watchdog_shows(self.module.model, self.fields);
         self.show(&mut trip, "        ", &shows);
+        trip.push_str(&self.log_error("        ", &WATCHDOG_CODE.to_string()));
         let _ = write!(
             out,
             "/* Counts the steps that a loop or a jump back repeats. After too many in one scan the PLC stops, as its watchdog would have it. */\n\

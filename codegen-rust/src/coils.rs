@@ -163,10 +163,15 @@ impl Generator<'_> {
         index.is_some_and(|index| !matches!(index, Expr::Stride(..)))
     }
 
-    /// RST of a timer or counter.
-    pub fn reset(&mut self, place: Place) -> TokenStream {
+    /// RST of a timer or counter. A counter that it `holds` does not count at the next execution of its coil; no index
+    /// leads to such a one.
+    pub fn reset(&mut self, place: Place, holds: bool) -> TokenStream {
+        let reset = |cell: TokenStream| match holds {
+            true => quote!(#cell.hold();),
+            false => quote!(#cell.reset();),
+        };
         if let Some(cell) = self.cell_of_iteration(place) {
-            return quote!(#cell.reset(););
+            return reset(cell);
         }
         if place.index.is_some() {
             let (class, number) = self.indexed(place);
@@ -174,7 +179,7 @@ impl Generator<'_> {
         }
         let cell = self.storage.cell(&quote!(plc), place.class, place.number);
         match cell {
-            Some(cell) => quote!(#cell.reset();),
+            Some(cell) => reset(cell),
             None => TokenStream::new(),
         }
     }

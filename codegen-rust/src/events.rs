@@ -51,7 +51,8 @@ impl Generator<'_> {
 
     /// Forgets what happened, when RUN begins.
     pub(crate) fn forget_flags(&self) -> TokenStream {
-        let flags = self.module.flags.iter().map(|flag| {
+        let flags = self.module.flags.iter().filter(|flag| !flag.retained);
+        let flags = flags.map(|flag| {
             let field = flag_field(flag);
             quote!(self.#field = false;)
         });

@@ -135,12 +135,13 @@ impl Generator<'_> {
             Action::Counter16At(coil) => self.indexed_coil(OUT_COUNTER, coil),
             Action::Counter32(coil) => self.counter32(coil),
             Action::Count(count) => self.count(count),
-            Action::Reset(place) => self.reset(*place),
+            Action::Reset { place, holds } => self.reset(*place, *holds),
             Action::Block(block) => self.block(block),
             Action::Call(call) => self.call(call),
             Action::Fetch(fetch) => self.fetch(fetch),
             Action::Send(send) => self.send(send),
             Action::Fault { code, step } => self.fault(*code, *step),
+            Action::RestartWatchdog => self.watchdog_begins(&quote!(plc)).unwrap_or_default(),
             Action::Stop => {
                 let (program, stop) = (self.rt("Program"), self.rt("Stop"));
                 quote!(plc.error.stop = #stop::Program; #program::set_running(plc, false);)

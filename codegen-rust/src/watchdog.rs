@@ -7,6 +7,8 @@ use quote::{ToTokens, quote};
 use rungc_emit::cycle::{self, Budget, Shown, Shows};
 use rungc_ir::Module;
 use rungc_ir::node::STEPS_PER_MS;
+use rungc_rt::ErrorRules;
+use rungc_rt::special::WATCHDOG_CODE;
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
@@ -15,18 +17,17 @@ impl Generator<'_> {
         Literal::u32_unsuffixed(Module::scan_steps(self.module.watchdog_ms()))
     }
 
-    /// A scan begins: the watchdog gives it its time, if it has one.
-    pub fn watchdog_begins(&self) -> Option<TokenStream> {
+    /// The watchdog gives a scan its time, if there is one.
+    pub fn watchdog_begins(&self, plc: &TokenStream) -> Option<TokenStream> {
         Some(match cycle::budget(self.module, &self.storage)? {
             Budget::Register(register) => {
-                let plc = quote!(self);
-                let ms = self.storage.word(&plc, DeviceClass::D, register)?;
+                let ms = self.storage.word(plc, DeviceClass::D, register)?;
                 let steps = Literal::u32_unsuffixed(STEPS_PER_MS);
-                quote!(self.steps_left = u32::from(#ms.max(1).unsigned_abs()) * #steps;)
+                quote!(#plc.steps_left = u32::from(#ms.max(1).unsigned_abs()) * #steps;)
             }
             Budget::Steps(steps) => {
                 let steps = Literal::u32_unsuffixed(steps);
-                quote!(self.steps_left = #steps;)
+                quote!(#plc.steps_left = #steps;)
             }
         })
     }
@@ -35,6 +36,8 @@ impl Generator<'_> {
     pub fn watchdog(&mut self) -> TokenStream {
         let stop = self.rt("Stop");
         let shows = self.show(&cycle::watchdog_shows(self.module.model, &self.storage));
+        let code = Literal::u16_unsuffixed(WATCHDOG_CODE);
+        let logged = self.log_error(&quote!(#code));
         let doc = self.doc(
             "Counts the steps that a loop or a jump back repeats. After too many in one scan the PLC stops, as its watchdog would have it.",
         );
@@ -51,6 +54,7 @@ impl Generator<'_> {
                     self.error.stop = #stop::Watchdog;
                     self.error.stop_step = step;
                     #(#shows)*
+                    #logged
                 }
                 true
             }
@@ -70,6 +74,7 @@ impl Generator<'_> {
             _ => quote!(#(#shown)*),
         };
         let each = self.show(&each);
+        let logged = self.log_error(&quote!(code));
         let plc = self.rt("Plc");
         let doc = self.doc(
             "An operation error: the instruction is skipped, the error shown in the special devices that the program looks at.",
@@ -79,9 +84,20 @@ impl Generator<'_> {
             pub(crate) fn fault(&mut self, code: u16, step: u16) {
                 #first
                 #(#each)*
+                #logged
                 #plc::note_error(self, code, step.into());
             }
         }
+    }
+
+    /// The statement by which an error enters the log, if the program keeps one.
+    fn log_error(&mut self, code: &TokenStream) -> Option<TokenStream> {
+        cycle::error_rules(self.module, &self.storage)
+            .logs
+            .then(|| {
+                let log = self.rt("log_error");
+                quote!(#log(self, #code);)
+            })
     }
 
     /// The statements by which special devices show an error.
@@ -101,6 +117,22 @@ impl Generator<'_> {
             Some(quote!(#register = #value;))
         };
         shows.iter().filter_map(statement).collect()
+    }
+
+    /// The method of `Plc` for the consequences of errors.
+    pub(crate) fn error_rules(&mut self) -> Option<TokenStream> {
+        let ErrorRules {
+            sums_up_ports,
+            logs,
+        } = cycle::error_rules(self.module, &self.storage);
+        (sums_up_ports || logs).then(|| {
+            let rules = self.rt("ErrorRules");
+            quote! {
+                fn error_rules(&self) -> #rules {
+                    #rules { sums_up_ports: #sums_up_ports, logs: #logs }
+                }
+            }
+        })
     }
 
     /// The method of `Plc` that keeps an operation error for the host.

@@ -168,7 +168,10 @@ impl<'a, 'm> Classes<'a, 'm> {
         let coil = matches!(
             node,
             Node::Stmt(Stmt::Do(
-                Action::Timer(_) | Action::Counter16(_) | Action::Counter32(_) | Action::Reset(_)
+                Action::Timer(_)
+                    | Action::Counter16(_)
+                    | Action::Counter32(_)
+                    | Action::Reset { .. }
             ))
         );
         !coil
@@ -204,7 +207,7 @@ impl<'a, 'm> Classes<'a, 'm> {
                     && self.slices_expr(coil.down)
                     && self.is_single(coil.preset)
             }
-            Action::Reset(place) => place.index.is_none(),
+            Action::Reset { place, .. } => place.index.is_none(),
             _ => false,
         }
     }

@@ -88,7 +88,7 @@ impl Meeting<'_, '_> {
                     | Action::Counter16(_)
                     | Action::Counter32(_)
                     | Action::Counter16At(_)
-                    | Action::Reset(_)
+                    | Action::Reset { .. }
             )
         );
         let mut found = Vec::new();

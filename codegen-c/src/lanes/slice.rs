@@ -317,7 +317,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
             Action::Timer(coil) => self.timer(page, coil),
             Action::Counter16(coil) => self.counter16(page, coil),
             Action::Counter32(coil) => self.counter32(page, coil),
-            Action::Reset(place) => self.reset(page, place),
+            Action::Reset { place, holds } => self.reset(page, place, *holds),
             _ => {}
         }
     }
@@ -502,7 +502,7 @@ impl<'a, 'm> Slicer<'a, 'm> {
         page.close();
     }
 
-    fn reset(&mut self, page: &mut Page, place: &Place) {
+    fn reset(&mut self, page: &mut Page, place: &Place, holds: bool) {
         let fields = self.classes.fields;
         let Some(done) = lanes(fields, place.class, place.number) else {
             return;
@@ -510,10 +510,13 @@ impl<'a, 'm> Slicer<'a, 'm> {
         let mask = self.mask.clone();
         self.open_instances(page, mask.as_deref());
         let mut code = Code::new();
-        self.writer.reset(&mut code, place);
+        self.writer.reset(&mut code, place, holds);
         page.commented(&code, None);
         page.close();
         self.put(page, &done, "(plc_lanes)0");
+        if let (true, Some(coil)) = (holds, coil(fields, place.class, place.number)) {
+            self.put(page, &coil, "~(plc_lanes)0");
+        }
     }
 
     /// A bit in lanes as a constant with its own name.

@@ -57,6 +57,7 @@ impl Generator<'_> {
                 }
             )
         });
+        let rules = self.error_rules();
         let noted = self.note_error();
         let elements = self.elements_impl();
         self.item_of(quote! {
@@ -70,6 +71,7 @@ impl Generator<'_> {
                 #pairs
                 #errors
                 #values
+                #rules
                 #noted
             }
             #elements

@@ -50,7 +50,7 @@ impl Generator<'_> {
             .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
         let constant_scan = self.constant_scan();
         let ports = self.ports_advance();
-        let watchdog = self.watchdog_begins();
+        let watchdog = self.watchdog_begins(&quote!(self));
         let retained = self.retained();
         let last_error = self.last_error();
         let pulse_timer = self.pulse_timer();

@@ -38,7 +38,7 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
         Action::Counter16(Counter16Coil { number, .. })
         | Action::Counter32(Counter32Coil { number, .. })
         | Action::Count(Count { number, .. }) => Some((DeviceClass::C, *number)),
-        Action::Write(Access { place, .. }, _) | Action::Reset(place) => {
+        Action::Write(Access { place, .. }, _) | Action::Reset { place, .. } => {
             place.index.is_none().then_some((place.class, place.number))
         }
         _ => None,

@@ -6,12 +6,12 @@ use rungc_ir::Module;
 use rungc_ir::node::{Action, Stmt};
 use rungc_models::Model;
 use rungc_models::special::{ConstantScan, RunCommand, SpecialDevice};
-use rungc_rt::RtFn;
 use rungc_rt::special::{
-    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_REMOTE, D_WATCHDOG, D_WATCHDOG_MS,
-    M_ANY_ERROR, M_FIRST_ERROR, M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL, M_OPERATION_ERROR,
-    M_REMOTE_RUN, M_WATCHDOG, OPERATION_ERROR_BCD, Relay, WATCHDOG_BCD, WATCHDOG_CODE,
+    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_LOGGED_CODES, D_REMOTE, D_WATCHDOG,
+    D_WATCHDOG_MS, M_ANY_ERROR, M_FIRST_ERROR, M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL,
+    M_OPERATION_ERROR, M_REMOTE_RUN, M_WATCHDOG, Relay, WATCHDOG_CODE,
 };
+use rungc_rt::{ErrorRules, RtFn, relay_in_bcd};
 use rungc_syntax::DeviceClass;
 
 /// Services that the statements of a program request.
@@ -169,6 +169,16 @@ pub enum Shown {
 /// A special device, and what it shows.
 pub type Shows = (DeviceClass, u32, Shown);
 
+/// Consequences of errors on the model, as far as a program stores the devices.
+pub fn error_rules(module: &Module, storage: &Storage) -> ErrorRules {
+    let rules = module.model.error_rules;
+    let summary = is_stored(storage, M_ANY_ERROR) || is_stored(storage, D_ANY_ERROR);
+    ErrorRules {
+        sums_up_ports: rules.sums_up_ports && summary && module.has_ports(),
+        logs: rules.logs && is_stored(storage, D_LOGGED_CODES),
+    }
+}
+
 /// Effects on stored special devices when the watchdog stops the PLC ([`rungc_rt::trip_watchdog`]).
 pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
     use DeviceClass::{D, M};
@@ -176,8 +186,12 @@ pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
         M_OPERATION_ERROR => vec![
             (M, M_WATCHDOG.number(), Shown::On),
             (M, M_ANY_ERROR.number(), Shown::On),
-            (D, D_WATCHDOG.number(), Shown::Word(WATCHDOG_CODE)),
-            (D, D_ANY_ERROR.number(), Shown::Word(WATCHDOG_BCD)),
+            (D, D_WATCHDOG.number(), Shown::Word(WATCHDOG_CODE as i16)),
+            (
+                D,
+                D_ANY_ERROR.number(),
+                Shown::Word(relay_in_bcd(M_WATCHDOG)),
+            ),
         ],
         relay => vec![(M, relay.number(), Shown::On)],
     };
@@ -200,7 +214,11 @@ pub fn fault_shows(model: &Model, storage: &Storage) -> [Vec<Shows>; 2] {
                 (D, relay, Shown::Code),
                 (D, D_ERROR_STEP.number(), Shown::Step),
                 (M, M_ANY_ERROR.number(), Shown::On),
-                (D, D_ANY_ERROR.number(), Shown::Word(OPERATION_ERROR_BCD)),
+                (
+                    D,
+                    D_ANY_ERROR.number(),
+                    Shown::Word(relay_in_bcd(M_OPERATION_ERROR)),
+                ),
             ],
         ],
         // On HM the other numbers are something else.

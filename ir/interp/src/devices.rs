@@ -294,6 +294,15 @@ impl Devices {
         self.counters32.get_mut(Class::C, number)
     }
 
+    /// The coil of a counter counts as on, so its next execution does not count.
+    pub(crate) fn hold_counter(&mut self, number: u32) {
+        if let Some(counter) = self.counter16(number) {
+            counter.coil = true;
+        } else if let Some(counter) = self.counter32_mut(number) {
+            counter.coil = true;
+        }
+    }
+
     /// M8031, M8032 and going to STOP: clears the general or the latched devices. Inputs and special devices stay.
     pub(crate) fn clear(&mut self, latched: bool) {
         let pick = |p: Presence| p.latched == latched && !p.spared;

@@ -135,9 +135,12 @@ impl<'m> Machine<'m> {
             }
             Action::Counter32(coil) => self.counter32(coil),
             Action::Count(count) => self.count(count),
-            &Action::Reset(place) => {
+            &Action::Reset { place, holds } => {
                 if let Some((class, number)) = self.device(place) {
                     let _ = self.reset(class, number);
+                    if holds {
+                        self.devices.hold_counter(number);
+                    }
                 }
             }
             Action::Block(block) => self.block(block),
@@ -145,6 +148,7 @@ impl<'m> Machine<'m> {
             Action::Fetch(fetch) => self.fetch(fetch, hal),
             Action::Send(send) => self.send(send, hal),
             Action::Fault { code, step } => report(self, Fault(*code), *step),
+            Action::RestartWatchdog => self.wdt(),
             Action::Stop => {
                 self.last_error.stop = Stop::Program;
                 rungc_rt::Program::set_running(self, false);

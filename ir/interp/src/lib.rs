@@ -17,6 +17,6 @@ mod machine;
 mod saved;
 
 pub use errors::OperationError;
-pub use machine::{Machine, Observer};
+pub use machine::{MOST_RESTARTS, Machine, Observer};
 pub use rungc_models::runs::rt_class;
 pub use saved::Saved;

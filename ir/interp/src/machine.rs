@@ -19,12 +19,15 @@ use rungc_rt::special::{
     M_OUTPUTS_OFF, M_REMOTE_RUN, REMOTE_KEY, Relay,
 };
 use rungc_rt::{
-    Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
-    Sys,
+    Axis, Class, EdgeKind, ErrorRules, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses,
+    State, Stop, Sys,
 };
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
+
+/// Number of times that WDT restarts the watchdog in a scan: a loop with WDT that never ends must not hang its host.
+pub const MOST_RESTARTS: u32 = 10_000_000;
 
 /// The functions that a host calls, by their indexes in the module.
 pub(crate) struct Entries {
@@ -79,6 +82,8 @@ pub struct Machine<'m> {
     pub(crate) sys: Sys,
     /// Steps that this scan may still repeat.
     pub(crate) steps_left: u32,
+    /// Number of times that WDT may restart the watchdog in this scan.
+    pub(crate) restarts_left: u32,
     pub(crate) last_error: LastError,
     pub(crate) errors: Vec<OperationError>,
     /// By step and code: the index of the error in `errors`.
@@ -126,6 +131,7 @@ impl<'m> Machine<'m> {
                 .collect(),
             sys: Sys::power_on(),
             steps_left: 0,
+            restarts_left: MOST_RESTARTS,
             last_error: LastError::NONE,
             errors: Vec::new(),
             errors_by_site: BTreeMap::new(),
@@ -217,7 +223,9 @@ impl<'m> Machine<'m> {
     fn begin_run(&mut self) {
         self.last_error = LastError::NONE;
         self.edges.fill(false);
-        self.flags.fill(false);
+        for (state, flag) in self.flags.iter_mut().zip(&self.module.flags) {
+            *state &= flag.retained;
+        }
         self.periods.fill(self.sys.now_ms);
         let of_program = 1..=usize::from(self.module.run_states);
         if let Some(states) = self.states.get_mut(of_program) {
@@ -290,6 +298,19 @@ impl<'m> Machine<'m> {
         self.steps_left = Module::scan_steps(watchdog_ms.unwrap_or(self.module.watchdog_ms()));
     }
 
+    /// WDT, as often as a scan may.
+    pub(crate) fn wdt(&mut self) {
+        if let Some(left) = self.restarts_left.checked_sub(1) {
+            self.restarts_left = left;
+            self.restart_watchdog();
+        }
+    }
+
+    /// Returns true if the watchdog has stopped a scan that WDT did not let end.
+    pub fn is_endless(&self) -> bool {
+        self.watchdog_tripped() && self.restarts_left == 0
+    }
+
     /// [`Stmt::Watch`](rungc_ir::node::Stmt::Watch): whether the scan is cut short.
     pub(crate) fn out_of_time(&mut self, steps: u32, at: u32) -> bool {
         if let Some(left) = self.steps_left.checked_sub(steps) {
@@ -314,6 +335,7 @@ impl Program for Machine<'_> {
         let now_us = now_ms.wrapping_mul(1000);
         self.count_pulses(hal, now_us);
         self.advance_ports(hal, now_us);
+        self.restarts_left = MOST_RESTARTS;
         self.restart_watchdog();
 
         // A module's first functions are `Begin`, `Main`, `End`.
@@ -514,6 +536,10 @@ impl Plc for Machine<'_> {
 
     fn value_error(&self) -> u16 {
         self.module.model.value_error
+    }
+
+    fn error_rules(&self) -> ErrorRules {
+        self.module.model.error_rules
     }
 
     fn note_error(&mut self, code: u16, step: u32) {

@@ -56,6 +56,8 @@ impl Machine<'_> {
             type_code: _,
             retained: _,
             program_memory: _,
+            // A scan begins with all.
+            restarts_left: _,
             observer: _,
         } = self;
         Saved {

@@ -146,12 +146,16 @@ impl Out<'_> {
             Action::Counter16At(coil) => self.coil_at("counter", coil),
             Action::Counter32(coil) => self.counter32(coil),
             Action::Count(count) => self.count(count),
-            Action::Reset(place) => format!("reset {}", self.place(place)),
+            Action::Reset { place, holds } => {
+                let what = if *holds { "hold at 0" } else { "reset" };
+                format!("{what} {}", self.place(place))
+            }
             Action::Block(block) => self.run(block),
             Action::Call(call) => self.call(call),
             Action::Fetch(fetch) => self.fetch(fetch),
             Action::Send(send) => self.send(send),
             Action::Fault { code, step } => format!("fault {code} at step {step}"),
+            Action::RestartWatchdog => "restart the watchdog".into(),
             Action::Stop => "stop".into(),
             Action::Clear { latched: true } => "clear latched".into(),
             Action::Clear { latched: false } => "clear general".into(),

@@ -120,7 +120,7 @@ pub fn of_action(model: &Model, action: &Action, found: &mut impl FnMut(Footprin
         Action::Write(access, _) => of_access(model, access, true, found),
         Action::TimerAt(IndexedCoil { place, .. })
         | Action::Counter16At(IndexedCoil { place, .. })
-        | Action::Reset(place) => found(Footprint::of(place, true)),
+        | Action::Reset { place, .. } => found(Footprint::of(place, true)),
         Action::Block(block) => {
             let (to, count) = block.written();
             found(Footprint::run(to, Some(count), true));
@@ -154,6 +154,7 @@ pub fn of_action(model: &Model, action: &Action, found: &mut impl FnMut(Footprin
         | Action::SetCell(..)
         | Action::SetEntry(_)
         | Action::Fault { .. }
+        | Action::RestartWatchdog
         | Action::Stop
         | Action::Clear { .. } => {}
     }

@@ -428,9 +428,10 @@ impl Checker<'_> {
             }) => module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32),
             Action::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
             Action::Block(ref block) => self.block(block),
-            Action::Reset(_)
+            Action::Reset { .. }
             | Action::TimerGoesOn { .. }
             | Action::Fault { .. }
+            | Action::RestartWatchdog
             | Action::Stop
             | Action::Clear { .. } => true,
         }

@@ -139,7 +139,7 @@ macro_rules! action_parts {
                     f(Value(down));
                     f(Value(preset));
                 }
-                Action::Reset(place) => f(Place(place)),
+                Action::Reset { place, .. } => f(Place(place)),
                 Action::Call(Call { args, drive, .. }) => {
                     for arg in args {
                         $of_arg(arg, f);
@@ -154,7 +154,11 @@ macro_rules! action_parts {
                     $of_arg(to, f);
                     f(Value(value));
                 }
-                Action::TimerGoesOn { .. } | Action::Fault { .. } | Action::Stop | Action::Clear { .. } => {}
+                Action::TimerGoesOn { .. }
+                | Action::Fault { .. }
+                | Action::RestartWatchdog
+                | Action::Stop
+                | Action::Clear { .. } => {}
             }
         }
     };

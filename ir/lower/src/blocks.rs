@@ -390,7 +390,10 @@ impl Lowerer<'_> {
                 let (class, number) = this.model.canonical(first.class, number);
                 let place = fixed(class, number);
                 let reset = match class {
-                    DeviceClass::T | DeviceClass::C => Stmt::Do(Action::Reset(place)),
+                    DeviceClass::T | DeviceClass::C => Stmt::Do(Action::Reset {
+                        place,
+                        holds: false,
+                    }),
                     DeviceClass::Y | DeviceClass::M | DeviceClass::S | DeviceClass::X => {
                         let off = this.bit_const(false);
                         Stmt::Do(Action::Write(Access::bit(place), off))

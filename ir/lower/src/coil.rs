@@ -49,18 +49,20 @@ impl Lowerer<'_> {
         if kind.free_running && self.flow.skips() {
             self.free_running.insert(number, kind);
         }
+        let place = fixed(DeviceClass::T, number);
         let drive = self.drive();
         let fast = self.model.fast_timers;
         let fast = fast.filter(|fast| fast.numbers.contains(&number));
         let fast = fast.filter(|fast| self.specials.has(fast.relay));
         self.with_preset(false, Guards::default(), |this, preset| {
             let Some(fast) = fast else {
-                return this.emit(Action::Timer(TimerCoil {
+                this.emit(Action::Timer(TimerCoil {
                     number,
                     kind,
                     drive,
                     preset,
                 }));
+                return this.reset_if_held(place);
             };
             let (drive, preset) = (this.settled(drive), this.settled(preset));
             let timer = |unit_ms| {
@@ -77,6 +79,7 @@ impl Lowerer<'_> {
                 then: vec![timer(fast.unit_ms)],
                 otherwise: vec![timer(kind.unit_ms)],
             }));
+            this.reset_if_held(place);
         });
     }
 
@@ -85,6 +88,7 @@ impl Lowerer<'_> {
         if number >= high_speed::FIRST {
             return self.high_speed_coil(device);
         }
+        let place = fixed(DeviceClass::C, number);
         let drive = self.drive();
         if number < FIRST_COUNTER32 {
             return self.with_preset(false, Guards::default(), |this, preset| {
@@ -93,6 +97,7 @@ impl Lowerer<'_> {
                     drive,
                     preset,
                 }));
+                this.reset_if_held(place);
             });
         }
         let direction = M_COUNTER_DIRECTION.after(number);
@@ -108,6 +113,7 @@ impl Lowerer<'_> {
                 down,
                 preset,
             }));
+            this.reset_if_held(place);
         });
     }
 
@@ -143,6 +149,7 @@ impl Lowerer<'_> {
                     preset,
                 })),
             });
+            this.reset_if_held(place);
         });
     }
 
@@ -177,6 +184,11 @@ impl Lowerer<'_> {
             OperandKind::Device(device, None) if on && self.is_transition(device) => {
                 return self.transition(device.number);
             }
+            OperandKind::Device(device, index)
+                if matches!(device.class, DeviceClass::T | DeviceClass::C) =>
+            {
+                return self.reset_device(device, index);
+            }
             OperandKind::Device(..)
             | OperandKind::WordBit(..)
             | OperandKind::Nibbles(..)
@@ -188,16 +200,6 @@ impl Lowerer<'_> {
             | OperandKind::Unreadable(_) => {}
         }
         self.driven(|this| match *operand {
-            OperandKind::Device(device, index)
-                if matches!(device.class, DeviceClass::T | DeviceClass::C) =>
-            {
-                let mut guards = Guards::default();
-                let place = this.place(device, index, 1, false, &mut guards);
-                this.guarded(guards, |this| this.emit(Action::Reset(place)));
-                if index.is_none() && device.class == DeviceClass::C {
-                    this.read_captures(device.number);
-                }
-            }
             OperandKind::Device(device, _) if is_word(device.class) => {
                 let mut guards = Guards::default();
                 let target = this.target(operand, 0, false, false, &mut guards);

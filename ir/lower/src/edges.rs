@@ -34,6 +34,7 @@ impl Lowerer<'_> {
             meaning,
             period_ms,
             pulses_end: None,
+            retained: false,
         })
     }
 

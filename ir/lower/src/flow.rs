@@ -140,6 +140,14 @@ impl Flow {
         flow
     }
 
+    /// Returns true if an instruction is part of an interrupt routine.
+    pub(super) fn is_interrupt(&self, i: usize) -> bool {
+        self.regions.iter().any(|region| {
+            matches!(region.kind, FunctionKind::Interrupt(_))
+                && (region.start..region.end).contains(&i)
+        })
+    }
+
     /// Returns true if there are coils that not every scan executes: routines or jumps.
     pub(super) fn skips(&self) -> bool {
         self.regions.len() > 1 || !self.jumped_to.is_empty()

@@ -206,8 +206,9 @@ impl Lowerer<'_> {
         if let Some(held) = self.held(counter) {
             let resets = self.and(drive, held);
             let place = counter_place(counter.number);
-            self.when(resets, |this| this.emit(Action::Reset(place)));
+            self.when(resets, |this| this.reset(place));
         }
+        self.reset_if_held(counter_place(counter.number));
     }
 
     /// HSCS, HSCR, HSZ, HSCT: while driven, the comparison is armed with its values.
@@ -474,7 +475,8 @@ impl Lowerer<'_> {
             let start = self.level(start);
             counts = self.and(counts, start);
         }
-        if let Some(held) = self.held(used.counter) {
+        let by_rst = self.held_by_rst(counter_place(number));
+        for held in [self.held(used.counter), by_rst].into_iter().flatten() {
             let free = self.not(held);
             counts = self.and(counts, free);
         }
@@ -531,7 +533,7 @@ impl Lowerer<'_> {
                 resets = this.and(resets, acts);
             }
             this.when(resets, |this| {
-                this.emit(Action::Reset(place));
+                this.reset(place);
                 if let Some(compares_too) = relay(this, M_COMPARE_AT_RESET) {
                     this.when(compares_too, |this| {
                         for compare in compares {
@@ -608,7 +610,7 @@ impl Lowerer<'_> {
             }
             Effect::Reset => {
                 if let Counted::Counter(number) = compare.counted {
-                    self.emit(Action::Reset(counter_place(number)));
+                    self.reset(counter_place(number));
                 }
             }
             Effect::Zone(_) | Effect::Rows(_) => {}

@@ -27,6 +27,7 @@ mod density;
 mod digits;
 mod drums;
 mod edges;
+mod errors;
 mod extension;
 mod flow;
 mod high_speed;
@@ -43,6 +44,7 @@ mod ports;
 mod protocols;
 mod pulse_width;
 mod queues;
+mod resets;
 mod shared_timers;
 mod signals;
 mod special;
@@ -59,7 +61,7 @@ use rungc_analysis::latches;
 use rungc_analysis::resolve::{Resolution, Resolved};
 use rungc_catalogue::{Basic, Drive, Join, Lower};
 use rungc_ir::layout::{self, Wanted};
-use rungc_ir::node::{CellId, ExprId, Function, FunctionKind, Module, Network, Stmt};
+use rungc_ir::node::{Action, CellId, ExprId, Function, FunctionKind, Module, Network, Stmt};
 use rungc_ir::ranges::{self, Bound, Reached};
 use rungc_models::{Model, Variant};
 use std::collections::BTreeMap;
@@ -108,7 +110,7 @@ fn lower_with(
     let mut findings = Diagnostics::new();
     bounds::check(resolved, &options.bounds, &mut findings);
     let mut reached = Reached::default();
-    let (mut module, specials, indexes, marks) = loop {
+    let (mut module, specials, indexes, resets, marks) = loop {
         let mut lowerer = Lowerer::new(resolved, options, &reached);
         lowerer.marks.clone_from(&marks);
         lowerer.program(&options.wanted);
@@ -117,6 +119,7 @@ fn lower_with(
             diagnostics,
             specials,
             indexes,
+            resets,
             marks,
             ..
         } = lowerer;
@@ -126,10 +129,11 @@ fn lower_with(
         }
         // The scan keeps special devices that an index leads to, too: then it has to be lowered with them.
         if !reached.add(ranges::find(&mut module, &options.wanted)) {
-            break (module, specials, indexes, marks);
+            break (module, specials, indexes, resets, marks);
         }
     };
     bounds::costs(&module, &indexes, &mut findings);
+    resets::shorten_tables(&mut module, &resets.entries);
     shared_timers::mark(&mut module);
     watchdog::watch(&mut module, resolved);
     layout::build(
@@ -189,6 +193,7 @@ struct Lowerer<'a> {
     /// Timers that continue in scans that do not execute their coils.
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
+    resets: resets::Resets,
     edges: edges::Edges,
     signals: signals::Signals,
     /// Number of the instruction that runs, of those that run one at a time, from 1, and the count of such instructions
@@ -246,6 +251,7 @@ impl<'a> Lowerer<'a> {
             interrupts: interrupt::Interrupts::default(),
             free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
+            resets: resets::Resets::default(),
             edges: edges::Edges::default(),
             signals: signals::Signals::default(),
             exclusive: None,
@@ -283,6 +289,7 @@ impl<'a> Lowerer<'a> {
             }
         }
         self.find_counters();
+        self.find_resets();
         self.limit_comparisons();
         self.find_exclusive();
         self.find_interrupts();
@@ -457,10 +464,7 @@ impl<'a> Lowerer<'a> {
             Basic::Pend => self.process_ends(),
             Basic::Ei | Basic::Di => self.enable_interrupts(basic == Basic::Ei),
             Basic::Nop => {}
-            // The watchdog belongs to the host.
-            Basic::Wdt => {
-                self.drive();
-            }
+            Basic::Wdt => self.driven(|this| this.emit(Action::RestartWatchdog)),
         }
     }
 }

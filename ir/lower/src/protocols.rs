@@ -35,7 +35,7 @@ impl Lowerer<'_> {
         let mut codecs = self.module.codecs().map(Codec::protocols);
         let is_slave = codecs.next() == Some(Protocols::of(&[Protocol::ModbusRtu]));
         let alone = codecs.next().is_none() && self.port_functions.is_empty();
-        (known && is_slave && alone).then_some(number)
+        (known && is_slave && alone && !self.errors_have_consequences()).then_some(number)
     }
 
     /// Protocols that a port may speak.

@@ -10,12 +10,10 @@ use rungc_ir::node::{
 use rungc_models::special::{RunCommand, SpecialDevice};
 use rungc_rt::special::*;
 use rungc_rt::{CmpOp, RtFn};
-use rungc_syntax::DeviceClass::{D, M, S, X};
+use rungc_syntax::DeviceClass::{D, M, S, T, X};
 
 /// Periods of the clock relays in milliseconds; they are on in the second half of each.
 const CLOCK_PERIODS: [i32; 4] = [10, 100, 1000, 60_000];
-/// The error log of H1U/H2U: hours, codes, and the running time in seconds.
-const ERROR_LOG: [Register; 22] = D_LOGGED_HOURS.run();
 /// Relays of HM that are the inputs from X014 on.
 const VIRTUAL_INPUTS: ([Relay; 4], u32) = (M_VIRTUAL_INPUTS.run(), 0o14);
 /// Parameters and state of HM's oscilloscope.
@@ -68,6 +66,7 @@ impl Lowerer<'_> {
             this.forget_exclusive();
             this.clear_in_stop();
             this.forget_errors();
+            this.sum_up_errors();
             this.clocks();
             this.scan_times();
             this.tick();
@@ -93,14 +92,18 @@ impl Lowerer<'_> {
             this.first_captures();
             for (number, kind) in std::mem::take(&mut this.free_running) {
                 this.emit(Action::TimerGoesOn { number, kind });
+                this.reset_if_held(fixed(T, number));
             }
             this.monitor(&STATES);
             this.monitor(&ALARMS);
-            this.error_log();
+            this.run_time();
             for (relay, latched) in CLEAR {
                 if this.keeps(relay) {
                     let asked = this.add(Expr::Read(Access::bit(relay)));
-                    this.when(asked, |this| this.emit(Action::Clear { latched }));
+                    this.when(asked, |this| {
+                        this.emit(Action::Clear { latched });
+                        this.release_cleared(latched);
+                    });
                 }
             }
             this.forced_stop();
@@ -185,46 +188,6 @@ impl Lowerer<'_> {
         let local = self.add(Expr::Read(Access::bit(M_LOCAL_CONTROL)));
         let shows = self.or(locked, local);
         self.when(shows, show);
-    }
-
-    /// The errors of the last run are forgotten when RUN begins; their latches are not.
-    fn forget_errors(&mut self) {
-        // On HM, M8004 and D8004 are something else.
-        let sums_up = self.model.error_relay == M_OPERATION_ERROR;
-        let any = sums_up.then_some(M_ANY_ERROR);
-        let errors: Vec<Relay> = [any, Some(self.model.error_relay)]
-            .into_iter()
-            .flatten()
-            .filter(|&relay| self.keeps(relay))
-            .collect();
-        // The code of FX shows the last error as long as there was no other.
-        let code = (!self.model.errors_last_a_scan).then_some(D_OPERATION_ERROR);
-        let any = sums_up.then_some(D_ANY_ERROR);
-        let registers: Vec<Register> = [any, code]
-            .into_iter()
-            .flatten()
-            .filter(|&register| self.keeps(register))
-            .collect();
-        if errors.is_empty() && registers.is_empty() {
-            return;
-        }
-        let forget = |this: &mut Self| {
-            let off = this.bit_const(false);
-            for relay in errors {
-                this.write_relay(relay, off);
-            }
-            for register in registers {
-                let none = this.int(0, false);
-                this.emit(Action::Write(Access::word(register), none));
-            }
-        };
-        let when = if self.model.errors_last_a_scan {
-            SysValue::Running
-        } else {
-            SysValue::FirstScan
-        };
-        let when = self.add(Expr::Sys(when));
-        self.when(when, forget);
     }
 
     /// M8011 to M8014: the time since power-on, without its sign bit, gives the position in its period of each.
@@ -369,7 +332,7 @@ impl Lowerer<'_> {
     }
 
     /// Calls a function that keeps special registers. They are all stored, even if the program looks at one.
-    fn call_system(&mut self, function: RtFn, registers: &[Register]) {
+    pub(super) fn call_system(&mut self, function: RtFn, registers: &[Register]) {
         self.call_system_with(function, registers, Vec::new());
     }
 
@@ -409,14 +372,6 @@ impl Lowerer<'_> {
             extent: None,
         };
         self.call_system_with(RtFn::Oscilloscope, &OSCILLOSCOPE, vec![now, registers]);
-    }
-
-    /// D8490 to D8511 (H1U/H2U).
-    fn error_log(&mut self) {
-        if ERROR_LOG.iter().any(|&register| self.keeps(register)) {
-            let last = [D_OPERATION_ERROR, D_ERROR_STEP];
-            self.call_system(RtFn::ErrorLog, &[&ERROR_LOG[..], &last].concat());
-        }
     }
 
     /// D8030 to D8045: analog inputs where something switches them on (L01S), else potentiometers (FX3G).

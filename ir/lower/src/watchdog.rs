@@ -7,7 +7,8 @@ use super::basic_of;
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt, SysValue,
+    Action, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt,
+    SysValue,
 };
 use rungc_ir::walk::{bodies_mut, statements};
 use rungc_ir::worst::lengths;
@@ -47,6 +48,20 @@ pub(super) fn watch(module: &mut Module, resolved: &Resolved) {
         };
         if let Some(end) = module.functions.iter_mut().find(end) {
             end.body.insert(0, leave);
+        }
+    } else {
+        for function in &mut module.functions {
+            drop_restarts(&mut function.body);
+        }
+    }
+}
+
+/// Removes WDT where there is no watchdog.
+fn drop_restarts(body: &mut Body) {
+    body.retain(|stmt| !matches!(stmt, Stmt::Do(Action::RestartWatchdog)));
+    for stmt in body {
+        for inner in bodies_mut(stmt) {
+            drop_restarts(inner);
         }
     }
 }

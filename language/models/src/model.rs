@@ -19,7 +19,7 @@ use crate::runs::IndexAlias;
 use crate::special::Special;
 use crate::times::InstructionTimes;
 use rungc_rt::modules::Place;
-use rungc_rt::{Ports, Pulses, Register, Relay, TimerKind};
+use rungc_rt::{ErrorRules, Ports, Pulses, Register, Relay, TimerKind};
 use rungc_syntax::{Classes, DeviceClass};
 pub use set::ModelSet;
 use std::ops::RangeInclusive;
@@ -216,6 +216,12 @@ pub struct Model {
     /// True if that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than
     /// with RUN.
     pub errors_last_a_scan: bool,
+    /// True if RST of a timer or counter in an interrupt routine holds it at 0 until it is executed with its drive off
+    /// (FX3 programming manual 7.13). The other manuals do not mention this, and their examples count on.
+    pub rst_holds_in_interrupts: bool,
+    /// Consequences of errors: on H1U and H2U (h1u-h2u-programming §8.1, §8.2.2), M8004 shows those of ports, too, and the
+    /// log all; on FX (FX3 programming manual 37.2.14), M8063 does not count.
+    pub error_rules: ErrorRules,
     /// True if M8046 shows active annunciators as well as states.
     pub annunciators_are_states: bool,
     /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes

@@ -40,7 +40,7 @@ const fn row(
 }
 
 /// The code of the watchdog.
-pub const WATCHDOG: u16 = rungc_rt::special::WATCHDOG_CODE as u16;
+pub const WATCHDOG: u16 = rungc_rt::special::WATCHDOG_CODE;
 
 const H: ModelSet = ModelSet::INOVANCE;
 const FX: ModelSet = ModelSet::FX.or(ModelSet::L01S);
@@ -363,8 +363,10 @@ mod tests {
         }
         for port in model.ports.all() {
             let Some(error) = port.error else { continue };
-            assert!(model.special_works(error.relay), "{} {error:?}", model.name);
-            codes.extend((1..=5).map(|kind| port.codes + kind));
+            assert!(model.special_works(error.0), "{} {error:?}", model.name);
+            // No programming port waits for the end of a frame.
+            let kinds = if port.codes == 6200 { 5 } else { 6 };
+            codes.extend((1..=kinds).map(|kind| port.codes + kind));
             if port.modbus_errors != 0 {
                 codes.extend((0..10).map(|kind| port.modbus_errors + kind));
             }

@@ -138,6 +138,10 @@ pub struct Layout {
     pub error_relay: u16,
     /// Code of an error in an operand's value.
     pub value_error: u16,
+    /// True if M8004 and D8004 show errors of ports.
+    pub sums_up_ports: bool,
+    /// True if errors enter the log.
+    pub logs_errors: bool,
     /// Offset of its pulse outputs.
     pub axes: usize,
     /// Their numbers Y, in order.

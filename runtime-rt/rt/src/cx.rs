@@ -577,6 +577,11 @@ impl<'a> Cx<'a> {
         self.plc.word(Class::D, register.number()).unwrap_or(0)
     }
 
+    /// Enters an error in the log.
+    pub(crate) fn log_error(&mut self, code: u16) {
+        crate::log_error(self.plc, code);
+    }
+
     /// Sets a special register, if the program looks at it.
     pub fn set_special_word(&mut self, register: Register, value: i16) {
         let _ = self.plc.set_word(Class::D, register.number(), value);

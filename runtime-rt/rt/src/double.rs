@@ -3,6 +3,7 @@
 use crate::comm::codec::{self, Codec};
 use crate::comm::modbus::Profile;
 use crate::comm::{Element, Elements, PortMut, PortWiring};
+use crate::fault::ErrorRules;
 use crate::{
     Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Port, Ports, Pulses, RtFn, Site,
     State, Sys, VirtualHal, d,
@@ -29,6 +30,8 @@ pub struct Double {
     pub error_relay: u32,
     /// Code of an error in a value.
     pub value_error: u16,
+    /// Consequences of errors.
+    pub error_rules: ErrorRules,
     /// Code and step of the last error.
     pub error: (u16, u32),
     /// Texts.
@@ -77,6 +80,7 @@ impl Double {
             hal: VirtualHal::new(),
             error_relay: 8067,
             value_error: 6707,
+            error_rules: ErrorRules::NONE,
             error: (0, 0),
             texts: Vec::new(),
             site: Site::at(0).slot(1),
@@ -276,6 +280,10 @@ impl Plc for Double {
 
     fn value_error(&self) -> u16 {
         self.value_error
+    }
+
+    fn error_rules(&self) -> ErrorRules {
+        self.error_rules
     }
 
     fn note_error(&mut self, code: u16, step: u32) {

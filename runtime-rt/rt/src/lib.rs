@@ -67,7 +67,9 @@ pub use comm::{Port, Ports, advance as advance_ports, advance_slave};
 pub use compare::CmpOp;
 pub use cx::{Cx, call, fetch, send};
 pub use edge::{Edge, EdgeKind};
-pub use fault::{Done, Fault, LastError, Stop, report, trip_watchdog};
+pub use fault::{
+    Done, ErrorRules, Fault, LastError, Stop, log_error, relay_in_bcd, report, trip_watchdog,
+};
 pub use hal::{CanBus, Clock, Hal, NoHal, SerialPort};
 pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, StoredRun, Sys};

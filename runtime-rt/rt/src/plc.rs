@@ -303,6 +303,10 @@ pub trait Plc {
             false => 6708,
         }
     }
+    /// Consequences of errors on the model, as far as the program looks at them.
+    fn error_rules(&self) -> crate::ErrorRules {
+        crate::ErrorRules::NONE
+    }
     /// An operation error has happened to the instruction at this step ([`crate::LastError`]).
     fn note_error(&mut self, code: u16, step: u32) {
         let _ = (code, step);

@@ -302,7 +302,8 @@ registry! {
     Ramp = handy::ramp(s1, s2, d, n) [state, always];
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
-    ErrorLog = system::error_log() [state, always];
+    RunTime = system::run_time() [state, always];
+    LogError = system::log(n);
     PowerSupply = supply::power_supply() [state, always, hal];
     AnalogInputs = system::analog_inputs() [always, hal];
     Potentiometers = system::potentiometers() [always, hal];

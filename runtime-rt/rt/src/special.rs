@@ -163,7 +163,7 @@ pub const M_WATCHDOG: Relay = Relay(8061);
 /// Code of what stopped the PLC.
 pub const D_WATCHDOG: Register = Register(8061);
 /// That code for the watchdog (h1u-h2u-programming §8.1, error codes of D8061).
-pub const WATCHDOG_CODE: i16 = 6105;
+pub const WATCHDOG_CODE: u16 = 6105;
 /// Relay of operation errors, but on HM.
 pub const M_OPERATION_ERROR: Relay = Relay(8067);
 /// Code of the last operation error.
@@ -174,10 +174,10 @@ pub const M_FIRST_ERROR: Relay = Relay(8068);
 pub const D_FIRST_ERROR_STEP: Register = Register(8068);
 /// Step of the last operation error.
 pub const D_ERROR_STEP: Register = Register(8069);
-/// Value of D8004 for M8067, an operation error.
-pub const OPERATION_ERROR_BCD: i16 = 0x8067_u16 as i16;
-/// Value of D8004 for M8061, which the watchdog switches on.
-pub const WATCHDOG_BCD: i16 = 0x8061_u16 as i16;
+/// Error of a programming port.
+pub const M_PROGRAMMING_PORT_ERROR: Relay = Relay(8062);
+/// Error of another serial port.
+pub const M_PORT_ERROR: Relay = Relay(8063);
 /// Hours at which the ten logged errors came (H1U, H2U), the oldest first.
 pub const D_LOGGED_HOURS: Register = Register(8490);
 /// Codes of the ten logged errors.

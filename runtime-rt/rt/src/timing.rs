@@ -10,7 +10,7 @@ pub struct TimerKind {
     pub unit_ms: u16,
     /// Keeps its value while not driven; only RST clears it.
     pub accumulating: bool,
-    /// Continues timing in scans that jump over its coil (T192–T199).
+    /// Continues timing in scans that jump over its coil (T192–T199, T246–T249).
     pub free_running: bool,
     /// Takes the preset over when timing starts instead of reading it all the time (H1U/H2U).
     pub latches_preset: bool,
@@ -112,10 +112,13 @@ impl Timer {
         self.done
     }
 
-    /// Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it.
+    /// Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it. The
+    /// contact of an accumulating one closes when its coil is executed next (FX0–FX2N programming manual 4.9.4).
     pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
         if self.coil != 0 {
+            let done = self.done;
             self.run(kind, true, self.preset, sys);
+            self.done &= done || !kind.accumulating;
         }
     }
 }
@@ -148,6 +151,12 @@ impl Counter16 {
             coil: self.coil,
             ..Self::new()
         };
+    }
+
+    /// RST that holds the counter at 0 until the next execution of its coil is over: that one does not count.
+    pub fn hold(&mut self) {
+        self.reset();
+        self.coil = true;
     }
 
     /// Executes the coil: counts an off-to-on change; returns the contact. A preset of 0 acts as 1; a value written at
@@ -191,6 +200,12 @@ impl Counter32 {
             coil: self.coil,
             ..Self::new()
         };
+    }
+
+    /// RST that holds the counter at 0 until the next execution of its coil is over: that one does not count.
+    pub fn hold(&mut self) {
+        self.reset();
+        self.coil = true;
     }
 
     /// Executes the coil: counts an off-to-on change in the direction of its special relay, wrapping; returns the

@@ -86,6 +86,7 @@ impl Noting {
             meaning: "what a search notes",
             period_ms: None,
             pulses_end: None,
+            retained: false,
         })
     }
 

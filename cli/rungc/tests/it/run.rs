@@ -451,3 +451,40 @@ fn a_run_becomes_a_test() {
         .collect();
     insta::assert_snapshot!("run_record_refused", story.join("\n\n"));
 }
+
+/// What a run records of a pulse output is what a test sees of it: its terminal at the end of each scan's time.
+#[test]
+fn a_run_with_pulses_becomes_a_test() {
+    let programs = [
+        ("plsy.il", "LD X000\nPLSY K50 K0 Y000\nEND\n"),
+        (
+            "few.il",
+            "LD X000\nPLSY K130 K7 Y000\nLD M8029\nOUT Y010\nEND\n",
+        ),
+        ("drvi.il", "LD X000\nDRVI K40 K90 Y000 Y004\nEND\n"),
+        ("off.il", "LD X000\nOUT Y005\nLD X001\nOUT M8034\nEND\n"),
+    ];
+    let files: Vec<_> = programs
+        .iter()
+        .map(|(name, text)| (*name, text.as_bytes()))
+        .collect();
+    let folder = common::folder(&files);
+    let path = folder.path();
+    for (name, _) in programs {
+        for scan in ["3", "7", "10"] {
+            let test = format!("{name}-{scan}.plctest.toml");
+            let args = [
+                "--for",
+                "400ms",
+                "--set",
+                "X000=1@20ms,X001=1@90ms,X001=0@150ms",
+            ];
+            let record = ["--watch", "Y000", "--record", &test];
+            let run = [&["run", name, "--scan", scan][..], &args, &record].concat();
+            let output = common::rungc(path, &run);
+            let said = common::text(&output.stderr);
+            assert_eq!(output.status.code(), Some(0), "{name} {scan}: {said}");
+            assert_eq!(common::code(path, &["test", &test]), 0, "{name} {scan}");
+        }
+    }
+}

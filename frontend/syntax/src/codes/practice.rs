@@ -69,7 +69,7 @@ super::codes! {
 
     TIMER_IN_ROUTINE = "W0213" "timer-in-routine" Warning None,
     "ordinary timer in a subroutine or interrupt routine",
-    "An ordinary timer is updated where its coil is executed; in a routine that does not run in every scan, it measures incorrectly. A subroutine that is called in every scan while the timer is needed is fine. T192 to T199 (100 ms) are intended for routines, and T246 to T249 (1 ms) for subroutines.",
+    "An ordinary timer is updated where its coil is executed; in a routine that does not run in every scan, it measures incorrectly. A subroutine that is called in every scan while the timer is needed is fine. T192 to T199 (100 ms) and T246 to T249 (1 ms, until RST) are intended for routines: they continue in scans that do not execute their coils.",
     wrong: "LD X0\nCALL P1\nLD T0\nOUT Y0\nFEND\nP1\nLD X1\nOUT T0 K10\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nLD T192\nOUT Y0\nFEND\nP1\nLD X1\nOUT T192 K10\nSRET\nEND\n";
 

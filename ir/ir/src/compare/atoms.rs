@@ -26,11 +26,13 @@ const SPECIAL: [Run; 3] = [
 ];
 
 /// Devices that an operation error writes. The first one of a scan is kept, so an error also depends on them.
-pub(super) const ERRORS: [Run; 4] = [
+pub(super) const ERRORS: [Run; 5] = [
     (DeviceClass::M, 8004, 8004),
     (DeviceClass::M, 8067, 8069),
     (DeviceClass::D, 8004, 8004),
     (DeviceClass::D, 8067, 8069),
+    // The error log.
+    (DeviceClass::D, 8490, 8509),
 ];
 
 /// Texts by number, the same for all modules that are compared.
@@ -380,8 +382,8 @@ impl<'a> Reader<'a> {
     fn flag(&mut self, flag: FlagId) -> u32 {
         let flag = &self.module.flags[flag];
         let text = format!(
-            "flag {} {:?} {:?}",
-            flag.name, flag.period_ms, flag.pulses_end
+            "flag {} {:?} {:?} {}",
+            flag.name, flag.period_ms, flag.pulses_end, flag.retained
         );
         self.names.of(text)
     }

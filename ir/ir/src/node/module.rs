@@ -13,7 +13,7 @@ use rungc_syntax::{Device, DeviceClass, Index, NetworkRequest, Span};
 use std::borrow::Cow;
 use typed_index_collections::TiVec;
 
-/// A private bit with a name; off at power-on and when RUN begins.
+/// A private bit with a name; off at power-on and when RUN begins, unless it is retained.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Flag {
     /// An identifier in lower case, unique in the module: `x000_rose`.
@@ -26,6 +26,9 @@ pub struct Flag {
     /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked
     /// whenever pulses are counted).
     pub pulses_end: Option<u32>,
+    /// Stays as it is over STOP and power-off, with the latched device that it belongs to. Records of latched devices do
+    /// not hold it.
+    pub retained: bool,
 }
 
 /// A private `I32` with a name; 0 at power-on.

@@ -297,8 +297,14 @@ pub enum Action {
     Counter32(Counter32Coil),
     /// A count of a high-speed counter: [`rungc_rt::Counter32::count`].
     Count(Count),
-    /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
-    Reset(Place),
+    /// RST of a timer or counter: value 0, contact off.
+    Reset {
+        /// The timer or counter.
+        place: Place,
+        /// Of a counter: its coil counts as on, so the next execution of the coil does not count. Else the memory of the
+        /// coil stays as it is.
+        holds: bool,
+    },
     /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
     Call(Call),
     /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its
@@ -313,6 +319,9 @@ pub enum Action {
         /// Step number.
         step: u32,
     },
+    /// WDT: gives the scan all its steps anew ([`Module::scan_steps`](super::Module::scan_steps)), by the watchdog time
+    /// as it is now. Stands only in modules with a [`Stmt::Watch`].
+    RestartWatchdog,
     /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function
     /// `End` only.
     Stop,

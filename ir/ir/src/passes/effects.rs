@@ -115,7 +115,7 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         Action::Write(access, _) => place(access.place, access.extent()),
         Action::TimerAt(IndexedCoil { place: at, .. })
         | Action::Counter16At(IndexedCoil { place: at, .. })
-        | Action::Reset(at) => place(at, 1),
+        | Action::Reset { place: at, .. } => place(at, 1),
         Action::Block(block) => {
             let (to, count) = block.written();
             place(to, count)

@@ -10,5 +10,6 @@ mod passes;
 mod ports;
 mod ranges;
 mod rendered;
+mod resets;
 mod warnings;
 mod worst;

@@ -38,8 +38,7 @@ fn in_routines(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         let Some(kind) = model.timer(device.number) else {
             continue;
         };
-        let fine_grained = subroutine && kind.accumulating && kind.unit_ms == 1;
-        if kind.free_running || fine_grained {
+        if kind.free_running {
             continue;
         }
         let name = if subroutine {
@@ -51,29 +50,29 @@ fn in_routines(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         let diagnostic = codes::TIMER_IN_ROUTINE
             .at(code.span(i), message)
             .label("measures incorrectly if not every scan does")
-            .help(instead(model, kind.unit_ms, subroutine));
+            .help(instead(model, kind.unit_ms));
         out.push(diagnostic);
     }
 }
 
 /// The timers to use in a routine instead of one that counts units of this many milliseconds.
-fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
+fn instead(model: &Model, unit_ms: u16) -> String {
     let named = |timers: &Timers| {
         let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
         format!("{first} to {last}")
     };
-    let free = model.timers.iter().find(|timers| timers.kind.free_running);
-    let free = free.map_or_else(String::new, named);
+    let free = |accumulating| {
+        let mut timers = model.timers.iter().filter(|t| t.kind.free_running);
+        timers.find(|timers| timers.kind.accumulating == accumulating)
+    };
+    let (plain, fine) = (free(false), free(true));
+    let free = plain.map_or_else(String::new, named);
     if unit_ms == 100 {
         return format!("{free} continue by themselves in scans that do not run their coils");
     }
-    let fine = model
-        .timers
-        .iter()
-        .find(|timers| timers.kind.accumulating && timers.kind.unit_ms == 1);
-    let fine = fine.filter(|_| subroutine).map(|timers| {
+    let fine = fine.map(|timers| {
         format!(
-            "; {} work in subroutines too: they count 1 ms and keep their value until RST",
+            "; {} do so too: they count 1 ms and keep their value until RST",
             named(timers)
         )
     });

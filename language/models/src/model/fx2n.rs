@@ -9,7 +9,7 @@ use super::{ErrorNumbers, Model, ModelId, Range, mitsubishi};
 use crate::times::InstructionTimes;
 use crate::{high_speed, interrupts, special};
 use rungc_rt::modules::Place;
-use rungc_rt::{Ports, Pulses, special::M_OPERATION_ERROR};
+use rungc_rt::{ErrorRules, Ports, Pulses, special::M_OPERATION_ERROR};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, M, P, S, Y};
 
@@ -50,6 +50,8 @@ pub(super) const FX2N: Model = Model {
     z_pairs_with_v: true,
     error_relay: M_OPERATION_ERROR,
     errors_last_a_scan: true,
+    rst_holds_in_interrupts: true,
+    error_rules: ErrorRules::NONE,
     annunciators_are_states: false,
     value_error: 6706,
     error_numbers: ErrorNumbers::All,

@@ -277,8 +277,10 @@ const FX3G_RANGES: &[Range] = joined! {Range:
 
 /// Devices of FX3U.
 const FX3U_RANGES: &[Range] = joined! {Range:
-    TERMINALS,
     &[
+        // JY997D19401: X000 to X367, Y000 to Y367.
+        general(X, 0o0, 0o367),
+        general(Y, 0o0, 0o367),
         general(M, 0, 499),
         latched(M, 500, 7679),
         general(M, 8000, 8511),

@@ -11,7 +11,7 @@ use crate::interrupts::{
 use crate::runs::IndexAlias;
 use rungc_rt::axis_place::{ACCELERATION, HIGHEST, UNIT};
 use rungc_rt::modules::Place;
-use rungc_rt::{CmpOp, Ports, Pulses, Register, Relay};
+use rungc_rt::{CmpOp, ErrorRules, Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, P, R, S, T, V, Z};
 
@@ -36,6 +36,8 @@ pub(super) const HM: Model = Model {
     z_pairs_with_v: false,
     error_relay: Relay(8006),
     errors_last_a_scan: false,
+    rst_holds_in_interrupts: false,
+    error_rules: ErrorRules::NONE,
     annunciators_are_states: false,
     value_error: 6707,
     error_numbers: ErrorNumbers::No,

@@ -13,7 +13,7 @@ use crate::interrupts::{
     self, CountRows, Gate, Interrupt, Interrupts, Kind, Precedence, Source, fx_pointer,
 };
 use rungc_rt::modules::Place;
-use rungc_rt::{Ports, Pulses, Register, Relay};
+use rungc_rt::{ErrorRules, Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, I, M, P, S, Y};
 use std::ops::RangeInclusive;
@@ -51,6 +51,11 @@ pub(super) const H2U: Model = Model {
     max_steps: 24000,
     instruction_times: None,
     errors_last_a_scan: false,
+    rst_holds_in_interrupts: false,
+    error_rules: ErrorRules {
+        sums_up_ports: true,
+        logs: true,
+    },
     annunciators_are_states: true,
     value_error: 6707,
     // Those of contact logic are reserved (h1u-h2u-programming §8.7).
@@ -226,6 +231,9 @@ const TIMERS: &[Timers] = &[
     timers(0, 191, 100).latching_preset(),
     timers(192, 199, 100).free_running().latching_preset(),
     timers(200, 245, 10).latching_preset(),
-    timers(246, 249, 1).accumulating().latching_preset(),
+    timers(246, 249, 1)
+        .accumulating()
+        .free_running()
+        .latching_preset(),
     timers(250, 255, 100).accumulating().latching_preset(),
 ];

@@ -53,6 +53,7 @@ pub(super) const L01S: Model = Model {
     latch_choices: &[],
     max_steps: 30000,
     instruction_times: Some(TIMES),
+    rst_holds_in_interrupts: false,
     error_numbers: ErrorNumbers::No,
     pulses: Pulses::L01s,
     ports: Ports::L01s,
@@ -133,7 +134,7 @@ const TIMERS: &[Timers] = &[
     timers(0, 191, 100),
     timers(192, 199, 100).free_running(),
     timers(200, 245, 10).stepwise(),
-    timers(246, 249, 1).accumulating(),
+    timers(246, 249, 1).accumulating().free_running(),
     timers(250, 255, 100).accumulating(),
     timers(256, 319, 1),
 ];

@@ -104,7 +104,7 @@ pub(super) const FX_TIMERS: &[Timers] = &[
     timers(0, 191, 100),
     timers(192, 199, 100).free_running(),
     timers(200, 245, 10),
-    timers(246, 249, 1).accumulating(),
+    timers(246, 249, 1).accumulating().free_running(),
     timers(250, 255, 100).accumulating(),
 ];
 

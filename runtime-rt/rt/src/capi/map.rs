@@ -7,7 +7,7 @@ use crate::comm::codec::Codec;
 use crate::comm::modbus::{self, Profile};
 use crate::comm::{PortMut, PortWiring, Ports};
 use crate::cx::Cx;
-use crate::fault::{Done, report};
+use crate::fault::{Done, ErrorRules, report};
 use crate::operand::Operand;
 use crate::plc::{Class, Plc, Site, State, StoredRun, Sys};
 use crate::runs::FIRST_COUNTER32;
@@ -473,6 +473,14 @@ impl Plc for Map {
 
     fn value_error(&self) -> u16 {
         self.layout().value_error
+    }
+
+    fn error_rules(&self) -> ErrorRules {
+        let layout = self.layout();
+        ErrorRules {
+            sums_up_ports: layout.sums_up_ports,
+            logs: layout.logs_errors,
+        }
     }
 
     fn note_error(&mut self, code: u16, step: u32) {

@@ -1,6 +1,8 @@
 //! The PLC's devices as codecs see them.
 
+use crate::fault::show_error;
 use crate::plc::{Class, Plc, StoredRun};
+use crate::special::M_PORT_ERROR;
 use core::cell::Cell;
 
 /// The devices of a PLC as its partners on a line see them.
@@ -29,6 +31,12 @@ pub trait Map {
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;
     /// Returns true if the PLC is in RUN.
     fn running(&self) -> bool;
+    /// Shows an error of a port.
+    fn show_port_error(&mut self, code: u16) {
+        let number = M_PORT_ERROR.number();
+        let _ = self.set_bit(Class::M, number, true);
+        let _ = self.set_word(Class::D, number, code as i16);
+    }
     /// Asks for RUN or STOP; the PLC changes over before its next scan.
     fn request_running(&mut self, running: bool);
     /// The latest request for RUN or STOP that has not been carried out yet.
@@ -142,6 +150,10 @@ impl<P: Plc + ?Sized> Map for Served<'_, P> {
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
         self.stored(class, number)?;
         self.plc.reset(class, number)
+    }
+
+    fn show_port_error(&mut self, code: u16) {
+        show_error(self.plc, M_PORT_ERROR, code);
     }
 
     fn running(&self) -> bool {

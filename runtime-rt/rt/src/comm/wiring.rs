@@ -8,8 +8,9 @@ use super::LineFault;
 use super::can::{self, CAN_PORT};
 use super::codec::Codec;
 use super::line::LineFormat;
+use crate::fault::show_error;
 use crate::plc::Plc;
-use crate::special::{Register, Relay};
+use crate::special::{M_PORT_ERROR, M_PROGRAMMING_PORT_ERROR, Register, Relay};
 pub(crate) use fx::ModbusWiring;
 pub use rules::Rules;
 
@@ -226,24 +227,14 @@ pub struct Envelope {
     pub sent_sum: Register,
 }
 
-/// The relay that shows an error of communication, and the register with its code.
+/// The relay that shows an error of communication until the program resets it, and the register of the same number with
+/// the code of the last error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ErrorPlace {
-    /// On after an error, until the program resets it.
-    pub relay: Relay,
-    /// The code of the last error.
-    pub register: Register,
-}
+pub struct ErrorPlace(pub Relay);
 
 /// Errors of a programming port, and of any other port.
-const PROGRAMMING_PORT_ERROR: ErrorPlace = ErrorPlace {
-    relay: Relay(8062),
-    register: Register(8062),
-};
-const SERIAL_ERROR: ErrorPlace = ErrorPlace {
-    relay: Relay(8063),
-    register: Register(8063),
-};
+const PROGRAMMING_PORT_ERROR: ErrorPlace = ErrorPlace(M_PROGRAMMING_PORT_ERROR);
+const SERIAL_ERROR: ErrorPlace = ErrorPlace(M_PORT_ERROR);
 
 /// Lowest codes of the errors of programming ports and of other ports (h1u-h2u-programming §8.1).
 const PROGRAMMING_PORT_CODES: u16 = 6200;
@@ -402,8 +393,7 @@ pub(crate) fn set_value(plc: &mut (impl Plc + ?Sized), register: Option<Register
 impl ErrorPlace {
     /// Shows an error, until the program clears it.
     fn show(self, plc: &mut (impl Plc + ?Sized), code: u16) {
-        self.relay.set(plc, true);
-        self.register.set(plc, code);
+        show_error(plc, self.0, code);
     }
 }
 
@@ -562,7 +552,7 @@ impl PortWiring {
             self.end,
             self.time_out,
             self.gap,
-            self.error.map(|error| error.register),
+            self.error.map(|error| Register(error.0.0)),
         ];
         let envelope = self.envelope.map(|of| {
             let [a, b] = of.headers.run();
@@ -616,7 +606,7 @@ impl PortWiring {
             self.receives,
             self.late,
             self.answered,
-            self.error.map(|error| error.relay),
+            self.error.map(|error| error.0),
             self.modbus.map(ModbusWiring::tried),
         ];
         let of_can: &[Relay] = match self.choice {

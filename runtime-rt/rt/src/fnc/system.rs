@@ -1,53 +1,29 @@
-//! Updates of special registers by the scan in addition to the program: the running time and error log of H1U/H2U
+//! Updates of special registers by the scan in addition to the program: the running time of H1U/H2U
 //! (h1u-h2u-programming §8.2.2) and the built-in analog inputs of L01S (l01s-programming §5.1) and potentiometers of
 //! FX3G.
 
 use crate::cx::Cx;
 use crate::fault::Done;
-use crate::special::{
-    D_ANALOG_ENABLE, D_ANALOG_INPUTS, D_ERROR_STEP, D_LOGGED_CODES, D_LOGGED_HOURS,
-    D_OPERATION_ERROR, D_RUN_TIME, D_SLOW_RING_COUNTER,
-};
+use crate::special::{D_ANALOG_ENABLE, D_ANALOG_INPUTS, D_RUN_TIME, D_SLOW_RING_COUNTER};
 use crate::word::{pair, words};
 
-/// Capacity of the error log.
-const ENTRIES: u32 = 10;
-
-/// The running time and the error log, once a scan after the program. A new code of an operation error is added, the
-/// oldest of ten making place; one that is there only takes the new time. Memory: code and step logged last;
-/// milliseconds of the second.
-pub fn error_log(cx: &mut Cx) -> Done {
+/// The running time, once a scan after the program. Memory: milliseconds of the second.
+pub fn run_time(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
-    let ms = cx.state().0[2].saturating_add(dt);
-    cx.state().0[2] = ms % 1000;
+    let ms = cx.state().0[0].saturating_add(dt);
+    cx.state().0[0] = ms % 1000;
     let [low, high] = D_RUN_TIME.run().map(|register| cx.special_word(register));
     let seconds = pair(low, high).wrapping_add(ms / 1000);
     for (register, word) in D_RUN_TIME.run::<2>().into_iter().zip(words(seconds)) {
         cx.set_special_word(register, word);
     }
-    let (code, step) = (
-        cx.special_word(D_OPERATION_ERROR),
-        cx.special_word(D_ERROR_STEP),
-    );
-    let logged = [i32::from(code), i32::from(step)];
-    let state = cx.state();
-    if code == 0 || state.0[..2] == logged {
-        return Ok(());
-    }
-    [state.0[0], state.0[1]] = logged;
-    let place =
-        (0..ENTRIES).find(|&n| [0, code].contains(&cx.special_word(D_LOGGED_CODES.after(n))));
-    if place.is_none() {
-        for n in 0..ENTRIES - 1 {
-            for table in [D_LOGGED_HOURS, D_LOGGED_CODES] {
-                let next = cx.special_word(table.after(n + 1));
-                cx.set_special_word(table.after(n), next);
-            }
-        }
-    }
-    let place = place.unwrap_or(ENTRIES - 1);
-    cx.set_special_word(D_LOGGED_HOURS.after(place), (seconds / 3600) as i16);
-    cx.set_special_word(D_LOGGED_CODES.after(place), code);
+    Ok(())
+}
+
+/// An error that the program itself found enters the log.
+pub fn log(cx: &mut Cx) -> Done {
+    let code = cx.read(0)?;
+    cx.log_error(code as u16);
     Ok(())
 }
 
@@ -92,20 +68,12 @@ mod tests {
     use crate::double::Double;
 
     #[test]
-    fn the_log_keeps_ten_codes() {
+    fn the_running_time_counts_seconds() {
         let mut plc = Double::new();
-        plc.scan(3_600_000, true, RtFn::ErrorLog, &[]).unwrap();
-        assert_eq!(plc.d(8500, 1), [0]);
-        for code in (6701..=6711).chain([6705]) {
-            plc.set_d(8067, &[code]);
-            plc.scan(3_600_000, true, RtFn::ErrorLog, &[]).unwrap();
+        for _ in 0..3 {
+            plc.scan(3_600_000, true, RtFn::RunTime, &[]).unwrap();
         }
-        assert_eq!(
-            plc.d(8500, 10),
-            (6702..=6711).collect::<std::vec::Vec<i16>>()
-        );
-        assert_eq!(plc.d(8490, 10), [3, 4, 5, 13, 7, 8, 9, 10, 11, 12]);
-        assert_eq!(plc.dd(8510), 13 * 3600);
+        assert_eq!(plc.dd(8510), 3 * 3600);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{Engine, EngineError};
 use crate::protocol::{Answer, Digest, Request};
 use crate::target::Channel;
-use rungc_interp::{Machine, Observer, Saved};
+use rungc_interp::{MOST_RESTARTS, Machine, Observer, Saved};
 use rungc_ir::Module;
 use rungc_rt::modules::{KINDS, Signal};
 use rungc_rt::{Class, Cx, FIRST_COUNTER32, Operand, Plc, Program, Site, VirtualHal};
@@ -194,6 +194,9 @@ impl Engine for Interpreter<'_> {
             Request::Scan { now_ms, scan_us } => {
                 hal.advance_to(now_ms);
                 machine.scan(hal, now_ms, scan_us);
+                if machine.is_endless() {
+                    return Err(EngineError::Endless(MOST_RESTARTS));
+                }
                 Answer::Ok
             }
             Request::ConstantScan => Answer::value(Some(machine.constant_scan_ms().unwrap_or(0))),

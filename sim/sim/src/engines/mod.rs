@@ -52,6 +52,9 @@ pub enum EngineError {
     /// The executable did not answer in time.
     #[error("no answer to `{0}`: a scan does not end")]
     Silent(Request),
+    /// A scan with WDT does not end.
+    #[error("a scan does not end: WDT restarts the watchdog more than {0} times")]
+    Endless(u32),
     /// Unexpected output of the executable.
     #[error("unexpected answer to `{0}`: `{1}`")]
     Garbled(Request, String),

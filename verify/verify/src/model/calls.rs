@@ -25,11 +25,13 @@ const BUFFER: &str = "buffer memory of special modules";
 const MOVED: i32 = 256;
 
 /// Devices written by an operation error.
-const ERRORS: [(DeviceClass, u32, u32); 4] = [
+const ERRORS: [(DeviceClass, u32, u32); 5] = [
     (DeviceClass::M, 8004, 8006),
     (DeviceClass::M, 8067, 8069),
     (DeviceClass::D, 8004, 8006),
     (DeviceClass::D, 8067, 8069),
+    // The error log.
+    (DeviceClass::D, 8490, 8509),
 ];
 
 impl Encoder<'_> {

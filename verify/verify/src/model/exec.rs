@@ -76,7 +76,7 @@ impl Encoder<'_> {
             Stmt::Do(Action::Write(_, value) | Action::Block(Block::Fill { value, .. })) => {
                 zero(*value)
             }
-            Stmt::Do(Action::Reset(_) | Action::Clear { .. }) => true,
+            Stmt::Do(Action::Reset { .. } | Action::Clear { .. }) => true,
             _ => false,
         }
     }
@@ -196,11 +196,13 @@ impl Encoder<'_> {
                 let (down, preset) = (self.on(count.down), self.eval(count.preset));
                 self.count(count.number, down, &preset, guard);
             }
-            &Action::Reset(place) => self.reset(place, guard),
+            &Action::Reset { place, holds } => self.reset(place, holds, guard),
             Action::Call(call) => self.call(action, call, guard),
             Action::Fetch(fetch) => self.fetch(fetch, guard),
             Action::Send(send) => self.send(action, send.step, guard),
             &Action::Fault { step, .. } => self.fault(action, step, guard),
+            // That WDT keeps the watchdog from ending a scan is not known here.
+            Action::RestartWatchdog => {}
             Action::Stop => self.stop(guard),
             &Action::Clear { latched } => self.clear(latched, guard),
         }
@@ -435,14 +437,20 @@ impl Encoder<'_> {
         }
     }
 
-    fn reset(&mut self, place: Place, guard: Lit) {
+    fn reset(&mut self, place: Place, holds: bool, guard: Lit) {
         let Some(index) = place.index else {
             let keys = self.keys(place.class, place.number);
-            return self.reset_timing(&keys, guard);
+            self.reset_timing(&keys, guard);
+            if holds {
+                self.clears = false;
+                let coil = Key::Counter(place.number, super::CounterPart::Coil);
+                self.store(coil, &[Lit::TRUE], guard);
+            }
+            return;
         };
         let index = self.eval(index);
         let Some(candidates) = self.candidates(place, &index) else {
-            return self.write_anywhere(&Action::Reset(place), guard);
+            return self.write_anywhere(&Action::Reset { place, holds }, guard);
         };
         for (here, number) in candidates {
             let here = self.aig.and(guard, here);

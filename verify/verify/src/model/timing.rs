@@ -115,7 +115,7 @@ impl Encoder<'_> {
                         Action::Timer(_)
                             | Action::TimerGoesOn { .. }
                             | Action::TimerAt(_)
-                            | Action::Reset(_)
+                            | Action::Reset { .. }
                     )
                 );
                 if !coil {
@@ -228,7 +228,11 @@ impl Encoder<'_> {
         let on = self.load(Key::Timer(number, TimerPart::Coil))[0];
         let preset = self.load(Key::Timer(number, TimerPart::Preset));
         let goes_on = self.aig.and(guard, on);
+        let done = self.load(Key::Timer(number, TimerPart::Done));
         self.driven(number, kind, &preset, goes_on);
+        if kind.accumulating {
+            self.store(Key::Timer(number, TimerPart::Done), &done, goes_on);
+        }
     }
 
     /// RST of a timer or counter.

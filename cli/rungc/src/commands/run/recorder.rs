@@ -30,8 +30,10 @@ pub struct Recorder {
     /// Their values after the last scan; empty before the first.
     last: Vec<Reading>,
     steps: Vec<Step>,
-    /// Settings since the last scan.
+    /// Settings before the last scan.
     set: Vec<(String, f64)>,
+    /// Settings since.
+    next: Vec<(String, f64)>,
 }
 
 /// A step of the test.
@@ -82,17 +84,23 @@ impl Recorder {
             last: Vec::new(),
             steps: Vec::new(),
             set: Vec::new(),
+            next: Vec::new(),
         }
     }
 
     /// A device is set before the next scan.
     pub fn set(&mut self, target: Target, value: f64) {
         let name = target.to_string();
-        self.set.retain(|(other, _)| *other != name);
-        self.set.push((name, value));
+        self.next.retain(|(other, _)| *other != name);
+        self.next.push((name, value));
     }
 
-    /// A scan is over.
+    /// A scan begins.
+    pub fn scan_begins(&mut self) {
+        self.set = mem::take(&mut self.next);
+    }
+
+    /// A scan and the time until the next one are over: then a test file compares.
     pub fn scanned(&mut self, seen: Seen) {
         let mut changed = Vec::new();
         for (i, &target) in self.targets.iter().enumerate() {

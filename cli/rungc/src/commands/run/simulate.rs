@@ -1,5 +1,7 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
+mod passing;
+
 use super::connecting::Connecting;
 use super::errors::Errors;
 use super::history::{History, Moment};
@@ -21,7 +23,7 @@ use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, eprint_line, interruption, print_text};
 use rungc_host::io::Connection;
 use rungc_host::wall::WallClock;
-use rungc_interp::Machine;
+use rungc_interp::{MOST_RESTARTS, Machine};
 use rungc_ir::Module;
 use rungc_rt::{Program, VirtualHal};
 use rungc_sim::Target;
@@ -293,14 +295,23 @@ impl<'a> Simulation<'a> {
             if self.machine.watchdog_tripped() {
                 let error = self.machine.last_error();
                 let message = self.errors.watchdog(self.now_ms, error);
-                eprint_line(&format!("rungc: {message}"));
+                let endless = match self.machine.is_endless() {
+                    true => {
+                        format!(" (WDT restarted the watchdog {MOST_RESTARTS} times in this scan)")
+                    }
+                    false => String::new(),
+                };
+                eprint_line(&format!("rungc: {message}{endless}"));
+                self.pass_last(scan_ms)?;
                 return Ok(Outcome::Failed);
             }
             if interruption::is_requested() {
                 eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
+                self.pass_last(scan_ms)?;
                 return Ok(Outcome::Interrupted);
             }
             if self.now_ms.saturating_add(scan_ms) > end_ms {
+                self.pass_last(scan_ms)?;
                 break;
             }
             if args.in_real_time() {
@@ -496,6 +507,9 @@ impl<'a> Simulation<'a> {
     /// A scan; how many milliseconds it lasts, if one takes `given_ms`.
     fn scan(&mut self, given_ms: Option<u64>) -> std::result::Result<u64, Failure> {
         self.hal.advance_to(self.now_ms as u32);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.scan_begins();
+        }
         let scan_us = (self.scan_ms(given_ms) * 1000).min(u64::from(u32::MAX)) as u32;
         if let Some(live) = &self.live {
             live.force(&mut self.machine, &mut self.hal);
@@ -514,10 +528,6 @@ impl<'a> Simulation<'a> {
             self.out.line(&row)?;
         }
         self.record()?;
-        if let Some(mut recorder) = self.recorder.take() {
-            recorder.scanned(self.seen());
-            self.recorder = Some(recorder);
-        }
         let scan_ms = self.scan_ms(given_ms);
         match self.machine.constant_scan_ms() {
             Some(constant_ms) if u64::from(constant_ms) < scan_ms && !self.overrun => {
@@ -539,101 +549,6 @@ impl<'a> Simulation<'a> {
             (Some(given), Some(constant)) => given.max(constant),
             (given, constant) => given.or(constant).unwrap_or(USUAL_SCAN_MS),
         }
-    }
-
-    /// Returns true if nothing happens between two scans but settings.
-    fn is_idle_between_scans(&self) -> bool {
-        self.plant.is_none()
-            && self.recording.is_none()
-            && self.plotting.is_none()
-            && self.scope.is_none()
-            && !self.machine.module().takes_time()
-    }
-
-    /// The time from one scan to the next.
-    fn pass(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
-        if self.is_idle_between_scans() {
-            return self.pass_idly(scan_ms);
-        }
-        for left in (0..scan_ms).rev() {
-            self.millisecond()?;
-            // The initial state of a scan is recorded as it leaves it.
-            if left > 0 {
-                self.record()?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The time from one scan to the next, in which nothing happens but what is set.
-    fn pass_idly(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
-        let next_ms = self.now_ms + scan_ms;
-        while let Some(setting) = self.pending.peek().filter(|s| s.at_ms <= next_ms) {
-            self.now_ms = setting.at_ms;
-            self.apply_settings()?;
-            self.machine.take_interrupts(&mut self.hal);
-        }
-        self.now_ms = next_ms;
-        Ok(())
-    }
-
-    /// A millisecond between two scans.
-    fn millisecond(&mut self) -> std::result::Result<(), Failure> {
-        self.now_ms += 1;
-        self.hal.advance_to(self.now_ms as u32);
-        self.move_plant()?;
-        self.machine.tick(&mut self.hal, self.now_ms as u32);
-        self.apply_settings()?;
-        self.machine.take_interrupts(&mut self.hal);
-        Ok(())
-    }
-
-    /// The machine moves for the millisecond that ends now.
-    fn move_plant(&mut self) -> std::result::Result<(), Failure> {
-        let Some(plant) = &mut self.plant else {
-            return Ok(());
-        };
-        let before = plant.collision().cloned();
-        let recording = &mut self.recording;
-        let mut wired = Wired {
-            machine: &mut self.machine,
-            hal: &mut self.hal,
-            changed: &mut |change| match recording {
-                Some(recording) => recording.edge(change),
-                None => Ok(()),
-            },
-        };
-        plant.step(self.now_ms, &[], &mut wired)?;
-        if let Some(collision) = plant.collision()
-            && before.as_ref() != Some(collision)
-        {
-            eprint_line(&format!("rungc: {collision}"));
-        }
-        Ok(())
-    }
-
-    /// Sets what is to be set now.
-    fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
-        while let Some(setting) = self.pending.next_if(|s| s.at_ms == self.now_ms) {
-            self.hal.advance_to(self.now_ms as u32);
-            rungc_sim::set(
-                &mut self.machine,
-                &mut self.hal,
-                setting.target,
-                setting.value,
-            )
-            .ok_or_else(|| missing(setting.target, self.machine.module()))?;
-            if let Some(recorder) = &mut self.recorder {
-                recorder.set(setting.target, setting.value);
-            }
-            if let Target::Bit(DeviceClass::X, number) = setting.target
-                && self.now_ms > 0
-            {
-                self.machine
-                    .input_edge(&mut self.hal, number, setting.value != 0.0);
-            }
-        }
-        Ok(())
     }
 
     fn seen(&self) -> Seen<'_> {

@@ -111,7 +111,10 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
             }
             Action::Timer(coil) => self.timer(*coil),
             Action::Counter16(coil) => self.counter16(*coil),
-            Action::Reset(place) => Action::Reset(self.place(*place)),
+            Action::Reset { place, holds } => Action::Reset {
+                place: self.place(*place),
+                holds: *holds,
+            },
             _ => action.clone(),
         }
     }

@@ -82,7 +82,14 @@ impl<'m> Pair<'m> {
                 self.expr(coil.drive, with.drive)?;
                 self.expr(coil.preset, with.preset)
             }
-            (&Stmt::Do(Action::Reset(place)), &Stmt::Do(Action::Reset(with))) => {
+            (
+                &Stmt::Do(Action::Reset { place, holds }),
+                &Stmt::Do(Action::Reset {
+                    place: with,
+                    holds: other,
+                }),
+            ) => {
+                (holds == other).then_some(())?;
                 self.place(place, with)
             }
             (

@@ -77,7 +77,10 @@ fn add_action(
             add_expr(module, *drive, hasher, size)?;
             add_expr(module, *preset, hasher, size)?;
         }
-        Action::Reset(place) => add_place(*place, hasher)?,
+        Action::Reset { place, holds } => {
+            holds.hash(hasher);
+            add_place(*place, hasher)?;
+        }
         _ => return None,
     }
     Some(())

@@ -24,9 +24,6 @@ pub const LONGEST_ANSWER: usize = 260;
 
 const _: () = assert!(LONGEST_ANSWER == tcp::LONGEST);
 
-/// Register that shows errors.
-const ERROR: u32 = 8063;
-
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
@@ -274,9 +271,7 @@ impl Client {
             _ => 0x84,
         };
         if self.family != Ports::Hm {
-            let code = i16::from_be_bytes([kind, self.part]);
-            let _ = map.set_word(Class::D, ERROR, code);
-            let _ = map.set_bit(Class::M, ERROR, true);
+            map.show_port_error(u16::from_be_bytes([kind, self.part]));
         }
     }
 }

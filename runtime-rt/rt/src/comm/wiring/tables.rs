@@ -178,10 +178,7 @@ const fn modbus_channel(number: u8, base: u16) -> PortWiring {
 const CHANNEL_1: PortWiring = modbus_channel(1, 8400);
 /// Channel 2, whose errors are in M8438 and D8438.
 const CHANNEL_2: PortWiring = PortWiring {
-    error: Some(ErrorPlace {
-        relay: Relay(8438),
-        register: Register(8438),
-    }),
+    error: Some(ErrorPlace(Relay(8438))),
     codes: 3800,
     ..modbus_channel(2, 8420)
 };
