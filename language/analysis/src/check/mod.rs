@@ -6,6 +6,7 @@
 mod blocks;
 mod coils;
 pub mod devices;
+mod doubtful;
 mod drives;
 mod every_scan;
 mod fast_inputs;
@@ -97,6 +98,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
     let modules = modules::Modules::new(code);
     let mut inert = inert::Inert::new(&modules);
+    let mut doubtful = doubtful::Doubtful::default();
     let mut undefined = undefined::Undefined::default();
     for i in 0..code.len {
         modules.check(code, i, out);
@@ -109,6 +111,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             overlaps.note(code, i, &access);
             resets.note(code, i, &access);
             inert.note(code, i, &access);
+            doubtful.note(code, &access);
             undefined.note(code, &access);
             writes::check(code, i, &access, out);
         }
@@ -120,6 +123,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         resets.report(out);
     }
     inert.report(out);
+    doubtful.report(code, out);
     undefined.report(code.model(), out);
 }
 
