@@ -118,9 +118,8 @@ impl Run<'_> {
             hal: &hal,
             plant: plant.as_ref(),
         })?;
-        let retaining = self.retain.as_ref();
-        let retaining = retaining.map(|kept| Retaining::begin(kept, &mut machine));
-        let retaining = retaining.transpose()?;
+        let begin = |kept| Retaining::begin(kept, &mut machine);
+        let retaining = self.retain.as_ref().map(begin).transpose()?;
         let seen = Seen {
             machine: &machine,
             hal: &hal,
@@ -135,10 +134,8 @@ impl Run<'_> {
             None => None,
         };
         let plotting = self.plotting(seen)?;
-        let mut watch = Watch::new(
-            module.model,
-            (args.serve.trace_frames.as_deref(), args.force),
-        )?;
+        let trace = (args.serve.trace_frames.as_deref(), args.force);
+        let mut watch = Watch::new(module.model, trace)?;
         if live.is_some() {
             watch.record();
         }
