@@ -14,17 +14,17 @@ mod time;
 use args::{Cli, ColorWhen, Command, Emit};
 use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
+use std::ffi::OsString;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
 /// Does what the arguments of the process ask for, and returns its exit code.
 pub fn main() -> ExitCode {
     crash::report_panics();
-    let matches = Cli::command().get_matches();
-    let cli = match Cli::from_arg_matches(&matches) {
-        Ok(cli) => cli,
-        Err(error) => error.format(&mut Cli::command()).exit(),
-    };
+    let matches = Cli::command().try_get_matches();
+    let matches = matches.unwrap_or_else(|error| reject(&error));
+    let cli = Cli::from_arg_matches(&matches)
+        .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
     let cx = Context {
         color: color(cli.color),
         stdout_in_use: match &cli.command {
@@ -93,6 +93,21 @@ pub fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown in
+/// messages, so what a terminal would act on in them is written out.
+fn reject(error: &clap::Error) -> ! {
+    let acts = |argument: OsString| {
+        argument
+            .to_string_lossy()
+            .contains(rungc_syntax::text::acts)
+    };
+    if std::env::args_os().any(acts) {
+        commands::eprint_line(error.to_string().trim_end());
+        std::process::exit(error.exit_code());
+    }
+    error.exit()
 }
 
 /// Returns true if standard error is to be coloured.

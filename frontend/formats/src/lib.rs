@@ -32,7 +32,7 @@ pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{Names, PLCOPEN_CPU, iec_timer_unit};
-pub use recognise::{Recognised, is_program, recognise};
+pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
 pub use search::{is_project, programs};
 
 /// A program and what its reader found.

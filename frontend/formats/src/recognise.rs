@@ -313,6 +313,12 @@ fn of_text(text: &str) -> Option<Recognised> {
     None
 }
 
+/// Returns true if a text is meant as one of rungc's files in TOML, whatever mistakes it has.
+pub fn is_meant_as_toml(text: &str) -> bool {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    of_toml(&lines.collect::<Vec<_>>()).is_some()
+}
+
 /// A file of rungc in TOML, by its tables and keys.
 fn of_toml(lines: &[&str]) -> Option<Recognised> {
     let is = |what, help| Some(Recognised { what, help });

@@ -60,9 +60,10 @@ pub fn to_plcopen(
     let pous = match written {
         Ok(pous) => pous,
         Err(refused) => {
-            let diagnostic = refused
-                .code
-                .at(program.instrs[refused.at].span, refused.what);
+            // A program without instructions has no place to show.
+            let instr = program.instrs.get(refused.at);
+            let span = instr.map_or_else(Span::default, |instr| instr.span);
+            let diagnostic = refused.code.at(span, refused.what);
             let help = "`--to il` and `--to csv` write it as a list";
             diagnostics.push(diagnostic.help(help));
             return String::new();

@@ -1,7 +1,7 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
-use rungc_frontend::{Recognised, is_program, recognise};
-use rungc_syntax::{Source, inputs};
+use rungc_frontend::{Recognised, is_meant_as_toml, is_program, recognise};
+use rungc_syntax::{Source, diag, inputs};
 use serde::de::DeserializeOwned;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -15,19 +15,26 @@ pub struct Problem {
     pub column: u32,
     /// Description of the error.
     pub message: String,
+    /// The line.
+    pub text: String,
 }
 
 impl Problem {
     /// A problem at a byte of the text.
     pub(crate) fn at(source: &Source, at: usize, message: String) -> Problem {
         let (line, column) = source.line_col(at as u32);
+        let text = source.text.lines().nth(line as usize - 1);
         Problem {
             line,
             column,
             message,
+            text: text.unwrap_or_default().to_string(),
         }
     }
 }
+
+/// Maximum number of characters of a line that a report shows.
+const LINE_SHOWN: usize = 100;
 
 /// Reason why a file could not be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +55,35 @@ pub enum LoadError {
         /// Its problems.
         problems: Vec<Problem>,
     },
+}
+
+impl LoadError {
+    /// The error with the lines in question and a mark below each place.
+    pub fn report(&self) -> String {
+        let LoadError::Format { name, problems } = self else {
+            return self.to_string();
+        };
+        let shown = problems.iter().map(|problem| {
+            let message = lines(name, std::slice::from_ref(problem));
+            let number = problem.line.to_string();
+            let text: String = problem
+                .text
+                .replace('\t', " ")
+                .chars()
+                .take(LINE_SHOWN)
+                .collect();
+            let before = problem.column as usize - 1;
+            if text.trim().is_empty() || before > text.chars().count() {
+                return message;
+            }
+            let margin = " ".repeat(number.len());
+            format!(
+                "{message}\n {number} | {text}\n {margin} | {}^",
+                " ".repeat(before)
+            )
+        });
+        shown.collect::<Vec<_>>().join("\n")
+    }
 }
 
 fn lines(name: &str, problems: &[Problem]) -> String {
@@ -83,11 +119,9 @@ fn other_kind(name: &str, bytes: &[u8]) -> Option<String> {
 /// Reads the TOML of a file, without looking at what it means.
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
     toml::from_str(&source.text).map_err(|error| {
-        let is_toml = source.text.parse::<toml::Table>().is_ok();
+        let is_toml = source.text.parse::<toml::Table>().is_ok() || is_meant_as_toml(&source.text);
         let other = other_kind(&source.name, source.text.as_bytes());
-        if let Some(what) =
-            other.filter(|what| !is_toml && !what.starts_with("this is a test file"))
-        {
+        if let Some(what) = other.filter(|_| !is_toml) {
             return vec![Problem::at(source, 0, what)];
         }
         let at = error.span().map_or(0, |span| span.start);
@@ -95,8 +129,19 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
     })
 }
 
-/// Message of the TOML reader, in the words of TOML rather than of Rust.
+/// Message of the TOML reader, in the words of TOML rather than of Rust; for an unknown field with the name that is
+/// meant, if it can be told.
 fn plain(message: &str) -> String {
+    let unknown = message
+        .strip_prefix("unknown field `")
+        .and_then(|rest| rest.split_once('`'));
+    if let Some((field, known)) = unknown {
+        let known = known.split('`').skip(1).step_by(2);
+        let longer = known.clone().find(|known| known.starts_with(field));
+        if let Some(near) = diag::did_you_mean(field, known).or(longer) {
+            return format!("unknown field `{field}`: did you mean `{near}`?");
+        }
+    }
     let words = [
         ("expected f64", "expected a number"),
         ("expected u16", "expected a whole number"),

@@ -123,16 +123,28 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
-    let wired = (&module, described.as_ref());
-    let connections = connecting::connections(wired_up, subject, wired, &args.serve, cx)?;
+    let connections = connecting::connections(
+        wired_up,
+        subject,
+        (&module, described.as_ref()),
+        &args.serve,
+        cx,
+    )?;
     let plant = described.as_ref().map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
     let live = page(args, subject, &read, &module, &listed)?;
     let retain = retained(args, subject)?;
-    let is_alone = retain.is_none() && connections.is_empty();
-    let recorder = recorder(args, subject, (&module, &watched), is_alone)?;
+    let recorder = match &args.record {
+        Some(path) => {
+            repeatable(args, subject, retain.is_some() || !connections.is_empty())?;
+            spare(path, args.force)?;
+            let files = (subject.file.as_path(), args.machine.as_deref());
+            Some(Recorder::begin(path, files, (&module, &watched)))
+        }
+        None => None,
+    };
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
@@ -149,22 +161,6 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         connections,
     };
     run.simulate(plant, live, recorder)
-}
-
-/// Recorder of the run as a test, if requested; `is_alone` if nothing acts on the run from outside.
-fn recorder(
-    args: &RunArgs,
-    subject: &Subject,
-    recorded: (&Module, &[Target]),
-    is_alone: bool,
-) -> std::result::Result<Option<Recorder>, Failure> {
-    let Some(path) = &args.record else {
-        return Ok(None);
-    };
-    repeatable(args, subject, !is_alone)?;
-    spare(path, args.force)?;
-    let files = (subject.file.as_path(), args.machine.as_deref());
-    Ok(Some(Recorder::begin(path, files, recorded)))
 }
 
 /// Checks that a test can repeat the run: nothing but its settings and its machine acts on it.
@@ -288,7 +284,7 @@ fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
 
 /// Failure to use the description of a machine.
 pub(super) fn because(error: LoadError) -> Failure {
-    Failure::Because(error.to_string())
+    Failure::Because(error.report())
 }
 
 /// Returns true if an axis follows an output at which the program never sends pulses.

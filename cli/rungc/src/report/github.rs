@@ -4,6 +4,7 @@ use super::Findings;
 use super::location::Location;
 use anstream::adapter::strip_str;
 use rungc_syntax::Severity;
+use rungc_syntax::text::acts;
 use std::path::Path;
 
 /// An annotation for each finding about a program.
@@ -48,10 +49,17 @@ pub fn annotation(level: &str, file: &Path, line: Option<u32>, title: &str, text
 
 /// The text of a command, as the runner reads it.
 fn data(text: &str) -> String {
-    let text = strip_str(text).to_string();
-    text.replace('%', "%25")
-        .replace('\r', "%0D")
-        .replace('\n', "%0A")
+    let mut escaped = String::with_capacity(text.len());
+    for c in strip_str(text).to_string().chars() {
+        match c {
+            '%' => escaped.push_str("%25"),
+            '\r' => escaped.push_str("%0D"),
+            '\n' => escaped.push_str("%0A"),
+            c if acts(c) => escaped.extend(c.escape_unicode()),
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }
 
 /// A property of a command, which ends at a comma or colon.
@@ -70,5 +78,6 @@ mod tests {
             "50 %25: a, b%0D%0A::error::"
         );
         assert_eq!(property("a,b:c%\n"), "a%2Cb%3Ac%25%0A");
+        assert_eq!(data("a\u{202e}b\u{9b}2J\t"), "a\\u{202e}b\\u{9b}2J\\u{9}");
     }
 }

@@ -1,14 +1,7 @@
 //! Text of programs, file names and test cases on its way to a terminal.
 
+use rungc_syntax::text::acts;
 use std::borrow::Cow;
-
-/// Returns true if a terminal would act on a character instead of showing it: control characters of both sets, those
-/// that change the direction of the text, and those that break lines where no line feed is.
-fn acts(c: char) -> bool {
-    c.is_control()
-        || matches!(c,
-            '\u{61C}' | '\u{200E}' | '\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
-}
 
 /// A text in which all that a terminal would act on is written out, as `\u{1b}`. Line feeds and tabs stay.
 pub fn visible(text: &str) -> Cow<'_, str> {

@@ -261,7 +261,7 @@ mod interrupted {
     #[test]
     fn tests_end_with_their_own_code() {
         let cases =
-            file(&[("long", 1)]).replace("set = { X000", "run_ms = 4294967295\nset = { X000");
+            file(&[("long", 1)]).replace("set = { X000", "run_ms = 100000000\nset = { X000");
         let folder = folder(&[("long.plctest.toml", cases.as_bytes())]);
         let mut child = begin(
             Command::new(env!("CARGO_BIN_EXE_rungc"))

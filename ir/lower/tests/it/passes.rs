@@ -273,7 +273,7 @@ fn timers_counters_and_registers_take_part_in_loops() {
         "timer T[0 + 1 * t12] drive X[0o0 + 2 * t12] preset 50\n",
         "counter C[0 + 1 * t12] drive T[0 + 1 * t12] preset D[100 + 2 * t12]\n",
         "D[101 + 2 * t12] := 3\n",
-        "reset C[0 + 1 * t12]\n",
+        "hold at 0 C[0 + 1 * t12]\n",
     ] {
         assert!(main.contains(line), "{line}{main}");
     }

@@ -2,13 +2,16 @@
 
 use super::Code;
 use super::skips::Skips;
-use super::structure::{NONE, Nesting};
+use super::structure::{NONE, Nesting, Routine};
+use crate::accesses;
 use rungc_catalogue::{Basic, Lower};
 use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
-/// Warns of coils that the last of several places decides.
+/// Warns of coils that the last of several places decides. The result of a coil of a relay that is read before the next
+/// one counts, too: such a relay holds an intermediate result, as in code that GX Works2 makes of labels.
 pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Diagnostics) {
     let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
     for i in 0..code.len {
@@ -16,6 +19,8 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             driven.entry(device).or_default().push(i);
         }
     }
+    driven.retain(|_, coils| coils.len() > 1);
+    let reads = Reads::of(code, nesting, &driven);
     let mut found = Vec::new();
     for (device, mut coils) in driven {
         // Within a state, or outside of all, under the same jumps: these write in the same scan.
@@ -27,15 +32,85 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             (state, skips.mark(i))
         };
         coils.sort_by_key(condition);
-        let same = coils
+        let lost = coils
             .chunk_by(|a, b| condition(a) == condition(b))
-            .find_map(|same| same.split_last().filter(|(_, earlier)| !earlier.is_empty()));
-        if let Some((&last, earlier)) = same {
-            found.push(driven_twice(code, device, earlier, last));
+            .find_map(|same| {
+                let lost = same
+                    .windows(2)
+                    .filter(|pair| !reads.any(device, pair[0], pair[1]));
+                let lost: Vec<_> = lost.map(|pair| pair[0]).collect();
+                same.last()
+                    .copied()
+                    .filter(|_| !lost.is_empty())
+                    .map(|last| (lost, last))
+            });
+        if let Some((lost, last)) = lost {
+            found.push(driven_twice(code, device, &lost, last));
         }
     }
     found.sort_by_key(|diagnostic| diagnostic.span);
     out.extend(found);
+}
+
+/// Instructions that read relays with several coils.
+struct Reads {
+    /// By relay: the places that read it, in order.
+    places: BTreeMap<Device, Vec<usize>>,
+    /// Relays that a routine reads.
+    in_routines: Vec<Device>,
+    /// The calls of the main program, in order.
+    calls: Vec<usize>,
+}
+
+impl Reads {
+    fn of(code: &Code, nesting: &Nesting, driven: &FxHashMap<Device, Vec<usize>>) -> Self {
+        let relays = driven
+            .keys()
+            .filter(|device| device.class == DeviceClass::M);
+        let mut reads = Reads {
+            places: relays.map(|&device| (device, Vec::new())).collect(),
+            in_routines: Vec::new(),
+            calls: Vec::new(),
+        };
+        if reads.places.is_empty() {
+            return reads;
+        }
+        for i in 0..code.len {
+            let in_main = nesting.of(i).routine == Routine::Main;
+            if in_main && code.basic(i) == Some(Basic::Call) {
+                reads.calls.push(i);
+            }
+            for access in accesses::of(code.resolved, i).filter(accesses::Access::reads) {
+                let Device { class, number } = access.first;
+                let count = access.count.unwrap_or(u32::MAX);
+                let last = number.saturating_add(count.saturating_sub(1));
+                let last = Device {
+                    class,
+                    number: last,
+                };
+                for (device, places) in reads.places.range_mut(access.first..=last) {
+                    places.push(i);
+                    if !in_main {
+                        reads.in_routines.push(*device);
+                    }
+                }
+            }
+        }
+        reads.in_routines.sort_unstable();
+        reads
+    }
+
+    /// Returns true if a relay is read after an instruction and before another one.
+    fn any(&self, device: Device, after: usize, before: usize) -> bool {
+        let Some(places) = self.places.get(&device) else {
+            return false;
+        };
+        let between = |places: &[usize]| {
+            let first = places.partition_point(|&place| place <= after);
+            places.get(first).is_some_and(|&place| place < before)
+        };
+        between(places) || self.in_routines.binary_search(&device).is_ok() && between(&self.calls)
+    }
 }
 
 /// The coil that an instruction writes in every scan. States are not meant: OUT S is a transition.

@@ -6,7 +6,6 @@
 mod blocks;
 mod coils;
 pub mod devices;
-mod doubtful;
 mod drives;
 mod every_scan;
 mod fast_inputs;
@@ -62,7 +61,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     let skips = skips::Skips::new(&code, &pointers);
     coils::check(&code, &skips, &nesting, &mut out);
     set_and_out::check(&code, &nesting, &skips, &mut out);
-    timers::check(&code, &nesting, &mut out);
+    timers::check(&code, &pointers, &nesting, &skips, &mut out);
     states::check(&code, &nesting, &mut out);
     driven(&code, &pointers, &nesting, &skips, &mut out);
     accessed(&code, &mut out);
@@ -98,7 +97,6 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
     let modules = modules::Modules::new(code);
     let mut inert = inert::Inert::new(&modules);
-    let mut doubtful = doubtful::Doubtful::default();
     let mut undefined = undefined::Undefined::default();
     for i in 0..code.len {
         modules.check(code, i, out);
@@ -111,7 +109,6 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             overlaps.note(code, i, &access);
             resets.note(code, i, &access);
             inert.note(code, i, &access);
-            doubtful.note(code, &access);
             undefined.note(code, &access);
             writes::check(code, i, &access, out);
         }
@@ -123,7 +120,6 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         resets.report(out);
     }
     inert.report(out);
-    doubtful.report(code, out);
     undefined.report(code.model(), out);
 }
 

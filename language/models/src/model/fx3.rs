@@ -167,8 +167,6 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
     module_places: &[Place::Bus],
     finds_boards: false,
     pulse_outputs: &[(Y, 0, 7)],
-    // Published tests of such boards: they stop at programs with these.
-    doubtful: &[(M, 3072, 7679), (D, 7000, 7999)],
     ..FX3U
 };
 

@@ -2,8 +2,12 @@
 
 use super::{Id, RuleKind, Suite, Value};
 use crate::target::Target;
+use rungc_syntax::diag::counted;
 use std::fmt;
 use std::time::Duration;
+
+/// Maximum number of errors of a program that a report shows.
+const ERRORS_SHOWN: usize = 5;
 
 /// Reason why a case failed.
 #[derive(Clone, PartialEq, Debug)]
@@ -83,9 +87,18 @@ impl fmt::Display for Failure {
         match self {
             Failure::Refused(errors) => {
                 write!(f, "the program does not compile:")?;
-                errors
-                    .iter()
-                    .try_for_each(|(line, message)| write!(f, " line {line}: {message};"))
+                let shown = errors.iter().take(ERRORS_SHOWN);
+                for (line, message) in shown {
+                    write!(f, " line {line}: {message};")?;
+                }
+                match errors.len().saturating_sub(ERRORS_SHOWN) {
+                    0 => Ok(()),
+                    more => write!(
+                        f,
+                        " and {} (see `rungc check`)",
+                        counted(more, "more error")
+                    ),
+                }
             }
             Failure::Accepted(message) => write!(f, "{message}"),
             Failure::NoDevice { step, target } => {

@@ -11,6 +11,9 @@ use rungc_rt::Clock;
 use rungc_syntax::{DeviceClass, diag};
 use toml::Spanned;
 
+/// Maximum number of scans or milliseconds of a step: more than a day.
+const LONGEST: u32 = 100_000_000;
+
 impl Reader<'_> {
     /// The steps that a step stands for: those of the scenario that it names, and itself.
     pub(super) fn steps(&mut self, raw: Vec<Spanned<RawStep>>) -> Vec<Step> {
@@ -63,7 +66,12 @@ impl Reader<'_> {
         }
         let mut count = |given: &Option<Spanned<RawCount>>| {
             let given = given.as_ref()?;
-            Some(self.count(given).unwrap_or(1))
+            let count = self.count(given).unwrap_or(1);
+            if count > LONGEST {
+                let message = format!("a step takes at most {LONGEST} scans or milliseconds");
+                self.report(given.span().start, message);
+            }
+            Some(count)
         };
         let (scans, ms, at_most) = (
             count(&raw.scans),

@@ -118,8 +118,9 @@ impl Run<'_> {
             hal: &hal,
             plant: plant.as_ref(),
         })?;
-        let begin = |kept| Retaining::begin(kept, &mut machine);
-        let retaining = self.retain.as_ref().map(begin).transpose()?;
+        let retaining = self.retain.as_ref();
+        let retaining = retaining.map(|kept| Retaining::begin(kept, &mut machine));
+        let retaining = retaining.transpose()?;
         let seen = Seen {
             machine: &machine,
             hal: &hal,
@@ -134,8 +135,10 @@ impl Run<'_> {
             None => None,
         };
         let plotting = self.plotting(seen)?;
-        let trace = (args.serve.trace_frames.as_deref(), args.force);
-        let mut watch = Watch::new(module.model, trace)?;
+        let mut watch = Watch::new(
+            module.model,
+            (args.serve.trace_frames.as_deref(), args.force),
+        )?;
         if live.is_some() {
             watch.record();
         }

@@ -23,7 +23,7 @@ pub fn load(
     for name in &names {
         match plctest::load(name) {
             Ok(file) => files.push(file),
-            Err(error) => problems.push(error.to_string()),
+            Err(error) => problems.push(error.report()),
         }
     }
     if !problems.is_empty() {
