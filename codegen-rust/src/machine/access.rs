@@ -295,9 +295,10 @@ impl Generator<'_> {
         for field in fields.iter().filter(|field| field.kind.has_members()) {
             let pattern = self.pattern(field, true);
             let cell = Self::matched(field);
-            arms.extend(match field.kind {
-                Kind::Timer => quote!(#pattern => #cell.coil != 0,),
-                _ => quote!(#pattern => #cell.coil,),
+            arms.extend(if field.kind == Kind::Timer {
+                quote!(#pattern => #cell.coil != 0,)
+            } else {
+                quote!(#pattern => #cell.coil,)
             });
         }
         (!arms.is_empty()).then(|| {

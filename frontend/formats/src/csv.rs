@@ -100,9 +100,7 @@ fn headless(text: &str) -> Option<Layout> {
     };
     // The first of equals: a statement may be a word that is an instruction, too.
     let instruction = (0..width).rev().max_by_key(|&column| basic(column))?;
-    let Some(columns) = columns(instruction, width).filter(|_| basic(instruction) > 0) else {
-        return None;
-    };
+    let columns = columns(instruction, width).filter(|_| basic(instruction) > 0)?;
     Some(Layout {
         delimiter,
         columns,

@@ -59,12 +59,11 @@ impl Uses {
 /// The timer or counter that an RST or OUT names.
 fn used(resolved: &Resolved, i: usize) -> Option<(Basic, Device, Option<Index>)> {
     let basic = basic_of(resolved, i).filter(|basic| matches!(basic, Basic::Rst | Basic::Out))?;
-    match resolved.program.instrs[i].operands.first()?.kind {
-        OperandKind::Device(device, index) if matches!(device.class, T | C) => {
-            Some((basic, device, index))
-        }
-        _ => None,
-    }
+    let OperandKind::Device(device, index) = resolved.program.instrs[i].operands.first()?.kind
+    else {
+        return None;
+    };
+    matches!(device.class, T | C).then_some((basic, device, index))
 }
 
 /// Returns true if a scan passes both instructions, or none of them, as often.
@@ -108,9 +107,10 @@ impl Lowerer<'_> {
             *indexed |= index.is_some();
             let device = devices.entry((device.class, device.number)).or_default();
             for uses in [class, device] {
-                match basic {
-                    Basic::Rst => uses.resets.push(i),
-                    _ => uses.coils.push(i),
+                if basic == Basic::Rst {
+                    uses.resets.push(i);
+                } else {
+                    uses.coils.push(i);
                 }
             }
         }

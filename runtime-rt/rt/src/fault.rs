@@ -140,7 +140,7 @@ pub(crate) fn show_error(plc: &mut (impl Plc + ?Sized), relay: Relay, code: u16)
 /// Value of D8004 for an error relay: its number, in BCD.
 pub const fn relay_in_bcd(relay: Relay) -> i16 {
     let n = relay.0;
-    (n / 1000 % 10 << 12 | n / 100 % 10 << 8 | n / 10 % 10 << 4 | n % 10) as i16
+    ((n / 1000 % 10) << 12 | (n / 100 % 10) << 8 | (n / 10 % 10) << 4 | (n % 10)) as i16
 }
 
 /// Enters an error in the log (h1u-h2u-programming §8.2.2): its code after the others, the oldest of ten making place;
