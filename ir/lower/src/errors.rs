@@ -17,8 +17,8 @@ const LOG: [Register; 22] = D_LOGGED_HOURS.run();
 const ERRORS: [Relay; 8] = Relay(8060).run();
 
 impl Lowerer<'_> {
-    /// The operation errors of the last run are forgotten when RUN begins, on FX and L01S in each scan; their latches are
-    /// not.
+    /// The operation errors of the last run are forgotten when RUN begins, on FX and L01S in each scan; their latches
+    /// are not.
     pub(super) fn forget_errors(&mut self) {
         let relay = self.model.error_relay;
         let shown = self.keeps(relay) || self.sums_up_errors();

@@ -112,8 +112,8 @@ impl Timer {
         self.done
     }
 
-    /// Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it. The
-    /// contact of an accumulating one closes when its coil is executed next (FX0–FX2N programming manual 4.9.4).
+    /// Updates a free-running timer at END: with its coil on, it continues timing in a scan that did not execute it.
+    /// The contact of an accumulating one closes when its coil is executed next (FX0–FX2N programming manual 4.9.4).
     pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
         if self.coil != 0 {
             let done = self.done;

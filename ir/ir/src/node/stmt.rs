@@ -301,8 +301,8 @@ pub enum Action {
     Reset {
         /// The timer or counter.
         place: Place,
-        /// Of a counter: its coil counts as on, so the next execution of the coil does not count. Else the memory of the
-        /// coil stays as it is.
+        /// Of a counter: its coil counts as on, so the next execution of the coil does not count. Else the memory of
+        /// the coil stays as it is.
         holds: bool,
     },
     /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).

@@ -98,6 +98,21 @@ fn happen(machine: &mut Machine, hal: &mut VirtualHal, request: Request) {
     }
 }
 
+/// A scan, which WDT must let end.
+fn scan(
+    machine: &mut Machine,
+    hal: &mut VirtualHal,
+    now_ms: u32,
+    scan_us: u32,
+) -> Result<Answer, EngineError> {
+    hal.advance_to(now_ms);
+    machine.scan(hal, now_ms, scan_us);
+    match machine.is_endless() {
+        true => Err(EngineError::Endless(MOST_RESTARTS)),
+        false => Ok(Answer::Ok),
+    }
+}
+
 /// Answer to a request about outputs and their pulses; `None` for other requests.
 fn sent(machine: &mut Machine, request: Request) -> Option<i64> {
     Some(match request {
@@ -191,14 +206,7 @@ impl Engine for Interpreter<'_> {
             Request::Digest(class, first, count) => {
                 Answer::Value(digest(machine, class, first, count).value())
             }
-            Request::Scan { now_ms, scan_us } => {
-                hal.advance_to(now_ms);
-                machine.scan(hal, now_ms, scan_us);
-                if machine.is_endless() {
-                    return Err(EngineError::Endless(MOST_RESTARTS));
-                }
-                Answer::Ok
-            }
+            Request::Scan { now_ms, scan_us } => scan(machine, hal, now_ms, scan_us)?,
             Request::ConstantScan => Answer::value(Some(machine.constant_scan_ms().unwrap_or(0))),
             Request::Edge(..) | Request::Tick(_) | Request::Interrupts => {
                 happen(machine, hal, request);
