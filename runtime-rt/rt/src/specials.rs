@@ -22,7 +22,7 @@ impl RtFn {
     /// no hardware, and finds no devices but those that operands name.
     pub fn specials(self) -> Option<Specials> {
         // ANR looks for annunciators S, ZPUSH and ZPOP keep the index registers.
-        let others = matches!(self, RtFn::Anr | RtFn::Zpush | RtFn::Zpop);
+        let others = matches!(self, RtFn::Anr | RtFn::Zpush | RtFn::Zpop | RtFn::LogError);
         if self.needs() != Needs::default() || others {
             return None;
         }

@@ -23,16 +23,15 @@ impl Simulation<'_> {
             self.compare_to_come();
             return self.pass_idly(scan_ms);
         }
-        let mut compared = false;
         for left in (0..scan_ms).rev() {
             self.part_of_millisecond()?;
-            // What a test file sets comes after what it expects.
-            let sets = self.pending.peek().is_some_and(|s| s.at_ms == self.now_ms);
-            if !compared && (sets || left == 0) {
+            if left == 0 {
                 self.compare_to_come();
-                compared = true;
             }
-            self.apply_settings()?;
+            // A test file compares at the end of a scan's time, and sets after that.
+            if left == 0 || self.recorder.is_none() {
+                self.apply_settings()?;
+            }
             self.machine.take_interrupts(&mut self.hal);
             // The initial state of a scan is recorded as it leaves it.
             if left > 0 {
@@ -109,7 +108,7 @@ impl Simulation<'_> {
 
     /// Sets what is to be set now.
     pub(super) fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
-        while let Some(setting) = self.pending.next_if(|s| s.at_ms == self.now_ms) {
+        while let Some(setting) = self.pending.next_if(|s| s.at_ms <= self.now_ms) {
             self.hal.advance_to(self.now_ms as u32);
             rungc_sim::set(
                 &mut self.machine,
