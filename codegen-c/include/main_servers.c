@@ -235,7 +235,7 @@ static void accept_clients(size_t at)
             close(file);
             if (!server->is_full) {
                 server->is_full = true;
-                print(stderr, "PROGRAM: %s refuses %s: all %lu connections are in use (--clients allows more)\n", server->address, host, (unsigned long)server->limit);
+                print(stderr, "PROGRAM: %s rejects %s: all %lu connections are in use (--clients allows more)\n", server->address, host, (unsigned long)server->limit);
             }
             continue;
         }

@@ -1,5 +1,5 @@
-//! The error codes of PLCs that our models can show: in D8067 and D8061 of a running program, in the registers of serial
-//! ports, and those that an editor shows for a program that it refuses.
+//! The error codes of PLCs that our models can show: in D8067 and D8061 of a running program, in the registers of
+//! serial ports, and those that an editor shows for a program that it rejects.
 //!
 //! From the tables h1u-h2u-programming §8.1 and §5.7 (PID); those of FX from JY992D88101 and JY997D16601, which L01S
 //! follows: its manual prints none.

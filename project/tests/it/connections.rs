@@ -41,7 +41,7 @@ X007-X010 = "read b"
     assert_eq!(project.source.slice(why.span), "X777");
 }
 
-/// Executables read connections line by line, without a library for TOML. What they cannot read so they refuse: none of
+/// Executables read connections line by line, without a library for TOML. What they cannot read so they reject: none of
 /// the connections that rungc makes is left out.
 #[test]
 fn executables_connect_what_rungc_connects_or_refuse() {

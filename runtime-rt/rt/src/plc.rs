@@ -295,7 +295,7 @@ pub trait Plc {
     fn value_error(&self) -> u16 {
         crate::Fault::DEVICE.0
     }
-    /// Code of [`crate::Fault::MODULE`]. The table of codes that tells values from devices has 6750
+    /// Code of [`crate::Fault::MODULE`]. The table of codes that separates values from devices has 6750
     /// (h1u-h2u-programming §8.7); on FX and L01S it is the error of FROM and TO, 6708.
     fn module_error(&self) -> u16 {
         match self.value_error() == crate::Fault::VALUE.0 {

@@ -130,7 +130,7 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
 }
 
 /// Message of the TOML reader, in the words of TOML rather than of Rust; for an unknown field with the name that is
-/// meant, if it can be told.
+/// meant, if it is known.
 fn plain(message: &str) -> String {
     let unknown = message
         .strip_prefix("unknown field `")

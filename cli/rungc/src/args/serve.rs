@@ -26,7 +26,7 @@ pub struct ServeArgs {
     /// a line, as with --serial: `--fx pty`, `--fx /dev/ttyUSB0`.
     #[arg(long, value_name = "ADDRESS or DEVICE")]
     pub fx: Vec<FxEnd>,
-    /// Allow each server this many connections at once (default: 64). One more is refused, unless another one has been
+    /// Allow each server this many connections at once (default: 64). One more is rejected, unless another one has been
     /// silent for a minute.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=MAX_CLIENTS as i64), value_name = "N")]
     pub clients: Option<u16>,

@@ -1,4 +1,4 @@
-//! Input that nobody means: names of files that would act on what reads emitted code or on a terminal, and programs
+//! Input that no one means: names of files that would act on what reads emitted code or on a terminal, and programs
 //! without instructions.
 
 use crate::common::{folder, rungc, text};

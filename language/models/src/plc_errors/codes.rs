@@ -1,4 +1,4 @@
-//! Codes whose titles say all: those of serial ports, of hardware, and of programs that a PLC refuses.
+//! Codes whose titles say all: those of serial ports, of hardware, and of programs that a PLC rejects.
 
 use super::PlcError;
 use crate::ModelSet;
@@ -62,7 +62,7 @@ pub(super) static CODES: &[PlcError] = codes! {
     6108 H "the logic array's data were read too often";
     6109 H "flash memory holds no data of the logic array";
     6201 PORTS "programming port: parity, overrun or framing of a character";
-    6202 PORTS "programming port: a character that is no hexadecimal digit";
+    6202 PORTS "programming port: a character that is not a hexadecimal digit";
     6203 PORTS "programming port: the sum of a frame is wrong";
     6204 PORTS "programming port: a frame with a wrong form, or an address of no device";
     6205 PORTS "programming port: a command that does not exist";

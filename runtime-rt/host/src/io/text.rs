@@ -59,14 +59,15 @@ pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
 }
 
 /// How connections are written.
-const FORM: &str = "write each connection as a table of its own, `[io.NAME]`, with a key and its value in each line";
+const FORM: &str =
+    "write each connection as a separate table, `[io.NAME]`, with a key and its value in each line";
 
 /// Table that a line belongs to.
 #[derive(Clone, Copy)]
 enum Place<'a> {
     /// None: the beginning of the file.
     Root,
-    /// `[io]`, which has no keys of its own.
+    /// `[io]`, which has no keys itself.
     Io,
     /// `[io.NAME]`.
     Connection(&'a str),

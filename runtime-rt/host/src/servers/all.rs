@@ -56,7 +56,7 @@ impl Servers {
     }
 
     /// Carries out and answers the requests of clients since the last call; returns RUN or STOP if one has requested
-    /// it. Reports who stops or starts the PLC, and that a connection is refused.
+    /// it. Reports who stops or starts the PLC, and that a connection is rejected.
     pub fn poll(&mut self, plc: &mut dyn Plc, mut report: impl FnMut(&str)) -> Option<bool> {
         let mut request = None;
         for (n, Open { server, address }) in self.servers.iter_mut().enumerate() {
@@ -109,10 +109,10 @@ impl Servers {
     }
 }
 
-/// Message that a server refuses a client.
+/// Message that a server rejects a client.
 pub fn full(server: SocketAddr, client: SocketAddr, limits: Limits) -> String {
     format!(
-        "{server} refuses {}: all {} connections are in use (--clients allows more)",
+        "{server} rejects {}: all {} connections are in use (--clients allows more)",
         client.ip(),
         limits.clients
     )

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// Limits of a server's connections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Connections at once. One more is refused, unless another one is idle.
+    /// Connections at once. One more is rejected, unless another one is idle.
     pub clients: usize,
     /// Time after which a silent connection is idle, so that it gives way to a new one.
     pub idle: Duration,
@@ -47,7 +47,7 @@ pub struct Server {
 pub enum ServerEvent {
     /// A request and its answer.
     Exchange(Exchange),
-    /// A connection is refused, the first one since there was room.
+    /// A connection is rejected, the first one since there was room.
     Full,
 }
 

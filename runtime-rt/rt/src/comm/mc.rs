@@ -1,7 +1,7 @@
 //! MC protocol as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do), in binary and in ASCII.
 //! This is what SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the public
 //! descriptions of both frames (FX3U-ENET-ADP user's manual, chapter 7), and after what the libraries pymcprotocol,
-//! mcprotocol and fx3u-mcprotocol send. The first character of a request tells its frame and code apart.
+//! mcprotocol and fx3u-mcprotocol send. The first character of a request shows its frame and code.
 //!
 //! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The
 //! protocol has no authentication.
@@ -126,7 +126,7 @@ enum Refusal {
     Length,
     /// A value that is not allowed.
     Data,
-    /// A character that is no digit of a number in ASCII.
+    /// A character that is not a digit of a number in ASCII.
     Digit,
 }
 

@@ -17,7 +17,7 @@ const _: () = assert!(
         && tcp::LONGEST <= LONGEST_REQUEST
 );
 
-/// Connections that a host's server has at once, unless it is told otherwise.
+/// Connections that a host's server has at once, by default.
 pub const USUAL_CLIENTS: usize = 64;
 
 /// Maximum number of connections that a host's server may be allowed.

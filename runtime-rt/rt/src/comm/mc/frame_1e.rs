@@ -40,7 +40,7 @@ const TYPE_FX3U: u8 = 0xf3;
 /// Checks the first byte of a request.
 ///
 /// # Errors
-/// [`Refusal::Command`] if it is no command of this frame.
+/// [`Refusal::Command`] if it is not a command of this frame.
 pub(super) fn check_command(command: u32) -> Result<(), Refusal> {
     match u8::try_from(command) {
         Ok(READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK) => Ok(()),

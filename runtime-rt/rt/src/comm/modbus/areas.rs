@@ -235,7 +235,7 @@ pub static H2U: Profile = Profile {
 };
 
 impl Profile {
-    /// Returns true if coils of timers and counters have addresses of their own.
+    /// Returns true if coils of timers and counters have separate addresses.
     pub fn serves_coils(&self) -> bool {
         self.coils.iter().any(|area| area.fill == Fill::Coils)
     }
@@ -315,8 +315,8 @@ pub static FX3U: Profile = Profile {
     counters_by_06: true,
 };
 
-/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils of timers
-/// and counters, which the program drives, are only read.
+/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils of
+/// timers and counters, which the program drives, are only read.
 const HM_BITS: &[Area] = &[
     bits(0x0000, 256, Class::X, 0).read_only(),
     bits(0x0100, 256, Class::Y, 0),
