@@ -151,14 +151,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         Some(_) => "            PROGRAM_take_interrupts(plc);\n",
         None => "",
     };
-    let (missing, print_error, report) = match module.may_fail() {
-        true => (
-            missing_device(module, &fields),
-            PRINT_ERROR,
-            "    plc->on_error = print_error;\n",
-        ),
-        false => (String::new(), "", ""),
-    };
+    let (missing, print_error, report) = error_report(module, &fields);
     let (period, overrun) = match rungc_emit::cycle::constant_scan(module, &fields) {
         Some(_) => (CONSTANT_PERIOD, OVERRUN),
         None => (PERIOD, ""),
@@ -220,6 +213,18 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("    /* USAGE */\n", &usage(module, &host))
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
         .replace("    /* OUTPUTS */\n", &outputs(module, &fields))
+}
+
+/// Message of a missing device, function that prints an error, and the statement that has it called, if one can occur.
+fn error_report(module: &Module, fields: &Storage) -> (String, &'static str, &'static str) {
+    match module.may_fail() {
+        true => (
+            missing_device(module, fields),
+            PRINT_ERROR,
+            "    plc->on_error = print_error;\n",
+        ),
+        false => (String::new(), "", ""),
+    }
 }
 
 /// The cases of what is typed that set an input.

@@ -10,8 +10,8 @@ const FILE: &str = "page-token";
 /// Length of a token in characters: 128 bits as hexadecimal digits.
 const LENGTH: usize = 32;
 
-/// The token that a folder of the user keeps, so that the address of a page lives on over a restart; a new one the first
-/// time. Only the user can read it. Where it cannot be kept, each run has its own.
+/// The token that a folder of the user keeps, so that the address of a page lives on over a restart; a new one the
+/// first time. Only the user can read it. Where it cannot be kept, each run has its own.
 ///
 /// # Errors
 /// A system without random numbers.

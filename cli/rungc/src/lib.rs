@@ -95,8 +95,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown in
-/// messages, so what a terminal would act on in them is written out.
+/// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown
+/// in messages, so what a terminal would act on in them is written out.
 fn reject(error: &clap::Error) -> ! {
     let acts = |argument: OsString| {
         argument

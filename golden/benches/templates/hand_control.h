@@ -19,22 +19,27 @@ union loop {
   int16_t word[25];
 };
 
-/* The change of the output in each sampling time: h1u-h2u-programming, §4.3.9. The first time, it begins where the
- * output is. */
+enum { PID_OFF, PID_ON, PID_FRESH };
+
+/* The change of the output in each sampling time: h1u-h2u-programming, §4.3.9; as FX3 starts, the first sample begins
+ * where the output is and answers to the whole deviation. */
 static inline void pid_run(struct pid *c, int16_t target, int16_t measured, int16_t *output, uint32_t dt_ms) {
   const float sv = target, raw = measured;
   const bool reverse = c->action & 1;
   if (!c->started) {
     c->pv1 = c->pv2 = raw;
-    c->ev1 = reverse ? sv - raw : raw - sv;
-    c->mv = *output;
+    c->ev1 = 0.0f;
     c->raw_pv = measured;
-    c->started = 1;
+    c->started = PID_FRESH;
     return;
   }
   c->elapsed_ms = (uint16_t)(c->elapsed_ms + dt_ms);
   if (c->elapsed_ms < c->sample_ms) return;
   c->elapsed_ms = (uint16_t)(c->elapsed_ms - c->sample_ms);
+  if (c->started == PID_FRESH) {
+    c->started = PID_ON;
+    c->mv = *output;
+  }
   const float ts = c->sample_ms, ti = c->ti * 100.0f, td = c->td * 10.0f;
   const float pv = raw + c->filter / 100.0f * (c->pv1 - raw);
   const float ev = reverse ? sv - pv : pv - sv;

@@ -58,6 +58,17 @@ const NAMES: [(&str, &str); 46] = [
     ("SIZE", "RUNGC_MEMORY_SIZE"),
 ];
 
+/// What rungc.h defines, and limits of hosts' servers: data for emitted code, not for the library's users.
+const LEFT_OUT: [&str; 7] = [
+    "Sys",
+    "Timer",
+    "Counter16",
+    "Counter32",
+    "USUAL_CLIENTS",
+    "MAX_CLIENTS",
+    "IDLE_S",
+];
+
 const TOP: &str = "/*
  * rungc_rt.h: the runtime library of programs compiled by rungc. Made by cbindgen from runtime-rt; do not edit.
  *
@@ -100,18 +111,7 @@ pub fn make() -> Result<Made, Problem> {
         tab_width: 4,
         usize_is_size_t: true,
         export: ExportConfig {
-            // Limits of hosts' servers are data for emitted code, not for the library's users.
-            exclude: [
-                "Sys",
-                "Timer",
-                "Counter16",
-                "Counter32",
-                "USUAL_CLIENTS",
-                "MAX_CLIENTS",
-                "IDLE_S",
-            ]
-            .map(str::to_string)
-            .into(),
+            exclude: LEFT_OUT.map(str::to_string).into(),
             // Only the functions below take them, which cbindgen does not see: a macro makes them.
             include: ["Operand", "OperandKind", "Site", "Axis"]
                 .map(str::to_string)

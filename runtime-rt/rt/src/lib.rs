@@ -70,6 +70,7 @@ pub use edge::{Edge, EdgeKind};
 pub use fault::{
     Done, ErrorRules, Fault, LastError, Stop, log_error, relay_in_bcd, report, trip_watchdog,
 };
+pub use fnc::modules::Transfer;
 pub use hal::{CanBus, Clock, Hal, NoHal, SerialPort};
 pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, StoredRun, Sys};

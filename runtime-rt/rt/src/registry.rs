@@ -303,7 +303,7 @@ registry! {
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
     RunTime = system::run_time() [state, always];
-    LogError = system::log(n);
+    LogError = system::log_error(n);
     PowerSupply = supply::power_supply() [state, always, hal];
     AnalogInputs = system::analog_inputs() [always, hal];
     Potentiometers = system::potentiometers() [always, hal];

@@ -4,7 +4,7 @@ use crate::task::Task;
 use crate::trains::MOST_A_MS;
 use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk::statements;
-use rungc_rt::RtFn;
+use rungc_rt::{RtFn, Transfer};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
@@ -41,14 +41,15 @@ pub fn unvaried(task: &Task) -> Vec<String> {
 /// Influence on a function of the runtime from outside the program and its devices.
 fn source(function: RtFn) -> Option<&'static str> {
     use RtFn::{
-        AnalogInputs, ClockRefresh, ClockRefreshShort, ExchangeBoard, ExchangeModule, From,
-        FromHost, FromRemote, Potentiometers, PowerSupply, Rbfm, Rd3a, Rd3aBoard, Trd, TrdShort,
-        Vrrd, Vrsc,
+        AnalogInputs, ClockRefresh, ClockRefreshShort, ExchangeBoard, ExchangeModule,
+        Potentiometers, PowerSupply, Rd3a, Rd3aBoard, Trd, TrdShort, Vrrd, Vrsc,
     };
+    const MODULES: &str = "what special modules measure and answer";
+    if function.transfer() == Some(Transfer::FromModule) {
+        return Some(MODULES);
+    }
     Some(match function {
-        From | FromHost | FromRemote | Rd3a | Rd3aBoard | Rbfm | ExchangeModule | ExchangeBoard => {
-            "what special modules measure and answer"
-        }
+        Rd3a | Rd3aBoard | ExchangeModule | ExchangeBoard => MODULES,
         AnalogInputs => "analog inputs",
         Potentiometers | Vrrd | Vrsc => "potentiometers",
         Trd | TrdShort | ClockRefresh | ClockRefreshShort => {

@@ -136,15 +136,8 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let program_memory = served.and_then(|program| image::write(program).ok());
     let live = page(args, subject, &read, &module, &listed)?;
     let retain = retained(args, subject)?;
-    let recorder = match &args.record {
-        Some(path) => {
-            repeatable(args, subject, retain.is_some() || !connections.is_empty())?;
-            spare(path, args.force)?;
-            let files = (subject.file.as_path(), args.machine.as_deref());
-            Some(Recorder::begin(path, files, (&module, &watched)))
-        }
-        None => None,
-    };
+    let connected = retain.is_some() || !connections.is_empty();
+    let recorder = recorder(args, subject, connected, (&module, &watched))?;
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
@@ -161,6 +154,22 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         connections,
     };
     run.simulate(plant, live, recorder)
+}
+
+/// The recorder of a run that becomes a test.
+fn recorder(
+    args: &RunArgs,
+    subject: &Subject,
+    connected: bool,
+    watched: (&Module, &[Target]),
+) -> std::result::Result<Option<Recorder>, Failure> {
+    let Some(path) = &args.record else {
+        return Ok(None);
+    };
+    repeatable(args, subject, connected)?;
+    spare(path, args.force)?;
+    let files = (subject.file.as_path(), args.machine.as_deref());
+    Ok(Some(Recorder::begin(path, files, watched)))
 }
 
 /// Checks that a test can repeat the run: nothing but its settings and its machine acts on it.

@@ -455,7 +455,8 @@ impl Block<'_, '_, '_, '_> {
         Ok(())
     }
 
-    /// The input's edge starts the pulse unless there is one; the timer, which the start resets, ends it.
+    /// The input's edge starts the pulse unless there is one; the timer, which the start resets, ends it. ZRST resets it
+    /// at once, where RST would hold it for a scan.
     fn pulse(&mut self) -> Result<(), Failure> {
         let input = self.flow("IN")?;
         let (timer, output) = (self.main(), self.bit("Q"));
@@ -473,7 +474,7 @@ impl Block<'_, '_, '_, '_> {
         self.network(self.contact(true, timer.clone()), &end);
         let begin = [
             format_smolstr!("SET {output}"),
-            format_smolstr!("RST {timer}"),
+            format_smolstr!("ZRST {timer} {timer}"),
         ];
         self.network(self.contact(true, start), &begin);
         Ok(())

@@ -156,6 +156,7 @@ fn computer_link(variant: u8, bytes: &[u8], map: &mut dyn Map, reply: &mut Frame
         if let Some(request) = request(&frame, |part| computer_link::cut(settings, part)) {
             let _ = computer_link::answer(settings, &mut remote, request, map, reply);
         }
+        let _ = computer_link::answer_late(settings, &mut remote, &frame, map, reply);
     }
 }
 

@@ -18,6 +18,9 @@ const MC: (&[u8], &[u8]) = (&[1, 0xff, 10, 0, 0, 0, 0, 0, 0x20, 0x44, 1, 0], &[0
 const MC_3E: &[u8] = &[
     0x50, 0, 0, 0xff, 0xff, 3, 0, 12, 0, 16, 0, 1, 4, 0, 0, 100, 0, 0, 0xa8, 1, 0,
 ];
+/// The same two in ASCII.
+const MC_ASCII: &[u8] = b"01FF000A4420000000640100";
+const MC_3E_ASCII: &[u8] = b"500000FF03FF000018001004010000D*0001000001";
 
 fn target(
     name: &'static str,
@@ -60,7 +63,12 @@ pub(super) fn targets() -> [Target; 3] {
             MODBUS,
             &[MODBUS.0, write],
         ),
-        target("mc", ServerProtocol::Mc, MC, &[MC.0, MC_3E]),
+        target(
+            "mc",
+            ServerProtocol::Mc,
+            MC,
+            &[MC.0, MC_3E, MC_ASCII, MC_3E_ASCII],
+        ),
         target(
             "fx-over-tcp",
             ServerProtocol::ProgrammingPort,

@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 39] = [
+const READERS: [(&str, &str); 40] = [
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
     ("firmware/src/flash/uf2.rs read", "flash-file"),
@@ -127,6 +127,7 @@ const READERS: [(&str, &str); 39] = [
     ("runtime-rt/host/src/servers/dialogue.rs receive", "mc"),
     ("runtime-rt/rt/src/comm/can.rs parse", "decode-can"),
     ("runtime-rt/rt/src/comm/computer_link.rs answer", "decode-computer-link"),
+    ("runtime-rt/rt/src/comm/computer_link.rs answer_late", "decode-computer-link"),
     ("runtime-rt/rt/src/comm/computer_link/master.rs accept", "computer-link-master"),
     ("runtime-rt/rt/src/comm/fx_port.rs answer", "decode-programming-port"),
     ("runtime-rt/rt/src/comm/link.rs receive", "nn-slave"),

@@ -2,8 +2,8 @@
 
 use super::Code;
 use rungc_catalogue::{Lower, Role};
-use rungc_rt::RtFn;
 use rungc_rt::modules::{Access, Kind, Place};
+use rungc_rt::{RtFn, Transfer};
 use rungc_syntax::{Diagnostics, OperandKind, Span, codes};
 use std::ops::Range;
 
@@ -130,10 +130,9 @@ fn transferred(code: &Code, i: usize) -> Option<Words> {
     };
     let operands = &code.instr(i).operands;
     let constant = |n: usize| operands.get(n)?.kind.constant();
-    let (written, counted) = match function {
-        RtFn::From | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => (false, true),
-        RtFn::To | RtFn::ToHost | RtFn::ToRemote | RtFn::Wbfm => (true, true),
-        RtFn::Rd3a | RtFn::Wr3a => (false, false),
+    let (written, counted) = match (function, function.transfer()) {
+        (_, Some(transfer)) => (transfer == Transfer::ToModule, true),
+        (RtFn::Rd3a | RtFn::Wr3a, _) => (false, false),
         _ => return None,
     };
     let unit = operands.first()?;

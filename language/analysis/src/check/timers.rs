@@ -72,8 +72,8 @@ fn in_routines(
     }
 }
 
-/// The labels of subroutines that the main program calls in every scan: by a call under M8000 that no jump skips, outside
-/// of loops and states.
+/// The labels of subroutines that the main program calls in every scan: by a call under M8000 that no jump skips,
+/// outside of loops and states.
 fn called_in_every_scan(
     code: &Code,
     pointers: &Pointers,

@@ -5,8 +5,8 @@ use super::settings::{Connection, SettingError, overlap};
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
 ///
 /// # Errors
-/// The first mistake, with its line. What else TOML permits for connections, such as inline tables and dotted keys, is one:
-/// nothing that `rungc` would connect is left out in silence.
+/// The first mistake, with its line. What else TOML permits for connections, such as inline tables and dotted keys, is
+/// one: nothing that `rungc` would connect is left out in silence.
 pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
     let mut tables: Vec<Lines<'_>> = Vec::new();
     let mut place = Place::Root;

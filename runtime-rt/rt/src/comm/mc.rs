@@ -1,6 +1,6 @@
 //! MC protocol as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do), in binary and in ASCII.
-//! This is what SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the public
-//! descriptions of both frames (FX3U-ENET-ADP user's manual, chapter 7), and after what the libraries pymcprotocol,
+//! This is what SCADA packages, Node-RED and libraries speak over TCP; none of our manuals has it. It follows the
+//! public descriptions of both frames (FX3U-ENET-ADP user's manual, chapter 7) and what the libraries pymcprotocol,
 //! mcprotocol and fx3u-mcprotocol send. The first character of a request shows its frame and code.
 //!
 //! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The

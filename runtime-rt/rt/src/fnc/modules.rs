@@ -4,9 +4,35 @@ use crate::comm::can::{D_TIME_OUT, M_LATE};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
+use crate::registry::RtFn;
 use crate::special::{
     D_ANALOG_OUTPUTS, D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_COMPLETE, M_TRANSFER_COUNT,
 };
+
+/// Direction of a transfer between devices and the buffer memory of a module.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Transfer {
+    /// From the module to devices.
+    FromModule,
+    /// From devices to the module.
+    ToModule,
+}
+
+impl RtFn {
+    /// Direction in which the function transfers words of the module that its first operand names, from the address in
+    /// its second one on: FROM, TO, RBFM and WBFM of all models.
+    pub fn transfer(self) -> Option<Transfer> {
+        match self {
+            RtFn::From | RtFn::FromStated | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => {
+                Some(Transfer::FromModule)
+            }
+            RtFn::To | RtFn::ToStated | RtFn::ToHost | RtFn::ToRemote | RtFn::Wbfm => {
+                Some(Transfer::ToModule)
+            }
+            _ => None,
+        }
+    }
+}
 
 /// The run of terminals that operand 0 and the count in operand 1 name.
 fn terminals(cx: &Cx) -> Result<(Class, core::ops::Range<u16>), Fault> {
@@ -379,9 +405,23 @@ pub fn wbfm(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
+    use super::Transfer;
     use crate::double::{Double, reg};
     use crate::modules::Kind;
     use crate::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, d, k, kn};
+
+    #[test]
+    fn all_functions_named_after_from_and_to_transfer() {
+        for function in RtFn::ALL {
+            let direction = match function.name().split('_').next() {
+                Some("from" | "rbfm") => Some(Transfer::FromModule),
+                Some("to" | "wbfm") => Some(Transfer::ToModule),
+                _ => None,
+            };
+            let direction = direction.filter(|_| function.module() == "modules");
+            assert_eq!(function.transfer(), direction, "{}", function.name());
+        }
+    }
 
     #[test]
     fn words_and_pairs_from_and_to_a_module() {

@@ -21,7 +21,7 @@ pub fn run_time(cx: &mut Cx) -> Done {
 }
 
 /// An error that the program itself found enters the log.
-pub fn log(cx: &mut Cx) -> Done {
+pub fn log_error(cx: &mut Cx) -> Done {
     let code = cx.read(0)?;
     cx.log_error(code as u16);
     Ok(())

@@ -6,7 +6,7 @@ use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
 use rungc_ir::reach::of_action;
-use rungc_rt::RtFn;
+use rungc_rt::Transfer;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -111,8 +111,8 @@ impl Encoder<'_> {
             } => Some(value),
             _ => None,
         };
-        let (RtFn::From | RtFn::FromHost | RtFn::FromRemote, [unit, address, to, count]) =
-            (call.function, &call.args[..])
+        let (Some(Transfer::FromModule), [unit, address, to, count]) =
+            (call.function.transfer(), &call.args[..])
         else {
             return moved;
         };

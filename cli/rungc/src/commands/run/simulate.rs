@@ -148,10 +148,7 @@ impl Run<'_> {
             wall,
             pending: self.settings.iter().peekable(),
             shown: self.shown,
-            view: View::new(
-                self.shown.iter().map(|&t| column(t)).collect(),
-                args.end_ms().is_some(),
-            ),
+            view: self.view(),
             out: Table::new(
                 !self.table,
                 recording.is_some() || plotting.is_some() || scope.is_some(),
@@ -184,6 +181,12 @@ impl Run<'_> {
         }
         let outcome = simulation.run(args)?;
         simulation.end(args, outcome)
+    }
+
+    /// The view of the table.
+    fn view(&self) -> View {
+        let columns = self.shown.iter().map(|&target| column(target));
+        View::new(columns.collect(), self.args.end_ms().is_some())
     }
 
     /// The hardware, and what its real-time clock follows in a run that keeps step with it.

@@ -1,5 +1,5 @@
-//! Frame 1E: `command PC timer(2) …`, answered by `command + 80h, end code, data`. In ASCII each byte is two digits; bits
-//! of batches are a digit each, and a zero makes their number even.
+//! Frame 1E: `command PC timer(2) …`, answered by `command + 80h, end code, data`. In ASCII each byte is two digits;
+//! bits of batches are a digit each, and a zero makes their number even.
 
 use super::device::Device;
 use super::{Code, Fields, Refusal, Reply, points};
