@@ -455,8 +455,8 @@ impl Block<'_, '_, '_, '_> {
         Ok(())
     }
 
-    /// The input's edge starts the pulse unless there is one; the timer, which the start resets, ends it. ZRST resets it
-    /// at once, where RST would hold it for a scan.
+    /// The input's edge starts the pulse unless there is one; the timer, which the start resets, ends it. ZRST resets
+    /// it at once, where RST would hold it for a scan.
     fn pulse(&mut self) -> Result<(), Failure> {
         let input = self.flow("IN")?;
         let (timer, output) = (self.main(), self.bit("Q"));
