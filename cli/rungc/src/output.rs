@@ -257,15 +257,21 @@ impl AtomicFile {
 /// A file in the making, beside the one that it becomes. Its name means nothing to anybody.
 fn making(path: &Path, mode: u32) -> Result<NamedTempFile, Failure> {
     let folder = parent_dir(path);
-    if folder.exists() && !folder.is_dir() {
-        let (path, folder) = (path.display(), folder.display());
-        return Err(Failure::Because(format!(
-            "{path}: {folder} is not a folder"
-        )));
-    }
-    fs::create_dir_all(folder).map_err(|error| at(path, error))?;
+    make_folder(folder)?;
     let file = temporary(mode).tempfile_in(folder);
     file.map_err(|error| at(path, plain(error)))
+}
+
+/// Makes a folder, and those above it.
+///
+/// # Errors
+/// Something else has its name, or the system's error, with the folder's name.
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
+    if folder.exists() && !folder.is_dir() {
+        let why = format!("{} is not a folder", folder.display());
+        return Err(Failure::Because(why));
+    }
+    fs::create_dir_all(folder).map_err(|error| at(folder, error))
 }
 
 fn at(path: &Path, error: io::Error) -> Failure {

@@ -241,6 +241,16 @@ fn files_beside_an_output_are_outputs_too() {
     let output = rungc(at, &proof);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     assert_eq!(fs::read_to_string(cert.join("step.cnf")).unwrap(), "mine\n");
+    let proof = [
+        "verify",
+        "a.il",
+        "--never",
+        "Y001",
+        "--certificate",
+        "package.json",
+    ];
+    let said = text(&rungc(at, &proof).stderr);
+    assert!(said.contains("package.json is not a folder"), "{said}");
     // The table of the oscilloscope has the name of its drawing.
     let scope = [
         "run",

@@ -5,7 +5,7 @@
 
 use super::super::verify::test_file::{quoted, relative, table};
 use super::super::{Failure, parent_dir};
-use crate::output::write_file;
+use crate::output::{make_folder, write_file};
 use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_sim::engines::Interpreter;
@@ -13,7 +13,6 @@ use rungc_sim::plctest::{self, Suite};
 use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
-use std::fs;
 use std::mem;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -164,7 +163,7 @@ impl Recorder {
             self.write(&mut text, step, scan_ms);
         }
         // The test names its program from its own folder.
-        fs::create_dir_all(parent_dir(&self.path))?;
+        make_folder(parent_dir(&self.path))?;
         self.try_out(&text)?;
         write_file(&self.path, text.as_bytes(), force)
     }

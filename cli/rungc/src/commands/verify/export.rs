@@ -3,7 +3,7 @@
 use crate::args::VerifyArgs;
 use crate::commands::properties::RequestedProperty;
 use crate::commands::{Context, Failure, counted};
-use crate::output::{Kind, permit, write_file};
+use crate::output::{Kind, make_folder, permit, write_file};
 use rungc_ir::Module;
 use rungc_verify::certificate::Certificate;
 use rungc_verify::prove::{Options, system};
@@ -76,7 +76,7 @@ pub fn proofs(
         cx.note("     Nothing was proved, so no certificate is written");
         return Ok(());
     };
-    std::fs::create_dir_all(&**folder)?;
+    make_folder(folder)?;
     for (name, text) in &files {
         let path = folder.join(name);
         write_file(&path, text.as_bytes(), args.force)?;
