@@ -287,14 +287,16 @@ impl<L: Line> Loader<L> {
     /// Does something again when it was not understood, or the answer is missing.
     fn again<T>(&mut self, mut ask: impl FnMut(&mut Self) -> Answer<T>) -> Answer<T> {
         let mut attempt = 1;
+        let mut is_rejected = false;
         loop {
             match ask(self) {
                 Err(LoaderError::Line(error)) => return Err(error.into()),
                 // A command that is rejected twice was understood.
-                Err(LoaderError::Rejected(command)) if attempt > 1 => {
+                Err(LoaderError::Rejected(command)) if is_rejected => {
                     return Err(LoaderError::Rejected(command));
                 }
-                Err(_) if attempt < ATTEMPTS => {
+                Err(error) if attempt < ATTEMPTS => {
+                    is_rejected |= matches!(error, LoaderError::Rejected(_));
                     self.resynchronise()?;
                     attempt += 1;
                 }

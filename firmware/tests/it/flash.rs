@@ -183,6 +183,17 @@ fn disturbances_are_overcome() {
     }
 }
 
+/// Only a command that is rejected twice was understood: not one that is lost first.
+#[test]
+fn a_lost_write_that_is_then_rejected_is_written() {
+    let (result, part, _) = flashed(Part {
+        faults: vec![Fault::LoseByte(2), Fault::RejectWrite(3)],
+        ..Part::f103vc()
+    });
+    assert!(result.is_ok(), "{result:?}");
+    assert_eq!(part.flash[..5002], image().bytes);
+}
+
 #[test]
 fn what_fails_for_good_leaves_no_program() {
     for (fault, why) in [

@@ -20,11 +20,15 @@ async function print(page, name) {
   return (pdf.toString("latin1").match(/\/Type \/Page\b/g) ?? []).length;
 }
 
+// Bounds a hang only.
+const limit_ms = 300_000;
+
 // Opens the page in light colours; `use` gives the report.
 async function open(use) {
   const quiet = ["--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...quiet] });
+  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...quiet], timeout: limit_ms });
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  page.setDefaultTimeout(limit_ms);
   const requests = [];
   const errors = [];
   page.on("request", (request) => request.url() === page_url || requests.push(request.url()));

@@ -45,8 +45,8 @@ fn report(files: &[(&str, &[u8])], args: &[&str], page: &str, script: &str) -> O
     assert!(out.status.code() < Some(2), "{}", text(&out.stderr));
     let page = folder.path().canonicalize().unwrap().join(page);
     let mut report = chromium::report(&format!("file://{}", page.display()), script)?;
-    let loaded = report["loaded_ms"].take();
-    assert!(loaded.as_u64().is_some_and(|ms| ms < 10_000), "{loaded}");
+    // Benchmarks measure it.
+    report["loaded_ms"].take();
     Some(report)
 }
 
