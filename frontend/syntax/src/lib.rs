@@ -9,6 +9,7 @@ mod classes;
 pub mod codes;
 mod device;
 pub mod diag;
+pub mod family;
 pub mod inputs;
 mod program;
 mod source;

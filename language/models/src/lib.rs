@@ -15,4 +15,4 @@ pub mod times;
 mod variants;
 
 pub use model::*;
-pub use variants::{Plc, VARIANTS, Variant};
+pub use variants::{Plc, UnknownPlc, VARIANTS, Variant};

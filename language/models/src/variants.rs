@@ -3,9 +3,11 @@
 //! A model here is a family: H2U is what any H2U has. A program for a certain PLC of the family is held to what that
 //! one has.
 
-use crate::ModelId;
+use crate::{Model, ModelId};
 use rungc_rt::Register;
 use rungc_syntax::DeviceClass::{self, C, D, I, M};
+use rungc_syntax::diag::did_you_mean;
+use rungc_syntax::family::other_family;
 
 /// A PLC of a family: a variant, or a base unit with a number of terminals.
 #[derive(Debug, PartialEq, Eq)]
@@ -49,11 +51,56 @@ impl Plc {
         Some(Plc { model, variant })
     }
 
+    /// The model or variant with this name.
+    ///
+    /// # Errors
+    /// What is wrong with the name, and what to do.
+    pub fn named(name: &str) -> Result<Plc, UnknownPlc> {
+        Plc::find(name).ok_or_else(|| UnknownPlc::of(name))
+    }
+
     /// Any PLC of a model.
     pub const fn any(model: ModelId) -> Plc {
         Plc {
             model,
             variant: None,
+        }
+    }
+}
+
+/// A name that no PLC has.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct UnknownPlc {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl UnknownPlc {
+    fn of(name: &str) -> Self {
+        if let Some(family) = other_family(name) {
+            return UnknownPlc {
+                message: format!("`{name}` is a CPU of {family}, which is not supported"),
+                help: "rungc compiles programs of the FX family, up to FX3".to_string(),
+            };
+        }
+        let names = ModelId::ALL.map(|id| Model::get(id).name).into_iter();
+        let names = names.chain(VARIANTS.each_ref().map(|variant| variant.name));
+        let lower = name.to_lowercase();
+        let near = did_you_mean(&lower, names).filter(|near| near.len() > 1);
+        let help = match (ModelId::from_cpu(name), near) {
+            (Some(nearest), _) => format!("the nearest model is `{}`", Model::get(nearest).name),
+            (None, Some(near)) => format!("did you mean `{near}`?"),
+            (None, None) => format!(
+                "models: {}; variants: {}",
+                ModelId::names(),
+                Variant::names()
+            ),
+        };
+        UnknownPlc {
+            message: format!("unknown model `{name}`"),
+            help,
         }
     }
 }

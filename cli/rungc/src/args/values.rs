@@ -2,7 +2,7 @@
 
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::Encoding;
-use rungc_models::{ModelId, Plc, Variant};
+use rungc_models::{ModelId, Plc};
 use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
 use std::ops::RangeInclusive;
 
@@ -90,17 +90,9 @@ pub(super) fn target(name: &str) -> Result<&'static Target, String> {
 }
 
 pub(super) fn plc(name: &str) -> Result<Plc, String> {
-    let unknown = || format!("{}; variants: {}", unknown_model(name), Variant::names());
-    Plc::find(name).ok_or_else(unknown)
+    Plc::named(name).map_err(|unknown| format!("{}; {}", unknown.message, unknown.help))
 }
 
 pub(super) fn model(name: &str) -> Result<ModelId, String> {
-    ModelId::from_name(name).ok_or_else(|| unknown_model(name))
-}
-
-fn unknown_model(name: &str) -> String {
-    let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
-        format!("; the nearest is {}", rungc_models::Model::get(id).name)
-    });
-    format!("unknown model{nearest}; available: {}", ModelId::names())
+    plc(name).map(|plc| plc.model)
 }

@@ -2,7 +2,8 @@
 
 use crate::Read;
 use crate::listing::Listing;
-use rungc_syntax::{Diagnostics, Program, SourceKind, codes};
+use rungc_syntax::family::other_family as other_family_of;
+use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 
 /// The high byte of the FX family's numbers.
 const FX: u16 = 0x02;
@@ -114,15 +115,8 @@ fn is_other(word: &str) -> bool {
     let known = CPUS
         .iter()
         .any(|&(code, name)| code >> 8 != FX && name == word && !name.starts_with('L'));
-    let numbered = |family: &str| {
-        word.strip_prefix(family)
-            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-    };
-    word.starts_with("FX5")
-        || known
-        || ["Q", "R", "QS", "NZ2GACP", "LJ72MS"]
-            .into_iter()
-            .any(numbered)
+    let special = ["NZ2GACP", "LJ72MS"];
+    known || other_family_of(&word).is_some() || special.iter().any(|name| word.starts_with(name))
 }
 
 /// Returns true for the CPU of a list that is not for the FX family: one of another family of MELSEC.
@@ -136,23 +130,24 @@ pub(crate) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
     (!is_fx(cpu)).then(|| other_family(file, kind, cpu))
 }
 
+/// That a program is for a CPU of another family.
+pub(crate) fn rejection(span: Span, what: &str, cpu: &str) -> Diagnostic {
+    let message = format!("the {what} is for the CPU {cpu}, which is not one of the FX family");
+    codes::OTHER_FAMILY
+        .at(span, message)
+        .label(format!("the CPU of the {what}"))
+        .help(
+            "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC",
+        )
+}
+
 pub(crate) fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
     let what = if kind.is_project() { "project" } else { "list" };
     let mut listing = Listing::default();
     listing.next_line();
     let span = listing.word(&format!("?? CPU {cpu}"));
     let mut diagnostics = Diagnostics::new();
-    diagnostics.push(
-        codes::OTHER_FAMILY
-            .at(
-                span,
-                format!("the {what} is for the CPU {cpu}, which is not one of the FX family"),
-            )
-            .label(format!("the CPU of the {what}"))
-            .help(
-                "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC",
-            ),
-    );
+    diagnostics.push(rejection(span, what, cpu));
     Read {
         program: Program {
             source: listing.finish(file),

@@ -1,10 +1,11 @@
 //! Errors in a line, and their messages.
 
+use super::grammar;
 use chumsky::input::{Checkpoint, Cursor, Input};
 use chumsky::inspector::Inspector;
 use chumsky::span::SimpleSpan;
 use rungc_syntax::diag::did_you_mean;
-use rungc_syntax::{DeviceClass, Diagnostic, Fix, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Fix, OperandKind, Span, codes};
 
 /// A finding of the grammar, at a range of the folded line.
 #[derive(Clone, Copy, Debug)]
@@ -273,16 +274,25 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             .help(format!("write for example `{prefix}10`"));
     }
     let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not a valid operand"));
-    if let Some((what, meant)) = other_notation(&upper) {
+    let accepted = |meant: &String| is_operand(meant);
+    if let Some((what, meant)) = other_notation(&upper).filter(|(_, meant)| is_operand(meant)) {
         let fix = Fix::certain(format!("write `{meant}`")).replace(span, meant.as_str());
         return error.label(what).help(format!("write `{meant}`")).fix(fix);
     }
     if let Ok(number) = upper.parse::<i64>() {
-        return error.label("a number without its kind").help(format!(
-            "write `K{number}` for a decimal constant, `H{upper}` for a hexadecimal one"
-        ));
+        let decimal = Some(format!("K{number}")).filter(accepted);
+        let hexadecimal = Some(format!("H{upper}")).filter(accepted);
+        let help = match (decimal, hexadecimal) {
+            (None, None) => return Kind::Decimal.too_large(span, text),
+            (Some(k), None) => format!("write `{k}` for a decimal constant"),
+            (None, Some(h)) => format!("write `{h}` for a hexadecimal constant"),
+            (Some(k), Some(h)) => {
+                format!("write `{k}` for a decimal constant, `{h}` for a hexadecimal one")
+            }
+        };
+        return error.label("a number without its kind").help(help);
     }
-    if let Some(meant) = mistyped_digit(&upper) {
+    if let Some(meant) = mistyped_digit(&upper).filter(accepted) {
         return error
             .label("a letter where a digit is expected")
             .help(format!("did you mean `{meant}`?"))
@@ -304,13 +314,25 @@ fn operand(span: Span, text: &str) -> Diagnostic {
                     .help("export the list of the compiled program, or write the device that the label stands for");
             }
             let classes = DeviceClass::ALL.map(DeviceClass::prefix);
-            let help = match did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1)) {
-                Some(meant) if !rest.is_empty() => format!("did you mean `{meant}{rest}`?"),
-                _ => format!("devices are {}; constants start with K, H or E; text is quoted", classes.join(", ")),
+            let near = did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1));
+            let help = match near.map(|near| format!("{near}{rest}")).filter(accepted) {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => format!("devices are {}; constants start with K, H or E; text is quoted", classes.join(", ")),
             };
             error.label("neither a device nor a constant").help(help)
         }
     }
+}
+
+/// Returns true for a text that is read as an operand: what a message proposes is accepted.
+fn is_operand(text: &str) -> bool {
+    let line = format!("LD {text}");
+    let mut faults = Faults::default();
+    let instr = grammar::parse(&grammar::line(), &line, &mut faults).and_then(|line| line.instr);
+    let operands = instr.map(|body| body.operands).unwrap_or_default();
+    faults.is_empty()
+        && operands.len() == 1
+        && !matches!(operands[0].kind, OperandKind::Unreadable(_))
 }
 
 /// Counterpart of another language's notation: its meaning there, and the spelling here.

@@ -19,6 +19,7 @@ mod jumps;
 pub(crate) mod windows;
 
 use crate::Read;
+use crate::gx::cpu;
 use crate::text::{append, clean};
 use fault::Faults;
 use fold::Folded;
@@ -157,7 +158,8 @@ impl Reader {
             }
         } else if let Some(text) = note {
             let property = comment.and_then(|c| c.strip_prefix('!'));
-            if !property.is_some_and(|property| self.property(property)) {
+            let end = begin + original.len() as u32;
+            if !property.is_some_and(|property| self.property(property, end)) {
                 append(&mut self.statement, text);
             }
         }
@@ -183,13 +185,18 @@ impl Reader {
         });
     }
 
-    /// Takes a property of the program; returns whether it is one.
-    fn property(&mut self, text: &str) -> bool {
-        let Some((key, value)) = text.split_once('=') else {
+    /// Takes a property of the program, whose text ends at `end`; returns whether it is one.
+    fn property(&mut self, text: &str, end: u32) -> bool {
+        let Some((key, written)) = text.split_once('=') else {
             return false;
         };
-        let (key, value) = (key.trim(), clean(value).map(String::from));
+        let (key, value) = (key.trim(), clean(written).map(String::from));
         if key.eq_ignore_ascii_case("cpu") {
+            if let Some(cpu) = value.as_deref().filter(|cpu| cpu::is_other_family(cpu)) {
+                let start = end - written.trim_start().len() as u32;
+                let span = Span::new(start, start + written.trim().len() as u32);
+                self.diagnostics.push(cpu::rejection(span, "list", cpu));
+            }
             self.program.cpu = value;
         } else if key.eq_ignore_ascii_case("title") {
             self.program.title = value;

@@ -70,6 +70,81 @@ fn operands_with_impossible_numbers() {
     insta::assert_snapshot!(findings(&read_text("a.il", text)));
 }
 
+/// Texts between back quotes.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+/// A message that proposes an operand proposes one that is read.
+#[test]
+fn operands_that_messages_propose_are_accepted() {
+    let codes = |operand: &str| {
+        let read = read_text("a.il", &format!("MOV {operand} D0\nEND\n"));
+        let found = read.diagnostics.clone().sorted();
+        found
+            .into_iter()
+            .map(|d| d.code.to_string())
+            .collect::<Vec<_>>()
+    };
+    let numbers = [
+        "5",
+        "10",
+        "19",
+        "0",
+        "99999",
+        "4294967295",
+        "99999999999",
+        "1.5",
+        ".5",
+        "1e3",
+        "1.5e3",
+        "FF",
+        "12345678F",
+    ];
+    let around = [
+        "", "+", "-", "0x", "16#", "$", "&H", "#", "4X", "9M", "4M", "K+", "H-", "E+", "XO", "DL",
+        "ZRI", "RE", "XI", "DO",
+    ];
+    let (mut wrong, mut proposed) = (0, 0);
+    for before in around {
+        for number in numbers {
+            for after in ["", "h", "O", "l"] {
+                let operand = format!("{before}{number}{after}");
+                let read = read_text("a.il", &format!("MOV {operand} D0\nEND\n"));
+                for found in read.diagnostics.clone().sorted() {
+                    if found.code != "E0002" {
+                        continue;
+                    }
+                    wrong += 1;
+                    for proposal in quoted(found.help.as_deref().unwrap_or_default()) {
+                        proposed += 1;
+                        assert!(codes(proposal).is_empty(), "{operand}: {proposal}");
+                    }
+                    for edit in found.fix.iter().flat_map(|fix| &fix.edits) {
+                        assert!(codes(&edit.text).is_empty(), "{operand}: {}", edit.text);
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong > 200 && proposed > 200, "{wrong} {proposed}");
+    for (operand, help) in [
+        ("-5", "write `K-5` for a decimal constant"),
+        ("+5", "write `K5` for a decimal constant"),
+        ("4294967295", "write `H4294967295`"),
+        (
+            "5",
+            "write `K5` for a decimal constant, `H5` for a hexadecimal one",
+        ),
+    ] {
+        let read = read_text("a.il", &format!("MOV {operand} D0\nEND\n"));
+        let found = read.diagnostics.clone().sorted();
+        let given = found[0].help.as_deref().unwrap_or_default();
+        let is_big = found[0].code != "E0002" && operand.len() > 8;
+        assert!(is_big || given == help, "{operand}: {given}");
+    }
+}
+
 #[test]
 fn one_bad_line_hides_nothing() {
     let text = "LD X0 Q1 X9 \"open\nＯＵＴ　Ｙ００８　；灯\nMOV K99999999999 H123456789 K0M0\n\"text\" first\nEND\n";

@@ -381,9 +381,12 @@ impl Rungs<'_, '_> {
                         self.code.instr(i).mnemonic
                     ),
                 )
-                .label("is connected directly to the bus")
+                .label("must be connected directly to the bus")
                 .other(self.code.span(start), "these contacts drive nothing")
-                .help("end the rung with a coil before it, or delete these contacts"),
+                .help(match self.code.basic(i) {
+                    Some(Basic::For) => "end the rung with a coil before it, or jump over the loop with CJ if it is to run under a condition",
+                    _ => "end the rung with a coil before it, or delete these contacts",
+                }),
             None => codes::NO_COIL
                 .at(self.code.span(start), "these contacts drive nothing")
                 .label("the result of this block is lost")

@@ -139,3 +139,26 @@ fn examples_resolve_without_errors() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// Where an instruction takes whole numbers, a message names the one for floats and how the constant is written.
+#[test]
+fn floats_that_messages_propose_are_accepted() {
+    for text in [
+        "1.5", "-5.5", "+1.5", ".5", "5.", "1.5e3", "-1.5E-3", "1.5e+30",
+    ] {
+        let read = read_text("test", &format!("LD X0\nDMOV {text} D0\nEND\n"));
+        let (_, found) = resolve(&read.program, Model::get(ModelId::Fx3u));
+        let found = found.sorted();
+        let help = found[0].help.as_deref().unwrap_or_default();
+        let quoted: Vec<_> = help.split('`').skip(1).step_by(2).collect();
+        let [mnemonic, constant] = quoted[..] else {
+            panic!("{text}: {help}");
+        };
+        let read = read_text("test", &format!("LD X0\n{mnemonic} {constant} D0\nEND\n"));
+        let (_, after) = resolve(&read.program, Model::get(ModelId::Fx3u));
+        assert!(
+            !after.has_errors() && !read.diagnostics.has_errors(),
+            "{text}: {help}"
+        );
+    }
+}

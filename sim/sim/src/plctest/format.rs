@@ -100,8 +100,8 @@ impl Reader<'_> {
     }
 
     fn plc(&mut self, name: &Spanned<String>) -> Plc {
-        Plc::find(name.get_ref()).unwrap_or_else(|| {
-            let message = format!("unknown model `{}`", name.get_ref());
+        Plc::named(name.get_ref()).unwrap_or_else(|unknown| {
+            let message = format!("{}: {}", unknown.message, unknown.help);
             self.report(name.span().start, message);
             Plc::any(ModelId::Fx3u)
         })

@@ -277,7 +277,7 @@ name = "a"
 program = "END"
 "#;
         insta::assert_snapshot!(problems_of(text), @r#"
-        t.plctest.toml:1:9: unknown model `h3u`
+        t.plctest.toml:1:9: `h3u` is a CPU of Inovance H3U, which is not supported: rungc compiles programs of the FX family, up to FX3
         t.plctest.toml:6:15: the value of `D0` must be a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
         t.plctest.toml:6:22: `X009`: `X` is followed by an octal number
         t.plctest.toml:6:37: the value of `M0` must be 0 or 1
