@@ -58,6 +58,8 @@ pub struct ReadOptions {
     pub encoding: Option<&'static Encoding>,
     /// Of a GX Works2 project, read the compiled program rather than its source.
     pub compiled: bool,
+    /// State of a GX Works2 project of which the user says that its compiled program is as new as its source.
+    pub compiled_state: Option<String>,
     /// Take a file of unknown format for an image of program memory.
     pub image: bool,
     /// The devices of variables of PLCopen XML.

@@ -181,6 +181,50 @@ fn structured_text_is_read_as_compiled() {
     insta::assert_snapshot!("nothing_compiled_on_purpose", reported(&parts, &compiled()));
 }
 
+/// A note about the age of the compiled program is answered for one state of the project, by its own words.
+#[test]
+fn the_age_of_a_compiled_program_can_be_confirmed() {
+    let parts = |code: &[&[u8]], text: &str| {
+        let mut parts = simple("FX3G", code);
+        replace(&mut parts, "MAIN.Program.pou", structured_text(8, text));
+        project(&parts)
+    };
+    let found = |project: &[u8], state: Option<&str>| {
+        let options = ReadOptions {
+            compiled_state: state.map(str::to_string),
+            ..ReadOptions::default()
+        };
+        let read = read_bytes_with("press.gxw", project, &options).unwrap();
+        let found = read.diagnostics.iter().next().expect("a note");
+        (
+            found.code,
+            found.help.as_deref().unwrap_or_default().to_string(),
+        )
+    };
+    let this = parts(OLD, "Y2 := NOT x2;");
+    let (code, help) = found(&this, None);
+    assert_eq!(code, "N0012");
+    let state = help.split('"').nth(1).expect("a state");
+    assert_eq!(found(&this, Some(state)).0, "N0010");
+    assert_eq!(found(&this, Some("0123456789abcdef")).0, "N0012");
+    // The next change of the source or of the compiled program is another state.
+    let changed = parts(OLD, "Y2 := NOT X2 ;");
+    assert_eq!(found(&changed, Some(state)).0, "N0012");
+    let compiled: &[&[u8]] = &[
+        &[0x01],
+        &[0x9C, 2],
+        &[0x20],
+        &[0x9D, 2],
+        &[0x20],
+        &[0x9D, 3],
+        &[0x34],
+    ];
+    assert_eq!(
+        found(&parts(compiled, "Y2 := NOT x2;"), Some(state)).0,
+        "N0012"
+    );
+}
+
 #[test]
 fn drawings_and_labels_are_read_as_compiled() {
     for (source, what) in [

@@ -19,12 +19,6 @@ super::codes! {
     wrong: "",
     right: "";
 
-    AGE_UNKNOWN = "W0521" "compiled-age-unknown" Warning None,
-    "the compiled program may be older than its source",
-    "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read in the form that GX Works2 compiled them to. Nothing in the project contradicts that this happened after the last change, but nothing proves it either: the stored times are those of the program file's creation. If the source was changed since, choose Compile > Rebuild All in GX Works2 and save. The warning remains, because the file looks the same afterwards; `-A W0521` suppresses it, and a compiled program that contradicts its source is still rejected (E0022).",
-    wrong: "",
-    right: "";
-
     RECOVERED = "W0522" "recovered" Warning None,
     "the project's parts were found by their content",
     "The directory of a GX Works2 project, or a part that it lists, cannot be read. The program was found by its bytes instead: the longest undamaged one is used, which may be an older version.",
@@ -58,6 +52,12 @@ super::codes! {
     POU_NOT_RUN = "N0011" "pou-not-run" Note None,
     "program parts that no task runs",
     "Neither a task nor another POU names these POUs of the project, so they are not part of the program.",
+    wrong: "",
+    right: "";
+
+    AGE_UNKNOWN = "N0012" "compiled-age-unknown" Note None,
+    "the compiled program may be older than its source",
+    "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read in the form that GX Works2 compiled them to. Nothing in the project contradicts that this happened after the last change, but nothing proves it either: the stored times are those of the program file's creation. If the source was changed since, choose Compile > Rebuild All in GX Works2 and save. The file looks the same afterwards, so say in rungc.toml that this state of it is compiled: `[project] compiled = \"…\"`, with the number that the note shows. After the next change of the source, or of the compiled program, the number is another one, and the note comes back. A compiled program that contradicts its source is rejected (E0022) in any case.",
     wrong: "",
     right: "";
 }

@@ -318,7 +318,12 @@ impl<'o> Works<'o> {
                 as_compiled()
             }
             Age::Unknown => {
-                found.push(age_unknown(&what));
+                let state = state(code, &sources);
+                let is_confirmed = self.options.compiled_state.as_deref() == Some(&state);
+                found.push(match is_confirmed {
+                    true => shown_as_compiled(format!("{what}: it is shown as compiled")),
+                    false => age_unknown(&what, &state),
+                });
                 as_compiled()
             }
             Age::Older(why) => {
@@ -518,13 +523,24 @@ fn shown_as_compiled(message: String) -> Diagnostic {
         .help("steps and automatically assigned devices are those of the last compilation")
 }
 
-fn age_unknown(what: &str) -> Diagnostic {
+/// Number of a state of a project: FNV-1a of the compiled program and its sources.
+fn state(code: &[u8], sources: &[Source]) -> String {
+    let sources = sources.iter();
+    let parts = sources.map(|(part, pou)| &part.bytes[pou.start..pou.end]);
+    let bytes = std::iter::once(code).chain(parts).flatten();
+    let hash = bytes.fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+fn age_unknown(what: &str, state: &str) -> Diagnostic {
     let message = format!("{what}: it is shown as compiled, which may be older than its source");
     codes::AGE_UNKNOWN
         .at(Span::default(), message)
         .label("the compiled program starts here")
         .help(format!(
-            "if the source was changed since, {REBUILD}; `-A W0521` suppresses this warning"
+            "if the source was changed since, {REBUILD}; then add `compiled = \"{state}\"` to `[project]` of rungc.toml"
         ))
 }
 
