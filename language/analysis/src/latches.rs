@@ -137,13 +137,15 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
             ),
         }
     }
-    let capacity = parameters.capacity.filter(|&steps| steps > model.max_steps);
+    let capacity = parameters
+        .capacity
+        .filter(|&steps| steps > model.memory_steps);
     if let Some(steps) = capacity {
         let message = format!(
             "the parameters set a memory of {steps} steps, but {} has {}",
-            model.name, model.max_steps
+            model.name, model.memory_steps
         );
-        warn(message, format!("{} steps are used", model.max_steps));
+        warn(message, format!("{} steps are used", model.memory_steps));
     }
     out
 }
@@ -201,5 +203,26 @@ mod tests {
         let wide = program(&[(M, 400, 2000)]);
         assert_eq!(latched_of(&wide, ModelId::Fx2n, M), [(400, 3071)]);
         assert_eq!(latched_of(&chosen, ModelId::Fx1n, M), [(384, 1535)]);
+    }
+
+    #[test]
+    fn memory_may_be_larger_than_a_program() {
+        for model in ModelId::ALL.map(Model::get) {
+            assert!(model.memory_steps >= model.max_steps, "{}", model.name);
+            for (capacity, expected) in [(model.memory_steps, 0), (model.memory_steps + 500, 1)] {
+                let program = Program {
+                    parameters: Some(Parameters {
+                        capacity: Some(capacity),
+                        ..Parameters::default()
+                    }),
+                    ..Program::default()
+                };
+                let found = check(&program, model).iter().count();
+                assert_eq!(found, expected, "{} {capacity}", model.name);
+            }
+        }
+        // 16,000 steps, of which 4,000 are for the program.
+        let fx3s = Model::get(ModelId::Fx3s);
+        assert_eq!((fx3s.memory_steps, fx3s.max_steps), (16000, 4000));
     }
 }

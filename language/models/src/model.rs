@@ -207,6 +207,9 @@ pub struct Model {
     pub end_pointer: Option<u32>,
     /// Program capacity in steps.
     pub max_steps: u32,
+    /// Memory capacity in steps, which a program shares with comments and file registers: more than the program can
+    /// have on FX3S (FX3S hardware manual, performance specifications).
+    pub memory_steps: u32,
     /// Execution times of instructions on the real PLC; `None` if none are published.
     pub instruction_times: Option<InstructionTimes>,
     /// True if a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.

@@ -41,6 +41,7 @@ pub(super) const FX1S: Model = Model {
     timers: FX1S_TIMERS,
     fast_timers: Some(M8028),
     max_steps: 2000,
+    memory_steps: 2000,
     instruction_times: Some(TIMES),
     special: &[
         mitsubishi::ALL,
@@ -68,6 +69,7 @@ pub(super) const FX1N: Model = Model {
     timers: FX_TIMERS,
     latch_choices: &[],
     max_steps: 8000,
+    memory_steps: 8000,
     instruction_times: Some(TIMES),
     pulses: Pulses::Fx1,
     notations: Classes::NONE,

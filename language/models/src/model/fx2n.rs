@@ -46,6 +46,7 @@ pub(super) const FX2N: Model = Model {
     keeps_contacts: true,
     end_pointer: Some(63),
     max_steps: 16000,
+    memory_steps: 16000,
     instruction_times: Some(TIMES),
     z_pairs_with_v: true,
     error_relay: M_OPERATION_ERROR,

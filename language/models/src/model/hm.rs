@@ -32,6 +32,7 @@ pub(super) const HM: Model = Model {
     keeps_contacts: false,
     end_pointer: None,
     max_steps: 12000,
+    memory_steps: 12000,
     instruction_times: None,
     z_pairs_with_v: false,
     error_relay: Relay(8006),

@@ -52,6 +52,7 @@ pub(super) const L01S: Model = Model {
     timers: TIMERS,
     latch_choices: &[],
     max_steps: 30000,
+    memory_steps: 30000,
     instruction_times: Some(TIMES),
     rst_holds_in_interrupts: false,
     error_numbers: ErrorNumbers::No,
