@@ -1,6 +1,6 @@
 //! `[io.NAME]`: what the terminals and registers of a running program are connected to.
 
-use crate::{Error, Project};
+use crate::{Error, Project, Range};
 use rungc_host::io::Connection;
 use rungc_models::Model;
 use rungc_models::runs::name_class;
@@ -44,7 +44,7 @@ impl Project {
         connected.collect()
     }
 
-    /// Shows a program what is read and written outside it: by connections, by what `[serve]` names, and by the fault
+    /// Shows a program what is read and written outside it: by connections, by clients and panels, and by the fault
     /// device of `[retain]`.
     pub(crate) fn add_external(&self, program: &mut Program) {
         let rows = self.io.iter().flat_map(|row| &row.connection.rows);
@@ -62,15 +62,11 @@ impl Project {
 
     /// Devices named by `[serve]`.
     fn served(&self) -> impl Iterator<Item = DeviceRun> {
-        self.serve.devices.iter().map(|range| DeviceRun {
-            class: range.class,
-            first: range.first,
-            count: range.last - range.first + 1,
-        })
+        self.serve.devices.iter().map(Range::run)
     }
 
     /// Devices that are written from outside the program while it runs, with the table of the settings that states it:
-    /// those that connections read, fault devices, and those named by `[serve]`.
+    /// those that connections read, fault devices, and those named by `[serve]` and `[hmi]`.
     pub fn written_externally(&self) -> Vec<(&'static str, DeviceRun)> {
         let mut written = Vec::new();
         for Connected { connection, .. } in &self.io {
@@ -81,12 +77,12 @@ impl Project {
             written.extend(rows.chain(fault).map(|run| ("[io]", run)));
         }
         written.extend(self.served().map(|run| ("[serve]", run)));
-        let fault = self.retain_fault.iter().map(|fault| DeviceRun {
-            class: fault.class,
-            first: fault.first,
-            count: 1,
-        });
-        written.extend(fault.map(|run| ("[retain]", run)));
+        written.extend(self.hmi.iter().map(|range| ("[hmi]", range.run())));
+        written.extend(
+            self.retain_fault
+                .iter()
+                .map(|fault| ("[retain]", fault.run())),
+        );
         written
     }
 
@@ -116,13 +112,7 @@ impl Project {
                 }
             }
         }
-        match &self.retain_fault {
-            Some(fault) if !model.has(fault.class, fault.first) => {
-                let device = fault.class.number(fault.first);
-                let message = format!("{device} does not exist on {}", model.title);
-                Err(self.error(codes::PROJECT_VALUE.at(fault.span, message)))
-            }
-            _ => Ok(()),
-        }
+        let mut faults = self.retain_fault.iter();
+        faults.try_for_each(|fault| self.exists(fault, model))
     }
 }

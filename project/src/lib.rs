@@ -20,7 +20,9 @@ mod template;
 use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, Names, ReadOptions};
 use rungc_models::{ModelId, Variant};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs};
+use rungc_syntax::{
+    DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs,
+};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -49,6 +51,8 @@ pub struct Project {
     pub name: Option<String>,
     /// Encoding of texts that are not Unicode: `[project] encoding`.
     pub encoding: Option<&'static Encoding>,
+    /// State of the program, a GX Works2 project, that is compiled: `[project] compiled`.
+    pub compiled: Option<String>,
     /// `[check]`
     pub check: Check,
     /// `[build]`
@@ -80,6 +84,8 @@ pub struct Project {
     pub plcopen: Names,
     /// `[serve]`: servers and serial lines of a running program, and devices that it serves.
     pub serve: serve::Serve,
+    /// `[hmi] writes`: devices that operator panels write.
+    pub hmi: Vec<Range>,
     /// `[io]`: what terminals and registers of a running program are connected to.
     pub io: Vec<connections::Connected>,
 }
@@ -181,6 +187,17 @@ pub enum Error {
     },
 }
 
+impl Range {
+    /// The devices as a run.
+    pub fn run(&self) -> DeviceRun {
+        DeviceRun {
+            class: self.class,
+            first: self.first,
+            count: self.last - self.first + 1,
+        }
+    }
+}
+
 impl Project {
     /// The file that is for a program or a folder: in its own folder, else in the nearest one above.
     pub fn find(path: &Path) -> Option<PathBuf> {
@@ -240,6 +257,11 @@ impl Project {
     pub fn error(&self, why: Diagnostic) -> Error {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(why);
+        self.invalid(diagnostics)
+    }
+
+    /// That several values do not fit.
+    pub fn invalid(&self, diagnostics: Diagnostics) -> Error {
         Error::Invalid {
             path: self.path.clone(),
             text: Box::new(self.source.clone()),
@@ -253,6 +275,7 @@ impl Project {
             learned: self.learned.clone(),
             encoding: self.encoding,
             names: self.plcopen.clone(),
+            compiled_state: self.compiled.clone(),
             ..ReadOptions::default()
         }
     }

@@ -33,6 +33,9 @@ impl Project {
         if self.is_about(file) {
             self.add_table(program, model)?;
             self.add_station(program, model)?;
+            for range in self.hmi.iter().chain(&self.verify.free) {
+                self.exists(range, model)?;
+            }
             self.add_external(program);
         }
         if self.latched.is_empty() {
@@ -45,11 +48,7 @@ impl Project {
         let parameters = program.parameters.get_or_insert_default();
         let others = parameters.latched.take().unwrap_or_else(|| usual(model));
         let others = others.into_iter().filter(|run| !named.contains(&run.class));
-        let own = self.latched.iter().map(|run| DeviceRun {
-            class: run.class,
-            first: run.first,
-            count: run.last - run.first + 1,
-        });
+        let own = self.latched.iter().map(Range::run);
         parameters.latched = Some(own.chain(others).collect());
         Ok(())
     }

@@ -41,6 +41,30 @@ pub enum PropertyKind {
     },
 }
 
+impl PropertyKind {
+    /// The conditions.
+    pub fn conditions(&self) -> Vec<&Named> {
+        match self {
+            PropertyKind::Never(only)
+            | PropertyKind::Always(only)
+            | PropertyKind::Reachable(only) => vec![only],
+            PropertyKind::Whenever { when, then, .. } => vec![when, then],
+            PropertyKind::Stays { holds, until } => [Some(holds), until.as_ref()]
+                .into_iter()
+                .flatten()
+                .collect(),
+        }
+    }
+
+    /// The time limit.
+    pub fn within(&self) -> Option<&Named> {
+        match self {
+            PropertyKind::Whenever { within, .. } => within.as_ref(),
+            _ => None,
+        }
+    }
+}
+
 /// `[verify]`
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Verify {

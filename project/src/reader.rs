@@ -15,7 +15,7 @@ use io::IO;
 use modbus::MODBUS;
 use module::MODULE;
 use property::PROPERTY;
-use rungc_models::{Model, ModelId, Plc};
+use rungc_models::Plc;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
 use std::ops::{Range, RangeInclusive};
@@ -24,8 +24,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 16] = [
-    ("project", &["program", "model", "name", "encoding"]),
+const TABLES: [(&str, &[&str]); 17] = [
+    (
+        "project",
+        &["program", "model", "name", "encoding", "compiled"],
+    ),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
     ("test", &["files", "engine"]),
@@ -35,6 +38,7 @@ const TABLES: [(&str, &[&str]); 16] = [
     ("retain", &["file", "fault"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
+    ("hmi", &["writes"]),
     (IO, &[]),
     ("verify", &["assume", "free", "scan", "timeout"]),
     (MODBUS, &[]),
@@ -166,6 +170,7 @@ impl Reader {
                     project.retain_fault = self.fault(table);
                 }
                 "serve" => self.serve(table, project),
+                "hmi" => self.hmi(table, project),
                 IO => self.io(table, project),
                 "verify" => self.verify(table, project),
                 "plcopen" => self.plcopen(table, project),
@@ -312,11 +317,26 @@ impl Reader {
     fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
         project.program = self.path(table, "program");
         if let Some(name) = self.get(table, "model") {
-            let plc = Plc::find(&name.text);
-            project.variant = plc.and_then(|plc| plc.variant);
-            project.model = plc.map(|plc| plc.model).or_else(|| self.model(&name));
+            match Plc::named(&name.text) {
+                Ok(plc) => (project.model, project.variant) = (Some(plc.model), plc.variant),
+                Err(unknown) => self.wrong(name.span, unknown.message, &unknown.help),
+            }
         }
         project.name = self.get(table, "name").map(|name| name.text);
+        project.compiled = self.get(table, "compiled").and_then(|state| {
+            let is_state =
+                |text: &str| text.len() == 16 && text.bytes().all(|b| b.is_ascii_hexdigit());
+            let found = is_state(&state.text).then(|| state.text.to_lowercase());
+            if found.is_none() {
+                let message = format!("`{}` is not the state of a project", state.text);
+                self.wrong(
+                    state.span,
+                    message,
+                    "copy the 16 digits that note N0012 shows",
+                );
+            }
+            found
+        });
         project.encoding = self.get(table, "encoding").and_then(|name| {
             let encoding = Encoding::for_label(name.text.as_bytes());
             if encoding.is_none() {
@@ -327,16 +347,6 @@ impl Reader {
             }
             encoding
         });
-    }
-
-    fn model(&mut self, name: &Named) -> Option<ModelId> {
-        let model = ModelId::from_name(&name.text);
-        if model.is_none() {
-            let names: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
-            let message = format!("unknown model `{}`", name.text);
-            self.wrong(name.span, message, &hint(&name.text.to_lowercase(), &names));
-        }
-        model
     }
 
     fn check(&mut self, table: &DeTable<'_>, project: &mut Project) {
@@ -568,15 +578,56 @@ impl Reader {
         }
     }
 
+    /// `writes = "D70-D79"`, or a list of such ranges.
+    fn hmi(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        for range in self.devices(table, "writes", "D70-D79") {
+            if SERVED.contains(&range.class) {
+                project.hmi.push(range);
+                continue;
+            }
+            let letters: Vec<_> = SERVED.iter().map(|class| class.prefix()).collect();
+            let message = format!("a panel writes devices {}", letters.join(", "));
+            self.wrong(range.span, message, "");
+        }
+    }
+
+    /// Ranges of devices of any class: one, or a list of them.
+    fn devices(&mut self, table: &DeTable<'_>, key: &str, example: &str) -> Vec<DeviceRange> {
+        let mut ranges = Vec::new();
+        for named in self.one_or_more(table, key) {
+            match device::range(&named.text.to_uppercase()) {
+                Some((class, first, last)) => ranges.push(DeviceRange {
+                    class,
+                    first,
+                    last,
+                    span: named.span,
+                }),
+                None => {
+                    let message = format!("`{}` names no devices", named.text);
+                    self.wrong(
+                        named.span,
+                        message,
+                        &format!("write for example `{example}`"),
+                    );
+                }
+            }
+        }
+        ranges
+    }
+
+    /// A text, or a list of them.
+    fn one_or_more(&mut self, table: &DeTable<'_>, key: &str) -> Vec<Named> {
+        match table.get(key) {
+            Some(value) if value.get_ref().is_array() => self.list(table, key),
+            Some(value) => self.text(key, value).into_iter().collect(),
+            None => Vec::new(),
+        }
+    }
+
     /// Ranges of devices of a class: one, or a list of them.
     fn ranges(&mut self, table: &DeTable<'_>, class: DeviceClass) -> Vec<DeviceRange> {
-        let letters = class.prefix();
-        let named = match table.get(letters) {
-            Some(value) if value.get_ref().is_array() => self.list(table, letters),
-            Some(value) => self.text(letters, value).into_iter().collect(),
-            None => return Vec::new(),
-        };
-        let ranges = named.into_iter().filter_map(|named| {
+        let named = self.one_or_more(table, class.prefix()).into_iter();
+        let ranges = named.filter_map(|named| {
             let (first, last) = self.range(&named, class)?;
             Some(DeviceRange {
                 class,

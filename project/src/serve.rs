@@ -310,15 +310,19 @@ impl Project {
                 return Err(self.error(why.help(help)));
             }
         }
-        for range in &self.serve.devices {
-            let mut numbers = range.first..=range.last;
-            if let Some(missing) = numbers.find(|&number| !model.has(range.class, number)) {
-                let device = range.class.number(missing);
-                let message = format!("{device} does not exist on {}", model.title);
-                return Err(self.error(codes::PROJECT_VALUE.at(range.span, message)));
-            }
-        }
-        Ok(())
+        let mut ranges = self.serve.devices.iter();
+        ranges.try_for_each(|range| self.exists(range, model))
+    }
+
+    /// Checks that a model has these devices.
+    pub(crate) fn exists(&self, range: &Range, model: &Model) -> Result<(), Error> {
+        let mut numbers = range.first..=range.last;
+        let Some(missing) = numbers.find(|&number| !model.has(range.class, number)) else {
+            return Ok(());
+        };
+        let device = range.class.number(missing);
+        let message = format!("{device} does not exist on {}", model.title);
+        Err(self.error(codes::PROJECT_VALUE.at(range.span, message)))
     }
 }
 

@@ -83,6 +83,10 @@ deny = []
 # kind = "FX2N-4AD"
 
 {PROPERTIES}
+# Devices that operator panels write: to checks and proofs, they may change at any time.
+# [hmi]
+# writes = "D70-D79"
+
 # What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
 # [serve]
 # modbus-tcp = "127.0.0.1:5020"

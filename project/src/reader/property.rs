@@ -1,8 +1,8 @@
 //! `[[property]]` and `[verify]`.
 
 use super::{Reader, Value, listed};
+use crate::Project;
 use crate::property::{PropertyKind, Row};
-use crate::{Project, Range, device};
 use rungc_syntax::Span;
 use toml::de::DeTable;
 
@@ -68,19 +68,6 @@ impl Reader {
         project.verify.assume = self.list(table, "assume");
         project.verify.scan = self.get(table, "scan");
         project.verify.timeout = self.get(table, "timeout");
-        for named in self.list(table, "free") {
-            match device::range(&named.text.to_uppercase()) {
-                Some((class, first, last)) => project.verify.free.push(Range {
-                    class,
-                    first,
-                    last,
-                    span: named.span,
-                }),
-                None => {
-                    let message = format!("`{}` names no devices", named.text);
-                    self.wrong(named.span, message, "write for example `M100-M115`");
-                }
-            }
-        }
+        project.verify.free = self.devices(table, "free", "M100-M115");
     }
 }

@@ -49,6 +49,9 @@ fx = "5556"
 serial = { COM1 = "/dev/ttyUSB0", COM2 = "tcp:gateway:4001" }
 D = "D0-D511"
 Y = ["Y000-Y017"]
+
+[hmi]
+writes = ["D70-D79", "M100"]
 "#;
 
 fn every_setting() -> Project {
@@ -114,6 +117,29 @@ fn settings_of_servers_are_read() {
     let expected = ["COM1=/dev/ttyUSB0", "COM2=tcp:gateway:4001"];
     assert_eq!(lines, expected.map(|line| line.parse().unwrap()));
     assert_eq!(serve.stored().count(), 512 + 16);
+}
+
+#[test]
+fn what_a_panel_writes_is_read() {
+    let written = |text: &str| {
+        let written = parse(text).unwrap().written_externally();
+        let written = written.iter().map(|(by, run)| format!("{by} {run}"));
+        written.collect::<Vec<_>>()
+    };
+    assert_eq!(written("[hmi]\nwrites = 'd70-D79'\n"), ["[hmi] D70-D79"]);
+    assert_eq!(
+        written("[hmi]\nwrites = ['M100', 'X000-X007']\n"),
+        ["[hmi] M100", "[hmi] X000-X007"]
+    );
+    assert_eq!(every_setting().hmi.len(), 2);
+    insta::assert_snapshot!(
+        "hmi",
+        [
+            mistakes("[hmi]\nwrites = ['pump', 'D9-D5', 'P3', 7, 'K5', '']\nreads = 'D5'\n"),
+            mistakes("[hmi]\nwrites = 7\n"),
+        ]
+        .concat()
+    );
 }
 
 #[test]

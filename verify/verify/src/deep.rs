@@ -5,7 +5,7 @@
 //! a run that the interpreter has confirmed.
 
 use crate::aig::Lit;
-use crate::model::{Encoder, Key, Probes, World};
+use crate::model::{Encoder, Key, Probes, World, device_of, is_settable};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
 use crate::random::{Lanes, Random};
@@ -15,6 +15,7 @@ use crate::system::System;
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
+use rungc_models::runs::is_special;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -69,6 +70,8 @@ pub struct Finding {
     pub network: u32,
     /// Evidence for it.
     pub evidence: Evidence,
+    /// Devices that nothing but the program may write, or the proof does not hold; of what a run shows, none.
+    pub untouched: Vec<(DeviceClass, u32)>,
 }
 
 /// All that was found.
@@ -124,13 +127,19 @@ const INDUCTION: usize = 3;
 /// Number of successive changes that make an output one that oscillates.
 const CHANGES: usize = 6;
 
-/// Looks for what can never happen, within this time.
-pub fn look(module: &Module, time: Duration) -> Report {
-    let begin = Instant::now();
-    let world = World {
+/// Assumptions about the environment of the program, whose devices in `free` may be written from outside: none about
+/// the time of a scan.
+pub fn world(free: BTreeSet<(DeviceClass, u32)>) -> World {
+    World {
         scan_ms: FOREVER_MS,
+        free,
         ..World::default()
-    };
+    }
+}
+
+/// Looks for what can never happen in a world, within this time.
+pub fn look(module: &Module, world: World, time: Duration) -> Report {
+    let begin = Instant::now();
     let encoder = Encoder::scan_probed(module, world);
     let system = encoder.system(Lit::FALSE);
     let mut candidates = candidates(&encoder);
@@ -148,15 +157,14 @@ pub fn look(module: &Module, time: Duration) -> Report {
             report.open += 1;
             continue;
         }
-        match never(
-            &system.about(candidate.happens),
-            (now + PROOF).min(begin + time),
-        ) {
+        let about = system.about(candidate.happens);
+        match never(&about, (now + PROOF).min(begin + time)) {
             Answer::Proved(evidence) => report.findings.push(Finding {
                 kind: candidate.kind.clone(),
                 device: candidate.device,
                 network: candidate.network,
                 evidence,
+                untouched: untouched(&about, candidate.device),
             }),
             Answer::Possible => {}
             Answer::Open => report.open += 1,
@@ -164,6 +172,14 @@ pub fn look(module: &Module, time: Duration) -> Report {
     }
     report.findings.sort_by_key(|finding| finding.network);
     report
+}
+
+/// Devices other than the one in question whose values a proof depends on and that something else could write.
+fn untouched(system: &System, of: Option<(DeviceClass, u32)>) -> Vec<(DeviceClass, u32)> {
+    let keys = system.latches.iter().map(|latch| latch.key);
+    let devices = keys.filter(|key| is_settable(*key)).filter_map(device_of);
+    let others = devices.filter(|device| Some(*device) != of && !is_special(device.0, device.1));
+    BTreeSet::from_iter(others).into_iter().collect()
 }
 
 /// Events that a program provides for.
@@ -207,7 +223,7 @@ fn bits(encoder: &Encoder, probes: &Probes, reached: &impl Fn(u32) -> Lit) -> Ve
     for (&(class, number), written) in &probes.bits {
         let key = Key::Bit(class, number);
         let begins_off = encoder.initial(key) == Some(0) && !encoder.is_free(key);
-        if !begins_off || rungc_models::runs::is_special(class, number) {
+        if !begins_off || is_special(class, number) {
             continue;
         }
         let kind = match class {
@@ -310,6 +326,7 @@ fn simulate(
                         device: Some((DeviceClass::Y, number)),
                         network,
                         evidence: Evidence::Trace(trace),
+                        untouched: Vec::new(),
                     }));
                     new
                 })

@@ -199,7 +199,7 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 }
 
 /// A time, in milliseconds, in which every timer expires.
-pub(crate) const FOREVER_MS: u32 = 4_000_000;
+pub const FOREVER_MS: u32 = 4_000_000;
 
 /// Initial time for each way, and its factor in the next round.
 const ROUND: (Duration, u32) = (Duration::from_millis(500), 4);

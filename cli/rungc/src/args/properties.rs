@@ -5,7 +5,7 @@ use clap::Args;
 use rungc_syntax::DeviceClass;
 
 /// Properties of a program, and assumptions about its environment.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub struct Properties {
     /// A condition that must not hold after any scan: `"Y000 & Y001"`. Devices are named as in test files
     /// (docs/src/prove.md) or by their comments; `!`, `&`, `|` and comparisons (`D0 > 100`) combine them. May be

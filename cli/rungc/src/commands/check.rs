@@ -4,8 +4,10 @@ pub(super) mod deep;
 pub(super) mod draw;
 
 use super::subject::{self, Subject};
-use super::{Context, Result, conclude, counted, findings, fix, grouped, ports, read};
-use crate::args::CheckArgs;
+use super::{
+    Context, Failure, Result, conclude, counted, findings, fix, grouped, ports, properties, read,
+};
+use crate::args::{CheckArgs, Properties};
 use crate::report::Reporter;
 use rungc_lower::compile;
 use rungc_models::Model;
@@ -26,17 +28,20 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
 fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Context) -> Result {
     let start = Instant::now();
     let read = read(subject, reporter)?;
+    check_properties(subject, &read.program, reporter, cx)?;
     let checked = compile::check(&read.program, &subject.options());
     let mut findings = findings(subject, &read, &checked);
+    let mut assumptions = Vec::new();
     if args.deep && !findings.failed() {
-        let (found, open) = deep::findings(subject, &read, &checked);
-        if open > 0 {
-            let open = counted(open, "question");
+        let found = deep::findings(subject, &read, &checked);
+        if found.open > 0 {
+            let open = counted(found.open, "question");
             cx.note(&format!(
                 "        Open {open} of --deep: not decided in time"
             ));
         }
-        findings.add(found, &subject.reporting);
+        assumptions = found.assumptions;
+        findings.add(found.diagnostics, &subject.reporting);
     }
     if (args.draw || args.deep) && reporter.is_for_people() {
         findings.drawn = draw::networks(&read.program, checked.model, &findings.diagnostics);
@@ -49,7 +54,7 @@ fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Conte
     }
     let elapsed = start.elapsed();
     let name = findings.name(reporter.many());
-    conclude(&findings, reporter, cx, || {
+    let outcome = conclude(&findings, reporter, cx, || {
         format!(
             "    Checked {name} ({}, {}, {}) in {} ms",
             checked.model.name.to_uppercase(),
@@ -57,13 +62,45 @@ fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Conte
             counted(devices(&read.program), "device"),
             elapsed.as_millis()
         )
-    })
+    })?;
+    if !assumptions.is_empty() {
+        cx.note("      Proved for this model under these assumptions:");
+        for line in assumptions {
+            cx.note(&format!("             - {line}"));
+        }
+    }
+    Ok(outcome)
+}
+
+/// Reports properties of the settings that `verify` could not decide.
+fn check_properties(
+    subject: &Subject,
+    program: &Program,
+    reporter: &mut Reporter,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let properties = properties::Reader {
+        args: &Properties::default(),
+        subject,
+        program,
+        cx,
+    };
+    let mistakes = properties.mistakes();
+    match subject.own_project() {
+        Some(project) if mistakes.has_errors() => {
+            let invalid = project.invalid(mistakes);
+            subject::report_invalid(invalid, &subject.reporting, reporter)?;
+            Err(Failure::Reported)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// PLC parameters of a project, as lines.
 fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
     let mut lines = Vec::new();
     if let (Some(capacity), Some(steps)) = (parameters.capacity, parameters.program_steps()) {
+        let steps = steps.min(model.max_steps);
         let (capacity, steps) = (counted(capacity as usize, "step"), grouped(steps as usize));
         lines.push(format!(
             "      Memory {capacity}, of which {steps} for the program"

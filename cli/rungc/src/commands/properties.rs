@@ -14,14 +14,20 @@ use rungc_models::Model;
 use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
-use rungc_syntax::{DeviceClass, Diagnostic, OperandKind, Program};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program};
 use rungc_verify::property::{Condition, ParseError, Property, parse};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 
 type Result<T> = std::result::Result<T, Failure>;
 
 /// The longest time from one scan to the next, in milliseconds: after that, the watchdog stops most models.
 const SCAN_MS: u64 = 200;
+
+/// Times that a scan may take at most, in milliseconds.
+const SCANS_MS: RangeInclusive<u32> = 1..=32_767;
+
+const WRONG_SCAN: &str = "the longest time from one scan to the next is 1ms to 32767ms";
 
 /// Devices that may be written from outside the program, beside terminals.
 #[derive(Default)]
@@ -30,9 +36,38 @@ pub struct ExternalWrites {
     pub devices: BTreeMap<(DeviceClass, u32), &'static str>,
     /// True if the settings name servers, whose clients could write other devices, too.
     pub has_clients: bool,
+    /// True if the command has an option that names devices.
+    pub has_option: bool,
 }
 
 impl ExternalWrites {
+    /// Devices named by `--free`, if the command has it, and by the settings of the program's project.
+    pub fn of(free: Option<&[(DeviceClass, u32, u32)]>, project: Option<&Project>) -> Self {
+        let mut external = ExternalWrites {
+            has_option: free.is_some(),
+            ..ExternalWrites::default()
+        };
+        let devices = &mut external.devices;
+        let mut add = |by: &'static str, class, numbers: RangeInclusive<u32>| {
+            for number in numbers.filter(|_| class != DeviceClass::X) {
+                devices.entry((class, number)).or_insert(by);
+            }
+        };
+        for &(class, first, last) in free.unwrap_or_default() {
+            add("--free", class, first..=last);
+        }
+        if let Some(project) = project {
+            for range in &project.verify.free {
+                add("[verify]", range.class, range.first..=range.last);
+            }
+            for (by, run) in project.written_externally() {
+                add(by, run.class, run.first..=run.first + run.count - 1);
+            }
+            external.has_clients = project.serve.any();
+        }
+        external
+    }
+
     /// Sources that name the devices, each once.
     pub fn sources(&self) -> Vec<&'static str> {
         BTreeSet::from_iter(self.devices.values().copied())
@@ -100,37 +135,41 @@ impl Reader<'_> {
     pub fn scan_ms(&self) -> Result<u32> {
         let named = self.project().and_then(|p| p.verify.scan.as_ref());
         let scan = self.chosen(self.args.scan, named, SCAN_MS)?;
-        let scan_ms = u32::try_from(scan).ok();
-        scan_ms
-            .filter(|ms| (1..=32_767).contains(ms))
-            .ok_or_else(|| {
-                let why = "the longest time from one scan to the next is 1ms to 32767ms";
-                Failure::Because(why.to_string())
-            })
+        let ms = u32::try_from(scan).ok().filter(|ms| SCANS_MS.contains(ms));
+        ms.ok_or_else(|| Failure::Because(WRONG_SCAN.to_string()))
+    }
+
+    /// Mistakes in the properties and assumptions of the settings.
+    pub fn mistakes(&self) -> Diagnostics {
+        let mut found = Diagnostics::new();
+        let Some(project) = self.project() else {
+            return found;
+        };
+        let (rows, verify) = (&project.properties, &project.verify);
+        let conditions = rows.iter().flat_map(|row| row.kind.conditions());
+        for named in conditions.chain(&verify.assume) {
+            if let Err(error) = self.parse(&named.text) {
+                found.push(named.error(error.why));
+            }
+        }
+        let within = rows.iter().filter_map(|row| row.kind.within());
+        for named in within.chain(&verify.timeout).chain(&verify.scan) {
+            if let Err(why) = crate::time::parse(&named.text) {
+                found.push(named.error(why));
+            }
+        }
+        if let Some(named) = &verify.scan
+            && let Ok(ms) = crate::time::parse(&named.text)
+            && !SCANS_MS.contains(&u32::try_from(ms).unwrap_or(u32::MAX))
+        {
+            found.push(named.error(WRONG_SCAN));
+        }
+        found
     }
 
     /// Devices that may be written from outside the program, by the command line and the settings.
     pub fn external(&self) -> ExternalWrites {
-        let mut external = ExternalWrites::default();
-        let devices = &mut external.devices;
-        let mut add = |by: &'static str, class, numbers: std::ops::RangeInclusive<u32>| {
-            for number in numbers.filter(|_| class != DeviceClass::X) {
-                devices.entry((class, number)).or_insert(by);
-            }
-        };
-        for &(class, first, last) in &self.args.free {
-            add("--free", class, first..=last);
-        }
-        if let Some(project) = self.project() {
-            for range in &project.verify.free {
-                add("[verify]", range.class, range.first..=range.last);
-            }
-            for (by, run) in project.written_externally() {
-                add(by, run.class, run.first..=run.first + run.count - 1);
-            }
-            external.has_clients = project.serve.any();
-        }
-        external
+        ExternalWrites::of(Some(&self.args.free), self.project())
     }
 
     /// A time in milliseconds: that of the command line, else that of the settings, else the usual one.
@@ -158,13 +197,22 @@ impl Reader<'_> {
 
     fn parse(&self, text: &str) -> std::result::Result<Condition, ParseError> {
         let plain = |text: &str| text.trim().to_lowercase();
-        parse(text, &|name| {
+        let condition = parse(text, &|name| {
             let named = self.program.comments.iter();
             let named = named.filter(|(_, comment)| plain(comment) == plain(name));
             named
                 .filter_map(|(device, _)| Target::parse(&device.to_string()).ok())
                 .collect()
-        })
+        })?;
+        let model = rungc_lower::compile::model(self.program, &self.subject.options());
+        let mut devices = condition.devices().into_iter();
+        match devices.find(|&(class, number)| !model.has(class, number)) {
+            None => Ok(condition),
+            Some((class, number)) => Err(ParseError {
+                at: 0,
+                why: format!("{} does not exist on {}", class.number(number), model.title),
+            }),
+        }
     }
 
     /// A condition of the command line.

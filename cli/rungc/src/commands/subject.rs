@@ -110,6 +110,7 @@ impl Projects<'_> {
         let mut options = self.reading.options();
         if let Some(usual) = project.as_ref().map(|project| project.reading()) {
             options.learned = usual.learned;
+            options.compiled_state = usual.compiled_state;
             options.encoding = options.encoding.or(usual.encoding);
             let given = std::mem::replace(&mut options.names, usual.names);
             options.names.devices.extend(given.devices);

@@ -462,3 +462,171 @@ END
         text(&output.stderr)
     );
 }
+
+/// A machine with a mode in D70, which a panel chooses.
+const MODES: &str = "\
+;! cpu = FX1N
+LD M8002
+RST D70
+LD= D70 K3
+OUT M20
+LD M20
+OUT Y000
+LD<> D70 K0
+OUT Y001
+END
+";
+
+/// Settings that name D70 as written from outside, each in its own way.
+const WRITTEN: [&str; 5] = [
+    "[hmi]\nwrites = \"D70-D79\"\n",
+    "[hmi]\nwrites = [\"M5\", \"d70\"]\n",
+    "[serve]\nD = \"D70\"\n",
+    "[verify]\nfree = [\"D70\"]\n",
+    "[io.panel]\nfiles = \".\"\nD70 = \"read mode\"\n",
+];
+
+#[test]
+fn what_a_panel_may_write_is_not_proved() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    let run = |args: &[&str]| {
+        let output = rungc(folder.path(), args);
+        let code = output.status.code();
+        (code, text(&output.stdout) + &text(&output.stderr))
+    };
+    let commands: [(&[&str], i32, i32); 3] = [
+        (&["check", "--deep", "modes.il", "-D", "never-on"], 1, 0),
+        (
+            &["verify", "modes.il", "--never", "M20", "--replay", "interp"],
+            0,
+            1,
+        ),
+        (
+            &[
+                "explore", "modes.il", "--never", "Y000", "--scans", "4000", "--first",
+            ],
+            0,
+            1,
+        ),
+    ];
+    for (command, alone, _) in commands {
+        let (code, shown) = run(command);
+        assert_eq!(code, Some(alone), "{command:?}: {shown}");
+    }
+    let (_, deep) = run(&["check", "--deep", "modes.il"]);
+    assert!(deep.contains("if only the program writes D70"), "{deep}");
+    assert!(deep.contains("under these assumptions:"), "{deep}");
+    assert!(deep.contains("what `[hmi]` names: no panel"), "{deep}");
+    for settings in WRITTEN {
+        let settings = format!("[project]\nprogram = \"modes.il\"\n{settings}");
+        std::fs::write(folder.path().join("rungc.toml"), &settings).unwrap();
+        for (command, _, written) in commands {
+            let (code, shown) = run(command);
+            assert_eq!(code, Some(written), "{command:?} {settings}: {shown}");
+        }
+        let (_, deep) = run(&["check", "--deep", "modes.il"]);
+        assert!(
+            !deep.contains("W09") && !deep.contains("assumptions"),
+            "{deep}"
+        );
+    }
+}
+
+/// Each table is valid without its last line. `check` reports what the commands that prove and search report.
+#[test]
+fn properties_that_cannot_be_read_are_reported_by_check() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    let rows = [
+        "[[property]]\nnever = \"Y000 &\"",
+        "[[property]]\nalways = \"pump\"",
+        "[[property]]\nreachable = \"D70\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y000 Y001\"",
+        "[[property]]\nwhenever = \"X000 =\"\nthen = \"Y001\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y001\"\nwithin = \"soon\"",
+        "[[property]]\nstays = \"(Y000\"",
+        "[[property]]\nstays = \"Y000\"\nuntil = \"X000)\"",
+        "[[property]]\nnever = \"Y777 & M0\"",
+        "[[property]]\nnever = \"D9000 > 3\"",
+        "[verify]\nassume = [\"!\"]",
+        "[verify]\nfree = [\"D9000\"]",
+        "[verify]\nscan = \"40s\"",
+        "[verify]\ntimeout = \"long\"",
+        "[hmi]\nwrites = \"M9000\"",
+    ];
+    for row in rows {
+        let settings = format!("[project]\nprogram = \"modes.il\"\n{row}\n");
+        std::fs::write(folder.path().join("rungc.toml"), &settings).unwrap();
+        let output = rungc(folder.path(), &["check"]);
+        let shown = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{row}: {shown}");
+        let place = 2 + row.lines().count();
+        let is_placed = shown.contains(&format!("[ rungc.toml:{place}:"));
+        assert!(shown.contains("E0042") && is_placed, "{row}: {shown}");
+    }
+    let all = format!(
+        "[project]\nprogram = \"modes.il\"\n{}\n",
+        rows[..11].join("\n")
+    );
+    std::fs::write(folder.path().join("rungc.toml"), all).unwrap();
+    let shown = text(&rungc(folder.path(), &["check"]).stderr);
+    assert_eq!(shown.matches("error[E0042]").count(), 11, "{shown}");
+    // A project's settings say nothing of other programs.
+    std::fs::write(folder.path().join("other.il"), "LD X000\nOUT Y000\nEND\n").unwrap();
+    assert_eq!(
+        rungc(folder.path(), &["check", "other.il"]).status.code(),
+        Some(0)
+    );
+}
+
+#[test]
+fn a_property_of_devices_that_are_not_there_is_rejected() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    for condition in [
+        "Y777",
+        "!M9000",
+        "X000 & D9000 > 3",
+        "T300.value = 5",
+        "D7999.i32 < 0",
+    ] {
+        for command in ["verify", "explore"] {
+            let output = rungc(folder.path(), &[command, "modes.il", "--never", condition]);
+            let shown = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{condition}: {shown}");
+            assert!(
+                shown.contains("does not exist on Mitsubishi FX1N"),
+                "{shown}"
+            );
+        }
+    }
+}
+
+/// What never acts is marked at its first output, wherever the network lies in the program.
+#[test]
+fn a_rung_that_never_acts_is_marked_itself() {
+    let dead = "LD X000\nANI X000\nMOV K1 D0\nINCP D1\n";
+    let other = "LD X001\nOUT Y001\n";
+    for (program, line) in [
+        (format!("{dead}END\n"), 3),
+        (format!("{dead}{other}END\n"), 3),
+        (format!("{other}{dead}END\n"), 5),
+        (
+            format!("{other}FEND\nP1\n{dead}SRET\nEND\n").replacen("FEND", "CALL P1\nFEND", 1),
+            8,
+        ),
+        (format!("LD M8002\nSET S0\nSTL S0\n{dead}RET\nEND\n"), 6),
+        (format!("{dead}NOP\nNOP\nEND\n"), 3),
+        (format!("{dead}EI\n{other}END\n"), 3),
+    ] {
+        let folder = folder(&[("dead.il", program.as_bytes())]);
+        let output = rungc(folder.path(), &["check", "--deep", "dead.il"]);
+        let shown = text(&output.stderr);
+        let place = format!("[ dead.il:{line}:1 ]");
+        let found = shown
+            .split("warning[")
+            .find(|found| found.starts_with("W0902"));
+        assert!(
+            found.is_some_and(|found| found.contains(&place)),
+            "{program}\n{shown}"
+        );
+    }
+}

@@ -9,7 +9,7 @@ super::codes! {
 
     NEVER_WRITTEN = "W0202" "never-written" Warning None,
     "contacts of relays that nothing drives",
-    "Nothing in the program drives these relays, timers or counters, so their contacts never change, unless an operator panel writes them.",
+    "Nothing in the program drives these relays, timers or counters, so their contacts never change, unless an operator panel writes them. Name what a panel writes in rungc.toml: `[hmi] writes = \"M100-M115\"`.",
     wrong: "LD M10\nOUT Y0\nEND\n",
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 
@@ -39,7 +39,7 @@ super::codes! {
 
     WRITES_READ_ONLY = "W0208" "writes-read-only" Warning None,
     "write to a special device that the system maintains",
-    "The system writes this special relay or register itself; what the program writes has no lasting effect.",
+    "The system writes this special relay or register itself; what the program writes has no lasting effect. Some devices of serial ports are the program's in one role of the port, such as D8415 of a Modbus slave on FX3; elsewhere they are the system's.",
     wrong: "LD X0\nOUT M8000\nEND\n",
     right: "LD X0\nOUT M0\nLD M0\nOUT Y0\nEND\n";
 

@@ -27,37 +27,37 @@ super::codes! {
 
     NEVER_ON = "W0901" "never-on" Warning None,
     "a coil that can never be on",
-    "No run of the program switches this relay or output on, whatever its inputs are: the contacts before it contradict each other, or depend on something that never happens. `rungc check --deep` has proved it. Networks that name M8000 or M8001 are left out, since they are meant so.",
+    "No run of the program switches this relay or output on, whatever its inputs are: the contacts before it contradict each other, or depend on something that never happens. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`. Networks that name M8000 or M8001 are left out, since they are meant so.",
     wrong: "",
     right: "";
 
     RUNG_NEVER_ACTS = "W0902" "rung-never-acts" Warning None,
     "a rung that can never do anything",
-    "The scan comes to this rung, but its contacts never conduct, so no instruction in it is ever executed. `rungc check --deep` has proved it.",
+    "The scan comes to this rung, but its contacts never conduct, so no instruction in it is ever executed. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 
     STATE_UNREACHABLE = "W0903" "state-unreachable" Warning None,
     "a step that can never be reached",
-    "No run of the program switches this step on: the transition to it never takes place. `rungc check --deep` has proved it.",
+    "No run of the program switches this step on: the transition to it never takes place. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 
     STATE_ENDLESS = "W0904" "state-endless" Warning None,
     "a step that can never be left",
-    "Once this step is on, nothing switches it off: no transition leads out of it that can take place. `rungc check --deep` has proved it.",
+    "Once this step is on, nothing switches it off: no transition leads out of it that can take place. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 
     COMPARISON_CONSTANT = "W0905" "comparison-constant" Warning None,
     "a comparison that always has the same result",
-    "In every run of the program, this comparison has the same result whenever the scan comes to it. `rungc check --deep` has proved it.",
+    "In every run of the program, this comparison has the same result whenever the scan comes to it. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 
     TIMER_NEVER_EXPIRES = "W0906" "timer-never-expires" Warning None,
     "a timer that can never expire",
-    "The timer's coil can be on, but never long enough, or never in two scans in a row. `rungc check --deep` has proved it.",
+    "The timer's coil can be on, but never long enough, or never in two scans in a row. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 

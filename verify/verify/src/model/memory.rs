@@ -50,7 +50,7 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
 
 /// Returns true if something other than the program can write it: devices, and of timers and counters the values and
 /// contacts.
-pub(super) fn is_settable(key: Key) -> bool {
+pub(crate) fn is_settable(key: Key) -> bool {
     match key {
         Key::Timer(_, part) => matches!(part, TimerPart::Value | TimerPart::Done),
         Key::Counter(_, part) => matches!(part, CounterPart::Value | CounterPart::Done),

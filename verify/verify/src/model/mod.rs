@@ -14,6 +14,7 @@ mod shared;
 mod timing;
 
 pub use memory::device_of;
+pub(crate) use memory::is_settable;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
 pub use shared::{Names, Shared};
 use std::collections::{BTreeMap, BTreeSet};

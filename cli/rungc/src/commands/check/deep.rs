@@ -1,8 +1,9 @@
 //! `--deep`: what can never happen in a program, though it is written as if it could.
 
 use crate::commands::counted;
+use crate::commands::properties::ExternalWrites;
 use crate::commands::subject::Subject;
-use crate::commands::verify::report::changes;
+use crate::commands::verify::report::{assumptions, changes};
 use rungc_catalogue::{Basic, Drive, Lower};
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -13,7 +14,7 @@ use rungc_rt::CmpOp;
 use rungc_sim::Target;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};
-use rungc_verify::deep::{Evidence, Finding, Kind, look};
+use rungc_verify::deep::{Evidence, Finding, Kind, look, world};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::replay::story;
 use std::time::Duration;
@@ -21,18 +22,33 @@ use std::time::Duration;
 /// Time limit for a program.
 const TIME: Duration = Duration::from_secs(20);
 
-/// Findings in a program that compiles, and the number of open questions.
-pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> (Diagnostics, usize) {
-    let mut diagnostics = Diagnostics::new();
+/// Maximum number of devices that a finding names.
+const SHOWN: usize = 6;
+
+/// Findings in a program.
+#[derive(Default)]
+pub struct Found {
+    pub diagnostics: Diagnostics,
+    /// Number of open questions.
+    pub open: usize,
+    /// Assumptions of the proofs, if something is proved.
+    pub assumptions: Vec<String>,
+}
+
+/// Searches a program that compiles.
+pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
+    let mut found = Found::default();
     let options = CompileOptions {
         optimise: false,
         ..subject.options()
     };
     let Some(mut module) = compile(&read.program, &options).module else {
-        return (diagnostics, 0);
+        return found;
     };
     simplify(&mut module);
-    let report = look(&module, TIME);
+    let external = ExternalWrites::of(None, subject.own_project());
+    let world = world(external.devices.keys().copied().collect());
+    let report = look(&module, world.clone(), TIME);
     let place = Place {
         program: &read.program,
         steps: &checked.step_numbers,
@@ -44,10 +60,14 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> (Diagnost
             && !seen.contains(&diagnostic.span)
         {
             seen.push(diagnostic.span);
-            diagnostics.push(diagnostic);
+            found.diagnostics.push(diagnostic);
+            if found.assumptions.is_empty() && !matches!(finding.evidence, Evidence::Trace(_)) {
+                found.assumptions = assumptions(&world, &[], &external);
+            }
         }
     }
-    (diagnostics, report.open)
+    found.open = report.open;
+    found
 }
 
 /// Returns true if an instruction writes a device as its first operand, such as a coil.
@@ -124,6 +144,10 @@ impl Place<'_> {
             return None;
         }
         let writes = |instr: &&Instr| device.is_some_and(|device| writes(instr, device));
+        let is_driven = |instr: &&Instr| {
+            let found = rungc_catalogue::find(&instr.mnemonic);
+            found.is_some_and(|found| found.inst.drive == Drive::Contact)
+        };
         let name = device.map(|device| device.to_string()).unwrap_or_default();
         let (code, instr, text): (&Code, _, _) = match &finding.kind {
             Kind::NeverOn => (
@@ -155,7 +179,7 @@ impl Place<'_> {
             ),
             Kind::NeverActs => (
                 &codes::RUNG_NEVER_ACTS,
-                self.instrs(finding.network).last()?,
+                self.instrs(finding.network).find(is_driven)?,
                 "this rung can never do anything: its contacts never conduct".to_string(),
             ),
             Kind::Constant { op, sides, result } => {
@@ -206,8 +230,29 @@ impl Place<'_> {
         }
     }
 
-    /// Description of the evidence.
+    /// Description of the evidence, with the devices that only the program may write.
     fn evidence(&self, finding: &Finding, name: &str) -> String {
+        let mut text = self.grounds(finding, name);
+        let names = finding.untouched.iter();
+        let names: Vec<_> = names
+            .map(|(class, n)| class.number(*n).to_string())
+            .collect();
+        let more = match names.len().checked_sub(SHOWN) {
+            None | Some(0) => String::new(),
+            Some(more) => format!(" and {more} more"),
+        };
+        let shown = &names[..names.len().min(SHOWN)];
+        if let Some(first) = shown.first() {
+            text += &format!(
+                ", if only the program writes {}{more}; what a panel writes belongs in rungc.toml: \
+                 `[hmi] writes = \"{first}\"`",
+                shown.join(", ")
+            );
+        }
+        text
+    }
+
+    fn grounds(&self, finding: &Finding, name: &str) -> String {
         match &finding.evidence {
             Evidence::Induction(1) => {
                 "proved: no scan can do it, whatever the inputs are".to_string()

@@ -5,9 +5,9 @@ use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
 use rungc_syntax::codes;
-use rungc_verify::model::{Gap, Key, device_of};
+use rungc_verify::model::{Gap, Key, World, device_of};
 use rungc_verify::property::Property;
-use rungc_verify::prove::{Decision, Options, Verdict, Why};
+use rungc_verify::prove::{Decision, FOREVER_MS, Options, Verdict, Why};
 use rungc_verify::replay::{Change, Setting, story};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -172,7 +172,7 @@ pub fn human(
         .any(|result| result.word() == "proved" || result.word() == "not reachable")
     {
         let _ = writeln!(text, "Proved for this model under these assumptions:");
-        for line in assumptions(options, assumed, external) {
+        for line in assumptions(&options.world, assumed, external) {
             let _ = writeln!(text, "  - {line}");
         }
     }
@@ -194,19 +194,16 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
 }
 
 /// Assumptions of every proof.
-pub fn assumptions(
-    options: &Options,
-    assumed: &[String],
-    external: &ExternalWrites,
-) -> Vec<String> {
-    let ms = options.world.scan_ms;
+pub fn assumptions(world: &World, assumed: &[String], external: &ExternalWrites) -> Vec<String> {
+    let scan = match world.scan_ms {
+        FOREVER_MS => "a scan begins any time after the one before".to_string(),
+        ms => format!("a scan begins at most {ms} ms after the one before"),
+    };
     let mut lines = vec![
         "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
             .to_string(),
-        format!(
-            "a scan begins at most {ms} ms after the one before; inputs change only between scans"
-        ),
-        match options.world.fresh {
+        format!("{scan}; inputs change only between scans"),
+        match world.fresh {
             true => "latched devices begin with 0".to_string(),
             false => "latched devices begin with any value, all others as at power-on".to_string(),
         },
@@ -223,7 +220,8 @@ pub fn assumptions(
 /// Assumption about writers of devices that the program writes.
 fn untouched(external: &ExternalWrites) -> String {
     let named = match external.sources()[..] {
-        [] => "`--free`".to_string(),
+        [] if external.has_option => "what `--free` and `[hmi]` name".to_string(),
+        [] => "what `[hmi]` names".to_string(),
         [only] => format!("what `{only}` names"),
         [ref several @ .., last] => format!("what `{}` and `{last}` name", several.join("`, `")),
     };

@@ -89,7 +89,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         &mut reporter,
     )?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    let supposed = report::assumptions(&options, &assumed, &external);
+    let supposed = report::assumptions(&options.world, &assumed, &external);
     let text = || text(&compared, &names, &modules[1], &supposed);
     let outcomes = outputs.map(|output| outcome(&output.verdict));
     let same = outcomes.clone().filter(|one| *one == Outcome::Success);
