@@ -62,8 +62,11 @@ fn special_page(name: &str) -> Option<String> {
 /// The cells of a table's row that describe a special device.
 fn special_cells(row: &special::Special) -> String {
     let access = match row.access {
-        Access::Read => "read",
-        Access::ReadWrite => "read, write",
+        Access::Read => "read".to_owned(),
+        Access::ReadWrite => "read, write".to_owned(),
+        Access::ReadUnless(role) => {
+            format!("read; write while COM{} is {}", role.port, role.title)
+        }
     };
     let status = match row.status {
         Status::Scan => "works".to_owned(),

@@ -3,6 +3,7 @@
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
 use crate::Model;
+use rungc_rt::comm::{Protocol, Protocols};
 use rungc_rt::modules::Place;
 use rungc_rt::special::{
     D_BATTERY, D_CONSTANT_SCAN, D_REMOTE, D_SCOPE_STATE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN,
@@ -44,6 +45,23 @@ pub enum Access {
     Read,
     /// A program may write it.
     ReadWrite,
+    /// The PLC writes it, unless a serial port is in this role: then a program may write it.
+    ReadUnless(&'static PortRole),
+}
+
+/// Role of a serial port in which special devices have another meaning than otherwise.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PortRole {
+    /// Number of the port in the model's manual.
+    pub port: u8,
+    /// Its protocols in that role.
+    pub protocols: Protocols,
+    /// The role, as the end of "while the port is …".
+    pub title: &'static str,
+    /// True if the PLC's parameters can put the port in the role, as well as its program.
+    pub by_parameters: bool,
+    /// Reason why a device that a program writes in that role is inert; `None` if it works.
+    pub inert: Option<Reason>,
 }
 
 /// Status of a special device's function.
@@ -368,6 +386,51 @@ pub(crate) const FIXED_AREA: Reason = because(
     Missed::ByWriters,
     "the registers of extension modules always begin at D7100",
 );
+const UNCOUNTED: Reason = because(
+    Missed::ByWriters,
+    "Modbus slaves store no counters and no log of events here",
+);
+
+/// Modbus on channel 1 and channel 2 (FX3U MODBUS manual §6.1: errors may be written).
+pub(crate) static MODBUS_1: PortRole = role(1, Protocols::MODBUS, "a port of Modbus");
+pub(crate) static MODBUS_2: PortRole = PortRole {
+    port: 2,
+    ..MODBUS_1
+};
+/// The same of slaves, which may store what they count: whether, and where.
+pub(crate) static SLAVE_1: PortRole = role(1, SLAVES, "a Modbus slave");
+pub(crate) static SLAVE_2: PortRole = PortRole { port: 2, ..SLAVE_1 };
+pub(crate) static COUNTING_1: PortRole = PortRole {
+    inert: Some(UNCOUNTED),
+    ..SLAVE_1
+};
+pub(crate) static COUNTING_2: PortRole = PortRole {
+    port: 2,
+    ..COUNTING_1
+};
+/// Computer links, which send what a program asks for (h1u-h2u-programming §5.6; FX data communication manual, part E).
+pub(crate) static LINK_1: PortRole = PortRole {
+    by_parameters: true,
+    ..role(
+        1,
+        Protocols::of(&[Protocol::ComputerLink]),
+        "on a computer link",
+    )
+};
+pub(crate) static LINK_2: PortRole = PortRole { port: 2, ..LINK_1 };
+
+const SLAVES: Protocols = Protocols::of(&[Protocol::ModbusRtu, Protocol::ModbusAscii]);
+
+const fn role(port: u8, protocols: Protocols, title: &'static str) -> PortRole {
+    PortRole {
+        port,
+        protocols,
+        title,
+        by_parameters: false,
+        inert: None,
+    }
+}
+
 const NOT_FITTED: Reason = because(
     Missed::ByAll,
     "no `[[module]]` in rungc.toml lists the module that it belongs to",
@@ -395,17 +458,17 @@ pub(crate) const TIMING: Reason = because(
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
 /// Writes a table of special devices, a row a line: `class first[-last] access default status "meaning";` with the
-/// access `r` or `rw` and the status `scan`, `by("…")`, `modules(…)` or `inert(…)`.
+/// access `r`, `rw` or `r(ROLE)` and the status `scan`, `by("…")`, `modules(…)` or `inert(…)`.
 macro_rules! specials {
     ($(
         $class:ident $first:literal $(- $last:literal)?
-        $access:ident $default:literal $status:ident $(($why:expr))? $meaning:literal;
+        $access:ident $(($role:expr))? $default:literal $status:ident $(($why:expr))? $meaning:literal;
     )*) => {
         &[$($crate::special::Special {
             class: ::rungc_syntax::DeviceClass::$class,
             first: $first,
             last: $crate::special::specials!(@last $first $($last)?),
-            access: $crate::special::specials!(@access $access),
+            access: $crate::special::specials!(@access $access $($role)?),
             default: $default,
             status: $crate::special::specials!(@status $status $($why)?),
             meaning: $meaning,
@@ -414,6 +477,7 @@ macro_rules! specials {
     (@last $first:literal) => { $first };
     (@last $first:literal $last:literal) => { $last };
     (@access r) => { $crate::special::Access::Read };
+    (@access r $role:expr) => { $crate::special::Access::ReadUnless(&$role) };
     (@access rw) => { $crate::special::Access::ReadWrite };
     (@status scan) => { $crate::special::Status::Scan };
     (@status by $instructions:expr) => { $crate::special::Status::Instructions($instructions) };

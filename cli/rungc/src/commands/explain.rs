@@ -191,8 +191,12 @@ fn special_page(topic: &str, model: ModelId) -> Option<String> {
 
 fn describe(special: &special::Special) -> String {
     let access = match special.access {
-        special::Access::Read => "written by the PLC, read-only for programs",
-        special::Access::ReadWrite => "programs may write it",
+        special::Access::Read => "written by the PLC, read-only for programs".to_string(),
+        special::Access::ReadWrite => "programs may write it".to_string(),
+        special::Access::ReadUnless(role) => format!(
+            "written by the PLC; by programs only while COM{} is {}",
+            role.port, role.title
+        ),
     };
     let status = match special.status {
         special::Status::Scan => "updated by the scan".to_string(),

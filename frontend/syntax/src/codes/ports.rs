@@ -58,8 +58,8 @@ super::codes! {
     right: "LD M8002\nMOV H20 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n";
 
     PORT_SET_BY_INDEX = "W0690" "port-set-by-index" Warning None,
-    "a register of a port that only an index reaches",
-    "With an index, the instruction may write a register that sets up a serial port. rungc finds out what a port speaks, and which protocols a compiled program needs, from instructions that name these registers without an index. `rungc run` and `rungc test` follow the index; a compiled program has no code for a protocol that nothing else chooses, and the port is silent. Name the register.",
+    "a write that may set up a serial port through an index register",
+    "The index decides which register the instruction writes, and some of those that it may reach choose a port's protocol, station or format. A compiled program contains only the protocols that instructions without an index choose. If this instruction alone chooses the protocol, the port of a compiled program stays silent, although it works in `rungc run` and `rungc test`. Name the register instead: `D8126`, not `D8120Z0`.",
     model: "h2u",
     wrong: "LD M8002\nMOV K6 Z0\nMOV H2 D8120Z0\nEND\n",
     right: "LD M8002\nMOV H2 D8126\nEND\n";

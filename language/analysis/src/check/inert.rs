@@ -2,10 +2,11 @@
 
 use super::Code;
 use super::modules::Modules;
+use super::ports::Roles;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
-use rungc_models::special::{Missed, Reason, Special};
+use rungc_models::special::{self, Missed, Reason, Special};
 use rungc_rt::modules::Place;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
 use std::collections::BTreeMap;
@@ -18,10 +19,12 @@ const MAX_SINGLE: usize = 3;
 const MAX_NAMED: usize = 6;
 
 /// The inert devices that a program names.
-pub(super) struct Inert {
+pub(super) struct Inert<'a> {
     used: BTreeMap<Device, Used>,
     /// Locations of the PLC's special modules.
     places: Vec<Place>,
+    /// Roles of the serial ports.
+    roles: &'a Roles<'a>,
 }
 
 /// Use of an inert device by a program.
@@ -33,11 +36,12 @@ struct Used {
     changed: bool,
 }
 
-impl Inert {
-    pub(super) fn new(modules: &Modules) -> Self {
+impl<'a> Inert<'a> {
+    pub(super) fn new(modules: &Modules, roles: &'a Roles<'a>) -> Self {
         Inert {
             used: BTreeMap::new(),
             places: modules.places().collect(),
+            roles,
         }
     }
 
@@ -55,7 +59,8 @@ impl Inert {
             let Some(row) = code.model().special(device.class, number) else {
                 continue;
             };
-            let Some(reason) = row.status.inert(&self.places) else {
+            let inert = row.status.inert(&self.places);
+            let Some(reason) = inert.or_else(|| self.in_role(row, access)) else {
                 continue;
             };
             let used = self.used.entry(device).or_insert_with(|| Used {
@@ -67,6 +72,15 @@ impl Inert {
             used.places.push((access.span, access.writes()));
             used.changed |= access.writes() && !leaves_default(code, i, row);
         }
+    }
+
+    /// Reason why a device that is written is inert in the role that its port has.
+    fn in_role(&self, row: &Special, access: &Access) -> Option<Reason> {
+        let special::Access::ReadUnless(role) = row.access else {
+            return None;
+        };
+        let is_written = access.writes() && self.roles.contain(role) == Some(true);
+        role.inert.filter(|_| is_written)
     }
 
     /// Warns of those whose work the program misses.

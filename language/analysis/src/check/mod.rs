@@ -96,7 +96,8 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
     let modules = modules::Modules::new(code);
-    let mut inert = inert::Inert::new(&modules);
+    let roles = ports::Roles::new(code);
+    let mut inert = inert::Inert::new(&modules, &roles);
     let mut undefined = undefined::Undefined::default();
     for i in 0..code.len {
         modules.check(code, i, out);
@@ -110,7 +111,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             resets.note(code, i, &access);
             inert.note(code, i, &access);
             undefined.note(code, &access);
-            writes::check(code, i, &access, out);
+            writes::check(code, i, &access, &roles, out);
         }
     }
     unused.report(out);

@@ -6,11 +6,13 @@
 mod choices;
 mod facts;
 mod findings;
+mod roles;
 
 use super::Code;
 use crate::resolve::Resolved;
 pub use choices::Choices;
 pub(super) use findings::check;
+pub(super) use roles::Roles;
 use rungc_catalogue::Lower;
 use rungc_rt::RtFn;
 use rungc_rt::comm::{Choice, D_ADPRW_PORT, LineFormat, Parity, PortWiring, Protocol};

@@ -3,5 +3,6 @@
 mod inert;
 mod no_panic;
 mod resolve;
+mod roles;
 mod undefined;
 mod variants;

@@ -1,9 +1,9 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    ANALOG_BOARDS, ANALOG_INPUTS, CHECKED, CONTROL_LINES, COUNTER_INPUTS, DELIMITER, DISPLAY,
-    HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, MAKER, MODULE_COUNT, POWER, SHOWN, Special,
-    TRACE, specials,
+    ANALOG_BOARDS, ANALOG_INPUTS, CHECKED, CONTROL_LINES, COUNTER_INPUTS, COUNTING_1, COUNTING_2,
+    DELIMITER, DISPLAY, HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, LINK_1, LINK_2, MAKER,
+    MODBUS_1, MODBUS_2, MODULE_COUNT, POWER, SHOWN, SLAVE_1, SLAVE_2, Special, TRACE, specials,
 };
 
 /// Devices of all.
@@ -58,7 +58,10 @@ pub(super) const ALL: &[Special] = specials! {
     M 8122 rw 0 by("serial ports") "RS sends";
     M 8123 rw 0 by("serial ports") "RS has received";
     M 8124 r 0 by("serial ports") "RS receives";
-    M 8126-8129 r 0 by("serial ports") "computer link, time-out of RS";
+    M 8126 r 0 by("serial ports") "computer link: global signal";
+    M 8127 r 0 by("serial ports") "computer link: on-demand data is being sent";
+    M 8128 r(LINK_1) 0 by("serial ports") "computer link: on-demand data is wrong";
+    M 8129 r(LINK_1) 0 by("serial ports") "time-out of RS; computer link: on-demand data is characters, not words";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 by("serial ports") "fast mode of the parallel link";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
@@ -307,9 +310,9 @@ pub(super) const FX3: &[Special] = specials! {
     D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
     D 8400 rw 0 by("serial ports") "channel 1: communication format; another value than 0 chooses these registers instead of those of RS";
     D 8401 rw 0 by("serial ports") "channel 1: bit 0 Modbus, bit 4 slave, bit 8 ASCII";
-    D 8402 r 0 by("serial ports") "channel 1: characters that RS2 has yet to send; code of the last error of Modbus";
-    D 8403 r 0 by("serial ports") "channel 1: characters that RS2 has received; details of the last error of Modbus";
-    D 8404 r 0 by("serial ports") "channel 1: step of the first ADPRW that failed";
+    D 8402 r(MODBUS_1) 0 by("serial ports") "channel 1: characters that RS2 has yet to send; code of the last error of Modbus";
+    D 8403 r(MODBUS_1) 0 by("serial ports") "channel 1: characters that RS2 has received; details of the last error of Modbus";
+    D 8404 r(MODBUS_1) 0 by("serial ports") "channel 1: step of the first ADPRW that failed";
     D 8405 r 0 inert(SHOWN) "channel 1: communication format";
     D 8406 rw 0 inert(DELIMITER) "channel 1: last character of Modbus ASCII";
     D 8407 r 0 by("serial ports") "channel 1: step of the last ADPRW";
@@ -320,26 +323,26 @@ pub(super) const FX3: &[Special] = specials! {
     D 8412 rw 3 by("serial ports") "channel 1: terminator of RS2, characters 1 and 2; retries of ADPRW";
     D 8413 rw 0 by("serial ports") "channel 1: terminator of RS2, characters 3 and 4";
     D 8414 rw 0 by("serial ports") "channel 1: sum that RS2 has received; station of a Modbus slave";
-    D 8415 r 0 by("serial ports") "channel 1: sum of what RS2 has received";
-    D 8416 r 0 by("serial ports") "channel 1: sum of what RS2 has sent";
+    D 8415 r(COUNTING_1) 0 by("serial ports") "channel 1: sum of what RS2 has received; what a Modbus slave stores of its communication";
+    D 8416 r(SLAVE_1) 0 by("serial ports") "channel 1: sum of what RS2 has sent; first register of what a Modbus slave stores";
     D 8419 r 0 inert(SHOWN) "channel 1: mode of operation";
     D 8420 rw 0 by("serial ports") "channel 2: communication format; another value than 0 chooses these registers instead of those of RS";
     D 8421 rw 0 by("serial ports") "channel 2: bit 0 Modbus, bit 4 slave, bit 8 ASCII; station of a computer link";
-    D 8422 r 0 by("serial ports") "channel 2: characters that RS2 has yet to send; code of the last error of Modbus";
-    D 8423 r 0 by("serial ports") "channel 2: characters that RS2 has received; details of the last error of Modbus";
-    D 8424 r 0 by("serial ports") "channel 2: step of the first ADPRW that failed";
+    D 8422 r(MODBUS_2) 0 by("serial ports") "channel 2: characters that RS2 has yet to send; code of the last error of Modbus";
+    D 8423 r(MODBUS_2) 0 by("serial ports") "channel 2: characters that RS2 has received; details of the last error of Modbus";
+    D 8424 r(MODBUS_2) 0 by("serial ports") "channel 2: step of the first ADPRW that failed";
     D 8425 r 0 inert(SHOWN) "channel 2: communication format";
     D 8426 rw 0 inert(DELIMITER) "channel 2: last character of Modbus ASCII";
-    D 8427 r 0 by("serial ports") "channel 2: step of the last ADPRW; first register of on-demand data";
-    D 8428 r 0 by("serial ports") "channel 2: how often ADPRW has sent its request again; number of on-demand data";
+    D 8427 r(LINK_2) 0 by("serial ports") "channel 2: step of the last ADPRW; first register of on-demand data";
+    D 8428 r(LINK_2) 0 by("serial ports") "channel 2: how often ADPRW has sent its request again; number of on-demand data";
     D 8429 rw 0 by("serial ports") "channel 2: time-out, of RS2 in 10 ms, of ADPRW in ms";
     D 8430 rw 2 by("serial ports") "channel 2: header of RS2, characters 1 and 2; how long slaves work on a broadcast in ms";
     D 8431 rw 0 by("serial ports") "channel 2: header of RS2, characters 3 and 4; silence between messages of Modbus in ms";
     D 8432 rw 3 by("serial ports") "channel 2: terminator of RS2, characters 1 and 2; retries of ADPRW";
     D 8433 rw 0 by("serial ports") "channel 2: terminator of RS2, characters 3 and 4";
     D 8434 rw 0 by("serial ports") "channel 2: sum that RS2 has received; station of a Modbus slave";
-    D 8435 r 0 by("serial ports") "channel 2: sum of what RS2 has received";
-    D 8436 r 0 by("serial ports") "channel 2: sum of what RS2 has sent";
+    D 8435 r(COUNTING_2) 0 by("serial ports") "channel 2: sum of what RS2 has received; what a Modbus slave stores of its communication";
+    D 8436 r(SLAVE_2) 0 by("serial ports") "channel 2: sum of what RS2 has sent; first register of what a Modbus slave stores";
     D 8438 r 0 by("serial ports") "channel 2: code of the communication error";
     D 8439 r 0 inert(SHOWN) "channel 2: mode of operation";
     D 8449 r 0 inert(HARDWARE) "code of the error of a special module";

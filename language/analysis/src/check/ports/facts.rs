@@ -54,8 +54,8 @@ pub(super) struct Facts {
     model: &'static Model,
     /// By the register's or relay's device, in the order of the program.
     writes: BTreeMap<Device, Vec<Write>>,
-    /// Registers that are written through an index, where a set-up register is near, and the place of the operand.
-    pub(super) indexed: Vec<(Device, Span)>,
+    /// Registers that are written through an index, each with a set-up register near it and the place of the operand.
+    pub(super) indexed: Vec<(Device, Device, Span)>,
     /// Set-up relays that an index may reach.
     indexed_relays: BTreeSet<Device>,
     /// By port.
@@ -97,12 +97,12 @@ pub(super) fn m(relay: Relay) -> Device {
 impl Facts {
     pub(super) fn new(code: &Code) -> Self {
         let ports = code.model().ports.all().iter();
-        let words = ports
-            .clone()
-            .flat_map(|wiring| wiring.setup_registers().chain(wiring.station).map(d));
-        let relays = ports.flat_map(|wiring| wiring.setup_relays().map(m));
+        let devices = ports.flat_map(PortWiring::sets).flat_map(|set| {
+            let registers = set.setup_registers().chain(set.station).map(d);
+            registers.chain(set.setup_relays().map(m))
+        });
         let named = (0..code.len).filter_map(|i| super::port_register(code, i));
-        let watched = BTreeSet::from_iter(words.chain(relays).chain(named));
+        let watched = BTreeSet::from_iter(devices.chain(named));
         let mut facts = Facts {
             model: code.model(),
             writes: BTreeMap::new(),
@@ -158,13 +158,14 @@ impl Facts {
             let near = access.first..=reached(number.saturating_add(USUAL_RELAY));
             self.indexed_relays.extend(watched.range(near).copied());
         }
-        let near = reached(number.saturating_sub(USUAL_INDEX))
-            ..=reached(number.saturating_add(USUAL_INDEX));
-        if class == DeviceClass::D
-            && number >= FIRST_SPECIAL
-            && watched.range(near).next().is_some()
-        {
-            self.indexed.push((access.first, access.span));
+        if class != DeviceClass::D || number < FIRST_SPECIAL {
+            return;
+        }
+        let above = reached(number.saturating_add(1))..=reached(number.saturating_add(USUAL_INDEX));
+        let below = reached(number.saturating_sub(USUAL_INDEX))..=access.first;
+        let near = watched.range(above).next();
+        if let Some(&near) = near.or_else(|| watched.range(below).next_back()) {
+            self.indexed.push((access.first, near, access.span));
         }
     }
 

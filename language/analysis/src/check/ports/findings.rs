@@ -43,12 +43,15 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
 
 /// Set-up registers that only an index reaches.
 fn indexed(facts: &Facts, out: &mut Diagnostics) {
-    for &(first, span) in &facts.indexed {
-        let message = format!("with its index, `{first}` may be a register that sets up a port");
+    for &(first, near, span) in &facts.indexed {
+        let message =
+            format!("`{first}` with an index may be `{near}`, which sets up a serial port");
         let diagnostic = codes::PORT_SET_BY_INDEX
             .at(span, message)
-            .label("a compiled program has no code for a protocol that is chosen only here")
-            .help("name the register");
+            .label("a protocol that is chosen only here is missing from a compiled program")
+            .help(format!(
+                "if this sets up the port, name the register: `{near}`"
+            ));
         out.push(diagnostic);
     }
 }

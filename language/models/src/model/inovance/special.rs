@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CHECKED, CONTROLLER, HARDWARE, LATCHES, N_SERIES, NETWORK,
-    NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
+    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CHECKED, CONTROLLER, HARDWARE, LATCHES, LINK_1, N_SERIES,
+    NETWORK, NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
 };
 use rungc_rt::modules::Place;
 
@@ -96,7 +96,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8126 r 0 by("serial ports") "COM1: on when the 485BD card is effective";
     M 8127 r 0 by("serial ports") "COM1: computer link sends on demand (§5.6; reserved in §5.1)";
     M 8128 r 0 by("serial ports") "COM1: range of what computer link is to send on demand is wrong (§5.6; reserved in §5.1)";
-    M 8129 r 0 by("serial ports") "COM1: time-out";
+    M 8129 r(LINK_1) 0 by("serial ports") "COM1: time-out; computer link: on-demand data is characters, not words (§5.6)";
     M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
     M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
     M 8132 rw 0 by("HSZ") "HSZ & PLSY speed-pattern mode";
@@ -345,7 +345,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8230 r 0 modules(Place::Slot) "analog card: 6A42h, 6B42h, 4A22h, or the command that it obeys";
     D 8231-8236 r 0 modules(Place::Slot) "analog card: inputs, then outputs, 0 to 10000";
     D 8237-8238 r 0 modules(Place::Slot) "extension card: receive buffer";
-    D 8239 r 0 modules(Place::Slot) "extension card: communication error counter, 0 while it answers";
+    D 8239 rw 0 modules(Place::Slot) "extension card: communication error counter, 0 while it answers";
     D 8240 rw 0 inert(N_SERIES) "CAN function setting (N series)";
     D 8241 rw 0 inert(N_SERIES) "CAN receive time-out in ms (N series)";
     D 8242 rw 0 inert(N_SERIES) "CANlink address (N series)";
