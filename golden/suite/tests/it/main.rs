@@ -31,5 +31,6 @@ mod snapshots;
 mod suite;
 mod verify;
 mod verify_faults;
+mod warnings;
 mod wires;
 mod wording;

@@ -88,6 +88,10 @@ fn coils_of_out_and_set() {
             // A coil that holds itself takes SET and RST over.
             "LD X0 / SET Y0 / LD X2 / OR Y0 / ANI X3 / OUT Y0",
             "LD X1 / RST M0 / LD M0 / OUT Y1 / LD X2 / OUT M0",
+            // Intermediate results: contacts read what SET wrote before the next OUT, or after the last one.
+            "LD X0 / SET M5 / LD M5 / OUT Y0 / LD M8001 / OUT M5",
+            "LD X2 / OUT M5 / LD X0 / SET M5 / LDI M5 / OUT Y1",
+            "LDI M5 / OUT Y1 / LD X2 / OUT M5 / LD X0 / SET M5 / LD M5 / OUT Y2",
             // States, and jumps that skip one of the two.
             "LD M8002 / SET S0 / STL S0 / OUT Y0 / LD X0 / SET S20 / STL S20 / SET Y0 / LD X1 / OUT S0 / RET / LD X2 / RST Y0",
             "LD X5 / CJ P0 / LD X0 / OUT Y0 / P0 / LDI X5 / CJ P1 / LD X1 / SET Y0 / P1 / LD X6 / RST Y0",

@@ -90,9 +90,19 @@ fn in_vain(
         let outs = conditions.into_iter().filter_map(|when| outs.get(&when));
         outs.map(Vec::as_slice).collect::<Vec<_>>()
     };
+    // A relay that contacts follow until the next OUT holds an intermediate result, as in code that GX Works2 makes of
+    // labels.
+    let counts = |set: usize, outs: &[usize]| {
+        let next = outs.get(outs.partition_point(|&out| out < set));
+        match next {
+            Some(&next) => read_between(set, next),
+            None => read_between(set, usize::MAX) || read_between(0, outs[0]),
+        }
+    };
     let set_in_vain = |&set: &usize| {
-        let out = overwriting(set).first().and_then(|outs| outs.first());
-        out.map(|&out| (out, set))
+        let outs = overwriting(set).into_iter().next()?;
+        let lasts = device.class == DeviceClass::M && counts(set, outs);
+        outs.first().filter(|_| !lasts).map(|&out| (out, set))
     };
     // A RST that follows the OUT switches the coil off for the rest of the scan, and one that contacts follow until
     // then: both may be meant.
