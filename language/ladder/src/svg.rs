@@ -8,6 +8,7 @@ use crate::sfc::Chart;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::text::one_line;
 use std::fmt::Write as _;
+use svg::node::Blob;
 use svg::node::element::{Anchor, Group, Line, Path, Rectangle, Style, Text};
 use svg::{Document, Node};
 
@@ -131,10 +132,16 @@ fn empty(size: (f64, f64)) -> Document {
         .set("role", "img")
 }
 
+/// Marks become text one by one: a network may have hundreds of thousands.
 fn document(picture: &Picture) -> Document {
+    let mut text = String::new();
+    for (i, mark) in picture.marks.iter().enumerate() {
+        let before = if i > 0 { "\n" } else { "" };
+        let _ = write!(text, "{before}{}", node(mark));
+    }
     let mut document = empty(picture.size);
-    for mark in &picture.marks {
-        append(mark, &mut document);
+    if !text.is_empty() {
+        document.append(Blob::new(text));
     }
     document
 }
@@ -144,16 +151,12 @@ fn round(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-fn append(mark: &Mark, to: &mut impl Node) {
+fn node(mark: &Mark) -> Box<dyn Node> {
     match mark {
-        Mark::Line {
-            class,
-            from,
-            to: end,
-        } => {
+        Mark::Line { class, from, to } => {
             let line = Line::new().set("class", *class);
             let line = line.set("x1", round(from.0)).set("y1", round(from.1));
-            to.append(line.set("x2", round(end.0)).set("y2", round(end.1)));
+            line.set("x2", round(to.0)).set("y2", round(to.1)).into()
         }
         Mark::Wires(wires) => {
             let mut path = String::new();
@@ -164,11 +167,11 @@ fn append(mark: &Mark, to: &mut impl Node) {
                     false => write!(path, "V{}", round(to.1)),
                 };
             }
-            to.append(Path::new().set("class", "wire").set("d", path));
+            Path::new().set("class", "wire").set("d", path).into()
         }
         Mark::Text { class, at, text } => {
             let text = Text::new(one_line(text)).set("class", *class);
-            to.append(text.set("x", round(at.0)).set("y", round(at.1)));
+            text.set("x", round(at.0)).set("y", round(at.1)).into()
         }
         Mark::Frame {
             class,
@@ -181,18 +184,18 @@ fn append(mark: &Mark, to: &mut impl Node) {
             let frame = frame
                 .set("width", round(size.0))
                 .set("height", round(size.1));
-            to.append(match radius {
-                Some(radius) => frame.set("rx", *radius),
-                None => frame,
-            });
+            match radius {
+                Some(radius) => frame.set("rx", *radius).into(),
+                None => frame.into(),
+            }
         }
         Mark::About(device, marks) => {
             let mut group = Group::new();
             if let Some(device) = device {
                 group.assign("data-device", device.to_string());
             }
-            marks.iter().for_each(|mark| append(mark, &mut group));
-            to.append(group);
+            marks.iter().for_each(|mark| group.append(node(mark)));
+            group.into()
         }
         Mark::Live(part, marks) => {
             let (attribute, number) = match part {
@@ -201,13 +204,13 @@ fn append(mark: &Mark, to: &mut impl Node) {
                 Live::Value(number) => ("data-value", number),
             };
             let mut group = Group::new().set(attribute, *number);
-            marks.iter().for_each(|mark| append(mark, &mut group));
-            to.append(group);
+            marks.iter().for_each(|mark| group.append(node(mark)));
+            group.into()
         }
         Mark::Link(network, marks) => {
             let mut anchor = Anchor::new().set("href", format!("#n{network}"));
-            marks.iter().for_each(|mark| append(mark, &mut anchor));
-            to.append(anchor);
+            marks.iter().for_each(|mark| anchor.append(node(mark)));
+            anchor.into()
         }
     }
 }

@@ -39,13 +39,22 @@ fn program(last: &str) -> String {
 #[test]
 fn large_programs_take_little_time_and_memory() {
     let (old, new) = (program("Y200"), program("Y201"));
-    let folder = folder(&[("old.il", old.as_bytes()), ("new.il", new.as_bytes())]);
+    // One network without an end.
+    let coils = format!("LD X000\n{}END\n", "OUT Y000\n".repeat(25_000));
+    let folder = folder(&[
+        ("old.il", old.as_bytes()),
+        ("new.il", new.as_bytes()),
+        ("coils.il", coils.as_bytes()),
+    ]);
     for (args, end) in [
         ("view old.il", 0),
         ("view old.il --sfc", 0),
         ("view old.il -o old.html", 0),
         ("view old.il -o old.svg", 0),
         ("view old.il -o old.pdf", 0),
+        ("view coils.il", 0),
+        ("view coils.il -o coils.html", 0),
+        ("view coils.il -o coils.svg", 0),
         ("xref old.il", 0),
         ("stats old.il", 0),
         ("fmt old.il", 0),
