@@ -266,6 +266,34 @@ fn commands(workflow: &str) -> Vec<String> {
     found
 }
 
+/// Files that commands write are among those that a step of the workflow uploads.
+fn uploads_all<'a>(workflow: &str, written: impl Iterator<Item = &'a str>) {
+    let (_, uploaded) = workflow.rsplit_once("path: |").unwrap();
+    for file in written {
+        assert!(uploaded.lines().any(|line| line.trim() == file), "{file}");
+    }
+}
+
+#[test]
+fn the_cache_of_the_example_is_kept() {
+    let root = PathBuf::from(env!("RUNGC_ROOT"));
+    let workflow = fs::read_to_string(root.join("examples/ci/.github/workflows/plc.yml")).unwrap();
+    let cache = "RUNGC_CACHE_DIR: ${{ github.workspace }}/";
+    let (_, folder) = workflow.split_once(cache).unwrap();
+    let folder = folder.lines().next().unwrap();
+    for (name, job) in [("test", "  test:\n"), ("coverage", "  coverage:\n")] {
+        let (_, steps) = workflow.split_once(job).unwrap();
+        let steps = steps.split("\n\n").next().unwrap();
+        assert!(steps.contains(&format!("path: {folder}\n")), "{name}");
+        assert!(steps.contains("path: ~/.cargo/bin/rungc\n"), "{name}");
+    }
+    for line in workflow.lines().filter(|line| line.contains("uses: ")) {
+        let (_, pinned) = line.split_once('@').unwrap();
+        let (commit, version) = pinned.split_once(" # v").unwrap();
+        assert!(commit.len() == 40 && version.contains('.'), "{line}");
+    }
+}
+
 #[test]
 fn the_commands_of_the_example_run() {
     let root = PathBuf::from(env!("RUNGC_ROOT"));
@@ -288,9 +316,15 @@ fn the_commands_of_the_example_run() {
     }
     let mut run = 0;
     for command in commands(&workflow) {
-        if command == "cargo install --locked rungc" {
+        if command.starts_with("cargo install ") {
+            let source = format!("--git {}", env!("CARGO_PKG_REPOSITORY"));
+            assert!(command.contains(&source), "{command}");
+            assert!(command.ends_with(env!("CARGO_PKG_NAME")), "{command}");
             continue;
         }
+        let written = ["-o ", "> "].into_iter();
+        let written = written.filter_map(|by| Some(command.split_once(by)?.1));
+        uploads_all(&workflow, written);
         for shard in ["1", "2"] {
             let command = command.replace("${{ matrix.shard }}", shard);
             let Some(args) = command.strip_prefix("rungc ") else {
@@ -303,7 +337,7 @@ fn the_commands_of_the_example_run() {
             run += 1;
         }
     }
-    assert_eq!(run, 14);
+    assert_eq!(run, 16);
     for (file, begins) in [
         ("tests.sarif", "{"),
         ("tests.xml", "<?xml"),
