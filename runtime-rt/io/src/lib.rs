@@ -6,6 +6,7 @@
 
 #[cfg(feature = "mqtt")]
 mod mqtt;
+pub mod ports;
 mod rtu;
 #[cfg(feature = "tls")]
 mod tls;

@@ -1,5 +1,6 @@
 //! Remote I/O on a serial line of any system.
 
+use crate::ports;
 use rungc_host::io::{Connection, Driver, Rtu, SerialLine};
 use serial2::{CharSize, Parity, SerialPort, StopBits};
 use std::io;
@@ -27,7 +28,7 @@ pub fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         });
         Ok(settings)
     });
-    let mut port = port.map_err(|error| error.to_string())?;
+    let mut port = port.map_err(|error| ports::cannot_open(&error))?;
     let timeout = Duration::from_millis(connection.timeout_ms);
     port.set_write_timeout(timeout)
         .map_err(|error| error.to_string())?;

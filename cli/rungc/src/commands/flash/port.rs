@@ -24,8 +24,7 @@ impl Port {
     /// Opens a line with the format of the boot loader: AN3155 §1, 8 data bits, even parity, 1 stop bit.
     pub fn open(end: &LineEnd, baud: u32) -> Result<Self, Failure> {
         let wire = wire::open(end);
-        let mut wire =
-            wire.map_err(|error| Failure::Because(format!("cannot open {end}: {error}")))?;
+        let mut wire = wire.map_err(|error| Failure::Because(wire::cannot_open(end, &error)))?;
         let format = LineFormat {
             bits_per_second: baud,
             data_bits: 8,

@@ -136,7 +136,8 @@ impl Line {
             return Err(Failure::Because(format!("{option}: {message}; {help}")));
         }
         let (name, events) = wire::keep(&line.end).map_err(|error| {
-            Failure::Because(format!("{option}: cannot open {}: {error}", line.end))
+            let why = wire::cannot_open(&line.end, &error);
+            Failure::Because(format!("{option}: {why}"))
         })?;
         eprint_line(&format!("rungc: {port} at {name}"));
         let place = Place {

@@ -3,6 +3,7 @@
 
 #[cfg(target_os = "linux")]
 use super::can::Interface;
+use rungc_io::ports;
 use rungc_project::serve::LineEnd;
 use rungc_rt::comm::{LineFormat, Parity};
 use serial2::{CharSize, SerialPort, Settings, StopBits};
@@ -195,6 +196,16 @@ pub fn open(end: &LineEnd) -> io::Result<Wire> {
             Err(ErrorKind::Unsupported.into())
         }
     }
+}
+
+/// Message for an end that cannot be opened; of a serial port, it says what to do.
+pub fn cannot_open(end: &LineEnd, error: &io::Error) -> String {
+    let why = match end {
+        LineEnd::Path(_) => ports::cannot_open(error),
+        LineEnd::CanAdapter(end, _) => return cannot_open(end, error),
+        _ => error.to_string(),
+    };
+    format!("cannot open {end}: {why}")
 }
 
 #[cfg(target_os = "linux")]
