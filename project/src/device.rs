@@ -37,9 +37,10 @@ pub fn indexed(text: &str) -> Option<(Device, Index)> {
     matches!(class, DeviceClass::V | DeviceClass::Z).then_some((base, Index { class, number }))
 }
 
-/// Reads `D200-D511`, or `D200` for one device: class, first and last number.
+/// Reads `D200-D511`, also written `D200..D511`, or `D200` for one device: class, first and last number.
 pub fn range(text: &str) -> Option<(DeviceClass, u32, u32)> {
-    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let ends = text.split_once("..").or_else(|| text.split_once('-'));
+    let (first, last) = ends.unwrap_or((text, text));
     let (first, last) = (device(first.trim())?, device(last.trim())?);
     (first.class == last.class && first.number <= last.number).then_some((
         first.class,
@@ -56,9 +57,20 @@ mod tests {
     fn operands_and_ranges() {
         assert_eq!(range("D200-D511"), Some((DeviceClass::D, 200, 511)));
         assert_eq!(range("X010 - X17"), Some((DeviceClass::X, 8, 15)));
+        assert_eq!(range("D200..D511"), Some((DeviceClass::D, 200, 511)));
         assert_eq!(range("ER7"), Some((DeviceClass::ER, 7, 7)));
         for wrong in [
-            "", "D", "D2-M3", "D3-D2", "D1-", "Q1", "X8", "D1000000", "D0Z0",
+            "",
+            "D",
+            "D2-M3",
+            "D3-D2",
+            "D1-",
+            "D1..",
+            "D1..D2..D3",
+            "Q1",
+            "X8",
+            "D1000000",
+            "D0Z0",
         ] {
             assert_eq!(range(wrong), None, "{wrong}");
         }

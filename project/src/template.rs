@@ -27,7 +27,7 @@ pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
         None => format!("# {}", key("model", "fx3u")),
     };
     format!(
-        r#"# Settings of a project for rungc, explained in docs/src/project.md. Command-line options take precedence.
+        r#"# Settings of a project for rungc, explained in `rungc book project`. Command-line options take precedence.
 
 [project]
 # The program, relative to this file: the default for commands without a FILE.

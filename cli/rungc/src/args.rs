@@ -7,6 +7,7 @@ mod explore;
 mod flash;
 mod fleet;
 mod forms;
+mod listings;
 mod properties;
 mod serve;
 mod test;
@@ -20,6 +21,7 @@ pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
+pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use properties::Properties;
 pub use serve::ServeArgs;
 pub use test::{CoverageFormat, TestArgs, TestFormat};
@@ -31,13 +33,9 @@ use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, Names, ReadOptions};
 use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
-use rungc_syntax::{Device, DeviceClass};
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
-use values::{
-    code, device, devices, encoding, limit, model, networks, omissible, plc, target, warning,
-};
+use values::{encoding, limit, model, omissible, plc, target, warning};
 
 /// Default maximum number of diagnostics in the human format.
 const DIAGNOSTICS: usize = 100;
@@ -60,13 +58,14 @@ Examples:
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
   rungc test tests --engine all                all test files in a folder
-  rungc verify motor.il --never 'Y000 & Y001'  proved, or how it happens
-  rungc explore motor.il --for 10s             errors that some inputs lead to
+  rungc verify motor.il --never \"Y000 & Y001\"  proved, or how it happens
+  rungc explore motor.il --timeout 10s         errors that some inputs lead to
   rungc view machine.gxw --device Y000         networks, as ladder
   rungc xref machine.gxw --device M100..M199   who reads and writes each device
   rungc diff old.gxw new.gxw --semantic        what changed, and which outputs can differ
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
+  rungc book test-files                        a page of the book; `rungc book` lists them
 
 Exit codes: 0: success; 1: errors in the program, a failed test, or a simulated machine that hit its end stop;
 2: incorrect usage or unreadable input; 3: `verify` has not decided; 130: interrupted with Ctrl-C.")]
@@ -143,8 +142,12 @@ pub enum Command {
     Init(InitArgs),
     /// Learn unknown instruction codes of a vendor project from the editor's list export.
     Learn(LearnArgs),
-    /// Explain a diagnostic code, an instruction or a special device.
+    /// Explain a diagnostic code, an instruction, a special device or an error code, or print a page of the book.
     Explain(ExplainArgs),
+    /// List the pages of the book, or print one.
+    Book(BookArgs),
+    /// Print the manual page of rungc, or of one of its commands.
+    Man(ManArgs),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.
@@ -204,7 +207,7 @@ pub struct FileKind {
 pub struct Reading {
     #[command(flatten)]
     pub kind: FileKind,
-    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or
+    /// Settings of the project (`rungc book project`). Default: the nearest rungc.toml, in each program's folder or
     /// above it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
@@ -287,7 +290,7 @@ pub struct Plan {
     #[arg(long, value_enum)]
     pub emit: Option<Emit>,
     /// Report resource usage on the target, built from C: flash, RAM, stack, steps of the longest scan
-    /// (docs/src/report.md).
+    /// (`rungc book report`).
     #[arg(long)]
     pub report: bool,
     /// Target: `host` or a Rust target triple such as thumbv7em-none-eabihf. Images use the board's target.
@@ -296,12 +299,12 @@ pub struct Plan {
     /// Language of the image's sources.
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub backend: Option<Backend>,
-    /// Board for an image: a name that `rungc boards` lists, or a description (docs/src/boards.md); with c or rust,
+    /// Board for an image: a name that `rungc boards` lists, or a description (`rungc book boards`); with c or rust,
     /// writes the sources of the image.
     #[arg(long, value_name = "BOARD")]
     pub board: Option<PathBuf>,
     /// Scripted inputs for simulator images: `X000=1@2s`; may be repeated or separated by commas.
-    #[arg(long, value_delimiter = ',', value_name = "INPUT=VALUE[@TIME]")]
+    #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Run time of a simulator image, after which it exits: `30s`.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
@@ -321,33 +324,33 @@ pub struct Plan {
     #[arg(long)]
     pub main: bool,
     /// Executables and main programs take --modbus-tcp, --mc and --fx, as `rungc run` does, and store every device of
-    /// the model. They need the runtime library (docs/src/serve.md).
+    /// the model. They need the runtime library (`rungc book serve`).
     #[arg(long)]
     pub servers: bool,
     /// Executables and main programs take --io FILE, which connects terminals and registers to remote I/O, brokers,
-    /// pins and files as `rungc run` does, and --log FILE. They need the runtime library (docs/src/linux.md).
+    /// pins and files as `rungc run` does, and --log FILE. They need the runtime library (`rungc book linux`).
     #[arg(long)]
     pub io: bool,
-    /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
+    /// Add functions that read and write devices by number and by name to emitted C (`rungc book embedding`).
     #[arg(long)]
     pub device_access: bool,
     /// Add NAME_retain.h and rungc_retain.h to emitted C: save latched devices to flash and load them
-    /// (docs/src/retain.md). Emitted Rust has `Program::retained` for this.
+    /// (`rungc book retain`). Emitted Rust has `Program::retained` for this.
     #[arg(long)]
     pub retain: bool,
     /// Add NAME_lanes.h and rungc_lanes.h to emitted C: run this many instances of the program at once, a bit device of
-    /// all of them in one word (docs/src/lanes.md).
+    /// all of them in one word (`rungc book lanes`).
     #[arg(long, value_name = "N", value_parser = ["64"])]
     pub lanes: Option<String>,
-    /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (docs/src/builds.md).
+    /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (`rungc book builds`).
     #[arg(long)]
     pub misra: bool,
     /// Add the feature `defmt` to emitted Rust: with it, defmt prints the program's state and errors
-    /// (docs/src/builds.md).
+    /// (`rungc book builds`).
     #[arg(long)]
     pub defmt: bool,
     /// Make emitted Rust depend on the runtime in this folder, which several crates can share, instead of a copy inside
-    /// the crate; the runtime is written there unless the folder has it (docs/src/embedding.md).
+    /// the crate; the runtime is written there unless the folder has it (`rungc book embedding`).
     #[arg(long, value_name = "FOLDER")]
     pub runtime: Option<OutputPath>,
     /// Folder outside that of rungc.toml which its `[build] output` may lead to; may be repeated.
@@ -374,16 +377,16 @@ pub struct RunArgs {
     /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
-    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by
-    /// commas.
+    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`, `Start button=1`; may be repeated
+    /// or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or
-    /// characters (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). Default:
-    /// what the program writes, outputs first, and the inputs that change, up to twelve.
+    /// characters (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`), a comment
+    /// (`Main contactor`). Default: what the program writes, outputs first, and the inputs that change, up to twelve.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
-    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
+    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Record inputs, outputs and watched devices as a value change dump for GTKWave and other waveform viewers;
@@ -392,7 +395,12 @@ pub struct RunArgs {
     pub vcd: Option<OutputPath>,
     /// Record this run as a test file (`*.plctest.toml`): the devices set, and the outputs and the devices of --watch
     /// as expectations.
-    #[arg(long, value_name = "FILE", conflicts_with = "real_time")]
+    #[arg(
+        long = "write-test",
+        alias = "record",
+        value_name = "FILE",
+        conflicts_with = "real_time"
+    )]
     pub record: Option<OutputPath>,
     /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites
     /// an earlier drawing.
@@ -435,70 +443,6 @@ impl RunArgs {
     }
 }
 
-/// Arguments of `view`.
-#[derive(Args, Debug)]
-pub struct ViewArgs {
-    #[command(flatten)]
-    pub inputs: Inputs,
-    /// Draw only these networks, by number: `12` or `12..20`; may be repeated.
-    #[arg(long, value_parser = networks, value_name = "RANGE")]
-    pub network: Vec<RangeInclusive<usize>>,
-    /// Draw only networks that contain this device: `M100`; may be repeated.
-    #[arg(long, value_parser = device, value_name = "DEVICE")]
-    pub device: Vec<Device>,
-    /// Draw only networks with a diagnostic of this code: `E0404`; may be repeated.
-    #[arg(long, value_parser = code, value_name = "CODE")]
-    pub around: Vec<&'static str>,
-    /// Draw the sequential function chart of the step ladder instead of the networks.
-    #[arg(long, conflicts_with_all = ["network", "device", "around"])]
-    pub sfc: bool,
-    /// Line width in characters. Default: the width of the terminal, or 120.
-    #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
-    pub width: Option<u16>,
-    /// Omit device comments, in the terminal.
-    #[arg(long)]
-    pub no_comments: bool,
-    /// Write a file: a page (.html) or document (.pdf) of the whole program, or a picture (.svg) of the selected
-    /// networks. With several programs, a folder for their pages.
-    #[arg(short, long, value_name = "PATH")]
-    pub output: Option<OutputPath>,
-    /// Overwrite an existing file.
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Arguments of `xref`.
-#[derive(Args, Debug)]
-pub struct XrefArgs {
-    #[command(flatten)]
-    pub inputs: Inputs,
-    /// List only these devices: `M100` or `D100..D199`; may be repeated.
-    #[arg(long, value_parser = devices, value_name = "RANGE")]
-    pub device: Vec<(DeviceClass, u32, u32)>,
-    /// Also list general devices that no instruction uses; the page and JSON always do.
-    #[arg(long)]
-    pub unused: bool,
-    /// Output form.
-    #[arg(long, value_enum, default_value_t = XrefTo::Text)]
-    pub to: XrefTo,
-    /// File to write. Default: standard output. With several programs, a folder for all outputs.
-    #[arg(short, long, value_name = "PATH")]
-    pub output: Option<OutputPath>,
-    /// Overwrite an existing file.
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Arguments of `stats`.
-#[derive(Args, Debug)]
-pub struct StatsArgs {
-    #[command(flatten)]
-    pub inputs: Inputs,
-    /// Print one JSON object, with a member of `programs` for each program.
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// Arguments of `fmt`.
 #[derive(Args, Debug)]
 pub struct FmtArgs {
@@ -535,11 +479,27 @@ pub struct LearnArgs {
     pub model: Option<ModelId>,
 }
 
+/// Arguments of `book`.
+#[derive(Args, Debug)]
+pub struct BookArgs {
+    /// Page to print, as the list names it: `serve`, `test-files`. Default: list all pages.
+    #[arg(value_name = "PAGE")]
+    pub page: Option<String>,
+}
+
+/// Arguments of `man`.
+#[derive(Args, Debug)]
+pub struct ManArgs {
+    /// Command whose page is printed. Default: the page of rungc itself.
+    #[arg(value_name = "COMMAND")]
+    pub command: Option<String>,
+}
+
 /// Arguments of `explain`.
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
-    /// A diagnostic code (E0106), an instruction (ADD, LD>=), a special device (M8013), or a variant of a model
-    /// (h2u-mtq).
+    /// A diagnostic code (E0106), an error code of the PLC (6706), an instruction (ADD, LD>=), a special device
+    /// (M8013), a variant of a model (h2u-mtq), or a page that `rungc book` lists.
     pub topic: String,
     /// Model whose special devices are shown.
     #[arg(long, value_parser = model, value_name = "MODEL")]
@@ -585,19 +545,6 @@ impl Default for Reporting {
             limit: DIAGNOSTICS,
         }
     }
-}
-
-/// Output forms of `xref`.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum XrefTo {
-    /// Human-readable: a line for each use.
-    Text,
-    /// A table (CSV) with a line for each use.
-    Csv,
-    /// A page with a search.
-    Html,
-    /// JSON: one object.
-    Json,
 }
 
 /// One part of the cases.
@@ -694,5 +641,45 @@ mod tests {
             })
             .collect();
         assert_eq!(outputs, tested, "tests/outputs.txt has a line for each");
+    }
+
+    /// Options whose values are a choice of each command, or a file, a folder or a flag by what the command makes.
+    const DIFFERENT: [&str; 7] = ["engine", "format", "io", "model", "output", "retain", "to"];
+
+    #[test]
+    fn options_of_one_name_take_values_of_one_kind() {
+        let cli = Cli::command();
+        let mut known = std::collections::BTreeMap::new();
+        for command in cli.get_subcommands() {
+            for arg in command.get_arguments().filter(|arg| !arg.is_hide_set()) {
+                let Some(long) = arg.get_long() else { continue };
+                let value = arg.get_value_names().map(|names| names.to_vec());
+                let kind = arg.get_value_parser().type_id();
+                let takes = arg.get_action().takes_values();
+                let (first, other) = known
+                    .entry(long.to_string())
+                    .or_insert_with(|| (command.get_name(), (value.clone(), kind, takes)));
+                if !DIFFERENT.contains(&long) {
+                    let name = command.get_name();
+                    assert_eq!(*other, (value, kind, takes), "--{long}: {first}, {name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn earlier_names_are_still_understood() {
+        for line in [
+            "run a.il --record a.plctest.toml",
+            "test --watch",
+            "test --only x",
+            "explore a.il --for 10s",
+            "stats a.il --json",
+            "flash a.elf --port /dev/ttyUSB0 --wait 60",
+            "read --port /dev/ttyUSB0 --timeout 1000",
+        ] {
+            let words = std::iter::once("rungc").chain(line.split(' '));
+            assert!(Cli::try_parse_from(words).is_ok(), "{line}");
+        }
     }
 }

@@ -70,6 +70,8 @@ pub fn main() -> ExitCode {
         Command::Fmt(args) => commands::fmt::run(args, cx),
         Command::Diff(args) => commands::diff::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
+        Command::Book(args) => commands::book::run(args),
+        Command::Man(args) => man(args.command.as_deref()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "rungc", &mut script);
@@ -108,6 +110,27 @@ fn reject(error: &clap::Error) -> ! {
         std::process::exit(error.exit_code());
     }
     error.exit()
+}
+
+/// Prints the manual page of rungc, or of one of its commands.
+fn man(command: Option<&str>) -> commands::Result {
+    let mut cli = Cli::command();
+    cli.build();
+    let shown = match command {
+        None => cli,
+        Some(name) => {
+            let found = cli.find_subcommand(name).cloned();
+            found.ok_or_else(|| {
+                Failure::Because(format!(
+                    "`{name}` is not a command; `rungc help` lists them"
+                ))
+            })?
+        }
+    };
+    let mut page = Vec::new();
+    clap_mangen::Man::new(shown).render(&mut page)?;
+    commands::print_text(&String::from_utf8_lossy(&page))?;
+    Ok(Outcome::Success)
 }
 
 /// Returns true if standard error is to be coloured.

@@ -30,6 +30,15 @@ pub fn parse(text: &str) -> Result<u64, String> {
     }
 }
 
+/// Parses a time to wait for an answer: 10 ms to an hour.
+pub fn parse_wait(text: &str) -> Result<u64, String> {
+    let ms = parse(text)?;
+    match (10..=3_600_000).contains(&ms) {
+        true => Ok(ms),
+        false => Err("a time to wait is 10ms to 1h".to_string()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::parse;

@@ -3,6 +3,7 @@
 use crate::{Problem, root, tools};
 use rungc_golden::workspace;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 /// Publish all crates that are meant for it; without `--publish`, do everything but upload: each crate must build from
@@ -36,6 +37,9 @@ pub fn run(args: &Args) -> Result<(), Problem> {
         fs::create_dir_all(path.parent().unwrap_or(&published))?;
         fs::write(path, text)?;
     }
+    // So does the book, whose pages the command prints.
+    let book = root().join("cli/rungc/published");
+    copy_pages(&root().join("docs/src"), &book)?;
     let mut cargo = tools::cargo(&["publish", "--workspace", "--locked", "--allow-dirty"]);
     if !args.publish {
         cargo.arg("--dry-run");
@@ -49,5 +53,23 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     }
     let done = tools::run(&mut cargo);
     fs::remove_dir_all(published)?;
+    fs::remove_dir_all(book)?;
     done
+}
+
+/// Copies the pages in a folder and its folders.
+fn copy_pages(from: &Path, to: &Path) -> Result<(), Problem> {
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let path = entry?.path();
+        let Some(name) = path.file_name() else {
+            continue;
+        };
+        if path.is_dir() {
+            copy_pages(&path, &to.join(name))?;
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            fs::copy(&path, to.join(name))?;
+        }
+    }
+    Ok(())
 }

@@ -10,7 +10,7 @@ use rungc_ir::node::Module;
 use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
 use rungc_models::{Fit, Model, ModelId, Variant};
-use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, Span, codes};
 
 /// Options of a compilation.
 #[derive(Clone, Debug, Default)]
@@ -118,6 +118,22 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
     (Model::get(model), out)
 }
 
+/// A note that another model was chosen than the program names.
+fn other_cpu(program: &Program, options: &CompileOptions) -> Option<Diagnostic> {
+    let (chosen, cpu) = (options.model?, program.cpu.as_deref()?);
+    let named = ModelId::from_cpu(cpu).filter(|id| *id != chosen)?;
+    let (chosen, named) = (Model::get(chosen), Model::get(named));
+    let message = format!(
+        "`--model` or rungc.toml says {}, but the program names CPU type {cpu}",
+        chosen.name
+    );
+    let note = codes::OTHER_CPU.at(Span::default(), message);
+    Some(note.help(format!(
+        "without the setting it is compiled as {}",
+        named.name
+    )))
+}
+
 /// A program as lowering makes it. Lowering has the last word on what can be compiled, so checking ends with it too.
 fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (model, mut diagnostics) = model_of(program, options);
@@ -164,6 +180,9 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
         diagnostics.extend(findings.sorted());
         lowered
     };
+    if diagnostics.has_errors() {
+        diagnostics.extend(other_cpu(program, options));
+    }
     let (module, marks) = lowered.unzip();
     Compiled {
         module,

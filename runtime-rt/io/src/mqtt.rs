@@ -57,7 +57,7 @@ struct Broker {
 pub fn opener(connection: &Connection) -> Result<Opener, String> {
     match connection.is_encrypted() && cfg!(not(feature = "tls")) {
         true => Err(String::from(
-            "this rungc is built without TLS; install it with `--features tls` (docs/src/linux.md)",
+            "this rungc is built without TLS; install it with `--features tls` (`rungc book linux`)",
         )),
         false => Ok(open),
     }

@@ -10,6 +10,10 @@ const LISTED: usize = 8;
 /// `ENOTTY` of Linux and macOS: the file is not a serial port.
 const NOT_A_TERMINAL: i32 = 25;
 
+/// Advice for users of Linux who may not open a port.
+const GROUPS: &str = "serial ports belong to a group, `dialout` on Debian, Ubuntu and Fedora, `uucp` on Arch: \
+                      `sudo usermod -aG dialout $USER`, then log in again";
+
 /// Message for a serial port that cannot be opened: the reason and the next step.
 pub fn cannot_open(error: &io::Error) -> String {
     let ports = SerialPort::available_ports().unwrap_or_default();
@@ -18,9 +22,7 @@ pub fn cannot_open(error: &io::Error) -> String {
 
 fn advice(error: &io::Error, ports: &[PathBuf]) -> String {
     match error.kind() {
-        ErrorKind::PermissionDenied if cfg!(unix) => "serial ports belong to a group, `dialout` on Debian, Ubuntu and Fedora, `uucp` on Arch: \
-             `sudo usermod -aG dialout $USER`, then log in again"
-            .to_string(),
+        ErrorKind::PermissionDenied if cfg!(unix) => GROUPS.to_string(),
         ErrorKind::PermissionDenied | ErrorKind::ResourceBusy => {
             "close the other program that uses the port".to_string()
         }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Arguments of `boards`.
 #[derive(Args, Debug)]
 pub struct BoardsArgs {
-    /// Board to show: a name, or a description (docs/src/boards.md). Default: list all boards.
+    /// Board to show: a name, or a description (`rungc book boards`). Default: list all boards.
     #[arg(value_name = "BOARD")]
     pub board: Option<PathBuf>,
     /// Print the description as TOML, as a template for your own board.

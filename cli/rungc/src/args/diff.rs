@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 pub struct DiffArgs {
     /// The old program and the new one, of any kind that `check` reads; `-` is standard input. With seven or nine
-    /// arguments, those with which Git calls a diff driver (docs/src/diff.md).
+    /// arguments, those with which Git calls a diff driver (`rungc book diff`).
     #[arg(value_name = "FILE", required = true, num_args = 2..=9)]
     pub files: Vec<PathBuf>,
     /// Compare behaviour: list the devices that can have different values. Determines the exit code.
@@ -50,7 +50,7 @@ pub enum DiffFormat {
     Human,
     /// A page with the old and new drawing of each network.
     Html,
-    /// JSON: one object (docs/src/diff.md).
+    /// JSON: one object (`rungc book diff`).
     Json,
     /// Markdown, for a comment on a pull request.
     Md,

@@ -13,7 +13,7 @@ pub struct ExploreArgs {
     pub input: Input,
     #[command(flatten)]
     pub properties: Properties,
-    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
+    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Values of latched devices at the start of a run.
@@ -26,8 +26,8 @@ pub struct ExploreArgs {
     #[arg(long, default_value_t = 200_000, value_name = "COUNT")]
     pub scans: u64,
     /// Time limit of the search, in real time. With it, results depend on the speed of the machine.
-    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
-    pub duration: Option<u64>,
+    #[arg(long, alias = "for", value_parser = crate::time::parse, value_name = "TIME")]
+    pub timeout: Option<u64>,
     /// Stop at the first finding.
     #[arg(long)]
     pub first: bool,
@@ -41,7 +41,7 @@ pub struct ExploreArgs {
     #[arg(long, value_enum, default_value_t = SearchEngine::Auto)]
     pub engine: SearchEngine,
     /// Engines that must confirm each finding before it is reported; those of C and Rust are built first.
-    #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
+    #[arg(long, value_enum, default_value_t = EngineChoice::Interp, value_name = "ENGINE")]
     pub replay: EngineChoice,
     /// Write the runs to a test file, which fails until the program is corrected: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]

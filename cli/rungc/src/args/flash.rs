@@ -5,6 +5,7 @@ use crate::output::OutputPath;
 use clap::{ArgGroup, Args};
 use rungc_project::serve::LineEnd;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Arguments of `flash`.
 #[derive(Args, Debug)]
@@ -26,10 +27,12 @@ pub struct FlashArgs {
     /// Bit rate; the boot loader measures it.
     #[arg(long, default_value_t = 115_200, value_parser = bit_rate, value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// Time to wait for the boot loader, in seconds, while you set BOOT0 and reset the board; or for a volume to
-    /// disappear.
-    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(1..=3600), value_name = "SECONDS")]
-    pub wait: u64,
+    /// Time to wait for the boot loader while you set BOOT0 and reset the board, or for a volume to disappear.
+    #[arg(long, default_value = "30s", value_parser = crate::time::parse_wait, value_name = "TIME")]
+    timeout: u64,
+    /// The same in seconds: its name in earlier versions.
+    #[arg(long, hide = true, conflicts_with = "timeout", value_parser = clap::value_parser!(u64).range(1..=3600))]
+    wait: Option<u64>,
     /// Address of the first byte, for files that are not ELF.
     #[arg(long, default_value = "0x08000000", value_parser = address, value_name = "ADDRESS")]
     pub at: u32,
@@ -48,6 +51,14 @@ pub struct FlashArgs {
     /// Start the program afterwards. Its outputs switch immediately.
     #[arg(long)]
     pub start: bool,
+}
+
+impl FlashArgs {
+    /// Time to wait for the boot loader, or for a volume to disappear.
+    pub fn wait(&self) -> Duration {
+        let given = self.wait.map(Duration::from_secs);
+        given.unwrap_or(Duration::from_millis(self.timeout))
+    }
 }
 
 /// A bit rate that boot loaders can measure.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Arguments of `fleet`.
 #[derive(Args, Debug)]
 pub struct FleetArgs {
-    /// Description of the fleet: programs, number of PLCs of each, and connections (docs/src/fleet.md).
+    /// Description of the fleet: programs, number of PLCs of each, and connections (`rungc book fleet`).
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     #[command(flatten)]

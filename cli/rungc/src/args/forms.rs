@@ -36,9 +36,9 @@ pub struct ReadArgs {
     /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
     #[arg(long, default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
     pub baud: u32,
-    /// Time to wait for a response, in milliseconds.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(10..=60_000), value_name = "MS")]
-    pub timeout: u32,
+    /// Time to wait for a response.
+    #[arg(long, default_value = "1s", value_parser = crate::time::parse_wait, value_name = "TIME")]
+    pub timeout: u64,
     /// Number of retries if a response is missing or damaged.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
     pub retries: u32,

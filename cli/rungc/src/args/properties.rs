@@ -1,14 +1,12 @@
 //! Arguments of all commands that search the runs of a program.
 
-use super::values::devices;
 use clap::Args;
-use rungc_syntax::DeviceClass;
 
 /// Properties of a program, and assumptions about its environment.
 #[derive(Args, Debug, Default)]
 pub struct Properties {
     /// A condition that must not hold after any scan: `"Y000 & Y001"`. Devices are named as in test files
-    /// (docs/src/prove.md) or by their comments; `!`, `&`, `|` and comparisons (`D0 > 100`) combine them. May be
+    /// (`rungc book prove`) or by their comments; `!`, `&`, `|` and comparisons (`D0 > 100`) combine them. May be
     /// repeated, as can the options below.
     #[arg(long, value_name = "CONDITION")]
     pub never: Vec<String>,
@@ -22,8 +20,8 @@ pub struct Properties {
     #[arg(long, value_name = "CONDITION")]
     pub assume: Vec<String>,
     /// Devices that something other than the program may write at any time, such as an operator panel: `M100..M115`.
-    #[arg(long, value_parser = devices, value_name = "RANGE")]
-    pub free: Vec<(DeviceClass, u32, u32)>,
+    #[arg(long, value_name = "RANGE")]
+    pub free: Vec<String>,
     /// Maximum time between scans. Default: that of rungc.toml, or 200ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,

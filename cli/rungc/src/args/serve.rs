@@ -41,11 +41,11 @@ pub struct ServeArgs {
     #[arg(long, value_parser = Line::can, value_name = "BUS")]
     pub can: Option<Line>,
     /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an earlier log; to `*.pcap`
-    /// or `*.pcapng` as a capture for Wireshark (docs/src/serve.md).
+    /// or `*.pcapng` as a capture for Wireshark (`rungc book serve`).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
     pub trace_frames: Option<OutputPath>,
     /// Connect terminals and registers as described by the tables `[io.NAME]` of this file (rungc.toml,
-    /// docs/src/linux.md): Modbus remote I/O, an MQTT broker, pins (Linux), files, standard input and output. Runs in
+    /// `rungc book linux`): Modbus remote I/O, an MQTT broker, pins (Linux), files, standard input and output. Runs in
     /// real time. `rungc serve` uses the project's rungc.toml.
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
@@ -70,7 +70,7 @@ pub struct ServeArgs {
 #[derive(Args, Clone, Default, Debug)]
 pub struct PageArgs {
     /// Serve a page that shows the ladder live and controls the run, at this port on this machine only; default: a free
-    /// port. Prints the address to open in a browser (docs/src/live.md). Runs in real time.
+    /// port. Prints the address to open in a browser (`rungc book live`). Runs in real time.
     #[arg(long, value_parser = address, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "0")]
     pub page: Option<SocketAddr>,
     /// Make the page read-only: it shows the run, and accepts no commands.

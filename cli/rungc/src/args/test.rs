@@ -11,13 +11,13 @@ pub struct TestArgs {
     /// Test files (`*.plctest.toml`), or folders of them. Default: those of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Settings of the project (docs/src/project.md). Default: the rungc.toml in this folder or the nearest one above.
+    /// Settings of the project (`rungc book project`). Default: the rungc.toml in this folder or the nearest one above.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
     /// Engine to run the cases on. Default: that of rungc.toml, else the interpreter.
     #[arg(long, value_enum)]
     pub engine: Option<EngineChoice>,
-    /// Simulated machine (docs/src/machines.md) for cases that do not specify one.
+    /// Simulated machine (`rungc book machines`) for cases that do not specify one.
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Run only cases whose `file::name` contains this.
@@ -37,16 +37,16 @@ pub struct TestArgs {
     #[arg(long, conflicts_with = "watch")]
     pub reject: bool,
     /// Rerun whenever a test file, program, machine, trace or setting is saved, until Ctrl-C.
-    #[arg(long, conflicts_with = "output")]
+    #[arg(long = "rerun", alias = "watch", conflicts_with = "output")]
     pub watch: bool,
     /// Ignore cached results: also run cases that passed before with the same files and compiler.
     #[arg(long)]
     pub no_cache: bool,
-    /// Report coverage: networks, decisive contacts, coils on and off, transitions, timers (docs/src/coverage.md). All
+    /// Report coverage: networks, decisive contacts, coils on and off, transitions, timers (`rungc book coverage`). All
     /// cases run in the interpreter.
     #[arg(long, value_enum, value_name = "FORMAT", conflicts_with_all = ["format", "mutants", "watch", "review", "accept", "reject"])]
     pub coverage: Option<CoverageFormat>,
-    /// Report surviving mutants: small changes to the programs that no case detects (docs/src/mutants.md).
+    /// Report surviving mutants: small changes to the programs that no case detects (`rungc book mutants`).
     #[arg(long, conflicts_with_all = ["format", "watch", "review", "accept", "reject"])]
     pub mutants: bool,
     /// Format of the results.
@@ -68,7 +68,7 @@ pub enum TestFormat {
     Human,
     /// JUnit XML, for continuous integration.
     Junit,
-    /// JSON: one object (docs/src/test-files.md).
+    /// JSON: one object (`rungc book test-files`).
     Json,
     /// SARIF 2.1.0: failed cases with their places, for code scanning services.
     Sarif,

@@ -3,7 +3,7 @@
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::Encoding;
 use rungc_models::{ModelId, Plc};
-use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
+use rungc_syntax::{Severity, codes, diag};
 use std::ops::RangeInclusive;
 
 /// The identifier of a warning, given by its code or name.
@@ -52,21 +52,12 @@ pub(super) fn omissible(name: &str) -> Result<&'static str, String> {
 }
 
 pub(super) fn networks(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    match (first.parse(), last.parse()) {
+    let ends = text.split_once("..").or_else(|| text.split_once('-'));
+    let (first, last) = ends.unwrap_or((text, text));
+    match (first.trim().parse(), last.trim().parse()) {
         (Ok(first), Ok(last)) if (1..=last).contains(&first) => Ok(first..=last),
         _ => Err("networks are written `12` or `12..20`, counted from 1".to_string()),
     }
-}
-
-pub(super) fn device(text: &str) -> Result<Device, String> {
-    rungc_project::device::device(&text.to_uppercase())
-        .ok_or_else(|| "a device is written `X010`, `M100` or `D0`".to_string())
-}
-
-pub(super) fn devices(text: &str) -> Result<(DeviceClass, u32, u32), String> {
-    rungc_project::device::range(&text.to_uppercase().replace("..", "-"))
-        .ok_or_else(|| "devices are written `M100` or `D100..D199`".to_string())
 }
 
 pub(super) fn code(text: &str) -> Result<&'static str, String> {

@@ -3,7 +3,8 @@
 mod fitting;
 mod runtime;
 
-use super::setting::setting;
+use super::names::Names;
+use super::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
 use super::{
@@ -61,9 +62,8 @@ fn build(
     cx: Context,
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
-    let mut image = ForImage::of(plan)?;
     let read = read(subject, reporter)?;
-    image.iter_mut().for_each(|image| image.fit(&read.program));
+    let image = ForImage::of(plan, &read.program)?;
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         name: Some(name.clone()),
@@ -80,6 +80,9 @@ fn build(
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, reporter, cx, String::new),
     };
+    if let Some(image) = &image {
+        setting::report_unused(&image.settings, &read.program, subject.options());
+    }
     if plan.name.as_ref().is_some_and(|name| !name.is_ascii()) {
         let (name, in_code) = (text::one_line(&name), &module.name);
         cx.note(&format!("       Named {name}: `{in_code}` in the code"));
@@ -168,18 +171,21 @@ impl Plan {
 struct ForImage {
     board: Board,
     script: Script,
+    /// Settings that the script consists of.
+    settings: Vec<setting::Setting>,
     /// The special modules of the PLC.
     modules: Vec<FittedModule>,
 }
 
 impl ForImage {
     /// That of the plan, if it is for a board.
-    fn of(plan: &Plan) -> Built<Option<Self>> {
-        let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
+    fn of(plan: &Plan, program: &Program) -> Built<Option<Self>> {
+        let path = plan.board.as_ref();
+        let image = path.map(|path| ForImage::new(plan, path, program));
         image.transpose()
     }
 
-    fn new(args: &Plan, path: &Path) -> std::result::Result<Self, Failure> {
+    fn new(args: &Plan, path: &Path, program: &Program) -> std::result::Result<Self, Failure> {
         let board = boards::named_or_described(path).map_err(because)?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
@@ -195,9 +201,7 @@ impl ForImage {
                 board.name
             )));
         }
-        let settings = args.set.iter().map(|text| setting(text));
-        let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-        settings.sort_by_key(|setting| setting.at_ms);
+        let settings = setting::settings(&args.set, &Names::of(program))?;
         let inputs = settings.iter().map(|setting| match setting.target {
             Device::Bit(DeviceClass::X, number) => {
                 Ok((milliseconds(setting.at_ms)?, number, setting.value != 0.0))
@@ -210,17 +214,13 @@ impl ForImage {
             inputs: inputs.collect::<std::result::Result<_, _>>()?,
             until_ms: args.duration.map(milliseconds).transpose()?,
         };
+        let parameters = program.parameters.iter();
         Ok(ForImage {
             board,
             script,
-            modules: Vec::new(),
+            settings,
+            modules: parameters.flat_map(|p| p.modules.clone()).collect(),
         })
-    }
-
-    /// Takes the special modules that the settings list.
-    fn fit(&mut self, program: &Program) {
-        let parameters = program.parameters.iter();
-        self.modules = parameters.flat_map(|p| p.modules.clone()).collect();
     }
 
     /// The serial ports that work whatever the program does.
@@ -390,7 +390,7 @@ impl Job<'_> {
         let refusal = lanes::refusal(self.module).filter(|_| self.plan.lanes.is_some());
         match refusal {
             Some(why) => Err(Failure::Because(format!(
-                "--lanes: {} {why}, which only one instance at a time can do (docs/src/lanes.md)",
+                "--lanes: {} {why}, which only one instance at a time can do (`rungc book lanes`)",
                 self.module.name
             ))),
             None => Ok(()),
@@ -449,7 +449,7 @@ impl Job<'_> {
             }
             true => {
                 return Err(Failure::Because(format!(
-                    "{} calls the runtime library, which {} cannot build: name the processor with --target (docs/src/builds.md)",
+                    "{} calls the runtime library, which {} cannot build: name the processor with --target (`rungc book builds`)",
                     self.module.name,
                     kind.title()
                 )));

@@ -1,6 +1,6 @@
 //! `rungc explain`.
 
-use super::{Failure, Outcome, Result, print_text};
+use super::{Failure, Outcome, Result, book, print_text};
 use crate::args::ExplainArgs;
 use rungc_models::plc_errors::{self, PlcError};
 use rungc_models::runs::is_special;
@@ -12,28 +12,36 @@ use std::fmt::Write;
 /// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a
 /// model.
 pub fn run(args: &ExplainArgs) -> Result {
-    let topic = args.topic.trim().to_uppercase();
-    let page = codes::find(&args.topic.trim().to_lowercase())
-        .map(code_page)
-        .or_else(|| plc_error_page(topic.parse().ok()?, args.model))
-        .or_else(|| special_page(&topic, args.model?))
-        .or_else(|| Variant::find(&topic).map(variant_page))
-        .or_else(|| rungc_catalogue::explain(&topic));
-    let Some(page) = page else {
+    let of_book = || book::page(&args.topic).map(|page| page.text.to_string());
+    let Some(page) = page(args).or_else(of_book) else {
+        let topic = args.topic.trim().to_uppercase();
         let codes = codes::all()
             .into_iter()
             .flat_map(|code| [code.id, code.name]);
         let names = codes.chain(rungc_catalogue::all().map(|inst| inst.name));
+        let pages = book::PAGES.iter().map(|page| page.name);
         let hint = diag::did_you_mean(&topic, names)
+            .or_else(|| diag::did_you_mean(&topic.to_lowercase(), pages))
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
         return Err(Failure::Because(format!(
-            "`{}` is not a diagnostic code, PLC error code, instruction, special device or variant of a model{hint}",
+            "`{}` is not a diagnostic code, PLC error code, instruction, special device, variant of a model or page of the book{hint}",
             args.topic
         )));
     };
     print_text(&format!("{}\n", page.trim_end()))?;
     Ok(Outcome::Success)
+}
+
+/// What is known of a topic, but for the pages of the book.
+pub fn page(args: &ExplainArgs) -> Option<String> {
+    let topic = args.topic.trim().to_uppercase();
+    codes::find(&args.topic.trim().to_lowercase())
+        .map(code_page)
+        .or_else(|| plc_error_page(topic.parse().ok()?, args.model))
+        .or_else(|| special_page(&topic, args.model?))
+        .or_else(|| Variant::find(&topic).map(variant_page))
+        .or_else(|| rungc_catalogue::explain(&topic))
 }
 
 fn code_page(code: &Code) -> String {

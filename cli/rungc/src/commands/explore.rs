@@ -86,7 +86,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
     let hal = Box::new(hardware::of(fitted));
-    let external: Vec<_> = reader.external().devices.into_keys().collect();
+    let external: Vec<_> = reader.external()?.devices.into_keys().collect();
     let mut task = Task::new(
         &module,
         (&properties, &assumed),
@@ -116,7 +116,7 @@ impl Searched<'_> {
         let limits = Limits {
             lanes: lanes.as_ref().map(|lanes| lanes.executable.clone()),
             scans: args.scans,
-            time: args.duration.map(Duration::from_millis),
+            time: args.timeout.map(Duration::from_millis),
             seed: args.seed,
             threads: self.threads(),
         };

@@ -53,7 +53,7 @@ pub fn run(args: &FlashArgs, cx: Context) -> Result {
 /// Over a serial line.
 fn over(port: &LineEnd, args: &FlashArgs, payload: &Payload, cx: Context) -> Result {
     let line = Port::open(port, args.baud)?;
-    if args.wait > 1 {
+    if args.wait() > Duration::from_secs(1) {
         cx.note(&format!(
             "     Waiting for the boot loader at {port}: set BOOT0 and reset the board"
         ));
@@ -123,7 +123,7 @@ struct Board {
 
 impl Board {
     fn connect(line: Port, args: &FlashArgs) -> Done<Self> {
-        let mut loader = Loader::connect(line, Duration::from_secs(args.wait)).map_err(early)?;
+        let mut loader = Loader::connect(line, args.wait()).map_err(early)?;
         let id = loader.id().map_err(early)?;
         let Some(chip) = chips::find(id) else {
             let what =

@@ -5,6 +5,7 @@ mod failures;
 mod memory;
 mod running;
 
+use super::names::Names;
 use super::run::hardware;
 use super::setting;
 use super::subject::{self, Subject};
@@ -19,7 +20,7 @@ use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
-use rungc_syntax::{DeviceClass, Diagnostic, FittedModule};
+use rungc_syntax::{Diagnostic, FittedModule};
 use running::Fleets;
 
 /// A program of the fleet, compiled.
@@ -115,10 +116,16 @@ fn compile(
     };
     let mut options = subject.options();
     let model = compile::model(&read.program, &options);
-    let (settings, set) = settings(plcs).map_err(refuse)?;
+    let (settings, set) = settings(plcs, &Names::of(&read.program)).map_err(refuse)?;
     options
         .observe
         .extend(plcs.observed(model).map_err(refuse)?);
+    if plcs.modbus_tcp.is_none() {
+        setting::report_unused(&set, &read.program, options.clone());
+    }
+    let set = set
+        .iter()
+        .flat_map(|setting| setting::devices(setting.target));
     options.observe.extend(set);
     let options = CompileOptions {
         name: Some(stem(&subject, &read)),
@@ -128,7 +135,7 @@ fn compile(
     let findings = findings(&subject, &read, &compiled);
     match compiled.module {
         Some(module) if !findings.failed() => {
-            reporter.add(&findings)?;
+            reporter.add_count(&findings, subject.check_command().as_deref(), cx)?;
             reporter.finish()?;
             let parameters = read.program.parameters.as_ref();
             Ok(Ok(Compiled {
@@ -145,25 +152,25 @@ fn compile(
     }
 }
 
-/// Settings of the file, and their devices.
-type Settings = (Vec<Setting>, Vec<(DeviceClass, u32)>);
+/// Settings of the file, as a fleet takes them and as they are written.
+type Settings = (Vec<Setting>, Vec<setting::Setting>);
 
-fn settings(plcs: &Plcs) -> std::result::Result<Settings, Box<Diagnostic>> {
-    let (mut settings, mut devices) = (Vec::new(), Vec::new());
+fn settings(plcs: &Plcs, names: &Names) -> std::result::Result<Settings, Box<Diagnostic>> {
+    let (mut settings, mut written) = (Vec::new(), Vec::new());
     for Written { text, span } in &plcs.set {
-        let read = setting::parse(text).map_err(|why| Box::new(FLEET_DEVICE.at(*span, why)))?;
+        let read =
+            setting::parse(text, names).map_err(|why| Box::new(FLEET_DEVICE.at(*span, why)))?;
         let parts = At::parts(read.target, read.value).ok_or_else(|| {
             let why = format!("`{}` cannot be set in a fleet", read.target);
             Box::new(FLEET_DEVICE.at(*span, why))
         })?;
-        let (class, first, count) = read.target.devices(0);
-        devices.extend((first..first + count).map(|number| (class, number)));
         settings.push(Setting {
             at_ms: read.at_ms,
             parts,
         });
+        written.push(read);
     }
-    Ok((settings, devices))
+    Ok((settings, written))
 }
 
 /// Checks that the program has all devices that are set.

@@ -1,6 +1,7 @@
 //! The commands. Each returns whether all went well; what stops a command before it can answer is a [`Failure`].
 
 pub mod boards;
+pub mod book;
 pub mod build;
 pub mod check;
 pub mod convert;
@@ -16,6 +17,8 @@ mod in_place;
 pub mod init;
 pub mod interruption;
 pub mod learn;
+pub mod names;
+mod other_model;
 mod ports;
 mod properties;
 pub mod read;
@@ -233,7 +236,7 @@ pub fn found_reading<'a>(subject: &'a Subject, read: &'a Read) -> Findings<'a> {
 /// Findings of reading and compiling a program.
 pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
-    diagnostics.refine(&compiled.diagnostics);
+    diagnostics.refine(&other_model::joined(subject, read, compiled));
     Findings {
         size: Some(compiled.into()),
         step_numbers: compiled.step_numbers.clone(),

@@ -1,6 +1,7 @@
 //! Properties of a program from the command line and the settings of its project: for all commands that search for
 //! runs.
 
+use super::names::Names;
 use super::subject::{self, Subject};
 use super::{Context, Failure, findings};
 use crate::args::Properties;
@@ -168,8 +169,12 @@ impl Reader<'_> {
     }
 
     /// Devices that may be written from outside the program, by the command line and the settings.
-    pub fn external(&self) -> ExternalWrites {
-        ExternalWrites::of(Some(&self.args.free), self.project())
+    pub fn external(&self) -> Result<ExternalWrites> {
+        let names = Names::of(self.program);
+        let free = self.args.free.iter().map(|text| names.range(text));
+        let free: std::result::Result<Vec<_>, _> = free.collect();
+        let free = free.map_err(|why| Failure::Because(format!("--free: {why}")))?;
+        Ok(ExternalWrites::of(Some(&free), self.project()))
     }
 
     /// A time in milliseconds: that of the command line, else that of the settings, else the usual one.
@@ -196,12 +201,11 @@ impl Reader<'_> {
     }
 
     fn parse(&self, text: &str) -> std::result::Result<Condition, ParseError> {
-        let plain = |text: &str| text.trim().to_lowercase();
+        let names = Names::of(self.program);
         let condition = parse(text, &|name| {
-            let named = self.program.comments.iter();
-            let named = named.filter(|(_, comment)| plain(comment) == plain(name));
-            named
-                .filter_map(|(device, _)| Target::parse(&device.to_string()).ok())
+            let devices = names.with_comment(name).iter();
+            devices
+                .filter_map(|device| Target::parse(&device.to_string()).ok())
                 .collect()
         })?;
         let model = rungc_lower::compile::model(self.program, &self.subject.options());

@@ -20,7 +20,8 @@ mod table;
 mod view;
 mod watch;
 
-use super::setting::{Setting, setting, target};
+use super::names::Names;
+use super::setting::{self, Setting, devices as observed};
 use super::subject::{self, Subject};
 use super::view::title;
 use super::{Context, Failure, Result, Verbosity, conclude, eprint_line, findings, read, stem};
@@ -36,7 +37,6 @@ use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
-use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
 use rungc_syntax::{DeviceClass, Program, codes, inputs};
 pub use watch::STANDARD_ERROR;
@@ -82,11 +82,6 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             "--scan: a scan takes at least 1 ms".to_string(),
         ));
     }
-    let settings = settings(args)?;
-    let watched = args.watch.iter().map(|name| target(name));
-    let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
-    let over = args.over.as_deref().map(target).transpose()?;
-    let described = machine(args, &settings)?;
     let wired_up = connecting::settings(&args.serve, subject, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(subject, &mut reporter) {
@@ -96,11 +91,11 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             return Err(failure);
         }
     };
-    let used = settings.iter().map(|s| s.target);
-    let used = used.chain(watched.clone()).chain(over);
+    let requested = Requested::of(args, &read.program)?;
+    let described = requested.machine.as_ref();
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
-        observe: observed_devices(args, used, described.as_ref()),
+        observe: requested.devices(args),
         ..args.serve.opened(subject.options())
     };
     let compiled = compile(&read.program, &options);
@@ -113,41 +108,34 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             return outcome;
         }
     };
-    reporter.add(&findings)?;
+    reporter.add_count(&findings, subject.check_command().as_deref(), cx)?;
     reporter.finish()?;
-    let listed = match watched.is_empty() {
-        true => default_watch(&read.program, &module, &settings, described.as_ref()),
-        false => watched.clone(),
-    };
-    let has_table = table == Table::Usual || !watched.is_empty();
-    if let Some(machine) = &described {
+    requested.report_unused(args, subject, &read.program);
+    let listed = requested.shown(&read.program, &module);
+    let has_table = table == Table::Usual || !requested.watched.is_empty();
+    if let Some(machine) = described {
         machine.check(module.model).map_err(because)?;
     }
-    let connections = connecting::connections(
-        wired_up,
-        subject,
-        (&module, described.as_ref()),
-        &args.serve,
-        cx,
-    )?;
-    let plant = described.as_ref().map(Description::plant);
+    let connections =
+        connecting::connections(wired_up, subject, (&module, described), &args.serve, cx)?;
+    let plant = described.map(Description::plant);
     report_still_axes(plant.as_ref(), &module);
     let served = args.serve.any().then_some(&read.program);
     let program_memory = served.and_then(|program| image::write(program).ok());
     let live = page(args, subject, &read, &module, &listed)?;
     let retain = retained(args, subject)?;
     let connected = retain.is_some() || !connections.is_empty();
-    let recorder = recorder(args, subject, connected, (&module, &watched))?;
+    let recorder = recorder(args, subject, connected, (&module, &requested.watched))?;
     let parameters = read.program.parameters.as_ref();
     let run = simulate::Run {
         args,
         retain,
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
-        settings: &settings,
+        settings: &requested.settings,
         shown: if has_table { &listed } else { &[] },
-        watched: &watched,
-        over,
+        watched: &requested.watched,
+        over: requested.over,
         table: has_table,
         modules: parameters.map_or(&[], |parameters| &parameters.modules),
         program_memory: program_memory.as_deref(),
@@ -184,32 +172,69 @@ fn repeatable(
         () if subject.is_stdin() => "its program is a file",
         () => return Ok(()),
     };
-    let message = format!("--record: a test can repeat a run only if {why}");
+    let message = format!("--write-test: a test can repeat a run only if {why}");
     Err(Failure::Because(message))
 }
 
-/// Settings in the order of their times.
-fn settings(args: &RunArgs) -> std::result::Result<Vec<Setting>, Failure> {
-    let settings = args.set.iter().map(|text| setting(text));
-    let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-    settings.sort_by_key(|s| s.at_ms);
-    Ok(settings)
+/// Devices and the machine that the arguments name.
+struct Requested {
+    /// Settings in the order of their times.
+    settings: Vec<Setting>,
+    watched: Vec<Target>,
+    /// Target on the horizontal axis of a plot.
+    over: Option<Target>,
+    machine: Option<Description>,
 }
 
-/// The devices that are kept though the program may not use them: those that are set, watched or drawn, the terminals
-/// of the simulated machine, and what `--scope` samples.
-fn observed_devices(
-    args: &RunArgs,
-    used: impl Iterator<Item = Target>,
-    described: Option<&Description>,
-) -> Vec<(DeviceClass, u32)> {
-    let wired = described.into_iter().flat_map(Description::terminals);
-    let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
-    let sampled = registers.map(|register| (DeviceClass::D, register.number()));
-    used.flat_map(observed)
-        .chain(wired)
-        .chain(sampled)
-        .collect()
+impl Requested {
+    fn of(args: &RunArgs, program: &Program) -> std::result::Result<Self, Failure> {
+        let names = Names::of(program);
+        let target = |option: &str, name: &str| {
+            let target = names.target(name);
+            target.map_err(|why| Failure::Because(format!("{option}: {why}")))
+        };
+        let settings = setting::settings(&args.set, &names)?;
+        let watched = args.watch.iter().map(|name| target("--watch", name));
+        Ok(Requested {
+            watched: watched.collect::<std::result::Result<_, _>>()?,
+            over: args
+                .over
+                .as_deref()
+                .map(|name| target("--over", name))
+                .transpose()?,
+            machine: machine(args, &settings)?,
+            settings,
+        })
+    }
+
+    /// The devices that are kept though the program may not use them: those that are set, watched or drawn, the
+    /// terminals of the simulated machine, and what `--scope` samples.
+    fn devices(&self, args: &RunArgs) -> Vec<(DeviceClass, u32)> {
+        let used = self.settings.iter().map(|s| s.target);
+        let used = used.chain(self.watched.iter().copied()).chain(self.over);
+        let wired = self.machine.iter().flat_map(Description::terminals);
+        let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
+        let sampled = registers.map(|register| (DeviceClass::D, register.number()));
+        used.flat_map(observed)
+            .chain(wired)
+            .chain(sampled)
+            .collect()
+    }
+
+    /// The devices that the run shows.
+    fn shown(&self, program: &Program, module: &Module) -> Vec<Target> {
+        match self.watched.is_empty() {
+            true => default_watch(program, module, &self.settings, self.machine.as_ref()),
+            false => self.watched.clone(),
+        }
+    }
+
+    /// Reports settings of devices that neither the program nor a client can use.
+    fn report_unused(&self, args: &RunArgs, subject: &Subject, program: &Program) {
+        if !args.serve.any() {
+            setting::report_unused(&self.settings, program, subject.options());
+        }
+    }
 }
 
 /// The page that the arguments ask for, whose watch list holds these at first.
@@ -283,12 +308,6 @@ fn name(target: Target) -> String {
         Target::Current(class, n) => class.number(n).to_string(),
         other => other.to_string(),
     }
-}
-
-/// A watched or set device is kept though the program may not use it.
-fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
-    let (class, first, count) = target.devices(TEXT_LENGTH);
-    (first..first.saturating_add(count)).map(move |n| (class, n))
 }
 
 /// Failure to use the description of a machine.

@@ -22,7 +22,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
             None => "`[serve]` of a rungc.toml (`rungc init` writes one)".to_string(),
         };
         let why = format!(
-            "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, connect terminals as `[io.NAME]` (docs/src/linux.md), or use \
+            "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, connect terminals as `[io.NAME]` (`rungc book linux`), or use \
              --modbus-tcp, --mc, --fx, --serial, --can, --io or --page"
         );
         return Err(Failure::Because(why));

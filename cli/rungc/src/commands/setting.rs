@@ -1,8 +1,13 @@
 //! Devices that are set at a time: `X000=1@200ms`.
 
-use super::Failure;
+use super::names::Names;
+use super::{Failure, eprint_line};
+use rungc_emit::events;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::runs::is_special;
 use rungc_sim::Target;
-use rungc_syntax::DeviceClass;
+use rungc_sim::record::TEXT_LENGTH;
+use rungc_syntax::{DeviceClass, Program};
 
 /// `X000=1@200ms`.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,9 +24,9 @@ pub struct Setting {
 const MOST_SIGNAL: f64 = 2000.0;
 
 /// Reads what is watched or set.
-pub fn target(name: &str) -> std::result::Result<Target, Failure> {
+pub fn target(name: &str) -> std::result::Result<Target, String> {
     let upper = upper(name);
-    match Target::parse(&upper).map_err(Failure::Because)? {
+    match Target::parse(&upper)? {
         // A timer or counter is watched by its current value.
         Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
         target => Ok(target),
@@ -40,21 +45,78 @@ fn upper(name: &str) -> String {
     })
 }
 
-/// Reads `X000=1@200ms` after `--set`.
-pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
-    parse(text).map_err(|why| Failure::Because(format!("--set {text}: {why}")))
+/// Reads what follows `--set`, in the order of the times.
+pub fn settings(texts: &[String], names: &Names) -> std::result::Result<Vec<Setting>, Failure> {
+    let settings = texts.iter().map(|text| {
+        parse(text, names).map_err(|why| Failure::Because(format!("--set {text}: {why}")))
+    });
+    let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
+    settings.sort_by_key(|setting| setting.at_ms);
+    Ok(settings)
+}
+
+/// Devices of a target.
+pub fn devices(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
+    let (class, first, count) = target.devices(TEXT_LENGTH);
+    (first..first.saturating_add(count)).map(move |n| (class, n))
+}
+
+/// Targets of settings that nothing in the program uses.
+fn unused(settings: &[Setting], program: &Program, options: CompileOptions) -> Vec<Target> {
+    let mut targets: Vec<Target> = Vec::new();
+    for setting in settings {
+        let general = devices(setting.target).all(|(class, n)| !is_special(class, n));
+        let stored = !matches!(setting.target, Target::Channel(_));
+        if general && stored && !targets.contains(&setting.target) {
+            targets.push(setting.target);
+        }
+    }
+    if targets.is_empty() {
+        return targets;
+    }
+    let options = CompileOptions {
+        optimise: false,
+        ..options
+    };
+    let Some(module) = compile(program, &options).module else {
+        return Vec::new();
+    };
+    let edges = events::inputs(&module);
+    let is_used = |(class, n)| {
+        let (class, n) = module.model.canonical(class, n);
+        let has_edge = class == DeviceClass::X && edges.contains(&n);
+        has_edge || module.layout.area(class, n).is_some()
+    };
+    targets.retain(|target| !devices(*target).any(is_used));
+    targets
+}
+
+/// Reports settings of devices that nothing in the program uses; `options` compile it without them.
+pub fn report_unused(settings: &[Setting], program: &Program, options: CompileOptions) {
+    let names: Vec<_> = unused(settings, program, options)
+        .iter()
+        .map(|target| format!("`{target}`"))
+        .collect();
+    if let Some((last, others)) = names.split_last() {
+        let set = match others {
+            [] => format!("{last}, which is set"),
+            others => format!("{} and {last}, which are set", others.join(", ")),
+        };
+        eprint_line(&format!("rungc: the program does not use {set}"));
+    }
 }
 
 /// Reads `X000=1@200ms`; the error describes the problem.
-pub fn parse(text: &str) -> std::result::Result<Setting, String> {
+pub fn parse(text: &str, names: &Names) -> std::result::Result<Setting, String> {
+    // Comments may contain the sign.
     let (name, rest) = text
-        .split_once('=')
+        .rsplit_once('=')
         .ok_or("write DEVICE=VALUE, for example X000=1@200ms")?;
     let (value, at) = rest
         .split_once('@')
         .map_or((rest, None), |(value, at)| (value, Some(at)));
     let at_ms = at.map_or(Ok(0), crate::time::parse)?;
-    let target = target(name).map_err(|error| error.to_string())?;
+    let target = names.target(name)?;
     let value: f64 = value
         .trim()
         .parse()
@@ -94,6 +156,48 @@ pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn setting(text: &str) -> std::result::Result<Setting, String> {
+        parse(text, &Names::of(&Program::default()))
+    }
+
+    #[test]
+    fn settings_of_devices_without_a_use_are_found() {
+        let list = "LD X000\nAND M0\nOUT Y000\nLD M1\nMOV D0 K2M20\nLDI C235\nOUT C235 K5\nBMOV D100 D200 K8\nMOV D301 Z0\nMOV D300 R400Z0\nEND\n";
+        let program = rungc_frontend::read_text("a.il", list).program;
+        let is_unused = |text: &str| {
+            let settings = [setting(text).unwrap()];
+            !unused(&settings, &program, CompileOptions::default()).is_empty()
+        };
+        let inputs = ["X050=1", "X001=1", "X007=1"];
+        let others = [
+            "M2=1",
+            "S5=1",
+            "D5=1",
+            "T3=1",
+            "C7=1",
+            "D96.i32=1",
+            "K1M12=3",
+            "Y007=1",
+        ];
+        for text in inputs.into_iter().chain(others) {
+            assert!(is_unused(text), "{text}");
+        }
+        let read = [
+            "X000=1",
+            "M0=1",
+            "M1=1",
+            "M27=1",
+            "D0=1",
+            "D107=1",
+            "D99.i32=1",
+            "R450=1",
+        ];
+        let own = ["M8012=1", "D8000=100", "C235=1", "Y000=1"];
+        for text in read.into_iter().chain(own) {
+            assert!(!is_unused(text), "{text}");
+        }
+    }
 
     #[test]
     fn settings_are_read() {

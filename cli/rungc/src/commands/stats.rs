@@ -2,7 +2,7 @@
 
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, conclude, findings, grouped, print_text, read};
-use crate::args::StatsArgs;
+use crate::args::{StatsArgs, StatsTo};
 use crate::report::Reporter;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_analysis::xref::CrossReference;
@@ -74,13 +74,13 @@ pub fn run(args: &StatsArgs, cx: Context) -> Result {
     let mut programs = Vec::new();
     let outcome = subject::each(&args.inputs, cx, |subject, reporter| {
         let (stats, outcome) = stats(subject, reporter, cx)?;
-        match args.json {
-            true => programs.push(stats),
-            false => print_text(&stats.to_string())?,
+        match args.to() {
+            StatsTo::Json => programs.push(stats),
+            StatsTo::Text => print_text(&stats.to_string())?,
         }
         Ok(outcome)
     })?;
-    if args.json {
+    if args.to() == StatsTo::Json {
         let text = serde_json::to_string_pretty(&Output { programs });
         let text = text.map_err(|error| Failure::Because(error.to_string()))?;
         print_text(&format!("{text}\n"))?;

@@ -40,6 +40,16 @@ impl Subject {
         self.file == Path::new(STDIN)
     }
 
+    /// Command that lists all that can be said of the program; `None` for standard input.
+    pub fn check_command(&self) -> Option<String> {
+        let file = self.file.display().to_string();
+        let quoted = match file.contains(char::is_whitespace) {
+            true => format!("\"{file}\""),
+            false => file,
+        };
+        (!self.is_stdin()).then(|| format!("rungc check {quoted}"))
+    }
+
     /// Options for compiling, by its settings.
     pub fn options(&self) -> CompileOptions {
         let Reporting { warn, rules, .. } = &self.reporting;

@@ -50,7 +50,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
         return Err(Failure::Because(why.to_string()));
     }
-    let external = reader.external();
+    let external = reader.external()?;
     let options = options(args, &reader, &assumed, &external)?;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
     let conditions = requested

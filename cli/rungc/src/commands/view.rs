@@ -1,5 +1,6 @@
 //! `rungc view`.
 
+use super::names::Names;
 use super::subject::{self, OutputPaths, Subject};
 use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::ViewArgs;
@@ -12,7 +13,7 @@ use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw};
 use rungc_ladder::{Ladder, Network, build, html, pdf};
 use rungc_lower::compile;
-use rungc_syntax::{Device, OperandKind, Span};
+use rungc_syntax::{DeviceClass, OperandKind, Span};
 use std::fmt::Write;
 use std::path::Path;
 use terminal_size::{Width, terminal_size};
@@ -51,7 +52,9 @@ fn view(
     let model = compile::model(&read.program, &options);
     let (resolved, _) = resolve(&read.program, model);
     let ladder = build::ladder(&resolved);
-    let networks = chosen(args, subject, &read, (&resolved, &ladder));
+    let devices = devices(args, subject, &read)?;
+    let places = reported(args, subject, &read);
+    let networks = chosen(args, (&devices, &places), (&resolved, &ladder));
     if networks.is_empty() && !ladder.networks.is_empty() {
         let count = ladder.networks.len();
         return Err(Failure::Because(format!(
@@ -95,19 +98,33 @@ fn view(
     Ok(Outcome::of(&findings))
 }
 
-/// The networks that the arguments choose, with their numbers.
-fn chosen<'a>(
+/// A class, and the first and last number of a range.
+type Range = (DeviceClass, u32, u32);
+
+/// The devices of `--device`.
+fn devices(
     args: &ViewArgs,
     subject: &Subject,
     read: &Read,
+) -> std::result::Result<Vec<Range>, Failure> {
+    let names = Names::of(&read.program);
+    let ranges = args.device.iter().map(|name| names.range(name));
+    ranges
+        .collect::<std::result::Result<_, _>>()
+        .map_err(|why| Failure::Because(format!("{}: --device: {why}", subject.file.display())))
+}
+
+/// The networks that the arguments choose, with their numbers.
+fn chosen<'a>(
+    args: &ViewArgs,
+    (devices, places): (&[Range], &[Span]),
     (resolved, ladder): (&Resolved, &'a Ladder),
 ) -> Vec<(usize, &'a Network)> {
-    let places = reported(args, subject, read);
     let wanted = |number: usize, network: &Network| {
         let numbered =
             args.network.is_empty() || args.network.iter().any(|range| range.contains(&number));
-        let named = args.device.is_empty() || names(resolved, network, &args.device);
-        let around = args.around.is_empty() || holds(resolved, network, &places);
+        let named = devices.is_empty() || names(resolved, network, devices);
+        let around = args.around.is_empty() || holds(resolved, network, places);
         numbered && named && around
     };
     let networks = (1..).zip(&ladder.networks);
@@ -204,17 +221,21 @@ fn holds(resolved: &Resolved, network: &Network, places: &[Span]) -> bool {
 }
 
 /// Returns true if an operand of a network names one of these devices.
-fn names(resolved: &Resolved, network: &Network, devices: &[Device]) -> bool {
+fn names(resolved: &Resolved, network: &Network, devices: &[Range]) -> bool {
+    let is_named = |class, first: u32, count| {
+        let end = first.saturating_add(count);
+        let mut ranges = devices.iter();
+        ranges.any(|range| range.0 == class && range.1 < end && first <= range.2)
+    };
     let instrs = &resolved.program.instrs[network.instrs.clone()];
     let mut operands = instrs.iter().flat_map(|instr| &instr.operands);
     operands.any(|operand| match operand.kind {
         OperandKind::Device(device, _) | OperandKind::WordBit(device, ..) => {
-            devices.contains(&device)
+            is_named(device.class, device.number, 1)
         }
-        OperandKind::Nibbles(digits, first, _) => devices.iter().any(|device| {
-            let last = first.number.saturating_add(4 * u32::from(digits));
-            device.class == first.class && (first.number..last).contains(&device.number)
-        }),
+        OperandKind::Nibbles(digits, first, _) => {
+            is_named(first.class, first.number, 4 * u32::from(digits))
+        }
         OperandKind::Decimal(..)
         | OperandKind::Hex(..)
         | OperandKind::Float(_)

@@ -3,6 +3,7 @@
 mod html;
 mod table;
 
+use super::names::Names;
 use super::subject::{self, OutputPaths, Subject};
 use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::{XrefArgs, XrefTo};
@@ -35,7 +36,12 @@ fn xref(
     reporter.add(&findings)?;
     let model = compile::model(program, &subject.options());
     let (resolved, _) = resolve(program, model);
-    let table = Table::new(&resolved, &build::ladder(&resolved), args);
+    let names = Names::of(program);
+    let ranges = args.device.iter().map(|name| names.range(name));
+    let ranges = ranges.collect::<std::result::Result<Vec<_>, _>>();
+    let ranges = ranges
+        .map_err(|why| Failure::Because(format!("{}: --device: {why}", subject.file.display())))?;
+    let table = Table::new(&resolved, &build::ladder(&resolved), &ranges);
     if table.devices.is_empty() && !args.device.is_empty() {
         let path = subject.file.display();
         let why = format!("{path}: no instruction names these devices");

@@ -12,7 +12,7 @@ mod window;
 pub use visible::{visible, visible_json};
 
 use crate::args::{Format, Reporting};
-use crate::commands::Context;
+use crate::commands::{Context, Verbosity, counted};
 use rungc_analysis::check::ports::Setup;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
@@ -281,6 +281,30 @@ impl<'a> Reporter<'a> {
             Format::Junit => self.junit.push(junit::of_errors(findings)),
             Format::Github => self.github.push_str(&github::findings(findings)),
         }
+        Ok(())
+    }
+
+    /// Takes the findings about a program that has no errors and runs. People read how many there are, unless they ask
+    /// for details; `check` is the command that lists them.
+    pub fn add_count(
+        &mut self,
+        findings: &Findings,
+        check: Option<&str>,
+        cx: Context,
+    ) -> io::Result<()> {
+        if !self.is_for_people() || cx.verbosity == Verbosity::Verbose {
+            return self.add(findings);
+        }
+        let totals = findings.totals();
+        if totals.warnings + totals.notes > 0 {
+            let counts = [(totals.warnings, "warning"), (totals.notes, "note")];
+            let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+            let counts: Vec<_> = counts.map(|(n, what)| counted(n, what)).collect();
+            let list = check.map_or_else(String::new, |check| format!(" (`{check}` lists them)"));
+            let name = findings.name(self.many);
+            cx.note(&format!("rungc: {name}: {}{list}", counts.join(", ")));
+        }
+        self.totals.add(totals);
         Ok(())
     }
 

@@ -580,12 +580,12 @@ fn lanes_are_for_emitted_c_of_programs_that_can_share_a_scan() {
         (
             "motor.il",
             "rust",
-            "rungc: --lanes only applies to --emit c (docs/src/lanes.md)",
+            "rungc: --lanes only applies to --emit c (`rungc book lanes`)",
         ),
         (
             "pulses.il",
             "c",
-            "rungc: --lanes: pulses sends pulses, which only one instance at a time can do (docs/src/lanes.md)",
+            "rungc: --lanes: pulses sends pulses, which only one instance at a time can do (`rungc book lanes`)",
         ),
     ] {
         assert_eq!(build(file, emit), (Some(2), Some(says.to_string())));

@@ -2,6 +2,7 @@
 
 mod arm_linux;
 mod boards;
+mod book;
 #[cfg(all(unix, feature = "mqtt"))]
 mod brokers;
 mod browser;
@@ -37,6 +38,7 @@ mod listings;
 mod live;
 #[cfg(unix)]
 mod mingw;
+mod names;
 mod offline;
 mod outputs;
 #[cfg(unix)]

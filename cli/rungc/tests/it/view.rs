@@ -53,7 +53,7 @@ fn what_cannot_be_chosen_is_reported() {
         text(&out.stderr)
     };
     assert!(messages(&["--device", "M99"]).contains("none of the 6 networks matches"));
-    assert!(messages(&["--device", "Q1"]).contains("a device is written"));
+    assert!(messages(&["--device", "Q1"]).contains("devices are written"));
     assert!(messages(&["--network", "3..1"]).contains("counted from 1"));
     assert!(messages(&["--sfc"]).contains("the program has no step ladder"));
     assert!(messages(&["--sfc", "--network", "1"]).contains("cannot be used with"));

@@ -344,7 +344,7 @@ pub(super) fn read<'a, 'i>(
         return function;
     }
     if !BLOCKS.iter().any(|(name, ..)| *name == pins.name) {
-        let help = "docs/src/plcopen.md lists the functions and blocks that rungc reads";
+        let help = "`rungc book plcopen` lists the functions and blocks that rungc reads";
         return Err(Some(Fault::outside(node, help)));
     }
     let name = upper(node.attribute("instanceName").unwrap_or_default());

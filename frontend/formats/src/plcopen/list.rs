@@ -174,7 +174,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
 
     fn foreign(&self, code: &str) -> Fault {
         let what = format!("`{code}` has no counterpart in an FX list");
-        let help = "docs/src/plcopen.md lists the operators that rungc reads";
+        let help = "`rungc book plcopen` lists the operators that rungc reads";
         Fault::at(self.body, what, help)
     }
 

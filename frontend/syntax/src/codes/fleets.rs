@@ -3,7 +3,7 @@
 super::codes! {
     FLEET_FILE = "E0870" "fleet-file" Error None,
     "fleet.toml describes no fleet that can run",
-    "fleet.toml says which programs run how often, and what their PLCs are connected to: `[fleet]` with the cycle, `[broker]` with the address of a broker, and a table `[plc.NAME]` for each program. An unknown table or key is rejected, because a misspelt one would otherwise be ignored. docs/src/fleet.md explains the keys.",
+    "fleet.toml says which programs run how often, and what their PLCs are connected to: `[fleet]` with the cycle, `[broker]` with the address of a broker, and a table `[plc.NAME]` for each program. An unknown table or key is rejected, because a misspelt one would otherwise be ignored. `rungc book fleet` explains the keys.",
     wrong: "",
     right: "";
 

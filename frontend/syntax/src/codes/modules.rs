@@ -9,7 +9,7 @@ super::codes! {
 
     NO_BUFFER_WORD = "W0664" "no-buffer-word" Warning None,
     "buffer memory that the module does not have",
-    "The instruction reads or writes words after the last one of the module's buffer memory, or reserved words among them. `docs/src/module-tables` lists the words of each module that rungc knows.",
+    "The instruction reads or writes words after the last one of the module's buffer memory, or reserved words among them. `rungc book module-tables/index` lists the words of each module that rungc knows.",
     wrong: "",
     right: "";
 

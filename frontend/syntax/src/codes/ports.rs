@@ -87,7 +87,7 @@ super::codes! {
 
     OWN_FRAMES = "N0601" "own-frames" Note None,
     "a link whose frames the manuals do not print",
-    "The manuals describe the registers and the effect of this link, but not its frames. rungc uses its own frames, so all partners have to run programs of rungc: a compiled program cannot replace one PLC among others. docs/src/links.md describes the frames.",
+    "The manuals describe the registers and the effect of this link, but not its frames. rungc uses its own frames, so all partners have to run programs of rungc: a compiled program cannot replace one PLC among others. `rungc book links` describes the frames.",
     model: "h2u",
     wrong: "LD M8002\nMOV H4 D8126\nMOV K1 D8176\nEND\n",
     right: "LD M8002\nMOV H2 D8126\nMOV K1 D8121\nEND\n";

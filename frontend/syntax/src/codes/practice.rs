@@ -179,7 +179,7 @@ super::codes! {
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",
-    "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`docs/src/special-devices`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
+    "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`rungc book special-devices/index`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
     wrong: "LD M8002\nMOV K50 D8393\nEND\n",
     right: "LD M8002\nMOV K500 D8000\nEND\n";
 
@@ -204,6 +204,12 @@ super::codes! {
     NEAREST_MODEL = "N0020" "nearest-model" Note None,
     "CPU type compiled as a similar model",
     "The source names a CPU type that is not a supported model. It is compiled for the most similar one; the help describes the differences. `--model` selects another model.",
+    wrong: "",
+    right: "";
+
+    OTHER_CPU = "N0021" "other-cpu" Note None,
+    "errors under another model than the source names",
+    "The source names a CPU type, but `--model` or `model` in rungc.toml selects another model, and under this one the program has errors. If these are instructions or devices that the model lacks, remove the setting, or set the model that the source names.",
     wrong: "",
     right: "";
 

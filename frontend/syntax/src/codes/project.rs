@@ -9,7 +9,7 @@ super::codes! {
 
     PROJECT_KEY = "E0041" "project-key" Error None,
     "rungc.toml has no such table or key",
-    "An unknown table or key is rejected, because a misspelt setting would otherwise be ignored. The help lists the valid keys; docs/src/project.md explains them.",
+    "An unknown table or key is rejected, because a misspelt setting would otherwise be ignored. The help lists the valid keys; `rungc book project` explains them.",
     wrong: "",
     right: "";
 
@@ -21,7 +21,7 @@ super::codes! {
 
     IO_CONNECTION = "E0820" "io-connection" Error None,
     "a connection of `[io]` in rungc.toml cannot be made as it is described",
-    "A table `[io.NAME]` connects devices of a running program to remote I/O, a broker, pins or files. It has one key that says to what (`modbus-tcp`, `modbus-rtu`, `mqtt`, `gpio`, `files` or `console`), options, and rows: ranges of devices with the direction and the place at the other end (`X000-X007 = \"read inputs 0\"`). No device takes its value from two places. docs/src/linux.md explains the keys.",
+    "A table `[io.NAME]` connects devices of a running program to remote I/O, a broker, pins or files. It has one key that says to what (`modbus-tcp`, `modbus-rtu`, `mqtt`, `gpio`, `files` or `console`), options, and rows: ranges of devices with the direction and the place at the other end (`X000-X007 = \"read inputs 0\"`). No device takes its value from two places. `rungc book linux` explains the keys.",
     wrong: "",
     right: "";
 }

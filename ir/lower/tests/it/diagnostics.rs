@@ -373,6 +373,32 @@ fn about_cpu(cpu: &str) -> String {
 }
 
 #[test]
+fn errors_of_a_chosen_model_name_the_cpu_of_the_source() {
+    let notes = |cpu: &str, list: &str, model| {
+        let read = read_text("program", &format!("{cpu}{list}"));
+        let options = CompileOptions {
+            model: Some(model),
+            ..CompileOptions::default()
+        };
+        let found = rungc_lower::compile::check(&read.program, &options).diagnostics;
+        let notes = found.iter().filter(|d| d.code == codes::OTHER_CPU.id);
+        notes.map(|d| d.message.to_string()).collect::<Vec<_>>()
+    };
+    let cpu = ";! cpu = FX3U\n";
+    let wrong = "LD X0\nDEADD D0 D2 D4\nOUT Y0\nEND\n";
+    let said = "`--model` or rungc.toml says fx1s, but the program names CPU type FX3U";
+    assert_eq!(notes(cpu, wrong, ModelId::Fx1s), [said]);
+    for (cpu, list, model) in [
+        (cpu, wrong, ModelId::Fx3u),
+        (cpu, "LD X0\nOUT Y0\nEND\n", ModelId::Fx1s),
+        ("", wrong, ModelId::Fx1s),
+        (cpu, "LD X9\nOUT Y0\nEND\n", ModelId::Fx3u),
+    ] {
+        assert!(notes(cpu, list, model).is_empty(), "{cpu} {model:?}");
+    }
+}
+
+#[test]
 fn cpu_types_name_models() {
     let cpus = [
         "FX1S",

@@ -65,7 +65,7 @@ pub fn opener(connection: &Connection) -> Result<Opener, String> {
         Kind::Console => Ok(files::open_console),
         Kind::Mqtt => match connection.is_encrypted() {
             true => Err(String::from(
-                "this program has no TLS; connect to a broker on this machine that forwards to the other (docs/src/linux.md)",
+                "this program has no TLS; connect to a broker on this machine that forwards to the other (`rungc book linux`)",
             )),
             false => Ok(mqtt::open),
         },

@@ -52,27 +52,27 @@ pub(super) fn fitting(
             "--device-access does not apply to the sources of an image; emit the program without --board",
         ),
         Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.retain => {
-            wrong("--retain only applies to --emit c and --emit lib (docs/src/retain.md)")
+            wrong("--retain only applies to --emit c and --emit lib (`rungc book retain`)")
         }
         Emit::C if args.retain && args.board.is_some() => wrong(
-            "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
+            "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (`rungc book retain`)",
         ),
         Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust
             if args.lanes.is_some() =>
         {
-            wrong("--lanes only applies to --emit c (docs/src/lanes.md)")
+            wrong("--lanes only applies to --emit c (`rungc book lanes`)")
         }
         Emit::C if args.lanes.is_some() && args.board.is_some() => wrong(
             "--lanes does not apply to the sources of an image; emit the program without --board",
         ),
         _ if args.misra && (args.board.is_some() || !emit.has_headers() || emit == Emit::Lib) => {
-            wrong("--misra only applies to emitted C without --board (docs/src/builds.md)")
+            wrong("--misra only applies to emitted C without --board (`rungc book builds`)")
         }
         _ if args.defmt && (emit != Emit::Rust || args.board.is_some()) => {
-            wrong("--defmt only applies to --emit rust without --board (docs/src/builds.md)")
+            wrong("--defmt only applies to --emit rust without --board (`rungc book builds`)")
         }
         _ if args.runtime.is_some() && emit != Emit::Rust => {
-            wrong("--runtime only applies to --emit rust (docs/src/embedding.md)")
+            wrong("--runtime only applies to --emit rust (`rungc book embedding`)")
         }
         _ => main_fits(emit, args, target),
     }
@@ -106,7 +106,7 @@ fn main_fits(
 
 /// Message for an image without a board.
 const NO_BOARD: &str =
-    "--emit IMAGE needs --board, a description of the board (docs/src/boards.md)";
+    "--emit IMAGE needs --board, a description of the board (`rungc book boards`)";
 
 /// Message for `--servers` where it does not apply.
 const NO_SERVERS: &str =

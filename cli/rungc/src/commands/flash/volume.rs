@@ -64,7 +64,7 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     // The board restarts as soon as it has the last block: then nothing is there to say that all is written.
     let written = copy.sync_all();
     drop(copy);
-    if !is_gone(&volume, Duration::from_secs(args.wait)) {
+    if !is_gone(&volume, args.wait()) {
         let why = match written {
             Ok(()) => "the board has not restarted, so it has not taken the image".to_string(),
             Err(error) => format!("{}: {error}", path.display()),

@@ -46,7 +46,7 @@ impl Client {
         };
         let wire = wire::open(&args.port);
         let mut wire =
-            wire.map_err(|error| Failure::Because(format!("cannot open {name}: {error}")))?;
+            wire.map_err(|error| Failure::Because(wire::cannot_open(&args.port, &error)))?;
         if let Err(error) = wire.set_format(format) {
             // A pseudo-terminal has no parity, and needs none.
             let rate = args.baud;
@@ -57,7 +57,7 @@ impl Client {
         Ok(Client {
             wire,
             name,
-            timeout: Duration::from_millis(args.timeout.into()),
+            timeout: Duration::from_millis(args.timeout),
             retries: args.retries,
         })
     }

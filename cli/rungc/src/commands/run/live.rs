@@ -1,6 +1,7 @@
 //! `rungc serve --page`: what the page shows of a run, and what it asks the run to do.
 
-use crate::commands::setting::{fits, target};
+use crate::commands::names::Names;
+use crate::commands::setting::fits;
 use crate::commands::{Failure, eprint_line};
 use rungc_analysis::resolve::resolve;
 use rungc_interp::Machine;
@@ -15,7 +16,7 @@ use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{DeviceClass, Program};
 use serde_json::{Value, json};
 use std::net::SocketAddr;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 /// Interval of updates of the page.
 const EVERY: Duration = Duration::from_millis(100);
@@ -81,9 +82,9 @@ impl Running<'_, '_> {
         }
     }
 
-    /// The device of this name, which exists.
-    fn device(&self, name: &str) -> Result<Target, String> {
-        let target = target(name).map_err(|failure| failure.to_string())?;
+    /// The device of this name or comment, which exists.
+    fn device(&self, name: &str, names: &Names) -> Result<Target, String> {
+        let target = names.target(name)?;
         match Reading::of(self.seen(), target) {
             Some(_) => Ok(target),
             None => Err(format!(
@@ -131,6 +132,7 @@ impl Break {
 pub struct Live {
     server: Server,
     scene: Scene,
+    names: Names,
     watched: Vec<Target>,
     breaks: Vec<Break>,
     log: Log,
@@ -150,6 +152,8 @@ pub struct Live {
     shifted: bool,
     /// Time of the last update of the page.
     shown: Option<Instant>,
+    /// Time of the start, which distinguishes the run from others.
+    began: String,
 }
 
 impl Live {
@@ -170,6 +174,7 @@ impl Live {
         Ok(Live {
             server,
             scene,
+            names: Names::of(program),
             watched: page.watched,
             breaks: Vec::new(),
             log: Log::default(),
@@ -187,6 +192,7 @@ impl Live {
             disturbed: false,
             shifted: false,
             shown: None,
+            began: format!("{:?}", SystemTime::now()),
         })
     }
 
@@ -362,14 +368,14 @@ impl Live {
             Command::Pace { slower } if (1..=SLOWEST).contains(slower) => self.slower = *slower,
             Command::Pace { .. } => return Err(format!("the pace is from 1 to {SLOWEST}")),
             Command::Set { device, value } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 fits(target, *value)?;
                 running.set(target, *value);
                 self.log
                     .write(now_ms, "event", &format!("{target} set to {value}"));
             }
             Command::Force { device, value } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 fits(target, *value)?;
                 running.set(target, *value);
                 self.control.forced.retain(|(other, _)| *other != target);
@@ -378,7 +384,7 @@ impl Live {
                     .write(now_ms, "event", &format!("{target} forced to {value}"));
             }
             Command::Release { device } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 self.control.forced.retain(|(other, _)| *other != target);
                 self.log
                     .write(now_ms, "event", &format!("{target} released"));
@@ -388,18 +394,18 @@ impl Live {
                 self.note(now_ms, "event", "all devices released");
             }
             Command::Watch { device } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 if !self.watched.contains(&target) {
                     check_count(self.watched.len(), MAX_WATCHED, "watched devices")?;
                     self.watched.push(target);
                 }
             }
             Command::Unwatch { device } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 self.watched.retain(|other| *other != target);
             }
             Command::BreakOnDevice { device, value } => {
-                let target = running.device(device)?;
+                let target = running.device(device, &self.names)?;
                 if let Some(value) = value {
                     fits(target, *value)?;
                 }
@@ -439,6 +445,7 @@ impl Live {
         self.shown = Some(Instant::now());
         let seen = running.seen();
         let state = json!({
+            "run": self.began,
             "ms": running.now_ms,
             "scans": self.scans(),
             "back": running.back,

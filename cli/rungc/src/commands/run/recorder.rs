@@ -1,4 +1,4 @@
-//! `rungc run --record`: a first test, written from what a run does.
+//! `rungc run --write-test`: a first test, written from what a run does.
 //!
 //! A step ends where outputs change: one step of scans in which they stay as they are, then one scan after which they
 //! are as they are from then on. So the test fails if an output changes in an earlier or in a later scan.
@@ -150,7 +150,7 @@ impl Recorder {
     pub fn keep(mut self, scan_ms: u64, force: bool) -> Result<(), Failure> {
         if self.steps.len() > MOST_STEPS {
             let why = format!(
-                "--record: the outputs and watched devices change {} times, which no one reads; watch fewer devices or run less long",
+                "--write-test: the outputs and watched devices change {} times, which no one reads; watch fewer devices or run less long",
                 self.steps.len()
             );
             return Err(Failure::Because(why));
@@ -192,7 +192,7 @@ impl Recorder {
     fn try_out(&self, text: &str) -> Result<(), Failure> {
         let because = |why: String| {
             Failure::Because(format!(
-                "--record: the run cannot be repeated as a test: {why}"
+                "--write-test: the run cannot be repeated as a test: {why}"
             ))
         };
         let file = plctest::parse(&self.path.display().to_string(), text);

@@ -1,4 +1,4 @@
-//! `rungc test --watch`: runs again when a file is saved.
+//! `rungc test --rerun`: runs again when a file is saved.
 //!
 //! The files are looked at several times a second, which works on every file system, also on those of networks and
 //! containers, and with editors that replace a file.

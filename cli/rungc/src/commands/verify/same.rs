@@ -47,7 +47,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         cx,
     };
     let assumed = reader.assumed()?;
-    let external = reader.external();
+    let external = reader.external()?;
     let options = super::options(args, &reader, &assumed, &external)?;
     let looked = || options.assumed.iter();
     let old_module = module(&before, &read_old, looked(), &mut reporter)?;

@@ -1,12 +1,11 @@
 //! A cross reference with all that is shown of it.
 
-use crate::args::XrefArgs;
 use crate::commands::Failure;
 use rungc_analysis::resolve::Resolved;
 use rungc_analysis::xref::{CrossReference, Reach, Row, Use};
 use rungc_ladder::Ladder;
-use rungc_syntax::Device;
 use rungc_syntax::text::one_line;
+use rungc_syntax::{Device, DeviceClass};
 use serde::Serialize;
 use std::fmt::{self, Write};
 
@@ -104,13 +103,13 @@ struct Record<'a> {
 }
 
 impl Table {
-    /// The cross reference of a program, of the requested devices.
-    pub fn new(resolved: &Resolved, ladder: &Ladder, args: &XrefArgs) -> Table {
+    /// The cross reference of a program: of the devices in these ranges, or of all if there are none.
+    pub fn new(resolved: &Resolved, ladder: &Ladder, ranges: &[(DeviceClass, u32, u32)]) -> Table {
         let xref = CrossReference::new(resolved);
         let line = |i: usize| Line::new(resolved, ladder, &xref.uses[i]);
         let requested = |row: &&Row| {
-            args.device.is_empty()
-                || args.device.iter().any(|(class, first, last)| {
+            ranges.is_empty()
+                || ranges.iter().any(|(class, first, last)| {
                     row.first.class == *class
                         && row.first.number <= *last
                         && row.last.number >= *first

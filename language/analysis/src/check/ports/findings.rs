@@ -299,7 +299,7 @@ impl Port<'_> {
         let note = codes::OWN_FRAMES
             .at(self.code.span(place), message)
             .label("the manuals do not print the frames of this link")
-            .help("docs/src/links.md describes the frames");
+            .help("`rungc book links` describes the frames");
         out.push(note);
     }
 
@@ -405,7 +405,7 @@ fn canlink(code: &Code, out: &mut Diagnostics) {
     let note = codes::OWN_FRAMES
         .at(code.span(station), message)
         .label("the manuals do not print the frames of CANlink")
-        .help("docs/src/links.md describes the frames");
+        .help("`rungc book links` describes the frames");
     out.push(note);
     for i in 0..code.len {
         remote_module(code, i, out);
