@@ -27,7 +27,7 @@ form.addEventListener("submit", (event) => {
   event.preventDefault();
   const device = form.elements.device.value.trim();
   const text = form.elements.value.value.trim();
-  const name = event.submitter?.value ?? "watch";
+  const name = event.submitter?.value ?? "set";
   const value = Number(text.replace(",", "."));
   const takes = { watch: false, "break-on-device": text !== "", set: true, force: true }[name];
   if (takes && (text === "" || Number.isNaN(value))) {
@@ -36,6 +36,14 @@ form.addEventListener("submit", (event) => {
     return;
   }
   send(takes ? { do: name, device, value } : { do: name, device });
+});
+
+// Enter sets the device to the value; without a value it watches it.
+form.addEventListener("keydown", (event) => {
+  if (event.key !== "Enter" || !event.target.matches("input")) return;
+  event.preventDefault();
+  const name = form.elements.value.value.trim() === "" ? "watch" : "set";
+  form.requestSubmit(form.querySelector(`button[value=${name}]`));
 });
 
 const breakpoint = document.getElementById("breakpoint");

@@ -51,6 +51,33 @@ export function showNetworks(changed) {
   }
 }
 
+// Search hides the networks that do not match.
+const search = document.getElementById("search");
+const texts = sections.map((section) => {
+  const devices = [...section.querySelectorAll("[data-device]")].map((group) => group.dataset.device);
+  return `${section.textContent} ${devices.join(" ")}`.toLowerCase();
+});
+const entries = [...document.querySelectorAll("nav ol li")];
+
+function find() {
+  const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+  sections.forEach((section, i) => {
+    const hidden = !words.every((word) => texts[i].includes(word));
+    section.hidden = hidden;
+    if (entries[i]) entries[i].hidden = hidden;
+  });
+}
+search.addEventListener("input", find);
+document.addEventListener("keydown", (event) => {
+  if (event.key === "/" && !event.target.matches("input, select")) {
+    event.preventDefault();
+    search.focus();
+  } else if (event.key === "Escape" && search.value !== "") {
+    search.value = "";
+    find();
+  }
+});
+
 // Marks forced devices with an F.
 export function showForces(forces) {
   for (const mark of document.querySelectorAll(".force-mark")) mark.remove();

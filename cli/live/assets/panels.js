@@ -34,12 +34,43 @@ let now = 0;
 // Points of the last minute of each name, and lines through them.
 const trends = new Map();
 
+// They survive that the page is loaded again, as long as it is the same run.
+const KEPT = "trends";
+let run;
+
+function restore() {
+  let kept;
+  try {
+    kept = JSON.parse(sessionStorage.getItem(KEPT));
+  } catch {
+    return;
+  }
+  if (kept?.run !== run) return;
+  for (const [name, points] of kept.trends) {
+    const { points: own } = trend(name);
+    own.unshift(...points.filter(([at]) => at < (own[0]?.[0] ?? now)));
+  }
+}
+
+addEventListener("pagehide", () => {
+  const kept = [...trends].map(([name, { points }]) => [name, points]);
+  try {
+    sessionStorage.setItem(KEPT, JSON.stringify({ run, trends: kept }));
+  } catch {
+    // Without storage, trends begin anew.
+  }
+});
+
 export function showState(state) {
   now = state.ms;
+  if (run !== state.run) {
+    run = state.run;
+    restore();
+  }
   const mode = find("mode");
   const text = [state.running ? "RUN" : "STOP", state.paused ? `paused: ${state.paused}` : "", state.slower > 1 ? `${state.slower} × slower` : ""];
   const shown = text.filter(Boolean).join(", ");
-  if (mode.textContent !== shown) mode.textContent = shown;
+  if (mode.textContent !== shown) mode.title = mode.textContent = shown;
   mode.dataset.mode = state.running ? "run" : "stop";
   find("clock").textContent = `${(now / 1000).toFixed(3)} s, scan ${state.scans}`;
   const able = { run: !state.running, stop: state.running, pause: !state.paused, continue: state.paused, back: state.back > 0 };

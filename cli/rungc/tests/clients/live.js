@@ -88,6 +88,44 @@ open(async (page) => {
   report.stopped = await lit(1);
   await press("RUN");
   await mode("RUN");
+  // Whatever the run says, controls stay where they are, and ladder and panels are seen.
+  const place = async () => {
+    const { x, y } = await page.getByRole("button", { name: "STOP", exact: true }).boundingBox();
+    return `${x} ${y}`;
+  };
+  report.moved = [];
+  report.unseen = [];
+  for (const width of [1440, 1270, 1100, 800, 420]) {
+    await page.setViewportSize({ width, height: 800 });
+    const before = await place();
+    await press("Pause");
+    await mode("RUN, paused: by hand");
+    if ((await place()) !== before) report.moved.push(width);
+    await press("Continue");
+    await mode("RUN");
+    const tops = await page.evaluate(() => ["main > section", "aside h2"].map((part) => document.querySelector(part).getBoundingClientRect().top / innerHeight));
+    if (tops.some((top) => top < 0 || top > 0.9)) report.unseen.push(width);
+  }
+  await page.setViewportSize({ width: 1280, height: 800 });
+  // Enter sets, or watches if there is no value.
+  await page.getByLabel("Device", { exact: true }).fill("D1");
+  await page.getByLabel("Value", { exact: true }).fill("9");
+  await page.getByLabel("Value", { exact: true }).press("Enter");
+  await settle(() => document.querySelector('#watch tr[data-name="D1"] td').textContent === "9");
+  await page.getByLabel("Value", { exact: true }).fill("");
+  await page.getByLabel("Device", { exact: true }).fill("D2");
+  await page.getByLabel("Device", { exact: true }).press("Enter");
+  await settle(() => document.querySelector('#watch tr[data-name="D2"]') !== null);
+  report.networks = await page.locator("main > section:visible").count();
+  await page.getByLabel("Search").fill("t0");
+  report.found = await page.locator("main > section:visible").count();
+  await page.getByLabel("Search").press("Escape");
+  // The trend of D1 has more than the two ends that a constant has.
+  const bent = () => document.querySelector('#watch tr[data-name="D1"] polyline')?.getAttribute("points")?.split(" ").length > 2;
+  await settle(bent);
+  await page.reload();
+  await mode("RUN");
+  await settle(bent);
   await page.setViewportSize({ width: 420, height: 800 });
   report.narrow = await look(page, "live-narrow");
   report.wider_than_screen = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
