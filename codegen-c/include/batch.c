@@ -47,6 +47,7 @@ typedef struct {
     static void scan##n(uint32_t now_ms, uint32_t scan_us)                                                             \
     {                                                                                                                  \
         case##n##_scan(&memory.case##n, now_ms, scan_us);                                                              \
+        rungc_virtual_set_running(memory.case##n.sys.running);                                                         \
     }                                                                                                                  \
     static void set_running##n(bool running)                                                                           \
     {                                                                                                                  \

@@ -153,8 +153,7 @@ fn answer(
         }
         "scan" => {
             let now_ms = next(words)?;
-            hal.advance_to(now_ms);
-            program.scan(hal, now_ms, next(words)?);
+            hal.scan(program, now_ms, next(words)?);
         }
         "constant" => return value(program.constant_scan_ms().unwrap_or(0)),
         "edge" => program.input_edge(hal, next(words)?, next::<i64>(words)? != 0),

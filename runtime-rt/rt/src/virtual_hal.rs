@@ -2,6 +2,7 @@
 
 use crate::hal::{Clock, DAY_MS, Hal, SerialPort};
 use crate::modules::{BOARD, Kind, Module, Quantity, Signal};
+use crate::program::Program;
 use crate::virtual_line::VirtualLine;
 
 /// Words of buffer memory that all modules together may hold.
@@ -122,6 +123,14 @@ impl VirtualHal {
         for (_, module) in self.modules.iter_mut().flatten() {
             module.power_cycle();
         }
+    }
+
+    /// Executes a scan of a program at this time. Afterwards, modules see whether the PLC is in RUN, which programs,
+    /// errors and partners on a line change, too.
+    pub fn scan(&mut self, plc: &mut dyn Program, now_ms: u32, scan_us: u32) {
+        self.advance_to(now_ms);
+        plc.scan(self, now_ms, scan_us);
+        self.set_running(plc.sys().running);
     }
 
     /// Puts the RUN/STOP switch; modules see it.

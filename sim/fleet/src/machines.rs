@@ -48,8 +48,7 @@ impl One<'_> {
             self.machine.tick(&mut self.hal, at);
             self.machine.take_interrupts(&mut self.hal);
         }
-        self.hal.advance_to(now_ms);
-        self.machine.scan(&mut self.hal, now_ms, scan_us);
+        self.hal.scan(&mut self.machine, now_ms, scan_us);
     }
 }
 
@@ -114,6 +113,7 @@ impl Engine for Machines<'_> {
         let one = self.plcs.get_mut(plc as usize);
         one.is_some_and(|one| {
             one.machine.set_running(running);
+            one.hal.set_running(running);
             true
         })
     }

@@ -264,10 +264,9 @@ impl<'t> Runner<'t> {
     pub fn scan(&mut self, scan_ms: u32) -> Scanned {
         self.happened.clear();
         let scan_ms = scan_ms.max(self.constant_ms);
-        self.hal.advance_to(self.now_ms as u32);
         let scan_us = scan_ms.saturating_mul(1000);
-        self.machine
-            .scan(&mut *self.hal, self.now_ms as u32, scan_us);
+        self.hal
+            .scan(&mut self.machine, self.now_ms as u32, scan_us);
         let mut elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
         // Events between two scans are evaluated as in test files, which read once the time has passed.

@@ -105,8 +105,7 @@ fn scan(
     now_ms: u32,
     scan_us: u32,
 ) -> Result<Answer, EngineError> {
-    hal.advance_to(now_ms);
-    machine.scan(hal, now_ms, scan_us);
+    hal.scan(machine, now_ms, scan_us);
     match machine.is_endless() {
         true => Err(EngineError::Endless(MOST_RESTARTS)),
         false => Ok(Answer::Ok),

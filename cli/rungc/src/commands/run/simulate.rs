@@ -517,8 +517,8 @@ impl<'a> Simulation<'a> {
         if let Some(live) = &self.live {
             live.force(&mut self.machine, &mut self.hal);
         }
-        self.machine
-            .scan(&mut self.hal, self.now_ms as u32, scan_us);
+        self.hal
+            .scan(&mut self.machine, self.now_ms as u32, scan_us);
         if let Some((live, running)) = self.running() {
             live.scanned(running);
         }
