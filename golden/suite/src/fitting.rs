@@ -114,6 +114,7 @@ impl Fitting<'_, '_> {
         match param.extent {
             Extent::One | Extent::Through(_) => 1,
             Extent::Count(count) => count,
+            Extent::Between { most, .. } => most,
             Extent::Operand { i, extra } => {
                 let count = self.constants.get(i).copied().flatten();
                 let count = count.and_then(|count| u32::try_from(count + i64::from(extra)).ok());

@@ -362,6 +362,7 @@ fn elements(param: &Param, constants: &[Option<i64>]) -> Option<u32> {
     match param.extent {
         Extent::One => Some(1),
         Extent::Count(count) => Some(count),
+        Extent::Between { most, .. } => Some(most),
         Extent::Operand { i, extra } => {
             let count = constants.get(i).copied()??;
             u32::try_from(count.saturating_add(i64::from(extra)).max(1)).ok()

@@ -96,7 +96,7 @@ fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32>
     let constant = |operand: &Operand| operand.kind.constant();
     match param.extent {
         Extent::One => Some(1),
-        Extent::Count(count) => Some(count),
+        Extent::Count(count) | Extent::Between { most: count, .. } => Some(count),
         Extent::Operand { i, extra } => {
             let count = constant(operands.get(i)?)?.checked_add(i64::from(extra))?;
             u32::try_from(count).ok()

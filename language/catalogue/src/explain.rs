@@ -140,6 +140,10 @@ fn meaning(param: &Param, params: &[Param]) -> String {
     match param.extent {
         Extent::One => {}
         Extent::Count(count) => text += &format!("; {count} devices starting with it"),
+        Extent::Between { least, most } => {
+            text +=
+                &format!("; {least} to {most} devices starting with it, depending on its settings")
+        }
         Extent::Operand { i, extra: 0 } => {
             text += &format!("; {} devices starting with it", name(i))
         }

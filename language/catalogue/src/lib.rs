@@ -81,6 +81,13 @@ pub enum Extent {
     One,
     /// This many.
     Count(u32),
+    /// From `least` to `most`, as the devices themselves say in a run.
+    Between {
+        /// Number that any settings need.
+        least: u32,
+        /// Number that some settings need.
+        most: u32,
+    },
     /// As many as operand `i` says, plus `extra`. If that operand is not a constant, up to the end of the class.
     Operand {
         /// Position of the operand that holds the count.

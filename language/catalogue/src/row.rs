@@ -292,6 +292,12 @@ impl Param {
         Param { extent, ..self }
     }
 
+    /// It occupies from `least` to `most` devices from the named one on, as they say in a run.
+    pub(super) const fn between(self, least: u32, most: u32) -> Self {
+        let extent = Extent::Between { least, most };
+        Param { extent, ..self }
+    }
+
     /// It occupies as many devices as operand `i` says.
     pub(super) const fn per(self, i: usize) -> Self {
         let extent = Extent::Operand { i, extra: 0 };

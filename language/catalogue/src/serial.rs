@@ -148,11 +148,12 @@ const PID: &[Param] = &[
     both("S3", DATA).len(25),
     both("D", DATA),
 ];
-/// 16-bit alarms and limits after the 25 words of the others; L01S has a separate table.
-const PID_FX: &[Param] = &[
+/// 25 words, as on the others; without alarms and limits of the output 20, for tuning by limit cycle 29 (FX3
+/// programming manual 16.7).
+const PID_FX3: &[Param] = &[
     src("S1", DATA_PLACES),
     src("S2", DATA_PLACES),
-    both("S3", DATA).len(29),
+    both("S3", DATA).between(20, 29),
     both("D", DATA_PLACES),
 ];
 const PID_L01S: &[Param] = &[
@@ -306,7 +307,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("As RS, on port n1. On FX3 and L01S a header, a terminator and a sum may stand around the data."),
     serial("PID", 88, "PID control")
         .takes(PID)
-        .variants(&[on(FX).takes(PID_FX), on(L01S).takes(PID_L01S)])
+        .variants(&[on(FX3).takes(PID_FX3), on(L01S).takes(PID_L01S)])
         .errors(&[6705, 6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6748, 6749])
         .call(RtFn::Pid)
         .lower_on(&[

@@ -469,6 +469,7 @@ fn extent(operands: &[Operand], param: &Param) -> u32 {
     match param.extent {
         Extent::One | Extent::Through(_) => 1,
         Extent::Count(count) => count,
+        Extent::Between { least, .. } => least,
         Extent::Operand { i, extra } => operands
             .get(i)
             .and_then(|operand| operand.kind.constant())

@@ -42,6 +42,8 @@ mod act {
     pub const TUNE: i16 = 1 << 4;
     pub const LIMITS: i16 = 1 << 5;
     pub const TUNE_LIMIT_CYCLE: i16 = 1 << 6;
+    /// What takes words after the measured value.
+    pub const EXTRAS: i16 = INPUT_ALARM | OUTPUT_ALARM | LIMITS;
 }
 
 /// Mark of a controller that has not computed a sample.
@@ -52,6 +54,8 @@ const OPERAND_D: usize = 3;
 
 /// Words of S3.
 const WORDS: usize = at::ALARMS + 1;
+/// Words of S3 without alarms and limits.
+const BASIC_WORDS: usize = at::RAW_PV + 1;
 
 /// A copy of S3, read and written at once.
 struct Area([i16; WORDS]);
@@ -61,9 +65,30 @@ impl Area {
         cx.words(OPERAND_S3).map(Area)
     }
 
+    /// Reads as many words as the settings use; the others are 0.
+    fn read_used(cx: &Cx) -> Result<Area, Fault> {
+        if cx.word(OPERAND_S3, at::ACT as i32)? & act::EXTRAS != 0 {
+            return Area::read(cx);
+        }
+        let basic: [i16; BASIC_WORDS] = cx.words(OPERAND_S3)?;
+        let mut area = [0; WORDS];
+        area[..BASIC_WORDS].copy_from_slice(&basic);
+        Ok(Area(area))
+    }
+
     /// Writes the words after the settings.
     fn write(&self, cx: &mut Cx) -> Done {
         cx.set_words(OPERAND_S3, at::STARTED as i32, &self.0[at::STARTED..])
+    }
+
+    /// Writes the words after the settings, as far as the settings use them.
+    fn write_used(&self, cx: &mut Cx) -> Done {
+        let used = match self.0[at::ACT] & act::EXTRAS {
+            0 => BASIC_WORDS,
+            _ => WORDS,
+        };
+        let words = &self.0[at::STARTED..used];
+        cx.set_words(OPERAND_S3, at::STARTED as i32, words)
     }
 
     fn float(&self, offset: usize) -> f32 {
@@ -132,14 +157,19 @@ pub fn pid_tuning(cx: &mut Cx) -> Done {
     tune_or_control(cx, false)
 }
 
-/// PID S1 S2 S3 D of FX3: as [`pid_tuning`]; crossed limits of the output are exchanged and reported with 6748, and a
-/// negative alarm value, reported with 6749, gives no alarm (FX analog control manual, PID §6.1).
+/// PID S1 S2 S3 D of FX3: as [`pid_tuning`], with 20 words of S3 without alarms and limits (FX3 programming manual
+/// 16.7); crossed limits of the output are exchanged and reported with 6748, and a negative alarm value, reported with
+/// 6749, gives no alarm (FX analog control manual, PID §6.1).
 pub fn pid_checked(cx: &mut Cx) -> Done {
     tune_or_control(cx, true)
 }
 
 fn tune_or_control(cx: &mut Cx, checked: bool) -> Done {
-    let area = Area::read(cx)?;
+    let area = if checked {
+        Area::read_used(cx)?
+    } else {
+        Area::read(cx)?
+    };
     let action = area.0[at::ACT];
     if action & act::TUNE_LIMIT_CYCLE != 0 {
         return Err(Fault(6750));
@@ -213,7 +243,7 @@ fn control(cx: &mut Cx, mut area: Area, checked: bool) -> Done {
     }
     area.store([pv, pv1, derivative, mv, deviation]);
     area.0[at::RAW_PV] = measured;
-    area.write(cx)?;
+    area.write_used(cx)?;
     cx.set_word(OPERAND_D, 0, libm::roundf(mv) as i16)?;
     error.map_or(Ok(()), Err)
 }
@@ -261,7 +291,7 @@ fn start(cx: &mut Cx, mut area: Area, s: &Settings, from_zero: bool) -> Done {
     area.0[at::RAW_PV] = measured;
     area.0[at::ELAPSED] = 0;
     area.0[at::STARTED] = if from_zero { FRESH } else { 1 };
-    area.write(cx)
+    area.write_used(cx)
 }
 
 impl Area {
@@ -364,7 +394,7 @@ fn tune(cx: &mut Cx, mut area: Area) -> Done {
     let raw = cx.word(1, 0)?;
     let measured = f32::from(raw);
     if area.0[at::STARTED] == 0 {
-        if libm::fabsf(target - measured) <= TUNE_MIN_DISTANCE {
+        if libm::fabsf(target - measured) < TUNE_MIN_DISTANCE {
             return Err(Fault(6750));
         }
         for offset in [tuning_at::TIME, tuning_at::SLOPE, tuning_at::DELAY] {
@@ -374,12 +404,12 @@ fn tune(cx: &mut Cx, mut area: Area) -> Done {
         area.0[at::RAW_PV] = raw;
         area.0[at::ELAPSED] = 0;
         area.0[at::STARTED] = 1;
-        return area.write(cx);
+        return area.write_used(cx);
     }
     let mut error = None;
     let due = sample_due(cx, &mut area, ts.unsigned_abs().into(), &mut error);
     let Some(step_ms) = due else {
-        return area.write(cx);
+        return area.write_used(cx);
     };
     let start = area.float(tuning_at::PV0);
     let time = area.float(tuning_at::TIME) + step_ms;
@@ -392,7 +422,7 @@ fn tune(cx: &mut Cx, mut area: Area) -> Done {
         area.set_float(tuning_at::SLOPE, slope);
         area.set_float(tuning_at::DELAY, time - gone / slope);
     }
-    area.write(cx)?;
+    area.write_used(cx)?;
     if gone < -TUNE_MIN_DISTANCE {
         return Err(Fault(6751));
     }
