@@ -15,11 +15,11 @@ function place(name) {
 }
 
 (async () => {
-  const browser = await puppeteer.launch({ browser: "firefox", executablePath: process.env.RUNGC_FIREFOX, headless: true });
+  const browser = await puppeteer.launch({ browser: "firefox", executablePath: process.env.RUNGC_FIREFOX, headless: true, timeout: 300_000 });
   const page = await browser.newPage();
   await page.setViewport({ width: 1280, height: 800 });
   // On a loaded machine.
-  page.setDefaultTimeout(120_000);
+  page.setDefaultTimeout(300_000);
   const errors = [];
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.goto(url);

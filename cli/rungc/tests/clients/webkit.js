@@ -37,7 +37,7 @@ async function use(port) {
       addEventListener("unhandledrejection", ({ reason }) => window.noted.push(String(reason)));
     });
     const report = await slide({
-      settle: (test, ...given) => driver.wait(() => driver.executeScript(test, ...given), 60_000, `${test}`, 100),
+      settle: (test, ...given) => driver.wait(() => driver.executeScript(test, ...given), 300_000, `${test}`, 100),
       read: (what) => driver.executeScript(what),
       fill: async (place, text) => {
         const field = await driver.findElement(By.css(place));

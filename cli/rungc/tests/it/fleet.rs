@@ -60,7 +60,7 @@ fn mistakes_have_their_place() {
         "[fleet]\ncycle = 10\n[plc.a]\nprogram = 'p.il'\ncount = 0\nengine = 'fast'\nset = ['X000=2', 'X009=1']\n",
         "[plc.a]\nprogram = 'p.il'\nset = ['X000=2']\n",
         "[plc.a]\nprogram = 'p.il'\nset = ['0:CH1.V=2']\n",
-        "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = 'here'\nstore = ['D0..D9']\nspread = 'soon'\n",
+        "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = 'here'\nstore = ['D0:D9']\nspread = 'soon'\n",
         "[plc.a]\nprogram = 'p.il'\nunits = 9\n",
         "[plc.a]\ncount = 2\n[plc.a.topics]\nY000 = 'write hall/{}'\n",
         "[broker]\nport = '1883'\n[plc.a]\nprogram = 'p.il'\ncount = 2\n[plc.a.topics]\nY000 = 'write hall/{}'\nx = 'read a'\n",

@@ -154,6 +154,6 @@ fn defmt_is_for_emitted_rust() {
     assert_eq!(built.status.code(), Some(2));
     insta::assert_snapshot!(
         text(&built.stderr).trim_end(),
-        @"rungc: --defmt only applies to --emit rust without --board (docs/src/builds.md)"
+        @"rungc: --defmt only applies to --emit rust without --board (`rungc book builds`)"
     );
 }

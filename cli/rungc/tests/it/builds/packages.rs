@@ -163,7 +163,7 @@ fn a_program_that_calls_the_runtime_needs_its_library_for_arduino() {
     assert_eq!(
         text(&rejected.stderr),
         "rungc: tank calls the runtime library, which Arduino cannot build: name the processor with --target \
-         (docs/src/builds.md)\n"
+         (`rungc book builds`)\n"
     );
     assert!(!path.join("tank-arduino").exists());
 }
