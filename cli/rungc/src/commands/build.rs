@@ -63,7 +63,7 @@ fn build(
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
     let read = read(subject, reporter)?;
-    let image = ForImage::of(plan, &read.program)?;
+    let image = ForImage::of(plan, subject, &read.program)?;
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         name: Some(name.clone()),
@@ -80,9 +80,6 @@ fn build(
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, reporter, cx, String::new),
     };
-    if let Some(image) = &image {
-        setting::report_unused(&image.settings, &read.program, subject.options());
-    }
     if plan.name.as_ref().is_some_and(|name| !name.is_ascii()) {
         let (name, in_code) = (text::one_line(&name), &module.name);
         cx.note(&format!("       Named {name}: `{in_code}` in the code"));
@@ -171,21 +168,19 @@ impl Plan {
 struct ForImage {
     board: Board,
     script: Script,
-    /// Settings that the script consists of.
-    settings: Vec<setting::Setting>,
     /// The special modules of the PLC.
     modules: Vec<FittedModule>,
 }
 
 impl ForImage {
     /// That of the plan, if it is for a board.
-    fn of(plan: &Plan, program: &Program) -> Built<Option<Self>> {
+    fn of(plan: &Plan, subject: &Subject, program: &Program) -> Built<Option<Self>> {
         let path = plan.board.as_ref();
-        let image = path.map(|path| ForImage::new(plan, path, program));
+        let image = path.map(|path| ForImage::new((plan, path), subject, program));
         image.transpose()
     }
 
-    fn new(args: &Plan, path: &Path, program: &Program) -> std::result::Result<Self, Failure> {
+    fn new((args, path): (&Plan, &Path), subject: &Subject, program: &Program) -> Built<Self> {
         let board = boards::named_or_described(path).map_err(because)?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
@@ -202,6 +197,7 @@ impl ForImage {
             )));
         }
         let settings = setting::settings(&args.set, &Names::of(program))?;
+        setting::report_unused(&settings, program, subject.options());
         let inputs = settings.iter().map(|setting| match setting.target {
             Device::Bit(DeviceClass::X, number) => {
                 Ok((milliseconds(setting.at_ms)?, number, setting.value != 0.0))
@@ -218,7 +214,6 @@ impl ForImage {
         Ok(ForImage {
             board,
             script,
-            settings,
             modules: parameters.flat_map(|p| p.modules.clone()).collect(),
         })
     }
