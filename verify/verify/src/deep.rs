@@ -74,6 +74,19 @@ pub struct Finding {
     pub untouched: Vec<(DeviceClass, u32)>,
 }
 
+impl Finding {
+    /// An output that changes in every scan, as a run shows.
+    fn oscillates(output: u32, network: u32, trace: Trace) -> Self {
+        Finding {
+            kind: Kind::Oscillates,
+            device: Some((DeviceClass::Y, output)),
+            network,
+            evidence: Evidence::Trace(trace),
+            untouched: Vec::new(),
+        }
+    }
+}
+
 /// All that was found.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Report {
@@ -321,13 +334,8 @@ fn simulate(
                         .then(|| oscillation(module, number, lanes.trace(changes.trailing_zeros())))
                         .flatten();
                     let new = finding.is_none();
-                    report.findings.extend(finding.map(|trace| Finding {
-                        kind: Kind::Oscillates,
-                        device: Some((DeviceClass::Y, number)),
-                        network,
-                        evidence: Evidence::Trace(trace),
-                        untouched: Vec::new(),
-                    }));
+                    let seen = finding.map(|trace| Finding::oscillates(number, network, trace));
+                    report.findings.extend(seen);
                     new
                 })
                 .map(|(_, output)| output)
