@@ -13,19 +13,29 @@ const PROPERTIES: &str = r#"# What the program must never do, and what the machi
 # assume = ["!(X000 & X001)"]
 "#;
 
+/// The line that names the program.
+fn program_line(program: Option<&Path>) -> String {
+    match program {
+        // Separators as every system reads them.
+        Some(path) => key("program", &path.display().to_string().replace('\\', "/")),
+        None => format!("# {}", key("program", "machine.gxw")),
+    }
+}
+
+/// The line that names the model.
+fn model_line(model: Option<ModelId>) -> String {
+    match model {
+        Some(model) => key("model", Model::get(model).name),
+        None => format!("# {}", key("model", "fx3u")),
+    }
+}
+
 /// A file for a program, with a comment on each key. What is unknown appears as a comment; so does a model that the
 /// program does not name itself.
 pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
     let models: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
-    let program = match program {
-        // Separators as every system reads them.
-        Some(path) => key("program", &path.display().to_string().replace('\\', "/")),
-        None => format!("# {}", key("program", "machine.gxw")),
-    };
-    let model = match model {
-        Some(model) => key("model", Model::get(model).name),
-        None => format!("# {}", key("model", "fx3u")),
-    };
+    let program = program_line(program);
+    let model = model_line(model);
     format!(
         r#"# Settings of a project for rungc, explained in `rungc book project`. Command-line options take precedence.
 

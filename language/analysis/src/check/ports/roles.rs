@@ -20,8 +20,8 @@ impl<'a> Roles<'a> {
         }
     }
 
-    /// Returns true or false if a port is certainly in a role, or certainly not; `None` if that depends on what happens,
-    /// or on parameters of the PLC.
+    /// Returns true or false if a port is certainly in a role, or certainly not; `None` if that depends on what
+    /// happens, or on parameters of the PLC.
     pub(in super::super) fn contain(&self, role: &PortRole) -> Option<bool> {
         let Some(wiring) = self.code.model().ports.get(role.port) else {
             return Some(false);
