@@ -176,10 +176,10 @@ mod tests {
             several,
             "`Ready` is the comment of several devices, such as M1 and M2"
         );
-        let near = names.device("Gaurd open").unwrap_err();
+        let near = names.device("Guards open").unwrap_err();
         assert_eq!(
             near,
-            "`Gaurd open` is not a device or a comment; did you mean `guard open`?"
+            "`Guards open` is not a device or a comment; did you mean `guard open`?"
         );
         assert!(
             names
