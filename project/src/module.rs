@@ -2,7 +2,7 @@
 
 use crate::{Error, Project};
 use rungc_models::Model;
-use rungc_rt::modules::{Kind, Place};
+use rungc_rt::modules::{self, BOARD, Kind, Place};
 use rungc_syntax::{FittedModule, Program, Span, codes};
 
 /// Numbers of modules beside the main unit.
@@ -27,6 +27,11 @@ pub struct Row {
 }
 
 impl Project {
+    /// Number of modules other than boards and adapters.
+    pub(crate) fn numbered_modules(&self) -> usize {
+        self.modules.iter().filter(|row| row.unit < BOARD).count()
+    }
+
     /// Gives a program the modules of its PLC.
     pub(crate) fn fit_modules(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
         if self.modules.is_empty() {
@@ -42,6 +47,9 @@ impl Project {
                 let message = format!("{} does not fit {}", row.kind.name, model.title);
                 let why = codes::PROJECT_VALUE.at(row.span, message);
                 why.help(format!("it is described in {}", row.kind.source))
+            } else if let Some(name) = missing_place(model, row) {
+                let message = format!("{} has no place for {name}", model.title);
+                codes::PROJECT_VALUE.at(row.span, message)
             } else {
                 continue;
             };
@@ -56,4 +64,10 @@ impl Project {
         program.parameters.get_or_insert_default().modules = fitted.collect();
         Ok(())
     }
+}
+
+/// The name of a module's place, if the model does not have it.
+fn missing_place(model: &Model, row: &Row) -> Option<&'static str> {
+    let has_devices = row.kind.place == Place::Slot || model.module_devices(row.unit).is_some();
+    modules::name(row.unit).filter(|_| !has_devices)
 }

@@ -1,13 +1,13 @@
-//! Special modules that registers stand for: the analog board of H1U and H2U, the extension modules of HM, and where
-//! L01S and HM show which modules they have.
+//! Special modules that registers stand for: the analog board of H1U and H2U, the extension modules of HM, the analog
+//! adapters and boards of FX, and where L01S and HM show which modules they have.
 
 use super::Lowerer;
 use super::operand::fixed;
 use rungc_ir::node::{Access, Action, Arg, Expr, SysValue};
 use rungc_rt::RtFn;
-use rungc_rt::modules::{BOARD, Kind, Place, Role};
+use rungc_rt::modules::{self, Bfm, Kind, Place, REGISTERS, Role};
 use rungc_rt::special::*;
-use rungc_syntax::DeviceClass::D;
+use rungc_syntax::DeviceClass::{D, M};
 
 /// The first X and Y of the extension modules of HM.
 const FIRST_TERMINAL: u32 = 0o20;
@@ -56,8 +56,12 @@ impl Lowerer<'_> {
     /// Before the program: what a board answers, and what the registers of modules show.
     pub(super) fn begin_modules(&mut self) {
         let fitted = self.fitted();
-        if fitted.iter().any(|(unit, _)| *unit == BOARD) {
+        if fitted.iter().any(|(_, kind)| kind.place == Place::Slot) {
             self.exchange_board();
+        }
+        for adapter in self.adapters(&fitted) {
+            self.module.fitted_words.extend(adapter.defaults());
+            self.exchange_adapter(&adapter, adapter.received);
         }
         let on_bus: Vec<_> = fitted
             .iter()
@@ -73,8 +77,13 @@ impl Lowerer<'_> {
         }
     }
 
-    /// After the program: the exchange with the extension modules of HM.
+    /// After the program: outputs of adapters, and the exchange with the extension modules of HM.
     pub(super) fn end_modules(&mut self) {
+        for adapter in self.adapters(&self.fitted()) {
+            if adapter.kind.outputs > 0 {
+                self.exchange_adapter(&adapter, 0);
+            }
+        }
         if !self.model.module_places.contains(&Place::Hm) {
             return;
         }
@@ -99,6 +108,46 @@ impl Lowerer<'_> {
             let registers = [&registers[..], &times].concat();
             self.call_system_with(RtFn::ExchangeModule, &registers, args);
         }
+    }
+
+    /// The analog adapters and boards whose relays or registers the program looks at.
+    fn adapters(&self, fitted: &[(u16, &'static Kind)]) -> Vec<Adapter> {
+        let adapters = fitted.iter().filter_map(|&(unit, kind)| {
+            let is_its = self.model.module_places.contains(&kind.place);
+            let first = self.model.module_devices(unit).filter(|_| is_its)?;
+            Some(Adapter::new(unit, kind, first))
+        });
+        let is_used = |adapter: &Adapter| {
+            let [relays, registers] = adapter.counts;
+            let first = adapter.first as u16;
+            let mut relays = (0..relays).map(|n| Relay(first).after(n));
+            let mut registers = (0..registers).map(|n| Register(first).after(n));
+            relays.any(|relay| self.specials.has(relay))
+                || registers.any(|register| self.specials.has(register))
+        };
+        adapters.filter(is_used).collect()
+    }
+
+    /// The exchange with an analog adapter or board; `received` has a bit for each word that comes from it.
+    fn exchange_adapter(&mut self, adapter: &Adapter, received: i32) {
+        let [relays, registers] = adapter.counts;
+        for relay in 0..relays {
+            self.specials.flags.push((M, adapter.first + relay));
+        }
+        let own = (0..registers).map(|n| Register(adapter.first as u16).after(n));
+        let own: Vec<_> = own.collect();
+        let run = |class, count| Arg::Device {
+            place: fixed(class, adapter.first),
+            extent: Some(count),
+        };
+        let args = vec![
+            constant(adapter.unit.into()),
+            run(M, relays),
+            run(D, registers),
+            constant(adapter.sent),
+            constant(received),
+        ];
+        self.call_system_with(RtFn::ExchangeAdapter, &own, args);
     }
 
     /// The exchange with an analog board, if the program looks at its registers.
@@ -153,6 +202,68 @@ fn constant(value: i32) -> Arg {
         value,
         index: None,
         wide: false,
+    }
+}
+
+/// An analog adapter or board and its special devices.
+struct Adapter {
+    unit: u16,
+    kind: &'static Kind,
+    /// Number of its first relay and register.
+    first: u32,
+    /// Numbers of relays and registers from the first to its last.
+    counts: [u32; 2],
+    /// A bit for each word that goes to it.
+    sent: i32,
+    /// A bit for each word that comes from it.
+    received: i32,
+}
+
+impl Adapter {
+    fn new(unit: u16, kind: &'static Kind, first: u32) -> Self {
+        let mut adapter = Adapter {
+            unit,
+            kind,
+            first,
+            counts: [1; 2],
+            sent: 0,
+            received: 0,
+        };
+        for (word, bfm) in adapter.words() {
+            let [relays, registers] = &mut adapter.counts;
+            match word.checked_sub(REGISTERS) {
+                None => *relays = (*relays).max(u32::from(word) + 1),
+                Some(n) => *registers = (*registers).max(u32::from(n) + 1),
+            }
+            match bfm.access {
+                modules::Access::Read => adapter.received |= 1 << word,
+                modules::Access::ReadWrite | modules::Access::Retained => adapter.sent |= 1 << word,
+            }
+        }
+        adapter
+    }
+
+    /// The words that devices stand for, and their rows.
+    fn words(&self) -> impl Iterator<Item = (u16, &'static Bfm)> + use<> {
+        let rows = self
+            .kind
+            .bfms
+            .iter()
+            .filter(|bfm| bfm.role != Role::Exchange);
+        rows.flat_map(|bfm| bfm.numbers().map(move |word| (word, bfm)))
+    }
+
+    /// Registers that the program sets and that start with a value other than 0.
+    fn defaults(&self) -> impl Iterator<Item = (Register, i16)> + use<> {
+        let first = Register(self.first as u16);
+        let set = self
+            .words()
+            .filter(|(_, bfm)| bfm.access != modules::Access::Read);
+        set.filter(|(_, bfm)| bfm.default != 0)
+            .filter_map(move |(word, bfm)| {
+                let n = word.checked_sub(REGISTERS)?;
+                Some((first.after(n.into()), bfm.default))
+            })
     }
 }
 

@@ -71,7 +71,9 @@ fn special_cells(row: &special::Special) -> String {
     let status = match row.status {
         Status::Scan => "works".to_owned(),
         Status::Instructions(names) => format!("works with {names}"),
-        Status::Modules(_) => "works with modules that rungc.toml lists".to_owned(),
+        Status::Modules(_) | Status::Module(_) => {
+            "works with modules that rungc.toml lists".to_owned()
+        }
         Status::Inert(reason) => format!("not simulated: {}", reason.text),
     };
     let (default, meaning) = (row.default, row.meaning);

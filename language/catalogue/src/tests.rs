@@ -230,6 +230,7 @@ fn every_runtime_function_has_a_row() {
         rungc_rt::RtFn::Potentiometers,
         rungc_rt::RtFn::ExchangeModule,
         rungc_rt::RtFn::ExchangeBoard,
+        rungc_rt::RtFn::ExchangeAdapter,
         rungc_rt::RtFn::RingCounter,
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,

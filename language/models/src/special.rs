@@ -73,16 +73,26 @@ pub enum Status {
     Instructions(&'static str),
     /// The special modules at this place read or write it, if the settings list any; else it is a plain register.
     Modules(Place),
+    /// The analog adapter or board with this number ([`rungc_rt::modules::NAMES`]) reads or writes it, if the settings
+    /// list it.
+    Module(u16),
     /// It is a plain relay or register here, for this reason.
     Inert(Reason),
 }
 
 impl Status {
-    /// Reason why the device is inert on a PLC with special modules at these places; `None` if it works.
-    pub fn inert(self, places: &[Place]) -> Option<Reason> {
+    /// Reason why the device is inert on a PLC with special modules of these numbers and places; `None` if it works.
+    pub fn inert(self, fitted: &[(u16, Place)]) -> Option<Reason> {
         match self {
             Status::Inert(reason) => Some(reason),
-            Status::Modules(place) => (!places.contains(&place)).then_some(NOT_FITTED),
+            Status::Modules(place) => {
+                let is_missing = fitted.iter().all(|&(_, own)| own != place);
+                is_missing.then_some(NOT_FITTED)
+            }
+            Status::Module(unit) => {
+                let is_missing = fitted.iter().all(|&(own, _)| own != unit);
+                is_missing.then_some(NOT_FITTED)
+            }
             Status::Scan | Status::Instructions(_) => None,
         }
     }
@@ -237,6 +247,13 @@ impl Model {
         self.specials()
             .filter(move |row| row.class == class && row.default != 0)
             .flat_map(|row| (row.first..=row.last).map(|number| (number as u16, row.default)))
+    }
+
+    /// First relay and register of the analog adapter or board with this number, if the model takes it.
+    pub fn module_devices(&self, unit: u16) -> Option<u32> {
+        let rows = self.specials();
+        let own = rows.filter(|row| row.status == Status::Module(unit));
+        own.map(|row| row.first).min()
     }
 
     /// Value of a special register at power-on; 0 of one that has no meaning on the model.
@@ -435,13 +452,13 @@ const NOT_FITTED: Reason = because(
     Missed::ByAll,
     "no `[[module]]` in rungc.toml lists the module that it belongs to",
 );
-pub(crate) const ANALOG_INPUTS: Reason = because(
+pub(crate) const ADAPTERS_MISSING: Reason = because(
     Missed::ByAll,
-    "special adapters and boards for analog values are not simulated; the host may write their registers",
+    "this model takes no special adapters for analog values; the host may write their registers",
 );
-pub(crate) const ANALOG_BOARDS: Reason = because(
+pub(crate) const EXTENSION_BOARDS: Reason = because(
     Missed::ByAll,
-    "extension boards of FX1S and FX1N are not simulated; the host may write their registers",
+    "boards with inputs and outputs for FX1S and FX1N are not simulated; the host may write their relays",
 );
 pub(crate) const DISPLAY: Reason = because(
     Missed::ByWriters,
@@ -458,7 +475,7 @@ pub(crate) const TIMING: Reason = because(
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
 /// Writes a table of special devices, a row a line: `class first[-last] access default status "meaning";` with the
-/// access `r`, `rw` or `r(ROLE)` and the status `scan`, `by("…")`, `modules(…)` or `inert(…)`.
+/// access `r`, `rw` or `r(ROLE)` and the status `scan`, `by("…")`, `modules(…)`, `module(…)` or `inert(…)`.
 macro_rules! specials {
     ($(
         $class:ident $first:literal $(- $last:literal)?
@@ -482,6 +499,7 @@ macro_rules! specials {
     (@status scan) => { $crate::special::Status::Scan };
     (@status by $instructions:expr) => { $crate::special::Status::Instructions($instructions) };
     (@status modules $place:expr) => { $crate::special::Status::Modules($place) };
+    (@status module $unit:expr) => { $crate::special::Status::Module($unit) };
     (@status inert $why:expr) => { $crate::special::Status::Inert($why) };
 }
 pub(crate) use specials;
@@ -491,7 +509,7 @@ mod tests {
     use super::{Access, CANLINK, POWER_ON, RunCommand, Special, Status};
     use crate::{Model, ModelId};
     use rungc_rt::Register;
-    use rungc_rt::modules::Place;
+    use rungc_rt::modules::{BOARD, Place, named};
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
 
@@ -576,6 +594,24 @@ mod tests {
         assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);
         assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Modules(Place::Hm)));
         assert_eq!(of(ModelId::Hm, D, 1000), None);
+        // FX3G has boards before its adapters (FX3 programming manual §37.2.18).
+        for (id, units) in [
+            (
+                ModelId::Fx3u,
+                ["adapter1", "adapter2", "adapter3", "adapter4"],
+            ),
+            (ModelId::Fx3g, ["board", "board2", "adapter1", "adapter2"]),
+        ] {
+            for (first, name) in (8260..).step_by(10).zip(units) {
+                let unit = named(name).unwrap();
+                assert_eq!(Model::get(id).module_devices(unit), Some(first));
+                for (class, number) in [(M, first), (M, first + 9), (D, first), (D, first + 9)] {
+                    assert_eq!(of(id, class, number), Some(Status::Module(unit)));
+                }
+            }
+        }
+        assert_eq!(Model::get(ModelId::Fx1n).module_devices(BOARD), Some(8112));
+        assert_eq!(Model::get(ModelId::Fx2n).module_devices(BOARD), None);
         let modules: Vec<_> = Model::get(ModelId::Hm).special_words().collect();
         assert!(modules.contains(&(Register(7143), 60)));
         assert!(modules.contains(&(Register(7144), 60)));

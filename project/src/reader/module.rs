@@ -3,7 +3,7 @@
 use super::{Reader, Value, hint, span};
 use crate::Project;
 use crate::module::{LOCAL, REMOTE, Row};
-use rungc_rt::modules::{BOARD, KINDS, Kind, Place};
+use rungc_rt::modules::{self, BOARD, KINDS, Kind, Place};
 use rungc_syntax::Span;
 use toml::de::DeTable;
 
@@ -22,12 +22,13 @@ const MOST: usize = 8;
 impl Reader {
     pub(super) fn modules(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
         for (at, table) in self.rows(MODULE, at, value) {
-            let Some(row) = self.module(at, table) else {
+            let Some(row) = self.module(at, table, &project.modules) else {
                 continue;
             };
             if project.modules.iter().any(|other| other.unit == row.unit) {
-                self.wrong(row.span, format!("module {} is listed twice", row.unit), "");
-            } else if row.unit != BOARD && project.modules.len() == MOST {
+                let name = modules::name(row.unit).map_or(row.unit.to_string(), str::to_owned);
+                self.wrong(row.span, format!("module {name} is listed twice"), "");
+            } else if row.unit < BOARD && project.numbered_modules() == MOST {
                 self.wrong(at, format!("a PLC has at most {MOST} modules"), "");
             } else {
                 project.modules.push(row);
@@ -35,11 +36,22 @@ impl Reader {
         }
     }
 
-    /// The number of a module; `"board"` is that of an analog board.
-    fn unit(&mut self, table: &DeTable<'_>, at: Span) -> Option<u16> {
+    /// The number of a module, which may be named; without either, boards and adapters follow each other.
+    fn unit(
+        &mut self,
+        table: &DeTable<'_>,
+        at: Span,
+        kind: Option<&Kind>,
+        others: &[Row],
+    ) -> Option<u16> {
         let text = table.get("at").and_then(|value| value.get_ref().as_str());
-        if text == Some("board") {
-            return Some(BOARD);
+        if let Some(unit) = text.and_then(modules::named) {
+            return Some(unit);
+        }
+        let own = kind.map_or(&[][..], |kind| kind.place.named());
+        if let ([.., last], None) = (own, table.get("at")) {
+            let is_free = |unit: &&u16| others.iter().all(|row| row.unit != **unit);
+            return Some(*own.iter().find(is_free).unwrap_or(last));
         }
         let unit = self.number(table, at, "at", 0..=(*REMOTE.end()).into(), None);
         unit.and_then(|unit| u16::try_from(unit).ok())
@@ -73,9 +85,10 @@ impl Reader {
         found
     }
 
-    fn module(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
+    fn module(&mut self, at: Span, table: &DeTable<'_>, others: &[Row]) -> Option<Row> {
         self.known(MODULE, table, &["at", "kind", DELAY, "pins"]);
-        let unit = self.unit(table, at);
+        let named = table.get("kind").and_then(|value| value.get_ref().as_str());
+        let unit = self.unit(table, at, named.and_then(Kind::find), others);
         let Some(named) = self.get(table, "kind") else {
             if !table.contains_key("kind") {
                 self.wrong(
@@ -102,7 +115,7 @@ impl Reader {
             self.wrong(at, message, help);
             return None;
         }
-        if unit != BOARD && !LOCAL.contains(&unit) && !REMOTE.contains(&unit) {
+        if unit < BOARD && !LOCAL.contains(&unit) && !REMOTE.contains(&unit) {
             let help = "the number is 0 to 7 beside the main unit, or 100 and the station on the CAN bus of H1U and H2U";
             self.wrong(at, format!("no module has the number {unit}"), help);
             return None;
@@ -129,12 +142,20 @@ impl Reader {
 fn misplaced(unit: u16, kind: &Kind) -> Option<(String, &'static str)> {
     let name = kind.name;
     match (kind.place, unit) {
-        (Place::Slot, BOARD) => None,
-        (Place::Slot, _) => Some((
+        (place, _) if place.named().contains(&unit) => None,
+        (Place::Slot | Place::Board1n, _) => Some((
             format!("{name} is a board in the main unit"),
             "write `at = \"board\"`",
         )),
-        (_, BOARD) => Some((
+        (Place::Board3g, _) => Some((
+            format!("{name} is a board in the main unit"),
+            "write `at = \"board\"` or `at = \"board2\"`",
+        )),
+        (Place::Adapter, _) => Some((
+            format!("{name} is an adapter on the left of the main unit"),
+            "leave `at` out, or write `at = \"adapter1\"` for the first one",
+        )),
+        (_, BOARD..) => Some((
             format!("{name} is not a board in the main unit"),
             "the number of a module beside the main unit is 0 to 7",
         )),

@@ -2,5 +2,6 @@
 
 mod common;
 mod connections;
+mod modules;
 mod read;
 mod requests;

@@ -309,6 +309,7 @@ registry! {
     Potentiometers = system::potentiometers() [always, hal];
     ExchangeModule = exchange::exchange_module(unit, d, reads, n, period) [state, always, hal];
     ExchangeBoard = exchange::exchange_board(s, d) [always, hal];
+    ExchangeAdapter = exchange::exchange_adapter(unit, m, d, sent, received) [always, hal];
     RingCounter = system::ring_counter() [always];
     Oscilloscope = scope::oscilloscope(n, d) [state];
     Ptab = segment::ptab(s, d, n) [state, always];

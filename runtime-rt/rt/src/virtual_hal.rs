@@ -8,8 +8,11 @@ use crate::virtual_line::VirtualLine;
 /// Words of buffer memory that all modules together may hold.
 const BFM_WORDS: usize = 1024;
 
-/// Special modules that may be fitted, and the analog board.
-const MODULES: usize = 8 + 1;
+/// Special modules with numbers that may be fitted.
+const NUMBERED: usize = 8;
+
+/// All of them, with the analog boards and adapters, of which a PLC has at most four.
+const MODULES: usize = NUMBERED + 4;
 
 /// Built-in analog inputs.
 const ANALOG_CHANNELS: usize = 16;
@@ -140,11 +143,12 @@ impl VirtualHal {
         }
     }
 
-    /// Fits a special module with this number, or the board; `None` if there is one already, or if there are 8 modules.
+    /// Fits a special module with this number, a board or an adapter; `None` if there is one already, or if there are 8
+    /// modules with numbers or 12 in all.
     pub fn fit(&mut self, unit: u16, kind: &'static Kind) -> Option<()> {
         let others = self.modules.iter().flatten();
-        let modules = others.filter(|(own, _)| *own != BOARD).count();
-        let is_full = unit != BOARD && modules == MODULES - 1;
+        let modules = others.filter(|(own, _)| *own < BOARD).count();
+        let is_full = unit < BOARD && modules == NUMBERED;
         if is_full || self.has_unit(unit) || self.module(unit).is_some() {
             return None;
         }

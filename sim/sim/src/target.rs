@@ -1,7 +1,7 @@
 //! Names in `set`, `init` and `expect`: `M0`, `D0.i32`, `K4M0`, `T0.value`, `Y000.pulses`.
 
 use rungc_models::runs::is_counter32;
-use rungc_rt::modules::{BOARD, Quantity};
+use rungc_rt::modules::{self, Quantity};
 use rungc_syntax::DeviceClass;
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -17,9 +17,6 @@ pub struct Channel {
     pub quantity: Quantity,
 }
 
-/// Name of the analog board in the main unit.
-pub(crate) const BOARD_NAME: &str = "board";
-
 /// The letters of terminals.
 const TERMINALS: [(&str, Quantity); 2] = [
     ("X", Quantity::InputTerminal),
@@ -28,10 +25,7 @@ const TERMINALS: [(&str, Quantity); 2] = [
 
 /// The number of a module as names and test files have it.
 pub fn unit(name: &str) -> Option<u16> {
-    match name.eq_ignore_ascii_case(BOARD_NAME) {
-        true => Some(BOARD),
-        false => name.parse().ok(),
-    }
+    modules::named(name).or_else(|| name.parse().ok())
 }
 
 /// The units of channels as names end in them, and the quantities.
@@ -92,9 +86,9 @@ impl Channel {
 
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.unit {
-            BOARD => write!(f, "{BOARD_NAME}:")?,
-            unit => write!(f, "{unit}:")?,
+        match modules::name(self.unit) {
+            Some(name) => write!(f, "{name}:")?,
+            None => write!(f, "{}:", self.unit)?,
         }
         let named = |(_, quantity): &&(&str, Quantity)| *quantity == self.quantity;
         if let Some((letter, _)) = TERMINALS.iter().find(named) {

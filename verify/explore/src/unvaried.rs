@@ -41,15 +41,15 @@ pub fn unvaried(task: &Task) -> Vec<String> {
 /// Influence on a function of the runtime from outside the program and its devices.
 fn source(function: RtFn) -> Option<&'static str> {
     use RtFn::{
-        AnalogInputs, ClockRefresh, ClockRefreshShort, ExchangeBoard, ExchangeModule,
-        Potentiometers, PowerSupply, Rd3a, Rd3aBoard, Trd, TrdShort, Vrrd, Vrsc,
+        AnalogInputs, ClockRefresh, ClockRefreshShort, ExchangeAdapter, ExchangeBoard,
+        ExchangeModule, Potentiometers, PowerSupply, Rd3a, Rd3aBoard, Trd, TrdShort, Vrrd, Vrsc,
     };
     const MODULES: &str = "what special modules measure and answer";
     if function.transfer() == Some(Transfer::FromModule) {
         return Some(MODULES);
     }
     Some(match function {
-        Rd3a | Rd3aBoard | ExchangeModule | ExchangeBoard => MODULES,
+        Rd3a | Rd3aBoard | ExchangeModule | ExchangeBoard | ExchangeAdapter => MODULES,
         AnalogInputs => "analog inputs",
         Potentiometers | Vrrd | Vrsc => "potentiometers",
         Trd | TrdShort | ClockRefresh | ClockRefreshShort => {

@@ -209,7 +209,7 @@ fn describe(special: &special::Special) -> String {
     let status = match special.status {
         special::Status::Scan => "updated by the scan".to_string(),
         special::Status::Instructions(names) => format!("used by {names}"),
-        special::Status::Modules(_) => {
+        special::Status::Modules(_) | special::Status::Module(_) => {
             "exchanged with the special modules that `[[module]]` in rungc.toml lists".to_string()
         }
         special::Status::Inert(reason) => format!("not simulated: {}", reason.text),

@@ -1,13 +1,15 @@
 //! The page of the buffer memory of special modules.
 
-use rungc_rt::modules::{Bfm, KINDS, Kind, Quantity, Range};
+use rungc_rt::modules::{Bfm, EXCHANGE, KINDS, Kind, Quantity, REGISTERS, Range, Start};
 use std::fmt::Write;
 
 /// The page: a table of ranges and a table of buffer memory for each kind, as the runtime holds them.
 pub fn modules() -> String {
     let mut page = "# Buffer memory of modules\n\nThe special modules that rungc simulates and checks, and what FROM and TO find in \
                     them. \
-                    [Special modules](../modules.md) says how to fit them. A word that is *kept* outlasts power-off.\n"
+                    [Special modules](../modules.md) says how to fit them. A word that is *kept* outlasts power-off. Analog \
+                    adapters and boards of FX have relays and registers instead: M+1 is the second relay, D+0 the first \
+                    register.\n"
         .to_owned();
     for kind in &KINDS {
         // Writing to a String cannot fail.
@@ -24,8 +26,15 @@ pub fn modules() -> String {
             page.push('\n');
             continue;
         }
-        page += "\n\n| BFM | channel | meaning | default | access |\n|--:|---|---|--:|---|\n";
-        for bfm in kind.bfms {
+        let (words, head) = match kind.start {
+            Start::Exchange => (EXCHANGE, "device"),
+            _ => (u16::MAX, "BFM"),
+        };
+        let _ = write!(
+            page,
+            "\n\n| {head} | channel | meaning | default | access |\n|--:|---|---|--:|---|\n"
+        );
+        for bfm in kind.bfms.iter().filter(|bfm| bfm.first < words) {
             row(&mut page, kind, bfm);
         }
     }
@@ -95,9 +104,14 @@ fn ranges(
 /// A row of buffer memory.
 fn row(page: &mut String, kind: &Kind, bfm: &Bfm) {
     let last = bfm.first + u16::from(bfm.count) - 1;
+    let number = |word: u16| match (kind.start, word.checked_sub(REGISTERS)) {
+        (Start::Exchange, None) => format!("M+{word}"),
+        (Start::Exchange, Some(register)) => format!("D+{register}"),
+        _ => word.to_string(),
+    };
     let numbers = match (bfm.stride, last == bfm.first) {
-        (_, true) => bfm.first.to_string(),
-        (1, false) => format!("{} – {last}", bfm.first),
+        (_, true) => number(bfm.first),
+        (1, false) => format!("{} – {}", number(bfm.first), number(last)),
         _ => {
             let all: Vec<_> = bfm.numbers().map(|number| number.to_string()).collect();
             all.join(", ")

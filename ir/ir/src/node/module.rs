@@ -188,6 +188,8 @@ pub struct Module {
     pub layout: Layout,
     /// PLC of the model's family that the program is for, if that is known.
     pub variant: Option<&'static Variant>,
+    /// Registers of fitted special modules that start with a value other than 0.
+    pub fitted_words: Vec<(Register, i16)>,
     /// Special registers' values at power-on, of those stored.
     pub initial_words: Vec<(Register, i16)>,
     /// Special relays that are on at power-on, of those stored.
@@ -229,18 +231,20 @@ impl Module {
             comments: Vec::new(),
             layout: Layout::default(),
             variant: None,
+            fitted_words: Vec::new(),
             initial_words: Vec::new(),
             initial_bits: Vec::new(),
         }
     }
 
-    /// Special registers that start with a value other than 0, with those of the variant.
+    /// Special registers that start with a value other than 0, with those of the variant and of fitted modules.
     pub fn special_words(&self) -> impl Iterator<Item = (Register, i16)> + use<> {
         let own = self.variant.map_or(&[][..], |variant| variant.defaults);
         let changed = move |register: Register| own.iter().any(|&(own, _)| own == register);
         let usual = self.model.special_words();
         let usual = usual.filter(move |&(register, _)| !changed(register));
-        usual.chain(own.iter().copied())
+        let fitted = self.fitted_words.clone();
+        usual.chain(own.iter().copied()).chain(fitted)
     }
 
     /// Returns true if a device retains its value over power-off. A special device that does begins with its default

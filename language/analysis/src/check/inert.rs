@@ -21,8 +21,8 @@ const MAX_NAMED: usize = 6;
 /// The inert devices that a program names.
 pub(super) struct Inert<'a> {
     used: BTreeMap<Device, Used>,
-    /// Locations of the PLC's special modules.
-    places: Vec<Place>,
+    /// Numbers and places of the PLC's special modules.
+    fitted: Vec<(u16, Place)>,
     /// Roles of the serial ports.
     roles: &'a Roles<'a>,
 }
@@ -40,7 +40,7 @@ impl<'a> Inert<'a> {
     pub(super) fn new(modules: &Modules, roles: &'a Roles<'a>) -> Self {
         Inert {
             used: BTreeMap::new(),
-            places: modules.places().collect(),
+            fitted: modules.places().collect(),
             roles,
         }
     }
@@ -59,7 +59,7 @@ impl<'a> Inert<'a> {
             let Some(row) = code.model().special(device.class, number) else {
                 continue;
             };
-            let inert = row.status.inert(&self.places);
+            let inert = row.status.inert(&self.fitted);
             let Some(reason) = inert.or_else(|| self.in_role(row, access)) else {
                 continue;
             };

@@ -2,7 +2,7 @@
 
 use super::Code;
 use rungc_catalogue::{Lower, Role};
-use rungc_rt::modules::{Access, Kind, Place};
+use rungc_rt::modules::{self, Access, Kind, Place};
 use rungc_rt::{RtFn, Transfer};
 use rungc_syntax::{Diagnostics, OperandKind, Span, codes};
 use std::ops::Range;
@@ -32,9 +32,9 @@ impl Modules {
         )
     }
 
-    /// Locations of the modules.
-    pub(super) fn places(&self) -> impl Iterator<Item = Place> {
-        self.0.iter().map(|(_, kind)| kind.place)
+    /// Numbers and places of the modules.
+    pub(super) fn places(&self) -> impl Iterator<Item = (u16, Place)> {
+        self.0.iter().map(|(unit, kind)| (*unit, kind.place))
     }
 
     /// Checks instruction `i`; nothing if the settings fit no modules.
@@ -79,7 +79,10 @@ impl Modules {
         let Some((unit, kind)) = fitted else {
             let message = format!("no module has the number {}", words.unit);
             let listed = self.0.iter();
-            let listed = listed.map(|(unit, kind)| format!("{unit} ({})", kind.name));
+            let listed = listed.map(|(unit, kind)| match modules::name(*unit) {
+                Some(name) => format!("{name} ({})", kind.name),
+                None => format!("{unit} ({})", kind.name),
+            });
             let listed: Vec<_> = listed.collect();
             let help = format!("`[[module]]` in rungc.toml lists {}", listed.join(", "));
             out.push(codes::NO_MODULE.at(words.unit_span, message).help(help));

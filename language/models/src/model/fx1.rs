@@ -10,6 +10,7 @@ use super::{Model, ModelId, Range, Timers, mitsubishi};
 use crate::high_speed::{self, HighSpeed};
 use crate::times::InstructionTimes;
 use rungc_rt::Pulses;
+use rungc_rt::modules::Place;
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, M, P, S, T, X, Y};
 
@@ -73,6 +74,7 @@ pub(super) const FX1N: Model = Model {
     instruction_times: Some(TIMES),
     pulses: Pulses::Fx1,
     notations: Classes::NONE,
+    module_places: &[Place::Bus, Place::Board1n],
     special: &[
         mitsubishi::ALL,
         mitsubishi::PROGRAMMING_PORT,

@@ -1,10 +1,11 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    ANALOG_BOARDS, ANALOG_INPUTS, CHECKED, CONTROL_LINES, COUNTER_INPUTS, COUNTING_1, COUNTING_2,
-    DELIMITER, DISPLAY, HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, LINK_1, LINK_2, MAKER,
+    ADAPTERS_MISSING, CHECKED, CONTROL_LINES, COUNTER_INPUTS, COUNTING_1, COUNTING_2, DELIMITER,
+    DISPLAY, EXTENSION_BOARDS, HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, LINK_1, LINK_2, MAKER,
     MODBUS_1, MODBUS_2, MODULE_COUNT, POWER, SHOWN, SLAVE_1, SLAVE_2, Special, TRACE, specials,
 };
+use rungc_rt::modules::{ADAPTERS, BOARD, BOARDS};
 
 /// Devices of all.
 pub(super) const ALL: &[Special] = specials! {
@@ -187,11 +188,12 @@ pub(super) const D8145: &[Special] = specials! {
 
 /// Additional devices of FX1S and FX1N.
 pub(super) const FX1: &[Special] = specials! {
-    M 8112-8115 rw 0 inert(ANALOG_BOARDS) "boards FX1N-2AD-BD and FX1N-1DA-BD: range of channels 1 and 2, of the output; FX1N-4EX-BD: inputs";
-    M 8116-8117 rw 0 inert(ANALOG_BOARDS) "board FX1N-2EYT-BD: outputs";
+    M 8112-8114 rw 0 module(BOARD) "boards FX1N-2AD-BD and FX1N-1DA-BD: range of channels 1 and 2, of the output; FX1N-4EX-BD: inputs";
+    M 8115 rw 0 inert(EXTENSION_BOARDS) "board FX1N-4EX-BD: inputs";
+    M 8116-8117 rw 0 inert(EXTENSION_BOARDS) "board FX1N-2EYT-BD: outputs";
     M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
-    D 8112-8114 rw 0 inert(ANALOG_BOARDS) "boards FX1N-2AD-BD and FX1N-1DA-BD: values of channels 1 and 2, of the output";
+    D 8112-8114 rw 0 module(BOARD) "boards FX1N-2AD-BD and FX1N-1DA-BD: values of channels 1 and 2, of the output";
     D 8158-8159 rw -1 inert(DISPLAY) "display module FX1N-5DM: registers D and relays M that control it";
 };
 
@@ -224,6 +226,40 @@ pub(super) const FX2N: &[Special] = specials! {
     D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
 };
 
+/// Analog adapters of FX3U (FX3 programming manual §37.2.18).
+pub(super) const ADAPTERS_3U: &[Special] = specials! {
+    M 8260-8269 rw 0 module(ADAPTERS[0]) "first analog adapter: ranges, hold, units";
+    M 8270-8279 rw 0 module(ADAPTERS[1]) "second analog adapter: ranges, hold, units";
+    M 8280-8289 rw 0 module(ADAPTERS[2]) "third analog adapter: ranges, hold, units";
+    M 8290-8299 rw 0 module(ADAPTERS[3]) "fourth analog adapter: ranges, hold, units";
+    D 8260-8269 rw 0 module(ADAPTERS[0]) "first analog adapter: values, samples per mean, errors, type";
+    D 8270-8279 rw 0 module(ADAPTERS[1]) "second analog adapter: values, samples per mean, errors, type";
+    D 8280-8289 rw 0 module(ADAPTERS[2]) "third analog adapter: values, samples per mean, errors, type";
+    D 8290-8299 rw 0 module(ADAPTERS[3]) "fourth analog adapter: values, samples per mean, errors, type";
+};
+
+/// The first analog board and adapter of FX3S and FX3G (FX3 programming manual §37.2.18).
+pub(super) const ADAPTERS_3SG: &[Special] = specials! {
+    M 8260-8269 rw 0 module(BOARDS[0]) "analog board: ranges, hold, units";
+    M 8280-8289 rw 0 module(ADAPTERS[0]) "analog adapter: ranges, hold, units";
+    D 8260-8269 rw 0 module(BOARDS[0]) "analog board: values, samples per mean, errors, type";
+    D 8280-8289 rw 0 module(ADAPTERS[0]) "analog adapter: values, samples per mean, errors, type";
+};
+
+/// The second ones, which FX3G takes.
+pub(super) const ADAPTERS_3G: &[Special] = specials! {
+    M 8270-8279 rw 0 module(BOARDS[1]) "second analog board: ranges, hold, units";
+    M 8290-8299 rw 0 module(ADAPTERS[1]) "second analog adapter: ranges, hold, units";
+    D 8270-8279 rw 0 module(BOARDS[1]) "second analog board: values, samples per mean, errors, type";
+    D 8290-8299 rw 0 module(ADAPTERS[1]) "second analog adapter: values, samples per mean, errors, type";
+};
+
+/// The same devices on boards that take programs for FX3U.
+pub(super) const NO_ADAPTERS: &[Special] = specials! {
+    M 8260-8299 rw 0 inert(ADAPTERS_MISSING) "analog adapters, ten relays each: ranges, hold, units";
+    D 8260-8299 rw 0 inert(ADAPTERS_MISSING) "analog adapters, ten registers each: values, samples per mean, errors, type";
+};
+
 /// Additional devices of FX3S, FX3G and FX3U.
 pub(super) const FX3: &[Special] = specials! {
     M 8105 r 0 inert(MAKER) "the program is being changed in RUN";
@@ -233,7 +269,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8178-8179 rw 0 by("serial ports") "the parallel link, the N:N link is on channel 2";
     M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
-    M 8260-8299 rw 0 inert(ANALOG_INPUTS) "special adapters and boards for analog values, ten relays each: ranges, errors";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";
     M 8316 r 0 inert(HARDWARE) "an input or output is named that is not fitted";
@@ -287,7 +322,6 @@ pub(super) const FX3: &[Special] = specials! {
     D 8157 r 0 inert(INVERTERS) "channel 2: inverter communication: error code";
     D 8158-8159 r -1 inert(INVERTERS) "channel 2: inverter communication: step of the error, parameter of IVBWR";
     D 8169 r 0 inert(MAKER) "restriction of access to the program";
-    D 8260-8299 rw 0 inert(ANALOG_INPUTS) "special adapters and boards for analog values, ten registers each: values, averages, errors";
     D 8312-8315 r 0 inert(SHOWN) "steps of D8068 and D8069 in 32 bits";
     D 8316-8319 r 0 inert(HARDWARE) "step and number of what is not fitted; module and address of buffer memory that could not be initialised";
     D 8340-8341 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: position";

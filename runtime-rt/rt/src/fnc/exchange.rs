@@ -1,9 +1,9 @@
-//! Modules that registers stand for: the extension modules of HM (hm-motion-controller §7) and the analog boards of H1U
-//! and H2U (h1u-h2u-programming §6.7).
+//! Modules that registers stand for: the extension modules of HM (hm-motion-controller §7), the analog boards of H1U
+//! and H2U (h1u-h2u-programming §6.7), and the analog adapters and boards of FX.
 
 use crate::cx::Cx;
 use crate::fault::Done;
-use crate::modules::BOARD;
+use crate::modules::{BOARD, EXCHANGE, REGISTERS};
 
 /// Exchange with a board: numbers of words sent and of words answered. The last of the answer counts the errors.
 const SENT: u16 = 9;
@@ -68,6 +68,31 @@ pub fn exchange_board(cx: &mut Cx) -> Done {
     cx.set_word(1, errors, failed)
 }
 
+/// An analog adapter or board of FX: relays from M on and registers from D on, whose words have a bit in `sent`, go to the
+/// module; it converts its inputs, and its words with a bit in `received` go to registers, if there is one. Registers
+/// of a module that does not answer stay as they are.
+pub fn exchange_adapter(cx: &mut Cx) -> Done {
+    let unit = cx.word(0, 0)? as u16;
+    let (sent, received) = (cx.dword(3, 0)?, cx.dword(4, 0)?);
+    let words = |bits: i32| (0..EXCHANGE).filter(move |word| bits >> word & 1 != 0);
+    for word in words(sent) {
+        let value = match word.checked_sub(REGISTERS) {
+            Some(register) => cx.word(2, register.into())?,
+            None => cx.bit(1, word.into())?.into(),
+        };
+        let _ = cx.hal().write_bfm(unit, word, value);
+    }
+    if received != 0 {
+        let _ = cx.hal().write_bfm(unit, EXCHANGE, 1);
+    }
+    for word in words(received) {
+        if let Some(value) = cx.hal().read_bfm(unit, word) {
+            cx.set_word(2, i32::from(word) - i32::from(REGISTERS), value)?;
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use crate::double::Double;
@@ -116,5 +141,36 @@ mod tests {
         plc.call(RtFn::ExchangeBoard, &ops).unwrap();
         assert_eq!(plc.d(8230, 10), [0x6a42, 0, 0, 0, 0, 10_000, 0, 0, 0, 0]);
         plc.call(RtFn::ExchangeBoard, &[k(1), ops[1]]).unwrap();
+    }
+
+    #[test]
+    fn an_adapter_takes_and_gives_the_words_it_has() {
+        let mut plc = Double::new();
+        let ops: [Operand; 5] = [
+            k(202),
+            d(Class::M, 8260),
+            d(Class::D, 8260),
+            k(0b1111_0000_0000_1111),
+            k(0b1111 << 10 | 0b11 << 18),
+        ];
+        plc.set_d(8260, &[7, 7, 7, 7, 1, 1, 1, 1, 7, 7]);
+        plc.set_m(8260, "0100000000");
+        // Without the module, its registers stay as they are.
+        plc.call(RtFn::ExchangeAdapter, &ops).unwrap();
+        assert_eq!(plc.d(8260, 10), [7, 7, 7, 7, 1, 1, 1, 1, 7, 7]);
+        let kind = Kind::find("FX3U-4AD-ADP").unwrap();
+        plc.hal.fit(202, kind).unwrap();
+        for (channel, quantity, millionths) in [
+            (1, Quantity::Volts, 5_000_000),
+            (2, Quantity::Milliamperes, 20_000_000),
+        ] {
+            let signal = Signal {
+                quantity,
+                millionths,
+            };
+            plc.hal.set_signal(202, channel, signal).unwrap();
+        }
+        plc.call(RtFn::ExchangeAdapter, &ops).unwrap();
+        assert_eq!(plc.d(8260, 10), [2000, 1600, 0, 0, 1, 1, 1, 1, 0, 1]);
     }
 }

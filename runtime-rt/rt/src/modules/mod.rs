@@ -22,8 +22,39 @@ pub use roles::{AxisWord, Role, Term};
 pub use tables::KINDS;
 pub use unit::Module;
 
-/// The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
+/// The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239), the first of
+/// [`NAMES`].
 pub const BOARD: u16 = 200;
+
+/// Names of modules that FROM and TO do not reach, whose numbers follow each other from [`BOARD`] on.
+pub const NAMES: [&str; 6] = [
+    "board", "board2", "adapter1", "adapter2", "adapter3", "adapter4",
+];
+
+/// Numbers of the boards in the slots of the main unit.
+pub const BOARDS: [u16; 2] = [BOARD, BOARD + 1];
+
+/// Numbers of the analog adapters on the left of FX3.
+pub const ADAPTERS: [u16; 4] = [BOARD + 2, BOARD + 3, BOARD + 4, BOARD + 5];
+
+/// The number of a module by its name, in upper or lower case.
+pub fn named(name: &str) -> Option<u16> {
+    let found = (BOARD..).zip(NAMES);
+    let mut found = found.filter(|(_, own)| own.eq_ignore_ascii_case(name));
+    found.next().map(|(unit, _)| unit)
+}
+
+/// The name of a module that has one.
+pub fn name(unit: u16) -> Option<&'static str> {
+    let at = unit.checked_sub(BOARD)?;
+    NAMES.get(usize::from(at)).copied()
+}
+
+/// The first word of the registers of an analog adapter or board, after those of its relays.
+pub const REGISTERS: u16 = 10;
+
+/// The word that starts a conversion in an analog adapter or board, after its registers.
+pub const EXCHANGE: u16 = 2 * REGISTERS;
 
 /// Quantity that a channel measures or outputs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -229,6 +260,15 @@ pub enum Start {
     /// FX2N-2DA: the fall of bit 2 takes the low byte over, that of bit 1 starts the first output and that of bit 0
     /// the second.
     Fx2n2da,
+    /// The PLC starts a conversion of all channels when it exchanges words with the module, once a scan.
+    Exchange,
+}
+
+impl Start {
+    /// Returns true if the program starts the conversions.
+    pub fn is_programmed(self) -> bool {
+        matches!(self, Start::Fx0n3a | Start::Fx2n2ad | Start::Fx2n2da)
+    }
 }
 
 /// PLCs that a kind of module belongs to.
@@ -244,6 +284,24 @@ pub enum Place {
     Hm,
     /// The bus of L01S.
     L01s,
+    /// The left side of FX3's main units, where FX3U-4AD-ADP and other adapters are.
+    Adapter,
+    /// The slots for boards of FX3S and FX3G.
+    Board3g,
+    /// The slot for a board of FX1S and FX1N.
+    Board1n,
+}
+
+impl Place {
+    /// Numbers of the modules at this place, if these have [`NAMES`]; else it is empty.
+    pub fn named(self) -> &'static [u16] {
+        match self {
+            Place::Slot | Place::Board1n => &[BOARD],
+            Place::Board3g => &BOARDS,
+            Place::Adapter => &ADAPTERS,
+            Place::Bus | Place::Remote | Place::Hm | Place::L01s => &[],
+        }
+    }
 }
 
 /// Function of a module in addition to converting.
@@ -344,13 +402,14 @@ impl Kind {
         use Role::{
             Addition, GreatestPeak, InputGains, InputOffsets, InputTypes, LeastPeak, Mean,
             MeanFahrenheit, Output, OutputCurves, OutputGains, OutputOffsets, OutputShown,
-            OutputTypes, Present, PresentFahrenheit, Samples, Thermostat,
+            OutputTypes, Present, PresentFahrenheit, Samples, StopMode, Thermostat, Unused,
         };
         match bfm.role {
             Samples | Mean | Present | MeanFahrenheit | PresentFahrenheit | InputOffsets
             | InputGains | InputTypes | Addition | LeastPeak | GreatestPeak => Some((0, 1)),
             Thermostat(_) => Some((0, 1)),
-            Output | OutputOffsets | OutputGains | OutputTypes | OutputShown => {
+            Unused => Some((0, 1)),
+            Output | OutputOffsets | OutputGains | OutputTypes | OutputShown | StopMode => {
                 Some((self.inputs, 1))
             }
             OutputCurves => Some((self.inputs, 2)),

@@ -97,6 +97,18 @@ pub enum Role {
     Command,
     /// Answer of a board.
     Answer,
+    /// 1 shows degrees Fahrenheit instead of Celsius.
+    Fahrenheit,
+    /// Type of the sensors of all inputs.
+    SensorType,
+    /// 1 for an output that goes to its offset in STOP, 0 for one that holds.
+    StopMode,
+    /// 1 for a channel that is not used.
+    Unused,
+    /// Error bits of an adapter.
+    AdapterError,
+    /// Writing it converts all inputs.
+    Exchange,
     /// A word of the control of temperatures, one for each channel.
     Thermostat(Term),
     /// A word of the control of axes.

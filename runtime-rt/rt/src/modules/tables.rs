@@ -4,6 +4,7 @@ use super::Access::{Read, ReadWrite, Retained};
 use super::Quantity::{Celsius, Milliamperes, Volts};
 use super::{Access, Bfm, Duty, Kind, Place, Quantity, Range, Role, Start};
 
+mod adapters;
 mod digital;
 mod fx;
 mod hm;
@@ -244,13 +245,14 @@ const COMMON: Kind = Kind {
 
 /// The modules that can be simulated.
 pub static KINDS: [Kind; COUNT] = {
-    let groups: [&[Kind]; 6] = [
+    let groups: [&[Kind]; 7] = [
         &H2U,
         &thermostats::KINDS,
         &digital::KINDS,
         &fx::KINDS,
         &hm::KINDS,
         &l01s::KINDS,
+        &adapters::KINDS,
     ];
     let mut all = [COMMON; COUNT];
     let (mut group, mut at) = (0, 0);
@@ -271,7 +273,8 @@ const COUNT: usize = H2U.len()
     + digital::KINDS.len()
     + fx::KINDS.len()
     + hm::KINDS.len()
-    + l01s::KINDS.len();
+    + l01s::KINDS.len()
+    + adapters::KINDS.len();
 
 /// Analog and temperature modules of H2U.
 const H2U: [Kind; 9] = [

@@ -18,6 +18,9 @@ const RANGE_ERROR: i16 = 1 << 10;
 const SAMPLES_ERROR: i16 = 1 << 11;
 const LOCKED: i16 = 1 << 12;
 
+/// The bit of an adapter's errors for a number of samples out of range.
+const ADAPTER_SAMPLES_ERROR: i16 = 1 << 5;
+
 /// An input.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Input {
@@ -217,31 +220,35 @@ impl Module {
     /// The range of an input; `None` if it is off.
     pub(super) fn input_range(&self, channel: usize) -> Option<Range> {
         let ranges = self.kind.input_ranges;
-        if channel >= usize::from(self.kind.inputs) {
+        if channel >= usize::from(self.kind.inputs) || self.get(Role::Unused, channel) != 0 {
             return None;
         }
         match self.kind.duty {
             Duty::Board { has_both: true, .. } => return self.connected(channel),
             Duty::Board { .. } => return ranges.get(channel).copied().flatten(),
-            _ if self.kind.start != Start::Itself => return self.connected(channel),
+            _ if self.kind.start.is_programmed() => return self.connected(channel),
             _ => {}
         }
         if self.kind.with(Role::InputTypes).is_some() {
             return self.chosen(channel, Role::InputTypes, ranges);
+        }
+        if self.kind.with(Role::SensorType).is_some() {
+            return self.chosen(0, Role::SensorType, ranges);
         }
         self.range(channel, Role::InputRanges, ranges)
     }
 
     /// The range of an output; `None` if it is off.
     pub(super) fn output_range(&self, channel: usize, quantity: Option<Quantity>) -> Option<Range> {
-        if channel >= usize::from(self.kind.outputs) {
+        let among_all = channel + usize::from(self.kind.inputs);
+        if channel >= usize::from(self.kind.outputs) || self.get(Role::Unused, among_all) != 0 {
             return None;
         }
         let is_board = matches!(self.kind.duty, Duty::Board { .. });
         if self.kind.with(Role::OutputTypes).is_some() {
             return self.chosen(channel, Role::OutputTypes, self.kind.output_ranges);
         }
-        if self.kind.start == Start::Itself && !is_board {
+        if !self.kind.start.is_programmed() && !is_board {
             return self.range(channel, Role::OutputRanges, self.kind.output_ranges);
         }
         let ranges = self.kind.output_ranges.iter().flatten();
@@ -292,7 +299,8 @@ impl Module {
         let Some(output) = self.outputs.get(channel) else {
             return 0;
         };
-        let goes_to_offset = self.get(Role::StopModes, 0) >> (4 * channel) & 0xf != 0;
+        let goes_to_offset = self.get(Role::StopModes, 0) >> (4 * channel) & 0xf != 0
+            || self.get(Role::StopMode, channel) != 0;
         let digital = match goes_to_offset && !self.is_running {
             true => 0,
             false => output.digital.clamp(range.low, range.high),
@@ -333,9 +341,14 @@ impl Module {
         self.since_us = self.since_us.saturating_add(microseconds);
         while self.since_us >= round_us {
             self.since_us -= round_us;
-            for channel in 0..usize::from(self.kind.inputs) {
-                self.convert(channel);
-            }
+            self.convert_all();
+        }
+    }
+
+    /// Takes a sample of each input that is open.
+    fn convert_all(&mut self) {
+        for channel in 0..usize::from(self.kind.inputs) {
+            self.convert(channel);
         }
     }
 
@@ -431,6 +444,8 @@ impl Module {
         Some(match bfm.role {
             Role::InputError => self.input_error(),
             Role::OutputError => self.output_error(),
+            Role::AdapterError => self.adapter_error(),
+            Role::Mean if self.get(Role::Fahrenheit, 0) != 0 => fahrenheit(self.get_of(bfm, n)),
             Role::InputPoints => self.points[0] as i16,
             Role::OutputShown => self.shown(n),
             Role::Present => self.answered(n),
@@ -458,6 +473,29 @@ impl Module {
         let outputs = self.outputs.iter().take(usize::from(self.kind.outputs));
         let is_out = outputs.into_iter().any(|output| output.is_out);
         bit(is_out, RANGE_ERROR) | bit(self.is_locked(Role::OutputLock), LOCKED)
+    }
+
+    /// Errors of an adapter: a bit for each channel, inputs first, and one for numbers of samples. A voltage or current
+    /// is out of its range above it only.
+    fn adapter_error(&self) -> i16 {
+        let most = self.kind.most_samples;
+        let mut error = 0;
+        for channel in 0..usize::from(self.kind.inputs) {
+            let (_, low, high) = match self.input_range(channel) {
+                Some(range) if self.is_measured(channel) => {
+                    let (value, low, high) = self.measure(channel, &range);
+                    (value, low && range.quantity == Quantity::Celsius, high)
+                }
+                _ => (0, false, false),
+            };
+            let samples = self.get(Role::Samples, channel);
+            error |= bit(low || high, 1 << channel)
+                | bit(!(1..=most).contains(&samples), ADAPTER_SAMPLES_ERROR);
+        }
+        for (channel, output) in (self.kind.inputs..).zip(&self.outputs) {
+            error |= bit(output.is_out, 1 << channel);
+        }
+        error
     }
 
     /// Returns true if settings are locked.
@@ -526,6 +564,7 @@ impl Module {
                 self.set(Role::OutputTakeOver, n, value);
             }
             Role::PeakReset => self.reset_peaks(value),
+            Role::Exchange => self.convert_all(),
             Role::InputReset | Role::OutputReset if value == 1 => self.reset(bfm.role),
             Role::Control => {
                 self.control(self.get(Role::Control, 0), value);

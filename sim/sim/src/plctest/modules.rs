@@ -5,7 +5,7 @@ use super::runner::Running;
 use super::{Case, CaseProgram, Failure};
 use crate::protocol::{Answer, Request};
 use crate::target::{self, Channel};
-use rungc_rt::modules::{KINDS, Kind};
+use rungc_rt::modules::{self, BOARD, KINDS, Kind};
 use rungc_syntax::{FittedModule, Program, diag};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -38,13 +38,26 @@ impl Reader<'_> {
 
     /// The modules of a file or case.
     pub(super) fn modules(&mut self, raw: Raw) -> Vec<(u16, &'static Kind)> {
-        let mut modules = Vec::new();
+        let mut fitted = Vec::new();
         for (unit, name) in raw {
             let Some(number) = self.unit(&unit) else {
                 continue;
             };
             match Kind::find(name.get_ref()) {
-                Some(kind) => modules.push((number, kind)),
+                Some(kind) if kind.place.named().contains(&number) == (number >= BOARD) => {
+                    fitted.push((number, kind));
+                }
+                Some(kind) => {
+                    let own = kind.place.named().iter();
+                    let own: Vec<_> = own.filter_map(|&unit| modules::name(unit)).collect();
+                    let places = match &own[..] {
+                        [] => "a number".to_owned(),
+                        names => names.join(" or "),
+                    };
+                    let (name, unit_name) = (kind.name, unit.get_ref());
+                    let message = format!("{name} is at {places}, not at `{unit_name}`");
+                    self.report(unit.span().start, message);
+                }
                 None => {
                     let upper = name.get_ref().to_uppercase();
                     let near = diag::did_you_mean(&upper, KINDS.iter().map(|kind| kind.name));
@@ -55,7 +68,7 @@ impl Reader<'_> {
                 }
             }
         }
-        modules
+        fitted
     }
 }
 

@@ -365,3 +365,50 @@ fn types_of_single_channels() {
     assert_eq!(module.signal(1, Quantity::Milliamperes), Some(5_000_000));
     assert_eq!(module.signal(0, Quantity::Volts), Some(0));
 }
+
+#[test]
+fn adapters_convert_when_words_are_exchanged() {
+    for kind in KINDS.iter().filter(|kind| kind.start == Start::Exchange) {
+        let mut module = Module::new(kind);
+        let quantity = kind.input_ranges.iter().flatten().next();
+        for (channel, range) in (0..kind.inputs).zip(quantity.into_iter().cycle()) {
+            let signal = Signal {
+                quantity: range.quantity,
+                millionths: i32::MAX,
+            };
+            module.connect(channel, signal).unwrap();
+        }
+        module.pass(1_000_000);
+        for bfm in kind.bfms.iter().filter(|bfm| bfm.role == Role::Mean) {
+            assert_eq!(module.read(bfm.first), Some(0), "{}", kind.name);
+            module.write(kind.last, 1).unwrap();
+            let most = kind.input_ranges[0].unwrap().high;
+            assert_eq!(module.read(bfm.first), Some(most as i16), "{}", kind.name);
+        }
+        // Words do not share numbers, and FROM and TO never reach the module.
+        let mut words: Vec<_> = kind.bfms.iter().flat_map(Bfm::numbers).collect();
+        words.sort_unstable();
+        assert!(words.windows(2).all(|pair| pair[0] < pair[1]), "{words:?}");
+        assert!(!kind.place.named().is_empty(), "{}", kind.name);
+    }
+}
+
+#[test]
+fn errors_of_adapters_name_their_channels() {
+    const ERROR: u16 = 18;
+    let mut module = module("FX3U-3A-ADP");
+    module.write(12, 4001).unwrap();
+    module.connect(0, volts(10.3)).unwrap();
+    module.connect(1, volts(-1.0)).unwrap();
+    module.write(20, 1).unwrap();
+    assert_eq!(module.read(ERROR), Some(0b101));
+    module.write(14, 0).unwrap();
+    assert_eq!(module.read(ERROR), Some(0b10_0101));
+    module.write(7, 1).unwrap();
+    module.write(12, 4000).unwrap();
+    assert_eq!(module.read(ERROR), Some(0b10_0000));
+    let mut open = Module::new(Kind::find("FX3U-4AD-PTW-ADP").unwrap());
+    open.connect(3, celsius(20.0)).unwrap();
+    open.write(20, 1).unwrap();
+    assert_eq!(open.read(ERROR), Some(0b111));
+}
