@@ -42,11 +42,6 @@ typedef struct rungc_modbus_profile rungc_modbus_profile;
 #define RUNGC_LONGEST_REPLY 8192
 
 /**
- * The number under which the hardware keeps the analog board in the main unit's slot (D8220 to D8239).
- */
-#define BOARD 200
-
-/**
  * The serial ports that a family of models has. The numbers are part of the C ABI.
  */
 enum rungc_ports

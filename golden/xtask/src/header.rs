@@ -58,8 +58,9 @@ const NAMES: [(&str, &str); 46] = [
     ("SIZE", "RUNGC_MEMORY_SIZE"),
 ];
 
-/// What rungc.h defines, and limits of hosts' servers: data for emitted code, not for the library's users.
-const LEFT_OUT: [&str; 7] = [
+/// What rungc.h defines, limits of hosts' servers, and numbers of modules: data for emitted code, not for the library's
+/// users.
+const LEFT_OUT: [&str; 12] = [
     "Sys",
     "Timer",
     "Counter16",
@@ -67,6 +68,11 @@ const LEFT_OUT: [&str; 7] = [
     "USUAL_CLIENTS",
     "MAX_CLIENTS",
     "IDLE_S",
+    "BOARD",
+    "BOARDS",
+    "ADAPTERS",
+    "REGISTERS",
+    "EXCHANGE",
 ];
 
 const TOP: &str = "/*

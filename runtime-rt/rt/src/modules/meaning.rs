@@ -78,6 +78,15 @@ impl Role {
                 "command: 0 works, C000h pauses, C001h takes the next word as the filter"
             }
             Role::Answer => "the type of the board, or the command that it obeys",
+            Role::Thermostat(term) => term.meaning(),
+            Role::Axis(word) => word.meaning(),
+            _ => self.meaning_in_adapters(),
+        }
+    }
+
+    /// Meaning of a word that only analog adapters and boards of FX have.
+    fn meaning_in_adapters(self) -> &'static str {
+        match self {
             Role::Fahrenheit => "1 shows 0.1 °F, 0 shows 0.1 °C",
             Role::SensorType => "type of the sensors",
             Role::StopMode => "in STOP, 0 holds the output, 1 puts out its offset",
@@ -85,9 +94,7 @@ impl Role {
             Role::AdapterError => {
                 "errors: bits 0 to 3 a channel out of its range, bit 5 samples per mean out of 1 to 4095"
             }
-            Role::Exchange => "writing it converts all inputs",
-            Role::Thermostat(term) => term.meaning(),
-            Role::Axis(word) => word.meaning(),
+            _ => "writing it converts all inputs",
         }
     }
 }
