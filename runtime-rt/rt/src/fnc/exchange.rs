@@ -68,9 +68,9 @@ pub fn exchange_board(cx: &mut Cx) -> Done {
     cx.set_word(1, errors, failed)
 }
 
-/// An analog adapter or board of FX: relays from M on and registers from D on, whose words have a bit in `sent`, go to
-/// the module; it converts its inputs, and its words with a bit in `received` go to registers, if there is one. Registers
-/// of a module that does not answer stay as they are.
+/// An analog adapter or board of FX: relays from M on and registers from D on, whose words have a bit in `sent`, go
+/// to the module; it converts its inputs, and its words with a bit in `received` go to registers, if there is one.
+/// Registers of a module that does not answer stay as they are.
 pub fn exchange_adapter(cx: &mut Cx) -> Done {
     let unit = cx.word(0, 0)? as u16;
     let (sent, received) = (cx.dword(3, 0)?, cx.dword(4, 0)?);

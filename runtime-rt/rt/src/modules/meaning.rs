@@ -80,7 +80,8 @@ impl Role {
             Role::Answer => "the type of the board, or the command that it obeys",
             Role::Thermostat(term) => term.meaning(),
             Role::Axis(word) => word.meaning(),
-            _ => self.meaning_in_adapters(),
+            Role::Fahrenheit | Role::SensorType | Role::StopMode => self.meaning_in_adapters(),
+            Role::Unused | Role::AdapterError | Role::Exchange => self.meaning_in_adapters(),
         }
     }
 
@@ -94,7 +95,8 @@ impl Role {
             Role::AdapterError => {
                 "errors: bits 0 to 3 a channel out of its range, bit 5 samples per mean out of 1 to 4095"
             }
-            _ => "writing it converts all inputs",
+            Role::Exchange => "writing it converts all inputs",
+            _ => "",
         }
     }
 }
