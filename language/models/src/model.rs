@@ -203,6 +203,8 @@ pub struct Model {
     pub latch_key: Option<(Register, i16)>,
     /// True if latched timers and counters retain their contacts over power-off, not only their values.
     pub keeps_contacts: bool,
+    /// Devices, first to last, that some of the PLCs for which it stands are known not to have.
+    pub doubtful: &'static [(DeviceClass, u32, u32)],
     /// The pointer that is END: CJ to it ends the scan, and it is not a label.
     pub end_pointer: Option<u32>,
     /// Program capacity in steps.

@@ -225,6 +225,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    DOUBTFUL_DEVICE = "N0022" "doubtful-device" Note None,
+    "device that some PLCs of the model do not have",
+    "The model stands for PLCs of several makers, and published tests of some of them report that a program with this device stops them. Compiled code has the device. Use a lower number, or try the program on the PLC that it is for.",
+    wrong: "",
+    right: "";
+
     INDEX_REACHES_MUCH = "N0030" "index-reaches-much" Note None,
     "indexed operand that makes the program store many devices",
     "A compiled program stores the devices that its operands can reach. The range of an index register is derived from constants, sums, masks (`WAND`), comparisons on the way, loop iterations and the values that all scans leave in it; a value from a data register or from communication can be anything (a host may write data registers, but not index registers), and then the operand reaches every device of its class. Compare or mask the index before use, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access outside the bound is then PLC error 6706, as is an access outside the model's devices.",

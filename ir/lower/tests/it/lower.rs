@@ -277,6 +277,39 @@ fn models_that_can_compile_an_instruction_are_named() {
 }
 
 #[test]
+fn devices_that_compatible_boards_may_lack_get_a_note() {
+    let noted = |model, text: &str| {
+        let read = rungc_frontend::read_text("t.il", text);
+        let compiled = compile(&read.program, &on(model));
+        let notes = compiled.diagnostics.iter().filter(|d| d.code == "N0022");
+        notes.map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let message = |names: &str| {
+        vec![format!(
+            "{names}: not every FX3U-compatible board has such devices"
+        )]
+    };
+    for (text, names) in [
+        (
+            "LD X000\nOUT M7669\nLD M7669\nOUT Y000\nLD X001\nMOV K1 D7400\nEND\n",
+            "`M7669`, `D7400`",
+        ),
+        ("LD M3072\nOUT Y000\nEND\n", "`M3072`"),
+        ("LD M8000\nFMOV K0 D6990 K20\nEND\n", "`D7000`"),
+        ("LD M8000\nDMOV K0 D6999\nEND\n", "`D7000`"),
+    ] {
+        assert_eq!(
+            noted(ModelId::Fx3uCompatible, text),
+            message(names),
+            "{text}"
+        );
+        assert!(noted(ModelId::Fx3u, text).is_empty(), "{text}");
+    }
+    let low = "LD M3071\nMOV K1 D6999\nLD M8000\nOUT Y000\nMOV D8000 D0\nEND\n";
+    assert!(noted(ModelId::Fx3uCompatible, low).is_empty());
+}
+
+#[test]
 fn comments_of_devices_are_written_by_the_compiler() {
     let device = rungc_syntax::Device {
         class: rungc_syntax::DeviceClass::D,

@@ -6,6 +6,7 @@
 mod blocks;
 mod coils;
 pub mod devices;
+mod doubtful;
 mod drives;
 mod every_scan;
 mod fast_inputs;
@@ -98,6 +99,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let modules = modules::Modules::new(code);
     let roles = ports::Roles::new(code);
     let mut inert = inert::Inert::new(&modules, &roles);
+    let mut doubtful = doubtful::Doubtful::default();
     let mut undefined = undefined::Undefined::default();
     for i in 0..code.len {
         modules.check(code, i, out);
@@ -110,6 +112,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             overlaps.note(code, i, &access);
             resets.note(code, i, &access);
             inert.note(code, i, &access);
+            doubtful.note(code, &access);
             undefined.note(code, &access);
             writes::check(code, i, &access, &roles, out);
         }
@@ -121,6 +124,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         resets.report(out);
     }
     inert.report(out);
+    doubtful.report(code, out);
     undefined.report(code.model(), out);
 }
 

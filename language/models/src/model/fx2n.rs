@@ -44,6 +44,7 @@ pub(super) const FX2N: Model = Model {
     latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,
+    doubtful: &[],
     end_pointer: Some(63),
     max_steps: 16000,
     memory_steps: 16000,

@@ -184,6 +184,8 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
         mitsubishi::FX3U,
         mitsubishi::NO_ADAPTERS,
     ],
+    // Published tests of such boards: they stop at programs with these.
+    doubtful: &[(M, 3072, 7679), (D, 7000, 7999)],
     ..FX3U
 };
 

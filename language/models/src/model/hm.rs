@@ -30,6 +30,7 @@ pub(super) const HM: Model = Model {
     latch_choices: &[],
     latch_key: Some((Register(8020), 2222)),
     keeps_contacts: false,
+    doubtful: &[],
     end_pointer: None,
     max_steps: 12000,
     memory_steps: 12000,
