@@ -274,7 +274,8 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| at(folder, error))
 }
 
-fn at(path: &Path, error: io::Error) -> Failure {
+/// Error of the system, with the path that it is about.
+pub fn at(path: &Path, error: io::Error) -> Failure {
     Failure::Because(format!("{}: {error}", path.display()))
 }
 

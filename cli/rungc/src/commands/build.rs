@@ -12,7 +12,7 @@ use super::{
     file_name, findings, interruption, parent_dir, ports, print_text, read, stem,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
-use crate::output::{plain, refuse_inputs, spare, write_executable, write_file};
+use crate::output::{at, plain, refuse_inputs, spare, write_executable, write_file};
 use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
@@ -584,10 +584,6 @@ fn free(folder: &Path, force: bool) -> std::result::Result<bool, Failure> {
         ))),
         false => Ok(there),
     }
-}
-
-fn at(path: &Path, error: std::io::Error) -> Failure {
-    Failure::Because(format!("{}: {error}", path.display()))
 }
 
 /// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with

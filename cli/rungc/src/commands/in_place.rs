@@ -2,11 +2,10 @@
 
 use super::Failure;
 use super::subject::Subject;
-use crate::output::rewrite;
+use crate::output::{at, rewrite};
 use rungc_frontend::Read;
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Byte-order mark of UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
@@ -22,8 +21,8 @@ impl InPlace {
     /// The file of a list, on behalf of `who`. A file in another encoding than UTF-8 is rejected.
     pub fn open(subject: &Subject, read: &Read, who: &str) -> Result<InPlace, Failure> {
         let path = &subject.file;
-        let file = fs::canonicalize(path).map_err(|error| at(path, &error))?;
-        let bytes = fs::read(&file).map_err(|error| at(path, &error))?;
+        let file = fs::canonicalize(path).map_err(|error| at(path, error))?;
+        let bytes = fs::read(&file).map_err(|error| at(path, error))?;
         let text = bytes.strip_prefix(BYTE_ORDER_MARK);
         if text.unwrap_or(&bytes) != read.program.source.text.as_bytes() {
             return Err(Failure::Because(format!(
@@ -37,14 +36,10 @@ impl InPlace {
 
     /// Replaces the text, whole or not at all; who may read and write the file stays the same.
     pub fn write(&self, text: &str) -> Result<(), Failure> {
-        let permissions = fs::metadata(&self.file).map_err(|error| at(&self.file, &error))?;
+        let permissions = fs::metadata(&self.file).map_err(|error| at(&self.file, error))?;
         let mark = if self.marked { BYTE_ORDER_MARK } else { &[] };
         rewrite(&self.file, &[mark, text.as_bytes()].concat())?;
         fs::set_permissions(&self.file, permissions.permissions())
-            .map_err(|error| at(&self.file, &error))
+            .map_err(|error| at(&self.file, error))
     }
-}
-
-fn at(path: &Path, error: &io::Error) -> Failure {
-    Failure::Because(format!("{}: {error}", path.display()))
 }
