@@ -9,7 +9,7 @@ use super::shared::{
 use super::{Model, ModelId, Range, Timers, mitsubishi};
 use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
 use crate::interrupts::{self, Interrupts, PULSE_CATCH_OF_8};
-use crate::special;
+use crate::special::{self, Special};
 use crate::times::InstructionTimes;
 use rungc_rt::modules::Place;
 use rungc_rt::{Ports, Pulses, Register, Relay};
@@ -135,16 +135,7 @@ pub(super) const FX3U: Model = Model {
         .or(Classes::TEXT)
         .or(Classes::WORD_BIT)
         .or(Classes::BUFFER),
-    special: &[
-        mitsubishi::ALL,
-        mitsubishi::FROM_FX1N,
-        mitsubishi::FROM_FX2N,
-        mitsubishi::NOT_FX3S,
-        mitsubishi::FX3,
-        mitsubishi::FX3GU,
-        mitsubishi::FX3U,
-        mitsubishi::ADAPTERS_3U,
-    ],
+    special: joined! {&'static [Special]: SPECIAL_3U, &[mitsubishi::ADAPTERS_3U]},
     cleared_in_stop: &[special::MASKS, special::MODES, HOME, DVIT],
     high_speed: HighSpeed {
         four_fold: FOUR_FOLD,
@@ -174,20 +165,22 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
     module_places: &[Place::Bus],
     finds_boards: false,
     pulse_outputs: &[(Y, 0, 7)],
-    special: &[
-        mitsubishi::ALL,
-        mitsubishi::FROM_FX1N,
-        mitsubishi::FROM_FX2N,
-        mitsubishi::NOT_FX3S,
-        mitsubishi::FX3,
-        mitsubishi::FX3GU,
-        mitsubishi::FX3U,
-        mitsubishi::NO_ADAPTERS,
-    ],
+    special: joined! {&'static [Special]: SPECIAL_3U, &[mitsubishi::NO_ADAPTERS]},
     // Published tests of such boards: they stop at programs with these.
     doubtful: &[(M, 3072, 7679), (D, 7000, 7999)],
     ..FX3U
 };
+
+/// Special devices of FX3U, but for those of analog adapters.
+const SPECIAL_3U: &[&[Special]] = &[
+    mitsubishi::ALL,
+    mitsubishi::FROM_FX1N,
+    mitsubishi::FROM_FX2N,
+    mitsubishi::NOT_FX3S,
+    mitsubishi::FX3,
+    mitsubishi::FX3GU,
+    mitsubishi::FX3U,
+];
 
 /// Relays with which a program of FX3G and FX3U steers positioning.
 const HOME: &[RangeInclusive<u16>] = &[
