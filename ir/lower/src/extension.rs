@@ -79,7 +79,8 @@ impl Lowerer<'_> {
 
     /// After the program: outputs of adapters, and the exchange with the extension modules of HM.
     pub(super) fn end_modules(&mut self) {
-        for adapter in self.adapters(&self.fitted()) {
+        let fitted = self.fitted();
+        for adapter in self.adapters(&fitted) {
             if adapter.kind.outputs > 0 {
                 self.exchange_adapter(&adapter, 0);
             }
@@ -87,7 +88,7 @@ impl Lowerer<'_> {
         if !self.model.module_places.contains(&Place::Hm) {
             return;
         }
-        for module in Extensions::of(&self.fitted()).modules {
+        for module in Extensions::of(&fitted).modules {
             let n = module.reads + module.writes;
             let registers = Register(module.first as u16);
             let registers: Vec<_> = (0..n).map(|word| registers.after(word)).collect();

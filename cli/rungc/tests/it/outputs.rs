@@ -151,19 +151,11 @@ fn no_option_replaces_an_input_by_any_name() {
         } else {
             "a.il"
         };
-        for path in [program, &format!("./sub/../{program}"), "rungc.toml"] {
-            let output = line.run(at, path, true);
-            let said = text(&output.stderr);
-            assert_eq!(
-                output.status.code(),
-                Some(2),
-                "{} {} {path}: {said}",
-                line.command,
-                line.option
-            );
-        }
-        for path in ["hard.svg", "soft.html"] {
-            let output = line.run(at, path, false);
+        let roundabout = format!("./sub/../{program}");
+        let forced = [program, &roundabout, "rungc.toml"].map(|path| (path, true));
+        let links = ["hard.svg", "soft.html"].map(|path| (path, false));
+        for (path, force) in forced.into_iter().chain(links) {
+            let output = line.run(at, path, force);
             let said = text(&output.stderr);
             assert_eq!(
                 output.status.code(),
