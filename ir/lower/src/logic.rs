@@ -3,7 +3,7 @@
 use super::operand::Guards;
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
-use rungc_catalogue::{Basic, Drive, Join, Lower};
+use rungc_catalogue::{Basic, Drive, Join};
 use rungc_ir::node::{Action, Expr, ExprId, Ty};
 use rungc_rt::{CmpOp, EdgeKind};
 
@@ -29,7 +29,7 @@ impl Logic {
             branches: Vec::new(),
             bus: None,
             zones: Vec::new(),
-            starts_rung: starts_of_rungs(resolved),
+            starts_rung: resolved.starts_of_rungs(),
         }
     }
 
@@ -40,34 +40,6 @@ impl Logic {
         self.bus = None;
         self.zones.clear();
     }
-}
-
-/// Finds the LDs that begin a rung.
-fn starts_of_rungs(resolved: &Resolved) -> Vec<bool> {
-    let mut starts = vec![false; resolved.instrs.len()];
-    let mut blocks: Vec<usize> = Vec::new();
-    for (i, resolution) in resolved.instrs.iter().enumerate() {
-        let Some(inst) = resolution.inst else {
-            continue;
-        };
-        match resolution.lower {
-            Some(
-                Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
-                | Lower::Compare(Join::Ld, _),
-            ) => {
-                starts[i] = true;
-                blocks.push(i);
-            }
-            Some(Lower::Basic(Basic::Anb | Basic::Orb)) if blocks.len() > 1 => {
-                if let Some(joined) = blocks.pop() {
-                    starts[joined] = false;
-                }
-            }
-            _ if inst.drive == Drive::Alone => blocks.clear(),
-            _ => {}
-        }
-    }
-    starts
 }
 
 impl Lowerer<'_> {

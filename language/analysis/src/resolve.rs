@@ -12,7 +12,7 @@ mod suggest;
 mod wrong;
 
 use mnemonic::{Fit, Match};
-use rungc_catalogue::{Basic, Form, Found, Inst, Lower, Param};
+use rungc_catalogue::{Basic, Drive, Form, Found, Inst, Join, Lower, Param};
 use rungc_models::{ErrorNumbers, Model};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
@@ -70,6 +70,44 @@ pub struct Resolved<'p> {
     pub instrs: Vec<Resolution>,
     /// Length in steps.
     pub steps: u32,
+}
+
+impl Resolved<'_> {
+    /// Finds the LDs that begin a rung, rather than a block that ANB or ORB joins to the code before it: one flag for
+    /// each instruction. A block that has driven something may still be joined, with what is to its left waiting.
+    pub fn starts_of_rungs(&self) -> Vec<bool> {
+        let mut starts = vec![false; self.instrs.len()];
+        // The LD of each open block, and whether its result has just driven something.
+        let mut blocks: Vec<(usize, bool)> = Vec::new();
+        for (i, resolution) in self.instrs.iter().enumerate() {
+            let Some(inst) = resolution.inst else {
+                continue;
+            };
+            match resolution.lower {
+                Some(
+                    Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+                    | Lower::Compare(Join::Ld, _),
+                ) => {
+                    starts[i] = true;
+                    blocks.push((i, false));
+                }
+                Some(Lower::Basic(Basic::Anb | Basic::Orb)) => {
+                    if let [.., (_, below), (joined, false)] = &mut blocks[..] {
+                        *below = false;
+                        starts[*joined] = false;
+                        blocks.pop();
+                    }
+                }
+                _ => match (inst.drive, blocks.last_mut()) {
+                    (Drive::Alone, _) => blocks.clear(),
+                    (Drive::Contact, Some((_, spent))) => *spent = true,
+                    (Drive::Logic, Some((_, spent))) => *spent = false,
+                    (_, None) => {}
+                },
+            }
+        }
+        starts
+    }
 }
 
 /// Finds the row of each instruction of `program`, checks its form and operands, and counts steps.

@@ -10,10 +10,11 @@ use rungc_catalogue::{self as catalogue, Basic, Drive, Lower};
 /// The ladder of a program. What cannot be drawn becomes a network that is a list and says why.
 pub fn ladder(resolved: &Resolved) -> Ladder {
     let instrs: Vec<Class> = resolved.instrs.iter().map(classify).collect();
+    let starts_rung = resolved.starts_of_rungs();
     let mut networks = Vec::new();
     let mut at = 0;
     while at < instrs.len() {
-        let network = network(&instrs, at);
+        let network = network(&instrs, &starts_rung, at);
         at = network.instrs.end;
         networks.push(network);
     }
@@ -82,7 +83,7 @@ pub(crate) fn classify(resolution: &Resolution) -> Class {
 }
 
 /// The network that starts at `start`.
-fn network(instrs: &[Class], start: InstrIndex) -> Network {
+fn network(instrs: &[Class], starts_rung: &[bool], start: InstrIndex) -> Network {
     let mut at = start;
     while instrs.get(at) == Some(&Class::Label) {
         at += 1;
@@ -90,6 +91,7 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
     let labels = at - start;
     let mut reader = Reader {
         instrs,
+        starts_rung,
         at,
         depth: 0,
     };
@@ -103,7 +105,7 @@ fn network(instrs: &[Class], start: InstrIndex) -> Network {
             },
         },
         Err(why) => Network {
-            instrs: start..end_of_list(instrs, at),
+            instrs: start..end_of_list(instrs, starts_rung, at),
             labels,
             body: NetworkBody::List { why },
         },
@@ -153,13 +155,13 @@ fn changes_a_block(node: &Node) -> bool {
 
 /// Position at which the network after an undrawable one may start: at the next contact, label or box on the rail after
 /// an output.
-fn end_of_list(instrs: &[Class], start: InstrIndex) -> InstrIndex {
+fn end_of_list(instrs: &[Class], starts_rung: &[bool], start: InstrIndex) -> InstrIndex {
     let mut after_output = instrs[start] == Class::Unknown;
     let mut at = start + 1;
     while at < instrs.len() {
         match instrs[at] {
             Class::Label | Class::Alone => break,
-            Class::Contact(catalogue::Join::Ld, _) if after_output => break,
+            Class::Contact(catalogue::Join::Ld, _) if after_output && starts_rung[at] => break,
             Class::Nop if after_output => break,
             Class::Output(_) | Class::Unknown => after_output = true,
             _ => {}
@@ -176,6 +178,8 @@ const TOO_DEEP: Undrawable = "its branches are nested more than 100 deep";
 /// Reads the instructions of a network.
 struct Reader<'a> {
     instrs: &'a [Class],
+    /// True for each LD that begins a rung.
+    starts_rung: &'a [bool],
     at: InstrIndex,
     /// Of the node that is being read.
     depth: usize,
@@ -256,7 +260,9 @@ impl Reader<'_> {
                     items.push(Item::Continue(self.node(false)?));
                     break;
                 }
-                Class::Contact(catalogue::Join::Ld, _) if !items.is_empty() && self.continues() => {
+                Class::Contact(catalogue::Join::Ld, _)
+                    if !items.is_empty() && !self.starts_rung[self.at] =>
+                {
                     items.push(Item::Continue(self.node(false)?));
                     break;
                 }
@@ -288,23 +294,6 @@ impl Reader<'_> {
                 return Err("no MPP closes a branch");
             }
         }
-    }
-
-    /// Returns true if the LD after an output starts a block that ANB puts after the output's node, and not another
-    /// network.
-    fn continues(&self) -> bool {
-        let mut depth = 0_usize;
-        for class in &self.instrs[self.at..] {
-            match class {
-                Class::Contact(catalogue::Join::Ld, _) => depth += 1,
-                Class::Contact(..) | Class::Result => {}
-                Class::Orb => depth = depth.saturating_sub(1),
-                Class::Anb if depth <= 1 => return true,
-                Class::Anb => depth -= 1,
-                _ => return false,
-            }
-        }
-        false
     }
 
     /// The contacts before a node.

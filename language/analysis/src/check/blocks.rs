@@ -2,7 +2,7 @@
 //!
 //! A block is *spent* when its result has driven something. An LD then begins a new rung, unless a following ANB joins
 //! the new block to the spent one: lists of rungs that branch again after a coil are written like this (hm-programming
-//! §5.2, MPS).
+//! §5.2, MPS). Blocks to the left of a spent one wait for an ANB or ORB that joins it to them.
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;
@@ -34,6 +34,8 @@ struct Branch {
 struct Rungs<'a, 'p> {
     code: &'a Code<'p>,
     out: &'a mut Diagnostics,
+    /// True for each LD that begins a rung.
+    starts_rung: Vec<bool>,
     /// The blocks of the rung; the last one is the current result.
     blocks: Vec<Block>,
     branches: Vec<Branch>,
@@ -58,6 +60,7 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
     let mut rungs = Rungs {
         code,
         out,
+        starts_rung: code.resolved.starts_of_rungs(),
         blocks: Vec::new(),
         branches: Vec::new(),
         closed: None,
@@ -279,6 +282,11 @@ impl Rungs<'_, '_> {
             }
             return;
         };
+        if !self.starts_rung[self.blocks[top].start] {
+            // What waits to its left is joined later: GX Works2 loads index registers in the middle of a rung.
+            self.blocks[top].spent = true;
+            return;
+        }
         let lost = self.blocks[..top]
             .iter()
             .find(|block| !block.spent)
