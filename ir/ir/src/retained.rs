@@ -34,14 +34,16 @@ impl Module {
         runs
     }
 
-    /// Name of the program and its model in records of latched devices: `motor (fx3u)`. A name for which a record has
-    /// no room is cut, and a hash of the whole name and model follows.
+    /// Name of the program and its model in records of latched devices: `motor (fx3u)`. A hash of the full name and
+    /// model follows a name that other programs may have, too: one that is not as the user wrote it (`a-b` and `a b`
+    /// become `a_b`), and one for which a record has no room, which is cut.
     pub fn retained_as(&self) -> String {
         let (name, model) = (&self.name, self.model.name);
-        let full = format!("{name} ({model})");
-        if full.len() <= OWNER_MAX {
-            return full;
+        let whole = format!("{name} ({model})");
+        if *name == self.full_name && whole.len() <= OWNER_MAX {
+            return whole;
         }
+        let full = format!("{} ({model})", self.full_name);
         let end = format!("~{:08x} ({model})", fnv1a(&full));
         let mut short = name.clone();
         while short.len() + end.len() > OWNER_MAX {

@@ -224,6 +224,7 @@ impl<'a> Lowerer<'a> {
         let program = resolved.program;
         let model = resolved.model;
         let flow = Flow::of(resolved);
+        let full_name = options.name.as_deref().unwrap_or(&program.source.name);
         Lowerer {
             resolved,
             model,
@@ -237,11 +238,8 @@ impl<'a> Lowerer<'a> {
                     .collect(),
                 exprs: TiVec::with_capacity(2 * resolved.instrs.len()),
                 functions: Vec::new(),
-                ..Module::empty(
-                    module_name(options.name.as_deref().unwrap_or(&program.source.name)),
-                    program.source.name.clone(),
-                    model,
-                )
+                full_name: stem(full_name).to_owned(),
+                ..Module::empty(module_name(full_name), program.source.name.clone(), model)
             },
             depths: TiVec::with_capacity(2 * resolved.instrs.len()),
             runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),

@@ -131,6 +131,8 @@ pub struct Function {
 pub struct Module {
     /// Name for files and types, an identifier in lower case: `motor`.
     pub name: String,
+    /// Name as the user wrote it, which [`Module::name`] need not hold whole: `Motor-1`.
+    pub full_name: String,
     /// Name of the source for the header comment: `MAIN.csv`.
     pub source_name: String,
     /// Steps of the program.
@@ -204,6 +206,7 @@ impl Module {
             body: Body::new(),
         };
         Module {
+            full_name: name.clone(),
             name,
             source_name,
             steps: 0,

@@ -99,7 +99,7 @@ fn devices_of_another_program_are_not_loaded() {
 }
 
 #[test]
-fn programs_whose_names_begin_alike_stay_apart() {
+fn programs_with_similar_names_stay_apart() {
     let long = "a".repeat(60);
     let stems = [
         "自动灌装生产线控制程序机组编号一".to_string(),
@@ -107,6 +107,9 @@ fn programs_whose_names_begin_alike_stay_apart() {
         format!("{long}_first"),
         format!("{long}_second"),
         long,
+        "motor_1".to_string(),
+        "motor-1".to_string(),
+        "motor 1".to_string(),
     ];
     let names = stems.map(|stem| format!("{stem}.il"));
     let files = names
