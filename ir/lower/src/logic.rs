@@ -4,8 +4,10 @@ use super::operand::Guards;
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Drive, Join};
-use rungc_ir::node::{Action, Expr, ExprId, Ty};
+use rungc_ir::node::{Action, EdgeId, Expr, ExprId, Ty};
 use rungc_rt::{CmpOp, EdgeKind};
+use rungc_syntax::{DeviceClass, OperandKind};
+use std::collections::BTreeMap;
 
 /// The logic at hand.
 pub(super) struct Logic {
@@ -18,6 +20,8 @@ pub(super) struct Logic {
     pub(super) bus: Option<ExprId>,
     /// The zones of master control that are open: level and the bus around each.
     pub(super) zones: Vec<(u32, Option<ExprId>)>,
+    /// Memories of edges that several contacts share: the relay, true for rising edges, true below the relay's coil.
+    shared_edges: BTreeMap<(u32, bool, bool), EdgeId>,
     /// True for each LD that begins a rung, rather than a block that ANB or ORB joins to the code before it.
     pub(super) starts_rung: Vec<bool>,
 }
@@ -29,6 +33,7 @@ impl Logic {
             branches: Vec::new(),
             bus: None,
             zones: Vec::new(),
+            shared_edges: BTreeMap::new(),
             starts_rung: resolved.starts_of_rungs(),
         }
     }
@@ -135,10 +140,41 @@ impl Lowerer<'_> {
     pub(super) fn edge_contact(&mut self, join: Join, kind: EdgeKind) {
         self.mark_contact();
         let state = self.contact_state();
-        let edge = self.new_edge();
+        let edge = self.memory_of_edge(kind);
         self.mark_edge(edge);
         let contact = self.edge(edge, kind, state);
         self.join(join, contact);
+    }
+
+    /// The memory of the contact at hand: a shared one if its relay acts on the first contact alone.
+    fn memory_of_edge(&mut self, kind: EdgeKind) -> EdgeId {
+        let Some(relay) = self.single_operation(self.at) else {
+            return self.new_edge();
+        };
+        let mut before = 0..self.at;
+        let below = before.any(|i| {
+            self.single_operation(i) == Some(relay)
+                && basic_of(self.resolved, i) == Some(Basic::Out)
+        });
+        let key = (relay, kind == EdgeKind::Rising, below);
+        if let Some(&edge) = self.logic.shared_edges.get(&key) {
+            return edge;
+        }
+        let edge = self.new_edge();
+        self.logic.shared_edges.insert(key, edge);
+        edge
+    }
+
+    /// The relay of [`rungc_models::Model::single_operation`] that an instruction names.
+    fn single_operation(&self, i: usize) -> Option<u32> {
+        let (first, last) = self.model.single_operation?;
+        let operand = self.resolved.program.instrs[i].operands.first()?;
+        match operand.kind {
+            OperandKind::Device(device, None) if device.class == DeviceClass::M => (first..=last)
+                .contains(&device.number)
+                .then_some(device.number),
+            _ => None,
+        }
     }
 
     pub(super) fn compare_contact(&mut self, join: Join, op: CmpOp) {

@@ -224,6 +224,10 @@ pub struct Model {
     /// True if RST of a timer or counter in an interrupt routine holds it at 0 until it is executed with its drive off
     /// (FX3 programming manual 7.13). The other manuals do not mention this, and their examples count on.
     pub rst_holds_in_interrupts: bool,
+    /// Auxiliary relays, first to last, at whose edges only the first contact acts that is executed: in the program
+    /// above their coil and below it, each (FX3 programming manual 7.5; FX programming manual 2.8, single operation
+    /// flags). They let a step ladder advance by one state for each press.
+    pub single_operation: Option<(u32, u32)>,
     /// Consequences of errors: on H1U and H2U (h1u-h2u-programming §8.1, §8.2.2), M8004 shows those of ports, too, and
     /// the log all; on FX (FX3 programming manual 37.2.14), M8063 does not count.
     pub error_rules: ErrorRules,

@@ -53,6 +53,7 @@ pub(super) const FX2N: Model = Model {
     error_relay: M_OPERATION_ERROR,
     errors_last_a_scan: true,
     rst_holds_in_interrupts: true,
+    single_operation: Some((2800, 3071)),
     error_rules: ErrorRules::NONE,
     annunciators_are_states: false,
     value_error: 6706,

@@ -39,6 +39,7 @@ pub(super) const HM: Model = Model {
     error_relay: Relay(8006),
     errors_last_a_scan: false,
     rst_holds_in_interrupts: false,
+    single_operation: None,
     error_rules: ErrorRules::NONE,
     annunciators_are_states: false,
     value_error: 6707,

@@ -54,6 +54,7 @@ pub(super) const H2U: Model = Model {
     instruction_times: None,
     errors_last_a_scan: false,
     rst_holds_in_interrupts: false,
+    single_operation: None,
     error_rules: ErrorRules {
         sums_up_ports: true,
         logs: true,

@@ -55,6 +55,7 @@ pub(super) const L01S: Model = Model {
     memory_steps: 30000,
     instruction_times: Some(TIMES),
     rst_holds_in_interrupts: false,
+    single_operation: None,
     error_numbers: ErrorNumbers::No,
     pulses: Pulses::L01s,
     ports: Ports::L01s,
