@@ -104,6 +104,20 @@ static bool flush_file(FILE *file)
     return _commit(_fileno(file)) == 0;
 }
 
+/* Opens a file that does not exist yet; NULL with errno if it does. */
+static FILE *open_new(const char *path)
+{
+    const int file = _open(path, _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
+
+    return file < 0 ? NULL : _fdopen(file, "wb");
+}
+
+/* Opens a file to read it; NULL if it is none. */
+static FILE *open_rest(const char *path)
+{
+    return fopen(path, "rb");
+}
+
 /* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
 static bool take_name(const char *path)
 {
@@ -140,6 +154,23 @@ static bool flush_folder(void)
     return done;
 }
 
+/* Opens a file that does not exist yet; NULL with errno if it does. */
+static FILE *open_new(const char *path)
+{
+    const int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+
+    return file < 0 ? NULL : fdopen(file, "wb");
+}
+
+/* Opens a file to read it; NULL if it is none, but a link or a device. */
+static FILE *open_rest(const char *path)
+{
+    struct stat found;
+    const bool is_file = lstat(path, &found) == 0 && S_ISREG(found.st_mode);
+
+    return is_file ? fopen(path, "rb") : NULL;
+}
+
 /* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
 static bool take_name(const char *path)
 {
@@ -161,6 +192,26 @@ static bool write_record(FILE *file)
 }
 
 /*
+ * Removes what a save has left that power failure ended: the beginning of a record, or zeros in its place. Anything else of that
+ * name is somebody's, and stays.
+ */
+static void remove_rest(const char *path)
+{
+    static const char zeros[4] = {0};
+    char start[4];
+    FILE *const file = open_rest(path);
+
+    if (file == NULL) {
+        return;
+    }
+    const size_t length = fread(start, 1, sizeof start, file);
+    fclose(file);
+    if (memcmp(start, "RGR1", length) == 0 || memcmp(start, zeros, length) == 0) {
+        (void)remove(path);
+    }
+}
+
+/*
  * Replaces the file: a new one beside it is written and flushed, and takes its name. Nothing remains of what a full disk does not
  * take. Returns why it cannot be; 0: it is.
  */
@@ -172,7 +223,8 @@ static int replace_file(void)
     if (length < 0 || (size_t)length >= sizeof path) {
         return ENAMETOOLONG;
     }
-    FILE *const file = fopen(path, "wb");
+    remove_rest(path);
+    FILE *const file = open_new(path);
     if (file == NULL) {
         return errno;
     }

@@ -92,14 +92,14 @@ const SERVERS_HEADERS: [&str; 1] = ["errno"];
 
 /// Those beside them of systems with POSIX.
 const POSIX_HEADERS: [&str; 2] = ["poll", "unistd"];
-const POSIX_RETAIN_HEADERS: [&str; 1] = ["fcntl"];
+const POSIX_RETAIN_HEADERS: [&str; 2] = ["fcntl", "sys/stat"];
 const POSIX_LINES_HEADERS: [&str; 2] = ["fcntl", "termios"];
 const POSIX_SERVERS_HEADERS: [&str; 5] =
     ["fcntl", "netdb", "netinet/in", "netinet/tcp", "sys/socket"];
 
 /// Those of Windows.
 const WINDOWS_HEADERS: &str = "#include <windows.h>\n";
-const WINDOWS_RETAIN_HEADERS: &str = "#include <io.h>\n";
+const WINDOWS_RETAIN_HEADERS: &str = "#include <fcntl.h>\n#include <io.h>\n#include <sys/stat.h>\n";
 
 /// Report of a scan that exceeds the constant scan time.
 const OVERRUN: &str = "\

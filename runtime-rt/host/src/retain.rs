@@ -8,7 +8,7 @@ use rungc_rt::retain::Loaded;
 use rungc_rt::retain::record::{self, Source};
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
@@ -258,12 +258,13 @@ fn gone() -> io::Error {
     io::Error::other("the thread that writes it has ended")
 }
 
-/// Replaces a file: one of another name beside it is written and flushed, and takes its name; then the folder is
-/// flushed, too. Nothing remains of what a full disk does not take.
+/// Replaces a file: one beside it, `FILE.new`, is written and flushed, and takes its name; then the folder is flushed,
+/// too. Nothing remains of what a full disk does not take.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut name = OsString::from(path);
     name.push(".new");
     let new = PathBuf::from(name);
+    remove_rest(&new)?;
     write(&new, bytes)
         .and_then(|()| fs::rename(&new, path))
         .inspect_err(|_| {
@@ -277,9 +278,29 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a file, and flushes it to the disk.
+/// Removes what a save has left that power failure ended: the beginning of a record, or zeros in its place. Anything
+/// else of that name is somebody's, such as a link to another file, and stays.
+fn remove_rest(new: &Path) -> io::Result<()> {
+    let is_file = match fs::symlink_metadata(new) {
+        Ok(found) => found.is_file(),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(error),
+    };
+    let mut start = Vec::new();
+    if is_file {
+        let magic = record::MAGIC.len() as u64;
+        File::open(new)?.take(magic).read_to_end(&mut start)?;
+    }
+    if is_file && (record::MAGIC.starts_with(&start) || start.iter().all(|&byte| byte == 0)) {
+        return fs::remove_file(new);
+    }
+    let what = format!("{} is in the way; move it", new.display());
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, what))
+}
+
+/// Writes a new file, and flushes it to the disk.
 fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
+    let mut file = File::create_new(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }

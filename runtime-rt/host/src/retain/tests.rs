@@ -149,3 +149,34 @@ fn a_file_holds_the_values_of_the_last_save() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_save_replaces_only_what_a_save_has_left() {
+    let folder = std::env::temp_dir().join(format!("rungc-retain-new-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let (path, new) = (folder.join("a.retain"), folder.join("a.retain.new"));
+    let mut program = Retaining::new();
+    let (mut file, _) = RetainFile::open(&path, &mut program).unwrap();
+    for (n, rest) in (1..).zip([&b""[..], b"RG", b"RGR1 and more", &[0; 9]]) {
+        std::fs::write(&new, rest).unwrap();
+        assert!(file.save(&Retaining::with_state(n)).unwrap(), "{rest:?}");
+        assert!(!new.exists());
+    }
+    std::fs::write(&new, "somebody's").unwrap();
+    let error = file.save(&Retaining::with_state(9)).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+    assert_eq!(std::fs::read(&new).unwrap(), b"somebody's");
+    std::fs::remove_file(&new).unwrap();
+    #[cfg(unix)]
+    {
+        let other = folder.join("other");
+        std::fs::write(&other, "").unwrap();
+        std::os::unix::fs::symlink(&other, &new).unwrap();
+        let error = file.save(&Retaining::with_state(9)).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&other).unwrap(), b"");
+        std::fs::remove_file(&new).unwrap();
+    }
+    assert!(file.save(&Retaining::with_state(9)).unwrap());
+    std::fs::remove_dir_all(&folder).unwrap();
+}

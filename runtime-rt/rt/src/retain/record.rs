@@ -20,7 +20,8 @@ use crate::plc::Class;
 use crate::program::Program;
 use crate::runs::FIRST_COUNTER32;
 
-const MAGIC: [u8; 4] = *b"RGR1";
+/// The first bytes of a record.
+pub const MAGIC: [u8; 4] = *b"RGR1";
 
 /// Bytes before the name.
 pub(super) const HEADER: u32 = 15;
