@@ -21,6 +21,15 @@ use std::process::ExitCode;
 /// Does what the arguments of the process ask for, and returns its exit code.
 pub fn main() -> ExitCode {
     crash::report_panics();
+    let mut arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    // Messages show arguments, and what begins a line there may be a command to a CI server.
+    if let Some(broken) = arguments.find(|argument| report::breaks_lines(argument)) {
+        let shown = report::visible_line(&broken);
+        commands::eprint_line(&format!(
+            "rungc: the argument `{shown}` contains a line break"
+        ));
+        return ExitCode::from(2);
+    }
     let matches = Cli::command().try_get_matches();
     let matches = matches.unwrap_or_else(|error| reject(&error));
     let cli = Cli::from_arg_matches(&matches)
@@ -36,8 +45,7 @@ pub fn main() -> ExitCode {
             | Command::Fleet(_)
             | Command::Stats(_)
             | Command::Diff(_)
-            | Command::Verify(_)
-            | Command::Explore(_) => true,
+            | Command::Verify(_) => true,
             Command::Xref(args) => args.output.is_none(),
             Command::Fmt(args) => args.check,
             _ => false,

@@ -57,7 +57,13 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     }
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
-    let read = read(&subject, &mut reporter)?;
+    let read = match read(&subject, &mut reporter) {
+        Ok(read) => read,
+        Err(failure) => {
+            reporter.finish()?;
+            return Err(failure);
+        }
+    };
     let reader = Reader {
         args: &args.properties,
         subject: &subject,

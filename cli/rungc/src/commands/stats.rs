@@ -3,7 +3,7 @@
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, conclude, findings, grouped, print_text, read};
 use crate::args::{StatsArgs, StatsTo};
-use crate::report::Reporter;
+use crate::report::{Reporter, to_json};
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_analysis::xref::CrossReference;
 use rungc_catalogue::{Inst, families};
@@ -81,9 +81,7 @@ pub fn run(args: &StatsArgs, cx: Context) -> Result {
         Ok(outcome)
     })?;
     if args.to() == StatsTo::Json {
-        let text = serde_json::to_string_pretty(&Output { programs });
-        let text = text.map_err(|error| Failure::Because(error.to_string()))?;
-        print_text(&format!("{text}\n"))?;
+        print_text(&to_json(&Output { programs })?)?;
     }
     Ok(outcome)
 }

@@ -2,7 +2,7 @@
 
 use super::{Context, Failure, Outcome, Result, counted, counts, eprint_line, interruption};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
-use crate::report::{Findings, Reporter};
+use crate::report::{Findings, Reporter, breaks_lines, visible_line};
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
@@ -257,6 +257,12 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
         }
         let found = rungc_frontend::programs(file, usize::MAX);
         let mut found = found.map_err(|error| Failure::Because(error.to_string()))?;
+        let names = found.iter().map(|path| path.to_string_lossy());
+        if let Some(broken) = names.into_iter().find(|name| breaks_lines(name)) {
+            let name = visible_line(&broken);
+            let why = format!("the name of `{name}` contains a line break; rename the file");
+            return Err(Failure::Because(why));
+        }
         if found.is_empty() {
             // An empty folder is reported where it is read.
             found.push(file.clone());

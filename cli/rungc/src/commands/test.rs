@@ -13,7 +13,6 @@ mod watch;
 use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
 use crate::args::{EngineChoice, TestArgs, TestFormat};
 use crate::progress;
-use crate::report::visible_json;
 use report::Results;
 use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
@@ -158,8 +157,8 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     let text = match args.format {
         TestFormat::Human => report::human(results),
         TestFormat::Junit => junit::junit(results)?,
-        TestFormat::Json => visible_json(&report::json(results)?).into_owned(),
-        TestFormat::Sarif => visible_json(&sarif::sarif(results)?).into_owned(),
+        TestFormat::Json => report::json(results)?,
+        TestFormat::Sarif => sarif::sarif(results)?,
         TestFormat::Github => github::github(results),
     };
     let (passed, failed) = (results.report.passed(), results.report.failures().count());

@@ -2,6 +2,7 @@
 
 use super::Findings;
 use super::location::Location;
+use super::visible::to_json;
 use rungc_analysis::check::ports::Setup;
 use rungc_firmware::report::Report as Takes;
 use rungc_rt::comm::{Parity, Protocol};
@@ -180,13 +181,13 @@ pub fn file(findings: &Findings) -> File {
 /// The object as pretty-printed text: of the only file, or of `many`.
 pub fn render(files: Vec<File>, many: bool) -> io::Result<String> {
     if let ([file], false) = (&files[..], many) {
-        return Ok(serde_json::to_string_pretty(file)?);
+        return to_json(file);
     }
     let sum = |of: fn(&File) -> usize| files.iter().map(of).sum();
-    Ok(serde_json::to_string_pretty(&Output {
+    to_json(&Output {
         errors: sum(|file| file.errors),
         warnings: sum(|file| file.warnings),
         notes: sum(|file| file.notes),
         files,
-    })?)
+    })
 }

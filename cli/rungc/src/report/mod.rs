@@ -9,7 +9,7 @@ pub mod sarif;
 mod visible;
 mod window;
 
-pub use visible::{visible, visible_json};
+pub use visible::{breaks_lines, to_json, visible, visible_line};
 
 use crate::args::{Format, Reporting};
 use crate::commands::{Context, Verbosity, counted};
@@ -343,9 +343,9 @@ impl<'a> Reporter<'a> {
             Format::Sarif if self.sarif.is_empty() => return Ok(None),
             Format::Sarif => self.sarif.render()?,
             Format::Junit if self.junit.is_empty() => return Ok(None),
-            Format::Junit => return junit::render("rungc", &self.junit).map(Some),
-            Format::Github => return Ok(Some(self.github)),
+            Format::Junit => junit::render("rungc", &self.junit)?,
+            Format::Github => self.github,
         };
-        Ok(Some(format!("{}\n", visible_json(&document))))
+        Ok(Some(document))
     }
 }

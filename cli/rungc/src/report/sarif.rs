@@ -2,6 +2,7 @@
 
 use super::Findings;
 use super::location::Location;
+use super::visible::to_json;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_json::{Value, json};
@@ -70,7 +71,7 @@ pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io:
         "version": "2.1.0",
         "runs": [run],
     });
-    Ok(serde_json::to_string_pretty(&log)?)
+    to_json(&log)
 }
 
 /// Meaning of a code, for readers of the log alone.

@@ -1,7 +1,9 @@
 //! Text of programs, file names and test cases on its way to a terminal.
 
 use rungc_syntax::text::acts;
+use serde::Serialize;
 use std::borrow::Cow;
+use std::io;
 
 /// A text in which all that a terminal would act on is written out, as `\u{1b}`. Line feeds and tabs stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
@@ -20,9 +22,14 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     })
 }
 
+/// Returns true if a name would be more than one line.
+pub fn breaks_lines(name: &str) -> bool {
+    name.contains(['\n', '\r'])
+}
+
 /// A JSON document in which the same characters are written as JSON escapes them. They occur only in strings; the line
 /// feeds between the tokens stay.
-pub fn visible_json(document: &str) -> Cow<'_, str> {
+fn visible_json(document: &str) -> Cow<'_, str> {
     replaced(document, |c, out| match c {
         '\n' => out.push(c),
         c => {
@@ -32,6 +39,12 @@ pub fn visible_json(document: &str) -> Cow<'_, str> {
             }
         }
     })
+}
+
+/// A value as a JSON document, on several lines, in which nothing acts on a terminal.
+pub fn to_json(value: &impl Serialize) -> io::Result<String> {
+    let document = serde_json::to_string_pretty(value)?;
+    Ok(format!("{}\n", visible_json(&document)))
 }
 
 fn replaced(text: &str, mut write: impl FnMut(char, &mut String)) -> Cow<'_, str> {

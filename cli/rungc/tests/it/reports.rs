@@ -135,6 +135,52 @@ fn nothing_hostile_reaches_the_terminal() {
     );
 }
 
+/// What a name puts at the beginning of a line could be a command to a CI server.
+#[cfg(unix)]
+#[test]
+fn names_stay_on_their_line() {
+    let name = "a\n::error::x.il";
+    let folder = folder(&[(name, b"\x01\x02")]);
+    for args in [
+        &["check", name][..],
+        &["check", "."],
+        &["view", name],
+        &["check", "a.il", "--project", name],
+        &["run", "a.il", "--set", name],
+        &["explain", name],
+        &[name],
+    ] {
+        let output = rungc(folder.path(), args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        let messages = text(&output.stdout) + &text(&output.stderr);
+        let forged = messages.lines().any(|line| line.trim().starts_with("::"));
+        assert!(
+            !forged && messages.contains("line break"),
+            "{args:?}: {messages}"
+        );
+    }
+}
+
+/// Documents for tools can be read whatever the file is called.
+#[test]
+fn documents_are_json_whatever_the_names() {
+    let name = "a\u{9b}\u{202e}b.il";
+    let folder = folder(&[(name, b"LD X0\nOUT Y0\nEND\n")]);
+    for args in [
+        &["check", name, "--format", "json"][..],
+        &["check", name, "--format", "sarif"],
+        &["stats", name, "--to", "json"],
+        &["xref", name, "--to", "json"],
+        &["diff", name, name, "--format", "json"],
+        &["explore", "missing\u{9b}.il", "--format", "json"],
+        &["verify", "missing\u{9b}.il", "--format", "json"],
+    ] {
+        let output = rungc(folder.path(), args);
+        let document: Result<Value, _> = serde_json::from_slice(&output.stdout);
+        assert!(document.is_ok(), "{args:?}: {}", text(&output.stdout));
+    }
+}
+
 /// Devices that are driven and never read, and places of a coil: some in the human format, all for tools.
 #[test]
 fn lists_are_complete_for_tools() {

@@ -1,6 +1,7 @@
 //! A comparison as JSON.
 
 use super::{Compared, Failure};
+use crate::report::to_json;
 use rungc_ir::compare::Behaviour;
 use rungc_ladder::compare::{Change, Differing, Drawn};
 use rungc_syntax::DeviceClass;
@@ -34,9 +35,7 @@ pub fn object(compared: &Compared, differs: bool) -> Result<String, Failure> {
         });
         object["behaviour"]["vague"] = vague.collect();
     }
-    let text = serde_json::to_string_pretty(&object);
-    text.map(|text| text + "\n")
-        .map_err(|error| Failure::Because(error.to_string()))
+    Ok(to_json(&object)?)
 }
 
 fn network(compared: &Compared, change: Change) -> Value {

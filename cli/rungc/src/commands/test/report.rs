@@ -1,5 +1,6 @@
 //! Results of tests, human-readable and for tools.
 
+use crate::report::to_json;
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use serde::Serialize;
 use std::io;
@@ -86,7 +87,7 @@ pub fn json(results: &Results) -> io::Result<String> {
             .map(|outcome| case(results.suite, outcome))
             .collect(),
     };
-    Ok(format!("{}\n", serde_json::to_string_pretty(&document)?))
+    to_json(&document)
 }
 
 /// A time to the microsecond.

@@ -1,6 +1,7 @@
 //! A cross reference with all that is shown of it.
 
 use crate::commands::Failure;
+use crate::report::to_json;
 use rungc_analysis::resolve::Resolved;
 use rungc_analysis::xref::{CrossReference, Reach, Row, Use};
 use rungc_ladder::Ladder;
@@ -193,9 +194,7 @@ impl Table {
 
     /// One JSON object.
     pub fn json(&self) -> Result<Vec<u8>, Failure> {
-        let text = serde_json::to_string_pretty(self);
-        text.map(|text| format!("{text}\n").into_bytes())
-            .map_err(|error| Failure::Because(error.to_string()))
+        Ok(to_json(self)?.into_bytes())
     }
 }
 
