@@ -83,6 +83,6 @@ pub(super) const ROWS: &[Inst] = &[
         .spelling(Spelling::Wide("DXOR"))
         .text("D = S1 XOR S2, bit by bit. The 32-bit form is written DXOR."),
     one_value("NEG", 29, "Negation", ArithOp::Neg)
-        .on(NOT_FX1)
+        .on(NOT_SMALL_FX)
         .text("D = -D, two's complement, at each execution; the smallest value is unchanged."),
 ];

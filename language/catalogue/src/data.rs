@@ -191,7 +191,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Anr)
         .text("Switches the lowest annunciator of S900–S999 that is on off; at each execution one."),
     data("SQR", 48, "Square root")
-        .on(NOT_FX1)
+        .on(NOT_SMALL_FX)
         .takes(ROOT)
         .flags(&["M8020", "M8021"])
         .errors(&[6706])

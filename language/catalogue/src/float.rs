@@ -52,10 +52,8 @@ const fn function(name: &'static str, fnc: u16, title: &'static str, function: R
         .variants(VARIANTS)
 }
 
-/// Functions that FX3S and FX3G lack.
-const NOT_FX3SG: ModelSet = NOT_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
 /// Models without the instructions that FX2N lacks too.
-const WITHOUT_SMALL_FX: ModelSet = NOT_FX3SG.without(ModelSet::FX2N);
+const WITHOUT_SMALL_FX: ModelSet = NOT_SMALL_FX.without(ModelSet::FX2N);
 /// The same and HM.
 const WITHOUT_SMALL_FX_HM: ModelSet = WITHOUT_SMALL_FX.without(HM);
 
@@ -66,7 +64,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Compares floats: D is on if S1 > S2, D+1 if they are equal, D+2 if S1 < S2. Integer constants become floats."),
     float("EZCP", 111, "Zone compare of floats", RtFn::Ezcp)
         .steps(17, 17)
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", RESULT_BITS).len(3)])
         .text("Compares the float S with the zone S1 to S2: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
     float("EMOV", 112, "Move a float", RtFn::Emov)
@@ -95,11 +93,11 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Reads the text at S, with a decimal point or an exponent, as a float. Flags as EADD."),
     float("EBCD", 118, "Float to decimal", RtFn::Ebcd)
         .takes(&[real("S", REAL_RESULTS), DECIMAL])
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .text("Writes S as a decimal mantissa D of four digits, without those that follow, and a power of ten D+1."),
     float("EBIN", 119, "Decimal to float", RtFn::Ebin)
         .takes(&[src("S", DATA_PLACES).word().len(2), real_out("D", REAL_RESULTS)])
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .text("D = S × 10^(S+1): the mantissa S and the power of ten S+1 as a float."),
     operator("EADD", 120, "Add floats", RtFn::Eadd)
         .lower_on(&[(HM, Lower::Call(RtFn::EaddPlain))])
@@ -144,13 +142,13 @@ pub(super) const ROWS: &[Inst] = &[
              if it does not fit; on HM it stays at the end of the range.",
         ),
     function("SIN", 130, "Sine", RtFn::Sin)
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .text("D = sin S, S in radians."),
     function("COS", 131, "Cosine", RtFn::Cos)
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .text("D = cos S, S in radians."),
     function("TAN", 132, "Tangent", RtFn::Tan)
-        .on(NOT_FX3SG)
+        .on(NOT_SMALL_FX)
         .text("D = tan S, S in radians."),
     function("ASIN", 133, "Arc sine", RtFn::Asin)
         .on(WITHOUT_SMALL_FX)

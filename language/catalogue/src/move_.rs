@@ -112,7 +112,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the value S to n words (32-bit: pairs) from D on."),
     row("XCH", "Exchange", "h1u-h2u-programming §4.3.2")
         .fnc(17)
-        .on(NOT_FX1)
+        .on(NOT_SMALL_FX)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[both("D1", RESULTS), both("D2", RESULTS)])
@@ -139,7 +139,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Reads the four-bit digits of S as a decimal number. A digit above 9 is an error; HM does not check."),
     row("SWAP", "Exchange bytes", "h1u-h2u-programming §4.3.10")
         .fnc(147)
-        .on(NOT_FX1)
+        .on(NOT_SMALL_FX)
         .forms(ALL_FORMS)
         .steps(3, 5)
         .takes(&[both("S", RESULTS)])

@@ -139,9 +139,11 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
     rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
+        .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 right by n bits: bit 0 goes to M8022, M8022 to the top."),
     rotate("RCL", 33, "Rotate left with carry", RtFn::Rcl)
+        .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 left by n bits: the top bit goes to M8022, M8022 to bit 0."),
     shift("SFTR", 34, "Shift bits right", RtFn::Sftr)

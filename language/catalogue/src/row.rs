@@ -85,8 +85,10 @@ pub(super) const NOT_HM: ModelSet = ModelSet::ALL.without(HM);
 pub(super) const NOT_FX1: ModelSet = ModelSet::ALL.without(ModelSet::FX1);
 /// All but HM, FX1S and FX1N.
 pub(super) const NOT_HM_FX1: ModelSet = NOT_HM.without(ModelSet::FX1);
-/// FX2N, FX3U and what descends from them: FX3S and FX3G lack what JY997D16601 §3 gives to FX3U alone.
-pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
+/// All but FX1S, FX1N, FX3S and FX3G, which lack what JY992D88101 §5 and JY997D16601 §3 give to FX2N and FX3U alone.
+pub(super) const NOT_SMALL_FX: ModelSet = NOT_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
+/// The same without HM.
+pub(super) const BIG: ModelSet = NOT_SMALL_FX.without(HM);
 /// Models to which special modules can be attached: not HM, FX1S and FX3S.
 pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without(ModelSet::FX3S);
 
