@@ -124,7 +124,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Tky)
         .text(
             "S … S+9 are the keys 0 to 9. A newly pressed one is appended to the decimal number in D1, which keeps its last 4 (32-bit: \
-             8) digits. D2 … D2+9 show the keys, D2+10 that one is pressed.",
+             8) digits. Its bit of D2 … D2+9 is on until another one does so, D2+10 while one is pressed.",
         ),
     io("HKY", 71, "Hexadecimal key input")
         .forms(W16_W32)

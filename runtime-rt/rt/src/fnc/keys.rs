@@ -37,8 +37,9 @@ fn key_of(cx: &mut Cx, pressed: u32) -> Option<(i32, bool)> {
     key.map(|key| (key, true))
 }
 
-/// TKY S D1 D2 (FNC 70): S…S+9 are the keys 0 to 9. A newly pressed one is appended to D1; D2…D2+9 show the key that
-/// counts, D2+10 that one is pressed. Memory: see `key_of`; whether the last scan drove it.
+/// TKY S D1 D2 (FNC 70): S…S+9 are the keys 0 to 9. A newly pressed one is appended to D1 and switches its bit of
+/// D2…D2+9 on, until another one does (FX1S/FX1N/FX2N programming manual II §5.8.1); D2+10 signals that one is pressed.
+/// Memory: see `key_of`; whether the last scan drove it.
 pub fn tky(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(2);
     if !cx.drive() {
@@ -51,12 +52,10 @@ pub fn tky(cx: &mut Cx) -> Done {
     let pressed = cx.bits(0, 0, 10)?;
     cx.read(1)?;
     cx.check_bits(2, 11)?;
-    let key = key_of(cx, pressed);
-    if let Some((digit, true)) = key {
+    if let Some((digit, true)) = key_of(cx, pressed) {
         append(cx, 1, digit)?;
+        cx.set_bits(2, 0, 10, 1 << digit)?;
     }
-    let shown = key.map_or(0, |(digit, _)| 1 << digit);
-    cx.set_bits(2, 0, 10, shown)?;
     cx.set_bit(2, 10, pressed != 0)
 }
 
@@ -222,10 +221,10 @@ mod tests {
         for (key, on, number, bits) in [
             (2, true, 2, "00100000001"),
             (7, true, 2, "00100000001"),
-            (2, false, 2, "00000000001"),
-            (7, false, 2, "00000000000"),
+            (2, false, 2, "00100000001"),
+            (7, false, 2, "00100000000"),
             (0, true, 20, "10000000001"),
-            (0, false, 20, "00000000000"),
+            (0, false, 20, "10000000000"),
             (9, true, 209, "00000000011"),
         ] {
             press(&mut plc, key, on);
