@@ -80,7 +80,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Trd)
         .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TrdShort))])
-        .text("Writes year (on L01S and FX its last two digits), month, day, hour, minute, second and weekday (0 is Sunday) to D and on."),
+        .text("Writes year (on L01S and FX its last two digits, or four after 2000 was written to D8018), month, day, hour, minute, second and weekday (0 is Sunday) to D and on."),
     clock("TWR", 167, "Set the clock")
         .steps(3, 3)
         .takes(&[src("S", PLACES).len(7)])

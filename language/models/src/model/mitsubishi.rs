@@ -75,7 +75,8 @@ pub(super) const ALL: &[Special] = specials! {
     D 8011 r 0 scan "shortest time of a scan in 0.1 ms";
     D 8012 r 0 scan "longest time of a scan in 0.1 ms";
     D 8013-8015 rw 0 scan "clock: second, minute, hour";
-    D 8016-8018 rw 0 scan "clock: day, month, year";
+    D 8016-8017 rw 0 scan "clock: day, month";
+    D 8018 rw 0 scan "clock: year, its last two digits; after a program has written 2000, until power-off, all four";
     D 8019 rw 0 scan "clock: weekday, 0 is Sunday";
     D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
     D 8028 rw 0 scan "Z0";

@@ -17,9 +17,16 @@ const DAY: i32 = 86_400;
 /// Years of the clock where it shows four digits.
 const YEARS: core::ops::RangeInclusive<i16> = 2000..=2099;
 
+/// Value of D8018 with which a program chooses four digits where the year has two (FX1S/FX1N/FX2N programming manual II
+/// §5.13).
+const FOUR_DIGITS: i16 = 2000;
+
+/// D8018, the year.
+const D_YEAR: Register = D_SECOND.after(5);
+
 /// D8018…D8013 and D8019, in TRD's order.
 const REGISTERS: [Register; 7] = [
-    D_SECOND.after(5),
+    D_YEAR,
     D_SECOND.after(4),
     D_SECOND.after(3),
     D_SECOND.after(2),
@@ -146,9 +153,10 @@ pub fn trd(cx: &mut Cx) -> Done {
     read_clock(cx, long_year)
 }
 
-/// TRD where the year has two digits (L01S, FX).
+/// TRD where the year has two digits (L01S, FX), unless D8018 shows four.
 pub fn trd_short(cx: &mut Cx) -> Done {
-    read_clock(cx, short_year)
+    let shows_four = cx.special_word(D_YEAR) > 99;
+    read_clock(cx, if shows_four { long_year } else { short_year })
 }
 
 /// The moment given by words; `None` if it does not exist. Two digits mean 1980 to 2079 if `short`.
@@ -208,7 +216,10 @@ pub fn twr_short(cx: &mut Cx) -> Done {
 /// clock's relays: M8015 stops it, and its fall sets it from the registers; M8016 holds the registers; the rise of
 /// M8017 rounds to a minute.
 ///
-/// Memory: M8015 and M8017 of the last scan; the moment at which the clock was stopped.
+/// Where the year is `short`, [`FOUR_DIGITS`] in D8018 makes it long until power-off.
+///
+/// Memory: M8015 and M8017 of the last scan; the moment at which the clock was stopped; whether a program chose four
+/// digits.
 fn refresh(cx: &mut Cx, short: bool) -> Done {
     let now = cx.hal().clock();
     cx.set_special(M_CLOCK_FITTED, now.is_some());
@@ -216,7 +227,10 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
         return Ok(());
     };
     let (stop, adjust) = (cx.special(M_CLOCK_STOP), cx.special(M_CLOCK_ADJUST));
-    let [stopped, adjusted, date, time, ..] = cx.state().0;
+    let [stopped, adjusted, date, time, mut chosen, ..] = cx.state().0;
+    if short && !stop && stopped == 0 && cx.special_word(D_YEAR) == FOUR_DIGITS {
+        chosen = 1;
+    }
     if stop && stopped == 0 {
         let state = cx.state();
         state.0[2] = i32::from(now.year) << 16 | i32::from(now.month) << 8 | i32::from(now.day);
@@ -259,8 +273,9 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
     let state = cx.state();
     state.0[0] = stop.into();
     state.0[1] = adjust.into();
+    state.0[4] = chosen;
     if !stop && !cx.special(M_CLOCK_HOLD) {
-        let year = if short {
+        let year = if short && chosen == 0 {
             short_year(now.year)
         } else {
             now.year
@@ -286,7 +301,7 @@ pub fn clock_refresh(cx: &mut Cx) -> Done {
     refresh(cx, false)
 }
 
-/// The same where the year has two digits (L01S, FX).
+/// The same where the year has two digits (L01S, FX), unless a program chooses four.
 pub fn clock_refresh_short(cx: &mut Cx) -> Done {
     refresh(cx, true)
 }
