@@ -320,6 +320,8 @@ pub(crate) const INPUT_DELAY: Reason = because(
     Missed::ByWriters,
     "input interrupts are requested at once, without a delay",
 );
+pub(crate) const INPUT_FILTER: Reason =
+    because(Missed::Never, "inputs arrive as the host filters them");
 pub(crate) const UNCLEAR: Reason = because(
     Missed::ByWriters,
     "the manual describes it as a position in Hz, and that of Y0 as reserved; positions are counted in D8140 and similar registers",

@@ -2,3 +2,4 @@
 
 mod operands;
 mod runtime;
+mod special;

@@ -50,6 +50,7 @@ pub(super) const FX1S: Model = Model {
         mitsubishi::FAST_TIMERS,
         mitsubishi::D8145,
         mitsubishi::FX1,
+        mitsubishi::SMALL,
         mitsubishi::FX1S,
     ],
     ..FX1N
@@ -81,6 +82,7 @@ pub(super) const FX1N: Model = Model {
         mitsubishi::FROM_FX1N,
         mitsubishi::D8145,
         mitsubishi::FX1,
+        mitsubishi::SMALL,
         mitsubishi::FX1N,
     ],
     high_speed: HighSpeed {

@@ -79,6 +79,7 @@ pub(super) const FX2N: Model = Model {
         mitsubishi::FROM_FX2N,
         mitsubishi::NOT_FX3S,
         mitsubishi::D8145,
+        mitsubishi::BIG,
         mitsubishi::FX2N,
     ],
     cleared_in_stop: &[special::MASKS, special::MODES],

@@ -61,6 +61,7 @@ pub(super) const FX3S: Model = Model {
         mitsubishi::FX3,
         mitsubishi::ADAPTERS_3SG,
         mitsubishi::FX3SG,
+        mitsubishi::SMALL,
         mitsubishi::FX3S,
     ],
     ..FX3G
@@ -99,6 +100,7 @@ pub(super) const FX3G: Model = Model {
         mitsubishi::ADAPTERS_3SG,
         mitsubishi::ADAPTERS_3G,
         mitsubishi::FX3SG,
+        mitsubishi::SMALL,
         mitsubishi::FX3G,
     ],
     cleared_in_stop: &[special::MASKS, special::MODES, HOME],
@@ -179,6 +181,7 @@ const SPECIAL_3U: &[&[Special]] = &[
     mitsubishi::NOT_FX3S,
     mitsubishi::FX3,
     mitsubishi::FX3GU,
+    mitsubishi::BIG,
     mitsubishi::FX3U,
 ];
 

@@ -2,8 +2,9 @@
 
 use crate::special::{
     ADAPTERS_MISSING, CHECKED, CONTROL_LINES, COUNTER_INPUTS, COUNTING_1, COUNTING_2, DELIMITER,
-    DISPLAY, EXTENSION_BOARDS, HARDWARE, INPUT_DELAY, INTERRUPTS, INVERTERS, LINK_1, LINK_2, MAKER,
-    MODBUS_1, MODBUS_2, MODULE_COUNT, POWER, SHOWN, SLAVE_1, SLAVE_2, Special, TRACE, specials,
+    DISPLAY, EXTENSION_BOARDS, HARDWARE, INPUT_DELAY, INPUT_FILTER, INTERRUPTS, INVERTERS, LINK_1,
+    LINK_2, MAKER, MODBUS_1, MODBUS_2, MODULE_COUNT, POWER, SHOWN, SLAVE_1, SLAVE_2, Special,
+    TRACE, specials,
 };
 use rungc_rt::modules::{ADAPTERS, BOARD, BOARDS};
 
@@ -63,7 +64,6 @@ pub(super) const ALL: &[Special] = specials! {
     M 8127 r 0 by("serial ports") "computer link: on-demand data is being sent";
     M 8128 r(LINK_1) 0 by("serial ports") "computer link: on-demand data is wrong";
     M 8129 r(LINK_1) 0 by("serial ports") "time-out of RS; computer link: on-demand data is characters, not words";
-    M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 by("serial ports") "fast mode of the parallel link";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
     M 8235-8245 rw 0 by("OUT C") "C235–C245 count down";
@@ -78,7 +78,6 @@ pub(super) const ALL: &[Special] = specials! {
     D 8016-8017 rw 0 scan "clock: day, month";
     D 8018 rw 0 scan "clock: year, its last two digits; after a program has written 2000, until power-off, all four";
     D 8019 rw 0 scan "clock: weekday, 0 is Sunday";
-    D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
     D 8028 rw 0 scan "Z0";
     D 8029 rw 0 scan "V0";
     D 8039 rw 0 scan "constant time of a scan in ms (with M8039)";
@@ -141,7 +140,6 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8007-8008 r 0 scan "power failure";
     M 8009 r 0 inert(POWER) "the 24 V supply of an extension has failed";
     M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
-    M 8027 rw 0 by("PR") "PR sends up to 16 characters";
     M 8030 rw 0 inert(POWER) "the lamp for a low battery stays off";
     M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
     M 8059 rw 0 scan "forbids the interrupts of counters";
@@ -150,8 +148,6 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8099 rw 0 scan "starts the ring counter D8099";
     M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
     M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
-    M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
-    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
     M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
     D 8005 r 0 scan "voltage of the battery in 0.1 V";
     D 8006 rw 30 scan "voltage at which the battery is low";
@@ -162,6 +158,20 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     D 8099 rw 0 scan "ring counter of 0.1 ms";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
+};
+
+/// Additional devices of FX2N and FX3U: modes of instructions that the others lack.
+pub(super) const BIG: &[Special] = specials! {
+    M 8027 rw 0 by("PR") "PR sends up to 16 characters";
+    M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
+    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
+    D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
+};
+
+/// Their counterparts on FX1S, FX1N, FX3S and FX3G.
+pub(super) const SMALL: &[Special] = specials! {
+    M 8161 rw 0 by("ASCI, HEX, CCD, RS") "one character or byte a word";
+    D 8020 rw 10 inert(INPUT_FILTER) "filter time of the first inputs in ms";
 };
 
 /// Additional devices of FX2N, FX3G and FX3U: modules and annunciators.
@@ -217,6 +227,7 @@ pub(super) const FX2N: &[Special] = specials! {
     M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     M 8104 r 0 inert(HARDWARE) "the extension ROM FX2N-ROM-E1 is fitted";
     M 8154-8156 r 0 inert(INVERTERS) "EXTR: error, in work, communication error";
+    M 8161 rw 0 by("ASC, ASCI, HEX, CCD, RS") "one character or byte a word";
     M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
     D 8001 r 24310 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
@@ -264,8 +275,6 @@ pub(super) const NO_ADAPTERS: &[Special] = specials! {
 /// Additional devices of FX3S, FX3G and FX3U.
 pub(super) const FX3: &[Special] = specials! {
     M 8105 r 0 inert(MAKER) "the program is being changed in RUN";
-    M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
-    M 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "a comparison of a high-speed counter is executed";
     M 8151-8159 r 0 inert(INVERTERS) "inverter communication";
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8178-8179 rw 0 by("serial ports") "the parallel link, the N:N link is on channel 2";
@@ -312,16 +321,14 @@ pub(super) const FX3: &[Special] = specials! {
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
     D 8107 r 0 inert(MAKER) "how many comments of devices the PLC holds";
     D 8108 r 0 inert(MODULE_COUNT) "how many special modules are connected";
-    D 8138 r 0 by("HSCT") "the row of the table that waits";
-    D 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "how many comparisons of high-speed counters are executed";
     D 8150 rw 0 inert(INVERTERS) "channel 1: inverter communication: time for answers";
     D 8151 r -1 inert(INVERTERS) "channel 1: inverter communication: step in work";
     D 8152 r 0 inert(INVERTERS) "channel 1: inverter communication: error code";
-    D 8153-8154 r -1 inert(INVERTERS) "channel 1: inverter communication: step of the error, parameter of IVBWR";
+    D 8153 r -1 inert(INVERTERS) "channel 1: inverter communication: step of the error";
     D 8155 rw 0 inert(INVERTERS) "channel 2: inverter communication: time for answers";
     D 8156 r -1 inert(INVERTERS) "channel 2: inverter communication: step in work";
     D 8157 r 0 inert(INVERTERS) "channel 2: inverter communication: error code";
-    D 8158-8159 r -1 inert(INVERTERS) "channel 2: inverter communication: step of the error, parameter of IVBWR";
+    D 8158 r -1 inert(INVERTERS) "channel 2: inverter communication: step of the error";
     D 8169 r 0 inert(MAKER) "restriction of access to the program";
     D 8312-8315 r 0 inert(SHOWN) "steps of D8068 and D8069 in 32 bits";
     D 8316-8319 r 0 inert(HARDWARE) "step and number of what is not fitted; module and address of buffer memory that could not be initialised";
@@ -408,12 +415,14 @@ pub(super) const FX3SG: &[Special] = specials! {
     M 8075 rw 0 scan "pulses of X000, X001, X003 and X004 are measured";
     M 8076-8079 rw 0 scan "measures the pulses of X000, X001, X003, X004";
     M 8080-8083 rw 0 scan "measures their periods instead of their widths";
+    M 8139 r 0 by("HSCS, HSCR, HSZ") "a comparison of a high-speed counter is executed";
     M 8329 r 0 by("pulse outputs") "an instruction ended abnormally";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
     D 8074-8079 r 0 scan "X000: ring counter of 1/6 us at the rising and the falling edge, width or period of the pulse in 10 us";
     D 8080-8085 r 0 scan "X001: the same";
     D 8086-8091 r 0 scan "X003: the same";
     D 8092-8097 r 0 scan "X004: the same";
+    D 8139 r 0 by("HSCS, HSCR, HSZ") "how many comparisons of high-speed counters are executed";
 };
 
 /// FX3S: version 1.00, 4 k steps.
@@ -455,6 +464,9 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8091 rw 0 by("BINDA, COMRD") "no zero after the characters";
     M 8104 r 0 inert(HARDWARE) "function extension memory is fitted";
     M 8107 r 0 inert(MAKER) "comments of devices could not be registered";
+    M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
+    M 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "a comparison of a high-speed counter is executed";
+    M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 r 0 by("DUTY") "timing pulses of DUTY";
@@ -479,6 +491,10 @@ pub(super) const FX3U: &[Special] = specials! {
     D 8101 r 16320 scan "model and version";
     D 8102 r 64 scan "program capacity in k steps";
     D 8104-8105 r 0 inert(HARDWARE) "type and version of the function extension memory";
+    D 8138 r 0 by("HSCT") "the row of the table that waits";
+    D 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "how many comparisons of high-speed counters are executed";
+    D 8154 r -1 inert(INVERTERS) "channel 1: inverter communication: parameter of IVBWR with an error";
+    D 8159 r -1 inert(INVERTERS) "channel 2: inverter communication: parameter of IVBWR with an error";
     D 8300-8303 rw 0 inert(DISPLAY) "display module: registers and relays that control it, language, contrast";
     D 8310 rw 1 by("RND") "state of RND, low word";
     D 8311 rw 0 by("RND") "state of RND, high word";

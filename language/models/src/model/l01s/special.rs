@@ -60,7 +60,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8129 r 0 by("serial ports") "port 2: RD3A/WR3A communication timeout (resets itself)";
     M 8151-8154 r 0 inert(LATER) "busy monitor of pulse axis 5–8";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
-    M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
+    M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD): only the low byte of each register is used";
     M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
     M 8192 rw 0 by("serial ports") "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
     M 8196 rw 0 by("serial ports") "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
