@@ -11,11 +11,14 @@ fn rotate_right(ring: u64, width: u32, n: u32) -> u64 {
     (ring >> n | ring << (width - n)) & mask
 }
 
-/// Rotates D by n places; the bit that passed the end last is also in the carry flag.
+/// Rotates D by n places; the bit that passed the end last is also in the carry flag. Nothing happens if n is 0.
 fn rotate(cx: &mut Cx, right: bool) -> Done {
     let width = cx.width();
-    let n = cx.count(1, 1..=width as i32)? as u32;
+    let n = cx.count(1, 0..=width as i32)? as u32;
     let value = u64::from(cx.read_unsigned(0)?);
+    if n == 0 {
+        return Ok(());
+    }
     let value = rotate_right(value, width, if right { n } else { width - n });
     let last = if right { value >> (width - 1) } else { value };
     cx.write(0, value as i32)?;
@@ -36,7 +39,7 @@ pub fn rol(cx: &mut Cx) -> Done {
 /// Rotates the ring of D and, above it, the carry flag by n places.
 fn rotate_through_carry(cx: &mut Cx, right: bool) -> Done {
     let width = cx.width();
-    let n = cx.count(1, 1..=width as i32)? as u32;
+    let n = cx.count(1, 0..=width as i32)? as u32;
     let ring = u64::from(cx.special(M_CARRY)) << width | u64::from(cx.read_unsigned(0)?);
     let ring = rotate_right(ring, width + 1, if right { n } else { width + 1 - n });
     cx.write(0, ring as i32)?;
@@ -109,12 +112,16 @@ impl Item for Word {
     }
 }
 
-/// Shifts the n1 items from D (operand 1) on by n2 places, the n2 from S (operand 0) on entering.
+/// Shifts the n1 items from D (operand 1) on by n2 places, the n2 from S (operand 0) on entering. Nothing happens if n2
+/// is 0.
 fn shift<I: Item>(cx: &mut Cx, right: bool, most: i32) -> Done {
     let length = cx.count(2, 1..=most)?;
-    let by = cx.count(3, 1..=length)?;
+    let by = cx.count(3, 0..=length)?;
     I::check(cx, 0, by)?;
     I::check(cx, 1, length)?;
+    if by == 0 {
+        return Ok(());
+    }
     for n in 0..length - by {
         if right {
             I::copy(cx, (1, n + by), (1, n))?;
@@ -271,7 +278,27 @@ mod tests {
             ([0x8001_u16 as i16].to_vec(), true)
         );
         assert_eq!(plc.call(RtFn::Ror, &[reg(0), k(17)]), Err(Fault::VALUE));
-        assert_eq!(plc.call(RtFn::Ror, &[reg(0), k(0)]), Err(Fault::VALUE));
+        assert_eq!(plc.call(RtFn::Ror, &[reg(0), k(-1)]), Err(Fault::VALUE));
+    }
+
+    /// The catalogue takes n from 0 where the manuals give the upper limit alone.
+    #[test]
+    fn by_0_places_nothing_moves() {
+        let mut plc = Double::new().with_d(0, &[7, 0x1235, 9]);
+        plc.set_m(0, "1011");
+        plc.set_m(8022, "1");
+        for function in [RtFn::Ror, RtFn::Rol, RtFn::Rcr, RtFn::Rcl] {
+            plc.call(function, &[reg(1), k(0)]).unwrap();
+        }
+        for function in [RtFn::Sftr, RtFn::Sftl] {
+            let (s, m) = (d(Class::M, 0), d(Class::M, 1));
+            plc.call(function, &[s, m, k(3), k(0)]).unwrap();
+        }
+        for function in [RtFn::Wsfr, RtFn::Wsfl] {
+            plc.call(function, &[reg(0), reg(1), k(2), k(0)]).unwrap();
+        }
+        assert_eq!(plc.d(0, 3), [7, 0x1235, 9]);
+        assert_eq!((plc.m(0, 4).as_str(), carry(&plc)), ("1011", true));
     }
 
     #[test]
