@@ -250,9 +250,9 @@ static OF_PROGRAMS: &[PlcError] = &[
     row(
         6760,
         FX,
-        "too many high-speed comparisons at once",
-        "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit have no effect. The PLC's table gives the code to a wrong sum in ABS.",
-        "Drive them one after the other.",
+        "ABS: the sum of the servo amplifier's data is wrong",
+        "The PLC's table gives the code to ABS alone. Compiled programs also report it where more high-speed comparisons are driven at the same time than the PLC has units for; those beyond the limit have no effect.",
+        "Check the wires to the servo amplifier. Drive high-speed comparisons one after the other.",
     ),
     row(
         6763,

@@ -51,6 +51,8 @@ pub(super) static CODES: &[PlcError] = codes! {
     3815 FX3 "channel 2: parallel link: the partner was not heard in time";
     3820 FX3 "channel 2: inverter communication";
     3821 FX3 "channel 2: Modbus: the code is in D8422";
+    3830 FX3 "channel 2: memory cannot be accessed";
+    3840 FX3 "channel 2: a special adapter is connected wrongly";
     6101 PORTS "RAM error";
     6102 PORTS "the arithmetic circuit fails";
     6103 PORTS "the bus of inputs and outputs fails";
@@ -80,6 +82,7 @@ pub(super) static CODES: &[PlcError] = codes! {
     6315 PORTS "parallel link: the partner was not heard in time";
     6320 FX3 "inverter communication, channel 1";
     6321 FX3 "Modbus, channel 1: the code is in D8402";
+    6330 FX3 "serial port, channel 1: memory cannot be accessed";
     6330 LIKE_H "Modbus, COM0: a station register is not 1 to 247";
     6331 LIKE_H "Modbus, COM0: a frame with a wrong length";
     6332 LIKE_H "Modbus, COM0: an address of no device";
@@ -90,6 +93,7 @@ pub(super) static CODES: &[PlcError] = codes! {
     6337 LIKE_H "Modbus, COM0: a frame of too many characters";
     6338 LIKE_H "Modbus, COM0: a frame with a wrong form";
     6339 LIKE_H "Modbus, COM0: the port speaks another protocol";
+    6340 FX3 "serial port, channel 1: a special adapter is connected wrongly";
     6340 LIKE_H "Modbus, COM1: a station register is not 1 to 247";
     6341 LIKE_H "Modbus, COM1: a frame with a wrong length";
     6342 LIKE_H "Modbus, COM1: an address of no device";
@@ -130,7 +134,8 @@ pub(super) static CODES: &[PlcError] = codes! {
     6380 H "CAN: a frame cannot be sent in time";
     6382 H "CAN: sending is under way";
     6383 H "CAN: receiving is under way";
-    6401 PORTS "parameters: the program does not fit them";
+    6401 H "parameters: the program does not fit them";
+    6401 FX "parameters: the sum of the program is wrong";
     6402 PORTS "parameters: the memory has another size";
     6403 PORTS "parameters: the latched devices are set wrongly";
     6404 H "parameters: their area is set wrongly";
@@ -140,6 +145,11 @@ pub(super) static CODES: &[PlcError] = codes! {
     6406 FX3 "parameters: initial values of special modules are wrong";
     6407 FX3 "parameters: the area of initial values is set wrongly";
     6409 FX "parameters: another setting is wrong";
+    6411 FX3 "parameters: those of the built-in CC-Link/LT are wrong";
+    6412 FX3 "parameters: those of the built-in CC-Link/LT are wrong";
+    6413 FX3 "parameters: those of the built-in CC-Link/LT are wrong";
+    6420 FX3 "special parameters: their sum is wrong";
+    6421 FX3 "special parameters: a setting is wrong";
     6425 H "parameters: the program was not received whole";
     6426 H "parameters: the program is incomplete";
     6427 H "parameters: the program is for another PLC";
