@@ -28,21 +28,37 @@ const FAST_COUNTER: Param = src("S2", Classes::C).numbers(FAST);
 const PULSE_OUTPUT: Param = coil("D", Classes::Y).plain().pulses();
 const LIKE_FX: ModelSet = FX.or(L01S);
 
-/// The greatest number of pulses, and any speed; those above the model's are held to it.
+/// The greatest number of pulses, and any speed where no manual gives the limits; a run uses the model's highest at
+/// most.
 const NUMBER: i64 = i32::MAX as i64;
-const PLSR: &[Param] = &[
-    src("S1", VALUES).limits(0, NUMBER),
-    src("S2", VALUES).limits(0, NUMBER),
-    src("S3", VALUES).limits(0, NUMBER),
-    PULSE_OUTPUT,
-];
+
+/// Boards that take programs for FX2N and FX3U; how fast their outputs are is their makers' choice.
+const BOARDS: ModelSet = ModelSet::COMPATIBLE;
+const FX2N: ModelSet = ModelSet::FX2N.without(BOARDS);
+const FX3U_ITSELF: ModelSet = FX3U.without(BOARDS);
+/// FX1S, FX1N, FX3S and FX3G.
+const SMALL_FX: ModelSet = ModelSet::FX1.or(FX3.without(FX3U));
+
+/// S1 of PLSY and PLSR, in Hz (FX1S/FX1N/FX2N programming manual II §5.6.8 and §5.6.10, FX3 programming manual §13.8
+/// and §13.10): 20 kHz on FX2N, 100 kHz on the others, 200 kHz on an FX3U with a high-speed output adapter.
+const fn speed(lowest: i64, highest: i64, wide: &'static [Rule]) -> Param {
+    src("S1", VALUES).limits(lowest, highest).rules(wide)
+}
+const fn plsr(s1: Param, fewest: i64) -> [Param; 4] {
+    [
+        s1,
+        src("S2", VALUES).limits(fewest, NUMBER),
+        src("S3", VALUES).limits(0, NUMBER),
+        PULSE_OUTPUT,
+    ]
+}
+const fn plsy(s1: Param) -> [Param; 3] {
+    [s1, src("S2", VALUES).limits(0, NUMBER), PULSE_OUTPUT]
+}
+const ANY_SPEED: Param = speed(0, NUMBER, &[]);
+const PLSR: &[Param] = &plsr(ANY_SPEED, 0);
 /// Models that cannot send fewer than 110 pulses with ramps.
-const PLSR_110: &[Param] = &[
-    src("S1", VALUES).limits(0, NUMBER),
-    src("S2", VALUES).limits(110, NUMBER),
-    src("S3", VALUES).limits(0, NUMBER),
-    PULSE_OUTPUT,
-];
+const PLSR_110: &[Param] = &plsr(ANY_SPEED, 110);
 /// Models that say how long ramps may take.
 const PLSR_INOVANCE: &[Param] = &[
     src("S1", VALUES).limits(0, NUMBER),
@@ -50,11 +66,16 @@ const PLSR_INOVANCE: &[Param] = &[
     src("S3", VALUES).limits(50, 5000),
     PULSE_OUTPUT,
 ];
-const PLSY: &[Param] = &[
-    src("S1", VALUES).limits(0, NUMBER),
-    src("S2", VALUES).limits(0, NUMBER),
-    PULSE_OUTPUT,
-];
+const FROM_10_HZ: &[Rule] = &[Rule::WideLimits(10, 100_000)];
+const PLSR_FX1: &[Param] = &plsr(speed(10, 32767, FROM_10_HZ), 110);
+const PLSR_FX2N: &[Param] = &plsr(speed(10, 20_000, &[]), 110);
+const PLSR_FX3SG: &[Param] = &plsr(speed(10, 32767, FROM_10_HZ), 0);
+const PLSR_FX3U: &[Param] = &plsr(speed(10, 32767, &[Rule::WideLimits(10, 200_000)]), 0);
+
+const PLSY_SMALL_FX: &[Param] = &plsy(speed(1, 32767, &[Rule::WideLimits(1, 100_000)]));
+const PLSY_FX2N: &[Param] = &plsy(speed(2, 20_000, &[]));
+const PLSY_FX3U: &[Param] = &plsy(speed(1, 32767, &[Rule::WideLimits(1, 200_000)]));
+const PLSY: &[Param] = &plsy(ANY_SPEED);
 const PLSY_INOVANCE: &[Param] = &[
     src("S1", VALUES)
         .limits(0, 32767)
@@ -285,6 +306,9 @@ pub(super) const ROWS: &[Inst] = &[
             HM_FORMS,
             on(HM).takes(HM_PULSES),
             on(INOVANCE).takes(PLSY_INOVANCE),
+            on(SMALL_FX).takes(PLSY_SMALL_FX),
+            on(FX2N).takes(PLSY_FX2N),
+            on(FX3U_ITSELF).takes(PLSY_FX3U),
         ])
         .flags(&["M8029"])
         .errors(&[6770, 6771])
@@ -308,7 +332,11 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_RAMP),
-            on(ModelSet::FX1.or(ModelSet::FX2N)).takes(PLSR_110),
+            on(ModelSet::FX1).takes(PLSR_FX1),
+            on(FX2N).takes(PLSR_FX2N),
+            on(SMALL_FX).takes(PLSR_FX3SG),
+            on(FX3U_ITSELF).takes(PLSR_FX3U),
+            on(ModelSet::FX2N).takes(PLSR_110),
             on(INOVANCE).takes(PLSR_INOVANCE),
         ])
         .flags(&["M8029"])

@@ -1,6 +1,6 @@
 //! Operands of the Mitsubishi models, instruction by instruction, as the tables of their manuals have them.
 
-use rungc_catalogue::{Inst, Param, find};
+use rungc_catalogue::{Inst, Param, Rule, find};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::Classes;
 
@@ -194,4 +194,32 @@ fn index_registers_are_refused() {
         assert!(!takes(name, of, ModelId::Fx3u, Classes::Z), "{name} {of}");
     }
     assert!(takes("MUL", "D", ModelId::Fx3u, Classes::Z));
+}
+
+/// Speeds in Hz of PLSY and PLSR (FX1S/FX1N/FX2N programming manual II §5.6.8 and §5.6.10, FX3 programming manual §13.8
+/// and §13.10). Those of compatible boards are their makers' choice.
+#[test]
+fn speeds_of_pulse_outputs_are_those_of_the_model() {
+    let speeds = |name, id| {
+        let (_, param) = operand(name, "S1", id);
+        let wide = param.rules.iter().find_map(|rule| match *rule {
+            Rule::WideLimits(low, high) => Some((low, high)),
+            _ => None,
+        });
+        wide.unwrap_or(param.limits.ranges()[0])
+    };
+    for (id, lowest, highest) in [
+        (ModelId::Fx1s, 1, 100_000),
+        (ModelId::Fx1n, 1, 100_000),
+        (ModelId::Fx2n, 2, 20_000),
+        (ModelId::Fx3s, 1, 100_000),
+        (ModelId::Fx3g, 1, 100_000),
+        (ModelId::Fx3u, 1, 200_000),
+    ] {
+        assert_eq!(speeds("PLSY", id), (lowest, highest), "{id:?}");
+        assert_eq!(speeds("PLSR", id), (10, highest), "{id:?}");
+    }
+    for id in [ModelId::Fx2nCompatible, ModelId::Fx3uCompatible] {
+        assert_eq!(speeds("PLSY", id), (0, i32::MAX.into()), "{id:?}");
+    }
 }
