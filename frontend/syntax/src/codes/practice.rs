@@ -177,6 +177,13 @@ super::codes! {
     wrong: "LD X0\nABSD K4M12 C0 M100 K1\nEND\n",
     right: "LD X0\nABSD K4M16 C0 M100 K1\nEND\n";
 
+    INDEXED_COUNTER = "W0235" "indexed-counter" Warning None,
+    "32-bit counter with an index on HM",
+    "On HM, an index counts 16-bit words. With the index 1, C200 is therefore not C201 but the high word of C200, and the manual advises against such operands (hm-motion-controller §5.1.8). A compiled program goes to the next counter. Copy the counters to data registers and index these: `DMOV C200 D1000`, `DMOV C201 D1002`, then D1000 with an index of 0 or 2.",
+    model: "hm",
+    wrong: "LD X0\nDMOV C200V0 D1100\nEND\n",
+    right: "LD X0\nDMOV C200 D1000\nDMOV C201 D1002\nDMOV D1000V0 D1100\nEND\n";
+
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",
     "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`rungc book special-devices/index`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",

@@ -12,6 +12,7 @@ mod every_scan;
 mod fast_inputs;
 mod fast_units;
 mod groups;
+mod indexed_counters;
 mod inert;
 mod jumped_over;
 mod labels;
@@ -105,6 +106,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         modules.check(code, i, out);
         operation_errors::check(code, i, out);
         groups::check(code, i, out);
+        indexed_counters::check(code, i, out);
         unused.note_broken(i);
         for access in accesses::of(code.resolved, i) {
             unused.note(i, &access);

@@ -50,6 +50,7 @@ pub(super) const FX2N: Model = Model {
     memory_steps: 16000,
     instruction_times: Some(TIMES),
     z_pairs_with_v: true,
+    index_counts_words: false,
     error_relay: M_OPERATION_ERROR,
     errors_last_a_scan: true,
     rst_holds_in_interrupts: true,

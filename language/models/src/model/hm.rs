@@ -36,6 +36,7 @@ pub(super) const HM: Model = Model {
     memory_steps: 12000,
     instruction_times: None,
     z_pairs_with_v: false,
+    index_counts_words: true,
     error_relay: Relay(8006),
     errors_last_a_scan: false,
     rst_holds_in_interrupts: false,

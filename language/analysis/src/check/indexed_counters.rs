@@ -1,0 +1,26 @@
+//! Operands with an index that lead elsewhere on the PLC than in a compiled program.
+
+use super::Code;
+use rungc_models::runs::is_counter32;
+use rungc_syntax::{Diagnostics, OperandKind, codes};
+
+/// Warns of a 32-bit counter with an index on models where an index counts 16-bit words.
+pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
+    if !code.model().index_counts_words {
+        return;
+    }
+    for operand in &code.instr(i).operands {
+        if let OperandKind::Device(device, Some(index)) = operand.kind
+            && is_counter32(device.class, device.number)
+        {
+            let message = format!("`{}` does not reach the next counter", operand.kind);
+            let warning = codes::INDEXED_COUNTER
+                .at(operand.span, message)
+                .label(format!(
+                    "`{index}` counts words: 1 leads to the high word of `{device}`"
+                ))
+                .help("copy the counters to data registers, and index these");
+            out.push(warning);
+        }
+    }
+}
