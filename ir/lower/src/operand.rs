@@ -6,7 +6,7 @@ use rungc_ir::node::{
     Access, AccessKind, Action, Arg, BinOp, Branch, CellId, Expr, ExprId, Fetch, Place, Send, Stmt,
     SysValue, Ty,
 };
-use rungc_models::runs::{is_counter32, words_of_bits};
+use rungc_models::runs::{FIRST_COUNTER32, is_counter32, words_of_bits};
 use rungc_rt::CmpOp;
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, Span, codes};
 
@@ -166,6 +166,24 @@ impl Lowerer<'_> {
         }
     }
 
+    /// The condition that an index leads to a device before number `end`, and the bound that includes it.
+    fn demand_below(
+        &mut self,
+        place: Place,
+        index: ExprId,
+        end: u32,
+        bound: Option<(i32, i32)>,
+        guards: &mut Guards,
+    ) -> (i32, i32) {
+        let (low, high) = bound.unwrap_or((i32::MIN, i32::MAX));
+        let last = end as i32 - 1 - place.number as i32;
+        if high > last {
+            let last = self.int(last, true);
+            guards.demand(self.add(Expr::Cmp(CmpOp::Le, index, last)));
+        }
+        (low, high.min(last))
+    }
+
     /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it is. A
     /// result of several words continues after its operand.
     pub(super) fn indexed_operand(&self, place: Place, written: Index) -> Option<(Device, Span)> {
@@ -253,6 +271,19 @@ impl Lowerer<'_> {
         wide: bool,
         guards: &mut Guards,
     ) -> Place {
+        self.place_below(device, index, count, wide, None, guards)
+    }
+
+    /// As [`Lowerer::place`]; the index must not lead to device number `end` or a later one.
+    fn place_below(
+        &mut self,
+        device: Device,
+        index: Option<Index>,
+        count: u32,
+        wide: bool,
+        end: Option<u32>,
+        guards: &mut Guards,
+    ) -> Place {
         let written = index;
         let index = index.map(|index| self.index(index, wide));
         let place = Place {
@@ -262,6 +293,10 @@ impl Lowerer<'_> {
         if let Some((index, written)) = index.zip(written) {
             let bound = self.bound(place, written, count);
             self.demand_device(place, index, count, bound, guards);
+            let bound = match end {
+                Some(end) => Some(self.demand_below(place, index, end, bound, guards)),
+                None => bound,
+            };
             let index = self.within(index, bound);
             self.note_index(index, place, written);
             let index = Some(index);
@@ -465,7 +500,8 @@ impl Lowerer<'_> {
             return Target::Pair(self.place(device, index, 1, wide_index, guards));
         }
         if !wide {
-            return Target::Word(self.place(device, index, 1, wide_index, guards));
+            let end = (device.class == DeviceClass::C).then_some(FIRST_COUNTER32);
+            return Target::Word(self.place_below(device, index, 1, wide_index, end, guards));
         }
         // The high word of Z may be its V.
         let z_with_v = device.class == DeviceClass::Z && self.model.z_pairs_with_v;

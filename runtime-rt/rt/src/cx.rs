@@ -221,22 +221,23 @@ impl<'a> Cx<'a> {
         Some(at(op, last).and_then(|_| at(op, offset)))
     }
 
-    /// The word of device `n`, which an operand's devices include; of a 32-bit counter the low word.
+    /// The word of device `n`, which an operand's devices include. A 32-bit counter is not a word.
     fn load(&self, op: Operand, n: u32) -> Result<i16, Fault> {
-        let word = match op.class == Class::C && n >= FIRST_COUNTER32 {
-            true => self.plc.counter32(n).map(|v| v as i16),
-            false => self.plc.word_in(op.area, op.class, n),
-        };
-        word.ok_or(Fault::DEVICE)
+        match op.class {
+            Class::C if n >= FIRST_COUNTER32 => Err(Fault::DEVICE),
+            _ => self.plc.word_in(op.area, op.class, n).ok_or(Fault::DEVICE),
+        }
     }
 
-    /// Writes it; a 32-bit counter takes the value.
+    /// Writes it.
     fn store(&mut self, op: Operand, n: u32, value: i16) -> Done {
-        let done = match op.class == Class::C && n >= FIRST_COUNTER32 {
-            true => self.plc.set_counter32(n, value.into()),
-            false => self.plc.set_word_in(op.area, op.class, n, value),
-        };
-        done.ok_or(Fault::DEVICE)
+        match op.class {
+            Class::C if n >= FIRST_COUNTER32 => Err(Fault::DEVICE),
+            _ => {
+                let done = self.plc.set_word_in(op.area, op.class, n, value);
+                done.ok_or(Fault::DEVICE)
+            }
+        }
     }
 
     /// The 32-bit value whose low word is word number `offset` from operand `i`: the pair (n+1, n), a 32-bit counter,
@@ -477,6 +478,15 @@ impl<'a> Cx<'a> {
     /// Faults unless the `count` words from operand `i` on exist.
     pub fn check_words(&self, i: usize, count: i32) -> Done {
         (0..count).try_for_each(|n| self.word(i, n).map(drop))
+    }
+
+    /// Faults unless the `count` words, timers and counters from operand `i` on exist.
+    pub fn check_resets(&self, i: usize, count: i32) -> Done {
+        let op = self.op(i)?;
+        (0..count).try_for_each(|n| match op.class {
+            Class::C if at(op, n)? >= FIRST_COUNTER32 => self.dword(i, n).map(drop),
+            _ => self.word(i, n).map(drop),
+        })
     }
 
     /// Faults unless the `count` elements from operand `i` on exist: words, or pairs in the 32-bit form.

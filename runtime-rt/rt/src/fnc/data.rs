@@ -19,7 +19,7 @@ pub fn zrst(cx: &mut Cx) -> Done {
         cx.check_bits(0, count)?;
         return (0..count).try_for_each(|n| cx.set_bit(0, n, false));
     }
-    cx.check_words(0, count)?;
+    cx.check_resets(0, count)?;
     (0..count).try_for_each(|n| cx.reset(0, n))
 }
 
