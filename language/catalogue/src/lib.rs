@@ -178,6 +178,8 @@ pub struct Param {
     pub sends_pulses: bool,
     /// True for an output that keeps a position.
     pub keeps_position: bool,
+    /// True for an output that gives the direction of pulses.
+    pub directs_pulses: bool,
     /// Its bits name inputs X.
     pub names_inputs: bool,
     /// Additional rules.

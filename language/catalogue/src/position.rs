@@ -13,7 +13,7 @@ const PULSE_OUTPUT: Param = position_output("D1");
 const fn position_output(name: &'static str) -> Param {
     coil(name, Classes::Y).plain().positions()
 }
-const DIRECTION: Param = coil("D2", COILS);
+const DIRECTION: Param = coil("D2", COILS).directs();
 const DISTANCE: Param = src("S1", VALUES);
 const SPEED: Param = src("S2", VALUES);
 const MOVE: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT, DIRECTION];

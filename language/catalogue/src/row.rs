@@ -219,6 +219,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         numbers: &[],
         sends_pulses: false,
         keeps_position: false,
+        directs_pulses: false,
         names_inputs: false,
         rules: &[],
         indexable: true,
@@ -394,6 +395,15 @@ impl Param {
         Param {
             keeps_position,
             ..self.pulses()
+        }
+    }
+
+    /// It gives the direction of pulses.
+    pub(super) const fn directs(self) -> Self {
+        let directs_pulses = true;
+        Param {
+            directs_pulses,
+            ..self
         }
     }
 

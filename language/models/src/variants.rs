@@ -24,6 +24,8 @@ pub struct Variant {
     pub outputs: Option<u32>,
     /// Number of outputs that send pulses, from Y000 on.
     pub pulse_outputs: u32,
+    /// Number of outputs, from Y000 on, that cannot give the direction of pulses.
+    pub no_direction: u32,
     /// Instructions of its family that it does not have.
     pub lacks: &'static [&'static [&'static str]],
     /// Devices of its family that it does not have: class, first and last number.
@@ -126,8 +128,25 @@ const NOT_ON_XP: &[(DeviceClass, u32, u32)] = &[
     (D, 8084, 8086),
 ];
 
-/// High-speed counters, interrupts of inputs, pulse catch.
-const FAST_INPUTS: &[(DeviceClass, u32, u32)] = &[(C, 235, 255), (I, 0, 501), (M, 8170, 8177)];
+/// High-speed counters, interrupts of inputs, pulse catch, and the special devices of these and of SPD (§3.6, §3.9,
+/// §4.3.6, §8.2).
+const FAST_INPUTS: &[(DeviceClass, u32, u32)] = &[
+    (C, 235, 255),
+    (I, 0, 501),
+    (I, 507, 530),
+    (M, 8025, 8025),
+    (M, 8050, 8055),
+    (M, 8059, 8059),
+    (M, 8084, 8084),
+    (M, 8100, 8105),
+    (M, 8130, 8133),
+    (M, 8166, 8166),
+    (M, 8169, 8177),
+    (M, 8195, 8199),
+    (M, 8235, 8255),
+    (D, 8084, 8086),
+    (D, 8130, 8134),
+];
 
 /// Outputs of ZRN's clear signals on MTP: Y010 to Y017 for Y000 to Y007 (§8.5.2).
 const CLEARS_OF_MTP: &[(Register, i16)] = &[
@@ -149,6 +168,7 @@ const H2U_XP: Variant = Variant {
     inputs: None,
     outputs: None,
     pulse_outputs: 3,
+    no_direction: 0,
     lacks: &[],
     lacks_devices: NOT_ON_XP,
     defaults: &[],
@@ -165,6 +185,15 @@ const fn h2u(name: &'static str, title: &'static str, inputs: u32, outputs: u32)
         lacks_devices: &[],
         source: "h1u-h2u-programming §3.1, §3.2, §8.4",
         ..H2U_XP
+    }
+}
+
+/// The same, which sends pulses at Y000 and Y001 only (§4.3.11).
+const fn two_pulse_outputs(unit: Variant) -> Variant {
+    Variant {
+        pulse_outputs: 2,
+        source: "h1u-h2u-programming §3.1, §3.2, §4.3.6, §4.3.11",
+        ..unit
     }
 }
 
@@ -209,7 +238,7 @@ const L01S_16MT: Variant = l01s("l01s-16mt", "Coolmay L01S-16MT", 8, 8);
 const L01S_24MT: Variant = digital(l01s("l01s-24mt", "Coolmay L01S-24MT", 14, 10));
 
 /// All of them.
-pub static VARIANTS: [Variant; 18] = [
+pub static VARIANTS: [Variant; 19] = [
     Variant {
         name: "h1u-xp",
         title: "Inovance H1U-XP",
@@ -232,6 +261,7 @@ pub static VARIANTS: [Variant; 18] = [
         name: "h2u-mtp",
         title: "Inovance H2U-MTP",
         pulse_outputs: 8,
+        no_direction: 8,
         lacks: &[NO_FLOATS, NO_FAST_INPUTS],
         lacks_devices: FAST_INPUTS,
         defaults: CLEARS_OF_MTP,
@@ -239,7 +269,8 @@ pub static VARIANTS: [Variant; 18] = [
         ..H2U_XP
     },
     h2u("h2u-1616", "Inovance H2U-1616", 16, 16),
-    h2u("h2u-3624", "Inovance H2U-3624", 36, 24),
+    two_pulse_outputs(h2u("h2u-2416", "Inovance H2U-2416", 24, 16)),
+    two_pulse_outputs(h2u("h2u-3624", "Inovance H2U-3624", 36, 24)),
     h2u("h2u-3232", "Inovance H2U-3232", 32, 32),
     h2u("h2u-6464", "Inovance H2U-6464", 64, 64),
     L01S_16MT,

@@ -154,6 +154,10 @@ fn variant_page(variant: &Variant) -> String {
     }
     let last = DeviceClass::Y.number(variant.pulse_outputs - 1);
     let _ = writeln!(page, "\nPulse outputs: Y000 to {last}");
+    if variant.no_direction > 0 {
+        let first = DeviceClass::Y.number(variant.no_direction);
+        let _ = writeln!(page, "Outputs of their direction: from {first} on");
+    }
     let lacks = variant.lacks.concat().join(" ");
     if !lacks.is_empty() {
         let _ = writeln!(

@@ -27,7 +27,7 @@ super::codes! {
 
     NO_DEVICE_ON_VARIANT = "E0671" "no-device-on-variant" Error None,
     "device or pulse output that this variant of the PLC does not have",
-    "The variant of the PLC that `--model` or rungc.toml names has fewer outputs that send pulses, or lacks interrupts, counters or special devices that others of its family have. `rungc explain h2u-mtp` lists what it lacks.",
+    "The variant of the PLC that `--model` or rungc.toml names has fewer outputs that send pulses or give their direction, or lacks interrupts, counters or special devices that others of its family have. `rungc explain h2u-mtp` lists what it lacks.",
     wrong: "",
     right: "";
 

@@ -26,10 +26,17 @@ pub fn variants() -> String {
             true => class.number(first).to_string(),
             false => format!("{} – {}", class.number(first), class.number(last)),
         });
+        let direction = (variant.no_direction > 0).then(|| {
+            format!(
+                "direction of pulses at {}",
+                terminals(y, Some(variant.no_direction))
+            )
+        });
         let lacks: Vec<_> = instructions
             .iter()
             .map(ToString::to_string)
             .chain(devices)
+            .chain(direction)
             .collect();
         // Writing to a String cannot fail.
         let _ = writeln!(
@@ -43,6 +50,6 @@ pub fn variants() -> String {
             lacks.join(", ")
         );
     }
-    page += "\nSources: h1u-h2u-programming §3.1, §3.2, §8.1, §8.4 to §8.7; l01s-programming §1.3. Of L01S, `mt` has transistor outputs, `mrt` transistors at Y000 and Y001 and relays at the others.\n";
+    page += "\nSources: h1u-h2u-programming §3.1, §3.2, §4.3.11, §8.1, §8.4 to §8.7; l01s-programming §1.3. Of L01S, `mt` has transistor outputs, `mrt` transistors at Y000 and Y001 and relays at the others.\n";
     page
 }

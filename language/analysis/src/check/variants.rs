@@ -2,8 +2,9 @@
 
 use super::Code;
 use crate::resolve::Resolved;
+use rungc_catalogue::Param;
 use rungc_models::{Model, Variant};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use std::collections::BTreeSet;
 
 /// Holds a program to a variant of its model.
@@ -46,15 +47,9 @@ fn devices(
         let Some(device) = code.device(i, n) else {
             continue;
         };
-        let sends = code
-            .params(i)
-            .get(n)
-            .is_some_and(|param| param.sends_pulses);
-        if sends && device.class == DeviceClass::Y && device.number >= variant.pulse_outputs {
-            let last = DeviceClass::Y.number(variant.pulse_outputs - 1);
-            let message = format!("{} sends no pulses at `{device}`", variant.title);
-            let found = codes::NO_DEVICE_ON_VARIANT.at(operand.span, message);
-            out.push(found.help(format!("its pulse outputs are Y000 to {last}")));
+        let param = code.params(i).get(n);
+        if let Some(found) = param.and_then(|param| pulses(param, device, variant, operand.span)) {
+            out.push(found);
             continue;
         }
         lacking(variant, device, operand.span, out);
@@ -80,8 +75,33 @@ fn devices(
     }
 }
 
+/// An output of pulses or of their direction that the variant does not have there.
+fn pulses(param: &Param, device: Device, variant: &Variant, at: Span) -> Option<Diagnostic> {
+    if device.class != DeviceClass::Y {
+        return None;
+    }
+    let title = variant.title;
+    let (message, help) = if param.sends_pulses && device.number >= variant.pulse_outputs {
+        let last = DeviceClass::Y.number(variant.pulse_outputs - 1);
+        (
+            format!("{title} sends no pulses at `{device}`"),
+            format!("its pulse outputs are Y000 to {last}"),
+        )
+    } else if param.directs_pulses && device.number < variant.no_direction {
+        let first = DeviceClass::Y.number(variant.no_direction);
+        (
+            format!("`{device}` of {title} cannot give the direction of pulses"),
+            format!("use an output from {first} on"),
+        )
+    } else {
+        return None;
+    };
+    let found = codes::NO_DEVICE_ON_VARIANT.at(at, message);
+    Some(found.help(help))
+}
+
 /// Reports a device that the variant does not have.
-fn lacking(variant: &Variant, device: Device, span: rungc_syntax::Span, out: &mut Diagnostics) {
+fn lacking(variant: &Variant, device: Device, span: Span, out: &mut Diagnostics) {
     if !variant.has(device.class, device.number) {
         let message = format!("{} does not have `{device}`", variant.title);
         out.push(
