@@ -207,6 +207,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[src("S", REGISTERS).len(8), coil("D", Classes::Y).len(10)])
         .flags(&["M8027", "M8029"])
         .call(RtFn::Pr)
+        .lower_on(&[(INOVANCE, Lower::Call(RtFn::PrSignalsOff))])
         .text(
             "Sends the eight (M8027 on: up to sixteen) characters at S one after the other on outputs D … D+7, with a strobe on D+10 \
              and a busy signal on D+11.",

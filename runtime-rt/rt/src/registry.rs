@@ -357,6 +357,7 @@ registry! {
     Arws = display::arws(s, d1, d2, n) [state, always];
     Asc = display::asc(s, d);
     Pr = display::pr(s, d) [state, always];
+    PrSignalsOff = display::pr_signals_off(s, d) [state, always];
     From = modules::from(m1, m2, d, n) [hal];
     To = modules::to(m1, m2, s, n) [hal];
     Rd3a = modules::rd3a(m1, m2, d) [hal];

@@ -142,14 +142,28 @@ pub fn asc(cx: &mut Cx) -> Done {
 /// ninth output in the middle one and the tenth on as long as it works. Eight characters, or with M8027 up to a 0, at
 /// most 16; then M8029 signals the end. Memory: scans since it began; whether the last scan drove it.
 pub fn pr(cx: &mut Cx) -> Done {
+    print(cx, false)
+}
+
+/// PR S D (FNC 77) of H1U and H2U: as [`pr`], but M8029 signals the end of the text when the drive goes off. Memory in
+/// addition: whether the text ended with M8027 on.
+pub fn pr_signals_off(cx: &mut Cx) -> Done {
+    print(cx, true)
+}
+
+fn print(cx: &mut Cx, signals_off: bool) -> Done {
     let driven = cx.was_driven(1);
     if !cx.drive() {
-        cx.state().0[0] = 0;
-        return if driven {
-            cx.set_bits(1, 0, 10, 0)
-        } else {
-            Ok(())
-        };
+        let state = cx.state();
+        let ended = state.0[2] != 0;
+        (state.0[0], state.0[2]) = (0, 0);
+        if driven {
+            cx.set_bits(1, 0, 10, 0)?;
+        }
+        if ended {
+            cx.set_special(M_COMPLETE, true);
+        }
+        return Ok(());
     }
     let long = cx.special(M_PR_LONG);
     let scan = cx.state().0[0];
@@ -162,7 +176,9 @@ pub fn pr(cx: &mut Cx) -> Done {
     cx.check_bits(1, 10)?;
     if code == 0 {
         cx.set_bits(1, 8, 2, 0)?;
-        if long {
+        if long && signals_off {
+            cx.state().0[2] = 1;
+        } else if long {
             cx.set_special(M_COMPLETE, true);
         }
         return Ok(());
