@@ -9,7 +9,7 @@ use rungc_syntax::{FittedModule, Program, Span, codes};
 pub(crate) const LOCAL: std::ops::RangeInclusive<u16> = 0..=7;
 
 /// Numbers of modules on the CAN bus of H1U and H2U: 100 and their station.
-pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=162;
+pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=163;
 
 /// A module.
 #[derive(Clone, PartialEq, Eq, Debug)]

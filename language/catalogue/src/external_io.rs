@@ -31,8 +31,8 @@ fn display_words(constants: &[Option<i64>]) -> Option<u32> {
     Some(if constant(constants, 2)? < 4 { 1 } else { 2 })
 }
 
-/// Local modules are 0 to 7, remote ones 100 and their station.
-const MODULE: Param = count("m1", 0, 162).rules(&[Rule::Not(8, 99)]);
+/// Local modules are 0 to 7, remote ones 100 and their station, 1 to 63 (h1u-h2u-programming §5.9.5, §6.1.4).
+const MODULE: Param = count("m1", 0, 163).rules(&[Rule::Not(8, 100)]);
 const ADDRESS: Param = count("m2", 0, 32767);
 const NUMBER: Param = number("n");
 const fn number(name: &'static str) -> Param {
@@ -43,7 +43,7 @@ const TO: &[Param] = &[MODULE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
 /// Operands that H1U and H2U write to a module: constants appear in the worked examples, groups of inputs nowhere.
 const WRITTEN: Classes = VALUES.without(Classes::KNX);
 /// H1U has only remote modules.
-const REMOTE: Param = count("m1", 100, 162);
+const REMOTE: Param = count("m1", 101, 163);
 const FROM_H1U: &[Param] = &[REMOTE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
 const TO_H1U: &[Param] = &[REMOTE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
 const MODULE_FX: Param = count("m1", 0, 7).also(DATA);

@@ -226,7 +226,7 @@ pub struct HalTable {
     /// Writes a word of the buffer memory of a module; false if there is none.
     pub write_bfm:
         Option<extern "C" fn(context: *mut c_void, unit: u16, address: u16, value: i16) -> bool>,
-    /// Waits until a remote module (101 to 162) answers, for this many milliseconds at most; false if it has not.
+    /// Waits until a remote module (101 to 163) answers, for this many milliseconds at most; false if it has not.
     /// `NULL`: only its buffer memory shows whether it is there.
     pub module_answers:
         Option<extern "C" fn(context: *mut c_void, unit: u16, most_ms: u16) -> bool>,
