@@ -6,6 +6,16 @@ use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
 const TIME: Param = src("S", PLACES).len(3);
+/// Words of a clock. H1U and H2U also take V and Z.
+const fn clock_words(param: Param, count: u32) -> Param {
+    param.len(count).also_on(INOVANCE, INDEX)
+}
+/// Two times and their sum or difference.
+const SUM: &[Param] = &[
+    clock_words(src("S1", PLACES), 3),
+    clock_words(src("S2", PLACES), 3),
+    clock_words(dst("D", PLACES), 3),
+];
 
 const fn clock(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.12")
@@ -42,21 +52,13 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Compares the time at S with the period S1 to S2: D is on before S1, D+1 from S1 to S2, D+2 after S2. Each is hour, minute, second."),
     clock("TADD", 162, "Add times")
         .steps(7, 7)
-        .takes(&[
-            src("S1", PLACES).len(3),
-            src("S2", PLACES).len(3),
-            dst("D", PLACES).len(3),
-        ])
+        .takes(SUM)
         .flags(&["M8020", "M8022"])
         .call(RtFn::Tadd)
         .text("Adds two times (hour, minute, second). Past 24:00:00 a day is taken off and M8022 is on; M8020 is on at 0:00:00."),
     clock("TSUB", 163, "Subtract times")
         .steps(7, 7)
-        .takes(&[
-            src("S1", PLACES).len(3),
-            src("S2", PLACES).len(3),
-            dst("D", PLACES).len(3),
-        ])
+        .takes(SUM)
         .flags(&["M8020", "M8021"])
         .call(RtFn::Tsub)
         .text("Subtracts the time S2 from S1. Below 0:00:00 a day is added and M8021 is on; M8020 is on at 0:00:00."),
@@ -76,14 +78,14 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the seconds S as hour, minute and second to D, D+1 and D+2."),
     clock("TRD", 166, "Read the clock")
         .steps(3, 3)
-        .takes(&[dst("D", PLACES).len(7)])
+        .takes(&[clock_words(dst("D", PLACES), 7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Trd)
         .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TrdShort))])
         .text("Writes year (on L01S and FX its last two digits, or four after 2000 was written to D8018), month, day, hour, minute, second and weekday (0 is Sunday) to D and on."),
     clock("TWR", 167, "Set the clock")
         .steps(3, 3)
-        .takes(&[src("S", PLACES).len(7)])
+        .takes(&[clock_words(src("S", PLACES), 7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Twr)
         .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TwrShort))])
