@@ -27,18 +27,27 @@ const SEARCH: &[Param] = &[
         .rules(&[Rule::WideLimits(1, 128)]),
 ];
 
-const fn absolute_drum(rules: &'static [Rule]) -> [Param; 4] {
+const fn absolute_drum(
+    rules: &'static [Rule],
+    counters: &'static [(DeviceClass, u32, u32)],
+) -> [Param; 4] {
     [
         src("S1", GROUPS.or(PLACES)).len_of(pairs_of_n).rules(rules),
-        src("S2", Classes::C).rules(&[Rule::WideCounter]),
+        src("S2", Classes::C)
+            .numbers(counters)
+            .rules(&[Rule::WideCounter]),
         coil("D", RESULT_BITS).per(3),
         count("n", 1, 64),
     ]
 }
 
-const ABSOLUTE_DRUM: &[Param] = &absolute_drum(&[Rule::WholeGroup, Rule::WideAligned(8)]);
+/// h1u-h2u-programming, FNC 62: no C255.
+const ABSOLUTE_DRUM: &[Param] = &absolute_drum(
+    &[Rule::WholeGroup, Rule::WideAligned(8)],
+    &[(DeviceClass::C, 0, 254)],
+);
 /// JY992D88101 §5.7.3: groups of 8, in either form.
-const ABSOLUTE_DRUM_FX: &[Param] = &absolute_drum(&[Rule::WholeGroup, Rule::GroupAligned(8)]);
+const ABSOLUTE_DRUM_FX: &[Param] = &absolute_drum(&[Rule::WholeGroup, Rule::GroupAligned(8)], &[]);
 
 const fn handy(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.7")
