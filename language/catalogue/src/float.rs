@@ -18,6 +18,8 @@ const TWO: &[Param] = &[
     real_out("D", REAL_RESULTS),
 ];
 const ONE: &[Param] = &[real("S", REALS), real_out("D", REAL_RESULTS.or(INDEX))];
+/// The trigonometric functions that came first take no V and Z (h1u-h2u-programming §4.3.10).
+const ONE_PLACE: &[Param] = &[real("S", REALS.without(INDEX)), real_out("D", REAL_RESULTS)];
 /// L01S lists K and H for EMOV too (l01s-programming §4.2).
 const ONE_L01S: &[Param] = &[
     real("S", REALS.or(CONSTANTS)),
@@ -143,12 +145,15 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     function("SIN", 130, "Sine", RtFn::Sin)
         .on(NOT_SMALL_FX)
+        .takes(ONE_PLACE)
         .text("D = sin S, S in radians."),
     function("COS", 131, "Cosine", RtFn::Cos)
         .on(NOT_SMALL_FX)
+        .takes(ONE_PLACE)
         .text("D = cos S, S in radians."),
     function("TAN", 132, "Tangent", RtFn::Tan)
         .on(NOT_SMALL_FX)
+        .takes(ONE_PLACE)
         .text("D = tan S, S in radians."),
     function("ASIN", 133, "Arc sine", RtFn::Asin)
         .on(WITHOUT_SMALL_FX)
