@@ -3,6 +3,7 @@
 use crate::resolve::Resolved;
 use rungc_catalogue::{Extent, Param, Role, Shape};
 use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
+use std::ops::RangeInclusive;
 
 /// One operand's access to a run of devices.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,17 @@ impl Access {
             indexed: false,
             span: Span::default(),
         }
+    }
+
+    /// The devices; all from the first where their number is unknown.
+    pub(crate) fn devices(&self) -> RangeInclusive<Device> {
+        let count = self.count.unwrap_or(u32::MAX);
+        let last = self.first.number.saturating_add(count.saturating_sub(1));
+        let last = Device {
+            number: last,
+            ..self.first
+        };
+        self.first..=last
     }
 
     pub(crate) fn reads(&self) -> bool {

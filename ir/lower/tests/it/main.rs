@@ -1,5 +1,6 @@
 //! Tests of the crate from outside, one module for each area.
 
+mod coils;
 mod conformance;
 mod corpus;
 mod diagnostics;

@@ -31,7 +31,7 @@ fn count(model: ModelId, warning: &str, lines: &str) -> usize {
 }
 
 /// Programs on FX3U with a warning each, and programs without it.
-fn judge(warning: &str, wrong: &[&str], right: &[&str]) {
+pub fn judge(warning: &str, wrong: &[&str], right: &[&str]) {
     for (lines, expected) in wrong
         .iter()
         .map(|w| (w, 1))

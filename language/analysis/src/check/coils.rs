@@ -1,94 +1,282 @@
 //! Coils, timers and counters that are driven at several places.
 
 use super::Code;
+use super::calls::{Calls, Order};
+use super::drives::{Drives, Lasts};
+use super::overlaps::clears;
+use super::set_and_out::{Condition, begins_of_rungs, condition};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses;
-use rungc_catalogue::{Basic, Lower};
+use rungc_catalogue::{Basic, Lower, Role};
 use rungc_rt::RtFn;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, OperandKind, codes};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
+/// A coil: a device, or a bit of a word.
+type Coil = (Device, Option<u8>);
+
+/// The place of each instruction in the program.
+#[derive(Clone, Copy)]
+pub(super) struct Where<'a> {
+    pub(super) skips: &'a Skips,
+    pub(super) nesting: &'a Nesting,
+    pub(super) calls: &'a Calls,
+}
+
 /// Warns of coils that the last of several places decides. The result of a coil of a relay that is read before the next
 /// one counts, too: such a relay holds an intermediate result, as in code that GX Works2 makes of labels.
-pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Diagnostics) {
-    let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
+pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
+    let mut driven: BTreeMap<Coil, Vec<Place>> = BTreeMap::new();
     for i in 0..code.len {
-        if let Some(device) = driven_coil(code, i).or_else(|| measuring_timer(code, i)) {
-            driven.entry(device).or_default().push(i);
+        let timer = || Some((measuring_timer(code, i)?, None));
+        // What never runs drives nothing.
+        let runs = places.nesting.of(i).routine != Routine::Nothing;
+        if let Some(coil) = driven_coil(code, i).or_else(timer).filter(|_| runs) {
+            let place = Place::new(code, places, i);
+            driven.entry(coil).or_default().push(place);
         }
     }
-    driven.retain(|_, coils| coils.len() > 1);
-    let reads = Reads::of(code, nesting, &driven);
+    if driven.is_empty() {
+        return;
+    }
     let mut found = Vec::new();
-    for (device, mut coils) in driven {
-        // Within a state, or outside of all, under the same jumps: these write in the same scan.
-        let condition = |&i: &usize| {
-            let state = match nesting.of(i).state {
-                NONE => None,
-                stl => code.device(stl as usize, 0),
-            };
-            (state, skips.mark(i))
-        };
-        coils.sort_by_key(condition);
-        let lost = coils
-            .chunk_by(|a, b| condition(a) == condition(b))
-            .find_map(|same| {
-                let lost = same
-                    .windows(2)
-                    .filter(|pair| !reads.any(device, pair[0], pair[1]));
-                let lost: Vec<_> = lost.map(|pair| pair[0]).collect();
-                same.last()
-                    .copied()
-                    .filter(|_| !lost.is_empty())
-                    .map(|last| (lost, last))
-            });
-        if let Some((lost, last)) = lost {
-            found.push(driven_twice(code, device, &lost, last));
+    others(code, places, &mut driven, &mut found);
+    driven.retain(|_, coils| coils.len() > 1);
+    let reads = Reads::of(code, places.nesting, &driven);
+    for (coil, places) in driven {
+        let places = Places::new(places);
+        if let Some((lost, last)) = places.lost(coil.0, &reads) {
+            let words = lost.iter().chain([&last]).any(|place| place.is_word);
+            let lost: Vec<_> = lost.iter().map(|place| place.at).collect();
+            found.push(driven_twice(code, (coil, words), &lost, last.at));
         }
     }
     found.sort_by_key(|diagnostic| diagnostic.span);
     out.extend(found);
 }
 
-/// Instructions that read relays with several coils.
+/// Adds the instructions that write coils as parts of words or as results, and reports those that send pulses through a
+/// coil's output.
+fn others(
+    code: &Code,
+    places: Where,
+    driven: &mut BTreeMap<Coil, Vec<Place>>,
+    found: &mut Vec<Diagnostic>,
+) {
+    let mut drives = Drives::default();
+    for i in 0..code.len {
+        let drive = drives.next(code, i);
+        let Some(drive) = drive.filter(|_| places.nesting.of(i).routine != Routine::Nothing) else {
+            continue;
+        };
+        if let Some(output) = pulse_output(code, i) {
+            let coils = driven.get(&(output, None));
+            found.extend(coils.and_then(|coils| pulses(code, places, i, coils)));
+        }
+        if !replaces(code, i) {
+            continue;
+        }
+        let each_time = drive.lasts == Lasts::Always
+            && !code.resolved.instrs[i].form.pulse
+            && !places.nesting.of(i).in_zone;
+        // A value that is cleared first may be put together afterwards.
+        let is_lost = !clears(code, i);
+        for access in accesses::of(code.resolved, i).filter(|access| access.role == Role::Write) {
+            if access.count.is_none_or(|count| count > MAX_RUN) || !is_lost && !each_time {
+                continue;
+            }
+            let (first, last) = access.devices().into_inner();
+            for (_, coils) in driven.range_mut((first, None)..=(last, Some(u8::MAX))) {
+                let at = coils.partition_point(|place| place.at < i);
+                let place = Place {
+                    is_word: true,
+                    is_lost,
+                    decides: each_time,
+                    ..Place::new(code, places, i)
+                };
+                coils.insert(at, place);
+            }
+        }
+    }
+}
+
+/// A longer run of devices is not about one of them.
+const MAX_RUN: u32 = 64;
+
+/// Returns true if an instruction replaces its target as a whole whenever it runs.
+fn replaces(code: &Code, i: usize) -> bool {
+    const NAMES: &[&str] = &[
+        "BMOV", "FMOV", "BCD", "BIN", "DECO", "SEGD", "ECMP", "EZCP", "TCMP", "TZCP", "ZRST",
+    ];
+    let Some(lower) = code.lower(i) else {
+        return false;
+    };
+    let moves = matches!(
+        lower,
+        Lower::Move | Lower::MoveNot | Lower::Cmp | Lower::Zcp | Lower::Arith(_)
+    );
+    moves || code.inst(i).is_some_and(|inst| NAMES.contains(&inst.name))
+}
+
+/// The output through which an instruction sends pulses.
+fn pulse_output(code: &Code, i: usize) -> Option<Device> {
+    let operand = code.params(i).iter().position(|param| param.sends_pulses)?;
+    code.device(i, operand)
+        .filter(|output| output.class == DeviceClass::Y)
+}
+
+/// Reports a coil that writes the output of pulses while an instruction sends them.
+fn pulses(code: &Code, places: Where, i: usize, coils: &[Place]) -> Option<Diagnostic> {
+    let own = condition(code, places.nesting, places.skips, i);
+    let meets = |coil: &&Place| coil.certain.is_some() || coil.condition == own;
+    let coil = coils.iter().filter(|coil| !coil.is_word).find(meets)?.at;
+    let (mnemonic, output) = (&code.instr(i).mnemonic, code.device(coil, 0)?);
+    let message = format!("coil `{output}` is also the output of `{mnemonic}`");
+    let diagnostic = codes::DOUBLE_COIL
+        .at(code.span(coil), message)
+        .label("writes the output in every scan …")
+        .other(code.span(i), "… while this sends pulses through it");
+    Some(diagnostic.help(format!(
+        "leave the output to `{mnemonic}`, or give the coil another one"
+    )))
+}
+
+/// A place that drives a coil.
+struct Place {
+    at: usize,
+    condition: Condition,
+    /// Its last place in a scan that runs it, if that is known.
+    last: Option<Order>,
+    /// Its place in every scan, if each runs it.
+    certain: Option<Order>,
+    /// True if it writes more than the coil.
+    is_word: bool,
+    /// True if it matters that its result is lost.
+    is_lost: bool,
+    /// True if it writes the coil whenever it runs.
+    decides: bool,
+}
+
+impl Place {
+    fn new(code: &Code, places: Where, at: usize) -> Self {
+        let Where {
+            skips,
+            nesting,
+            calls,
+        } = places;
+        let (routine, state) = (nesting.of(at).routine, nesting.of(at).state);
+        let each_scan = state == NONE && skips.mark(at) == 0;
+        Place {
+            at,
+            condition: condition(code, nesting, skips, at),
+            last: calls.last(routine, at),
+            certain: calls.certain(routine, at).filter(|_| each_scan),
+            is_word: false,
+            is_lost: true,
+            decides: true,
+        }
+    }
+}
+
+/// The places that drive one coil.
+struct Places {
+    all: Vec<Place>,
+    /// Those under one condition, in order: they run in the same scans.
+    alike: FxHashMap<Condition, Vec<usize>>,
+    /// Those that every scan runs, in order.
+    certain: Vec<usize>,
+}
+
+impl Places {
+    fn new(all: Vec<Place>) -> Self {
+        let mut alike: FxHashMap<_, Vec<usize>> = FxHashMap::default();
+        let deciding = all.iter().enumerate().filter(|(_, place)| place.decides);
+        for (n, place) in deciding.clone() {
+            alike.entry(place.condition).or_default().push(n);
+        }
+        let certain = deciding.filter(|(_, place)| place.certain.is_some());
+        let mut certain: Vec<_> = certain.map(|(n, _)| n).collect();
+        certain.sort_by(|&a, &b| all[a].certain.cmp(&all[b].certain));
+        Places {
+            all,
+            alike,
+            certain,
+        }
+    }
+
+    /// The places whose results are lost, with the one that decides.
+    fn lost(&self, device: Device, reads: &Reads) -> Option<(Vec<&Place>, &Place)> {
+        let mut by_last: BTreeMap<usize, Vec<&Place>> = BTreeMap::new();
+        for (n, place) in self
+            .all
+            .iter()
+            .enumerate()
+            .filter(|(_, place)| place.is_lost)
+        {
+            let alike = self.alike.get(&place.condition).map(Vec::as_slice);
+            let alike = alike.unwrap_or_default();
+            let alike = &alike[alike.partition_point(|&other| other <= n)..];
+            let certain = self.after(place);
+            let next = [alike.first(), certain.first()];
+            let mut next = next.into_iter().flatten().map(|&other| &self.all[other]);
+            let both_words = |next: &Place| place.is_word && next.is_word;
+            let overwrites = |next: &Place| !both_words(next) && !reads.any(device, place, next);
+            if !next.any(overwrites) {
+                continue;
+            }
+            let last = match (alike.last(), certain.last()) {
+                (Some(&a), Some(&c)) if self.all[a].last > self.all[c].certain => a,
+                (_, Some(&last)) | (Some(&last), None) => last,
+                (None, None) => continue,
+            };
+            by_last.entry(last).or_default().push(place);
+        }
+        let (last, lost) = by_last.pop_first()?;
+        Some((lost, &self.all[last]))
+    }
+
+    /// The places that every scan runs after a place.
+    fn after(&self, place: &Place) -> &[usize] {
+        let Some(last) = &place.last else {
+            return &[];
+        };
+        let before = |&other: &usize| self.all[other].certain.as_ref() <= Some(last);
+        &self.certain[self.certain.partition_point(before)..]
+    }
+}
+
+/// Instructions that read devices with several coils.
 struct Reads {
-    /// By relay: the places that read it, in order.
+    /// By device: the places that read it, in order.
     places: BTreeMap<Device, Vec<usize>>,
-    /// Relays that a routine reads.
+    /// Devices that a routine reads.
     in_routines: Vec<Device>,
-    /// The calls of the main program, in order.
+    /// The calls, in order.
     calls: Vec<usize>,
+    /// Where the rung of each instruction begins.
+    rungs: Vec<u32>,
 }
 
 impl Reads {
-    fn of(code: &Code, nesting: &Nesting, driven: &FxHashMap<Device, Vec<usize>>) -> Self {
-        let relays = driven
-            .keys()
-            .filter(|device| device.class == DeviceClass::M);
+    fn of(code: &Code, nesting: &Nesting, driven: &BTreeMap<Coil, Vec<Place>>) -> Self {
+        let devices = driven.keys().map(|&(device, _)| device);
+        let devices =
+            devices.filter(|device| !matches!(device.class, DeviceClass::T | DeviceClass::C));
         let mut reads = Reads {
-            places: relays.map(|&device| (device, Vec::new())).collect(),
+            places: devices.map(|device| (device, Vec::new())).collect(),
             in_routines: Vec::new(),
             calls: Vec::new(),
+            rungs: begins_of_rungs(code),
         };
-        if reads.places.is_empty() {
-            return reads;
-        }
         for i in 0..code.len {
             let in_main = nesting.of(i).routine == Routine::Main;
-            if in_main && code.basic(i) == Some(Basic::Call) {
+            if code.basic(i) == Some(Basic::Call) {
                 reads.calls.push(i);
             }
             for access in accesses::of(code.resolved, i).filter(accesses::Access::reads) {
-                let Device { class, number } = access.first;
-                let count = access.count.unwrap_or(u32::MAX);
-                let last = number.saturating_add(count.saturating_sub(1));
-                let last = Device {
-                    class,
-                    number: last,
-                };
-                for (device, places) in reads.places.range_mut(access.first..=last) {
+                for (device, places) in reads.places.range_mut(access.devices()) {
                     places.push(i);
                     if !in_main {
                         reads.in_routines.push(*device);
@@ -100,28 +288,50 @@ impl Reads {
         reads
     }
 
-    /// Returns true if a relay is read after an instruction and before another one.
-    fn any(&self, device: Device, after: usize, before: usize) -> bool {
+    /// Returns true if a device is read after a coil and before the next one, so that the result of the first counts.
+    fn any(&self, device: Device, coil: &Place, next: &Place) -> bool {
         let Some(places) = self.places.get(&device) else {
             return false;
         };
-        let between = |places: &[usize]| {
+        let between = |places: &[usize], after: usize, before: usize| {
             let first = places.partition_point(|&place| place <= after);
             places.get(first).is_some_and(|&place| place < before)
         };
-        between(places) || self.in_routines.binary_search(&device).is_ok() && between(&self.calls)
+        // A coil that holds itself continues what the first one did.
+        let rung = self.rungs[next.at] as usize;
+        if coil.at < rung && (places.binary_search(&rung).is_ok() || between(places, rung, next.at))
+        {
+            return true;
+        }
+        // Outputs leave the PLC at the end of the scan.
+        if device.class == DeviceClass::Y {
+            return false;
+        }
+        let in_routines = self.in_routines.binary_search(&device).is_ok();
+        if coil.condition.0 == next.condition.0 {
+            return between(places, coil.at, next.at)
+                || in_routines && between(&self.calls, coil.at, next.at);
+        }
+        let main = |order: &Option<Order>| order.as_ref()?.first().map(|&at| at as usize);
+        let (Some(after), Some(before)) = (main(&coil.last), main(&next.certain)) else {
+            return true;
+        };
+        in_routines || between(places, after, before)
     }
 }
 
 /// The coil that an instruction writes in every scan. States are not meant: OUT S is a transition.
-fn driven_coil(code: &Code, i: usize) -> Option<Device> {
+fn driven_coil(code: &Code, i: usize) -> Option<Coil> {
     let operand = match code.basic(i)? {
         Basic::Out | Basic::Pls | Basic::Plf => 0,
         Basic::Mc => 1,
         _ => return None,
     };
-    code.device(i, operand)
-        .filter(|device| device.class != DeviceClass::S)
+    match code.instr(i).operands.get(operand)?.kind {
+        OperandKind::Device(device, None) if device.class != DeviceClass::S => Some((device, None)),
+        OperandKind::WordBit(device, bit, None) => Some((device, Some(bit))),
+        _ => None,
+    }
 }
 
 /// The timer with which STMR or ANS measures; no other instruction may drive it (h1u-h2u-programming §4.3.5, §4.3.7).
@@ -131,30 +341,49 @@ fn measuring_timer(code: &Code, i: usize) -> Option<Device> {
     (timer.class == DeviceClass::T).then_some(timer)
 }
 
-fn driven_twice(code: &Code, device: Device, earlier: &[usize], last: usize) -> Diagnostic {
-    let timer = matches!(device.class, DeviceClass::T | DeviceClass::C);
+fn driven_twice(
+    code: &Code,
+    ((device, bit), words): (Coil, bool),
+    earlier: &[usize],
+    last: usize,
+) -> Diagnostic {
+    let name = match bit {
+        Some(bit) => OperandKind::WordBit(device, bit, None).to_string(),
+        None => device.to_string(),
+    };
     let times = match earlier.len() {
         1 => "twice".to_owned(),
         n => format!("at {} places", n + 1),
     };
-    let mut diagnostic = match timer {
-        true => codes::TIMER_TWICE
-            .at(code.span(last), format!("`{device}` is driven {times}"))
-            .label("… and again here")
-            .help("use a separate one in each place"),
-        false => codes::DOUBLE_COIL
-            .at(
-                code.span(last),
-                format!("coil `{device}` is driven {times}; only the last result counts"),
-            )
-            .label("… and again here: this one decides the state of the coil")
-            .help("join the conditions with OR into one coil, or use SET and RST"),
+    let timer = matches!(device.class, DeviceClass::T | DeviceClass::C);
+    let (verb, finding, what, label, help) = match (timer, words) {
+        (true, _) => (
+            "driven",
+            &codes::TIMER_TWICE,
+            format!("`{name}` is driven {times}"),
+            "… and again here",
+            "use a separate one in each place",
+        ),
+        (false, false) => (
+            "driven",
+            &codes::DOUBLE_COIL,
+            format!("coil `{name}` is driven {times}; only the last result counts"),
+            "… and again here: this one decides the state of the coil",
+            "join the conditions with OR into one coil, or use SET and RST",
+        ),
+        (false, true) => (
+            "written",
+            &codes::DOUBLE_COIL,
+            format!("`{name}` is written {times}; only the last result counts"),
+            "… and again here: this one decides its state",
+            "write it in one place, or use another device",
+        ),
     };
+    let mut diagnostic = finding.at(code.span(last), what).label(label).help(help);
     for (n, &coil) in earlier.iter().enumerate() {
-        let text = if n == 0 {
-            "first driven here …"
-        } else {
-            "… driven here …"
+        let text = match n {
+            0 => format!("first {verb} here …"),
+            _ => format!("… {verb} here …"),
         };
         diagnostic = diagnostic.other(code.span(coil), text);
     }

@@ -13,6 +13,8 @@ pub(super) struct Drive {
     pub(super) signature: u64,
     /// Duration of its result.
     pub(super) lasts: Lasts,
+    /// The device of the contact, if it is only one, and true if it is normally open.
+    pub(super) contact: Option<(Device, bool)>,
 }
 
 /// Duration of a result once it is on.
@@ -37,6 +39,7 @@ pub(super) struct Drives {
 const BUS: Drive = Drive {
     signature: 0,
     lasts: Lasts::Always,
+    contact: None,
 };
 
 impl Drives {
@@ -88,8 +91,11 @@ impl Drive {
             // An edge, a comparison or a change of the result.
             _ => {
                 let signature = hashed(&(self.signature, signature(code, i)));
-                let lasts = Lasts::Unknown;
-                return Drive { signature, lasts };
+                return Drive {
+                    signature,
+                    lasts: Lasts::Unknown,
+                    contact: None,
+                };
             }
         };
         self.with(contact(code, i), series)
@@ -104,7 +110,12 @@ impl Drive {
             (Long, Long) => Long,
         };
         let signature = hashed(&(self.signature, other.signature, series));
-        Drive { signature, lasts }
+        let contact = None;
+        Drive {
+            signature,
+            lasts,
+            contact,
+        }
     }
 }
 
@@ -145,7 +156,11 @@ fn contact(code: &Code, i: usize) -> Drive {
         _ => Lasts::Unknown,
     };
     let signature = hashed(&(signature(code, i), normally_open));
-    Drive { signature, lasts }
+    Drive {
+        signature,
+        lasts,
+        contact: code.device(i, 0).zip(normally_open),
+    }
 }
 
 /// Signature of an instruction's devices, whichever way it joins the logic.

@@ -4,6 +4,7 @@
 //! where each instruction is (routine, loop, state); what jumps, calls and warns builds on that.
 
 mod blocks;
+mod calls;
 mod coils;
 pub mod devices;
 mod doubtful;
@@ -61,9 +62,15 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     unimplemented::check(&code, &mut out);
     unreachable::check(&code, &nesting, &mut out);
     let skips = skips::Skips::new(&code, &pointers);
-    coils::check(&code, &skips, &nesting, &mut out);
+    let calls = calls::Calls::new(&code, &pointers, &nesting, &skips);
+    let places = coils::Where {
+        skips: &skips,
+        nesting: &nesting,
+        calls: &calls,
+    };
+    coils::check(&code, places, &mut out);
     set_and_out::check(&code, &nesting, &skips, &mut out);
-    timers::check(&code, &pointers, &nesting, &skips, &mut out);
+    timers::check(&code, &nesting, &calls, &mut out);
     states::check(&code, &nesting, &mut out);
     driven(&code, &pointers, &nesting, &skips, &mut out);
     accessed(&code, &mut out);

@@ -132,7 +132,7 @@ fn divides_or_multiplies(code: &Code, i: usize) -> bool {
 }
 
 /// Returns true if an instruction sets its target to 0, as is done before a value is put together.
-fn clears(code: &Code, i: usize) -> bool {
+pub(super) fn clears(code: &Code, i: usize) -> bool {
     let Some(inst) = code.inst(i) else {
         return false;
     };

@@ -120,6 +120,11 @@ impl Pointers {
         self.indexed_call && !self.is_jumped_to(label)
     }
 
+    /// Returns true if a call with an index register may call any label.
+    pub(super) fn any_may_be_called(&self) -> bool {
+        self.indexed_call
+    }
+
     /// Returns true if there is a jump to this label.
     pub(super) fn is_jumped_to(&self, label: Device) -> bool {
         self.get(label)

@@ -17,7 +17,7 @@ struct Uses {
 }
 
 /// Condition under which an instruction runs: its routine, its state and the jumps that skip it.
-type Condition = (Routine, Option<Device>, u64);
+pub(super) type Condition = (Routine, Option<Device>, u64);
 
 /// Warns of coils that SET or RST write in vain, since an OUT writes them in every scan.
 pub(super) fn check(code: &Code, nesting: &Nesting, skips: &Skips, out: &mut Diagnostics) {
@@ -57,7 +57,8 @@ pub(super) fn check(code: &Code, nesting: &Nesting, skips: &Skips, out: &mut Dia
     out.extend(found);
 }
 
-fn condition(code: &Code, nesting: &Nesting, skips: &Skips, i: usize) -> Condition {
+/// Condition under which instruction `i` runs.
+pub(super) fn condition(code: &Code, nesting: &Nesting, skips: &Skips, i: usize) -> Condition {
     let enclosing = nesting.of(i);
     let state = match enclosing.state {
         NONE => None,
@@ -132,7 +133,7 @@ fn in_vain(
 }
 
 /// For each instruction where its rung begins: at an LD that nothing joins to the code before it.
-fn begins_of_rungs(code: &Code) -> Vec<u32> {
+pub(super) fn begins_of_rungs(code: &Code) -> Vec<u32> {
     let mut begin = 0;
     let rungs = (0..code.len).map(|i| {
         let before = i

@@ -2,6 +2,8 @@
 
 use super::Code;
 use super::pointers::Pointers;
+use rungc_catalogue::Basic;
+use rungc_syntax::DeviceClass;
 
 /// Forward jumps that skip each instruction.
 pub(super) struct Skips(Option<Vec<u64>>);
@@ -10,9 +12,13 @@ impl Skips {
     pub(super) fn new(code: &Code, pointers: &Pointers) -> Self {
         let mut marks = vec![0u64; code.len + 1];
         let mut any = false;
-        for (_, pointer) in pointers.iter() {
-            let Some(&label) = pointer.labels.first() else {
-                continue;
+        for (device, pointer) in pointers.iter() {
+            let end = code.model().end_pointer;
+            let to_end = device.class == DeviceClass::P && end == Some(device.number);
+            let label = match pointer.labels.first() {
+                Some(&label) => label,
+                None if to_end => end_of_main(code),
+                None => continue,
             };
             for &jump in pointer.jumps.iter().filter(|&&jump| jump < label) {
                 // A hash per jump, so that the marks of different sets of jumps differ.
@@ -38,4 +44,10 @@ impl Skips {
     pub(super) fn mark(&self, i: usize) -> u64 {
         self.0.as_ref().map_or(0, |marks| marks[i])
     }
+}
+
+/// Place at which the main program ends.
+fn end_of_main(code: &Code) -> usize {
+    let fend = (0..code.len).find(|&i| code.basic(i) == Some(Basic::Fend));
+    fend.unwrap_or(code.len)
 }

@@ -1,9 +1,7 @@
 //! Timers where they do not measure well: in neighbouring states, and in routines.
 
 use super::Code;
-use super::drives::{Drives, Lasts};
-use super::pointers::Pointers;
-use super::skips::Skips;
+use super::calls::Calls;
 use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::Basic;
 use rungc_models::{Model, Timers};
@@ -12,14 +10,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
 /// Checks the places of timers.
-pub(super) fn check(
-    code: &Code,
-    pointers: &Pointers,
-    nesting: &Nesting,
-    skips: &Skips,
-    out: &mut Diagnostics,
-) {
-    in_routines(code, pointers, nesting, skips, out);
+pub(super) fn check(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnostics) {
+    in_routines(code, nesting, calls, out);
     in_next_states(code, nesting, out);
 }
 
@@ -30,21 +22,15 @@ fn timer(code: &Code, i: usize) -> Option<Device> {
 }
 
 /// Ordinary timers in subroutines and interrupt routines (h1u-h2u-programming §3.5, §4.3.1).
-fn in_routines(
-    code: &Code,
-    pointers: &Pointers,
-    nesting: &Nesting,
-    skips: &Skips,
-    out: &mut Diagnostics,
-) {
+fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnostics) {
     let model = code.model();
     if !model.timers.iter().any(|timers| timers.kind.free_running) {
         return;
     }
-    let every_scan = called_in_every_scan(code, pointers, nesting, skips);
     for i in 0..code.len {
-        let subroutine = match nesting.of(i).routine {
-            Routine::Sub(label) if every_scan.contains(&label) => continue,
+        let routine = nesting.of(i).routine;
+        let subroutine = match routine {
+            Routine::Sub(_) if calls.in_every_scan(routine) => continue,
             Routine::Sub(_) => true,
             Routine::Interrupt(_) => false,
             Routine::Main | Routine::Nothing => continue,
@@ -70,36 +56,6 @@ fn in_routines(
             .help(instead(model, kind.unit_ms));
         out.push(diagnostic);
     }
-}
-
-/// The labels of subroutines that the main program calls in every scan: by a call under M8000 that no jump skips,
-/// outside of loops and states.
-fn called_in_every_scan(
-    code: &Code,
-    pointers: &Pointers,
-    nesting: &Nesting,
-    skips: &Skips,
-) -> FxHashSet<u32> {
-    let mut labels = FxHashSet::default();
-    let mut drives = Drives::default();
-    for i in 0..code.len {
-        let drive = drives.next(code, i);
-        let place = nesting.of(i);
-        let unconditional = drive.is_some_and(|drive| drive.lasts == Lasts::Always)
-            && place.routine == Routine::Main
-            && (place.inner_loop, place.state) == (NONE, NONE)
-            && skips.mark(i) == 0;
-        if unconditional && code.basic(i) == Some(Basic::Call) {
-            let called = code.device(i, 0).and_then(|device| pointers.get(device));
-            labels.extend(
-                called
-                    .iter()
-                    .flat_map(|pointer| &pointer.labels)
-                    .map(|&at| at as u32),
-            );
-        }
-    }
-    labels
 }
 
 /// The timers to use in a routine instead of one that counts units of this many milliseconds.

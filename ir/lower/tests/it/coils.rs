@@ -1,0 +1,114 @@
+//! Coils that are driven at several places: only a result that a later place of the same scan replaces is lost.
+
+use crate::warnings::judge;
+
+fn lines(programs: &[String]) -> Vec<&str> {
+    programs.iter().map(String::as_str).collect()
+}
+
+#[test]
+fn coils_in_routines() {
+    let modes =
+        "FEND / P0 / LD X1 / OUT Y0 / OUT T0 K10 / SRET / P1 / LD X2 / OUT Y0 / OUT T0 K20 / SRET";
+    let [exclusive, unknown] = [
+        "LD X0 / CALL P0 / LDI X0 / CALL P1",
+        "LDP X0 / CALL P0 / LDP X3 / CALL P1",
+    ]
+    .map(|calls| format!("{calls} / {modes}"));
+    let both = format!("LD M8000 / CALL P0 / CALL P1 / {modes}");
+    let chosen = format!("LD X0 / CALL P0 / LD M8000 / CALL P1 / {modes}");
+    let one = "FEND / P0 / LD X2 / OUT Y0 / SRET";
+    let [before, after] = [
+        "LD X0 / CALL P0 / LD X1 / OUT Y0",
+        "LD X1 / OUT Y0 / LD X0 / CALL P0",
+    ]
+    .map(|main| format!("{main} / {one}"));
+    let nested = "LD X0 / CALL P0 / LD X1 / OUT Y0 / FEND / P0 / LD X2 / CALL P1 / SRET / P1 / LD X3 / OUT Y0 / SRET";
+    let interrupts =
+        "EI / FEND / I001 / LD M8000 / OUT Y0 / IRET / I101 / LD M8001 / OUT Y0 / IRET";
+    let read =
+        "LD X0 / CALL P0 / LD M0 / OUT Y0 / LD X1 / OUT M0 / FEND / P0 / LD X2 / OUT M0 / SRET";
+    let twice = "LD X0 / CALL P0 / LD M0 / OUT Y0 / LD X1 / CALL P0 / FEND / P0 / LD X2 / OUT M0 / LD M0 / OUT Y1 / LD X3 / OUT M0 / SRET";
+    let quiet = [
+        exclusive.as_str(),
+        &unknown,
+        &after,
+        interrupts,
+        read,
+        twice,
+    ];
+    judge("double-coil", &[&both, &chosen, &before, nested], &quiet);
+    judge("timer-twice", &[&both, &chosen], &quiet);
+}
+
+#[test]
+fn coils_that_a_later_one_replaces() {
+    let state = |rest: &str| {
+        format!(
+            "LD M8002 / SET S0 / STL S0 / OUT Y0 / OUT T0 K10 / LD X0 / SET S20 / STL S20 / OUT S0 / RET / {rest}"
+        )
+    };
+    let wrong = [
+        state("LD X2 / OUT Y0"),
+        "LD X0 / CJ P0 / LD X1 / OUT Y0 / P0 / LD X2 / OUT Y0".to_owned(),
+        "LD X0 / CJ P1 / LD X1 / OUT Y0 / LD X2 / OUT Y0 / P1".to_owned(),
+        "LD X0 / OUT D0.0 / LD X1 / OUT D0.0".to_owned(),
+        // Words and results that hold the coil.
+        "LD X0 / OUT Y3 / LD M8000 / MOV D0 K2Y0".to_owned(),
+        "LD X0 / MOV D0 K2Y0 / LD X1 / OUT Y3".to_owned(),
+        "LD X0 / OUT Y3 / LD M8000 / ZRST Y0 Y7".to_owned(),
+        "LD M8000 / CMP D0 K5 M0 / LD X0 / OUT M1".to_owned(),
+        "LD M8000 / DECO D0 M0 K3 / LD X0 / OUT M3".to_owned(),
+        // Pulses.
+        "LD X0 / PLSY K100 K10 Y0 / LD X1 / OUT Y0".to_owned(),
+        "LD X1 / OUT Y0 / LD X0 / PWM K10 K100 Y0".to_owned(),
+    ];
+    let right = [
+        format!("LD X2 / OUT Y0 / {}", state("LD X3 / OUT Y1")),
+        state("LD Y0 / OR X2 / OUT Y0"),
+        state("LD X2 / CJ P0 / LD X3 / OUT Y0 / P0"),
+        "LD X2 / OUT Y0 / LD X0 / CJ P0 / LD X1 / OUT Y0 / P0".to_owned(),
+        "LD X2 / OUT Y0 / LD X0 / CJ P63 / LD X1 / OUT Y0".to_owned(),
+        "LD X0 / OUT D0.0 / LD X1 / OUT D0.1".to_owned(),
+        "LD X0 / OUT D0.0 / LD D0.0 / OUT Y0 / LD X1 / OUT D0.0".to_owned(),
+        "LD X0 / OUT Y3 / LD X1 / MOV D0 K2Y0".to_owned(),
+        "LD X0 / OUT Y3 / LD M8000 / MOVP D0 K2Y0".to_owned(),
+        "LD X0 / OUT Y3 / LD X1 / MC N0 M0 / LD M8000 / MOV D0 K2Y0 / MCR N0".to_owned(),
+        "LD M8000 / MOV K0 K2Y0 / LD X1 / OUT Y3".to_owned(),
+        "LD M8000 / MOV D0 K4M0 / LD M3 / OUT Y0 / LD X1 / OUT M3".to_owned(),
+        "LD X0 / PLSY K100 K10 Y0 / LD X1 / OUT Y1".to_owned(),
+        "LDI X0 / CJ P0 / LD X0 / PLSY K100 K10 Y0 / P0 / LD X0 / CJ P1 / LD X1 / OUT Y0 / P1"
+            .to_owned(),
+    ];
+    judge("double-coil", &lines(&wrong), &lines(&right));
+    judge("timer-twice", &[&state("LD X2 / OUT T0 K20")], &[]);
+}
+
+#[test]
+fn timers_of_routines_that_every_scan_runs() {
+    let timer = "FEND / P0 / LD X1 / OUT T0 K10 / LD T0 / OUT Y0 / SRET";
+    let calls = |calls: &str| format!("{calls} / {timer}");
+    let nested = |calls: &str| {
+        format!(
+            "{calls} / FEND / P1 / LD M8000 / CALL P0 / SRET / {}",
+            &timer[7..]
+        )
+    };
+    let right = [
+        calls("LD M8000 / CALL P0"),
+        calls("LD X0 / CALL P0 / LDI X0 / CALL P0"),
+        calls("LD M0 / CALL P0 / LDI M0 / CALL P0 / LD X0 / OUT M0"),
+        calls("LD M0 / CJ P5 / LD M8000 / CALL P0 / P5 / LDI M0 / CJ P6 / LD M8000 / CALL P0 / P6"),
+        nested("LD M8000 / CALL P1"),
+    ];
+    let wrong = [
+        calls("LD X0 / CALL P0"),
+        calls("LD M8000 / CALLP P0"),
+        calls("LD X0 / MC N0 M9 / LD M8000 / CALL P0 / MCR N0"),
+        calls("LD X0 / CALL P0 / LDI X2 / CALL P0"),
+        calls("LD M0 / CALL P0 / LD X0 / OUT M0 / LDI M0 / CALL P0"),
+        calls("LD X0 / CJ P5 / LD M8000 / CALL P0 / P5"),
+        nested("LD X0 / CALL P1"),
+    ];
+    judge("timer-in-routine", &lines(&wrong), &lines(&right));
+}
