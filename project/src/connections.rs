@@ -50,7 +50,8 @@ impl Project {
         let rows = self.io.iter().flat_map(|row| &row.connection.rows);
         let rows = rows.filter(|row| !row.reads);
         let read = rows.map(|row| run(row.class, row.first, row.count));
-        let read: Vec<DeviceRun> = read.chain(self.served()).collect();
+        let panels = self.hmi_reads.iter().map(Range::run);
+        let read: Vec<DeviceRun> = read.chain(self.served()).chain(panels).collect();
         let written = self.written_externally().into_iter();
         let written: Vec<DeviceRun> = written.map(|(_, run)| run).collect();
         if !read.is_empty() || !written.is_empty() {

@@ -86,6 +86,8 @@ pub struct Project {
     pub serve: serve::Serve,
     /// `[hmi] writes`: devices that operator panels write.
     pub hmi: Vec<Range>,
+    /// `[hmi] reads`: devices that operator panels read.
+    pub hmi_reads: Vec<Range>,
     /// `[io]`: what terminals and registers of a running program are connected to.
     pub io: Vec<connections::Connected>,
 }

@@ -33,7 +33,8 @@ impl Project {
         if self.is_about(file) {
             self.add_table(program, model)?;
             self.add_station(program, model)?;
-            for range in self.hmi.iter().chain(&self.verify.free) {
+            let panels = self.hmi.iter().chain(&self.hmi_reads);
+            for range in panels.chain(&self.verify.free) {
                 self.exists(range, model)?;
             }
             self.add_external(program);

@@ -38,7 +38,7 @@ const TABLES: [(&str, &[&str]); 17] = [
     ("retain", &["file", "fault"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
-    ("hmi", &["writes"]),
+    ("hmi", &["reads", "writes"]),
     (IO, &[]),
     ("verify", &["assume", "free", "scan", "timeout"]),
     (MODBUS, &[]),
@@ -492,11 +492,9 @@ impl Reader {
                 let letters = class.prefix();
                 let message = format!("`{}` is not a range of {letters} devices", named.text);
                 let (first, last) = (class.number(64), class.number(127));
-                self.wrong(
-                    named.span,
-                    message,
-                    &format!("write for example `{first}-{last}`"),
-                );
+                let help = as_list(&named.text)
+                    .unwrap_or_else(|| format!("write for example `{first}-{last}`"));
+                self.wrong(named.span, message, &help);
                 None
             }
         }
@@ -578,16 +576,22 @@ impl Reader {
         }
     }
 
-    /// `writes = "D70-D79"`, or a list of such ranges.
+    /// `writes = "D70-D79"` and `reads = "M0-M15"`, or lists of such ranges.
     fn hmi(&mut self, table: &DeTable<'_>, project: &mut Project) {
-        for range in self.devices(table, "writes", "D70-D79") {
-            if SERVED.contains(&range.class) {
-                project.hmi.push(range);
-                continue;
+        let keys = [
+            ("reads", "M0-M15", &mut project.hmi_reads),
+            ("writes", "D70-D79", &mut project.hmi),
+        ];
+        for (key, example, ranges) in keys {
+            for range in self.devices(table, key, example) {
+                if SERVED.contains(&range.class) {
+                    ranges.push(range);
+                    continue;
+                }
+                let letters: Vec<_> = SERVED.iter().map(|class| class.prefix()).collect();
+                let message = format!("a panel {key} devices {}", letters.join(", "));
+                self.wrong(range.span, message, "");
             }
-            let letters: Vec<_> = SERVED.iter().map(|class| class.prefix()).collect();
-            let message = format!("a panel writes devices {}", letters.join(", "));
-            self.wrong(range.span, message, "");
         }
     }
 
@@ -604,11 +608,9 @@ impl Reader {
                 }),
                 None => {
                     let message = format!("`{}` names no devices", named.text);
-                    self.wrong(
-                        named.span,
-                        message,
-                        &format!("write for example `{example}`"),
-                    );
+                    let help = as_list(&named.text)
+                        .unwrap_or_else(|| format!("write for example `{example}`"));
+                    self.wrong(named.span, message, &help);
                 }
             }
         }
@@ -638,6 +640,15 @@ impl Reader {
         });
         ranges.collect()
     }
+}
+
+/// The help for several ranges in one text, which a list has to separate.
+fn as_list(text: &str) -> Option<String> {
+    let parts: Vec<_> = text.split(',').map(str::trim).collect();
+    let ranges = parts
+        .iter()
+        .all(|part| device::range(&part.to_uppercase()).is_some());
+    (parts.len() > 1 && ranges).then(|| format!("write a list: `[\"{}\"]`", parts.join("\", \"")))
 }
 
 /// Bytes as pairs of hexadecimal digits, with or without spaces between them.

@@ -93,9 +93,10 @@ deny = []
 # kind = "FX2N-4AD"
 
 {PROPERTIES}
-# Devices that operator panels write: to checks and proofs, they may change at any time.
+# Devices that operator panels write and read: to checks and proofs, those written may change at any time.
 # [hmi]
 # writes = "D70-D79"
+# reads = "M0-M15"
 
 # What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
 # [serve]

@@ -52,6 +52,7 @@ Y = ["Y000-Y017"]
 
 [hmi]
 writes = ["D70-D79", "M100"]
+reads = "Y000-Y007"
 "#;
 
 fn every_setting() -> Project {
@@ -132,13 +133,27 @@ fn what_a_panel_writes_is_read() {
         ["[hmi] M100 to M100", "[hmi] X000 to X007"]
     );
     assert_eq!(every_setting().hmi.len(), 2);
-    let wrong = mistakes("[hmi]\nwrites = ['pump', 'D9-D5', 'P3', 7, '']\nreads = 'D5'\n");
+    assert_eq!(every_setting().hmi_reads.len(), 1);
+    let wrong = mistakes(
+        "[hmi]\nwrites = ['pump', 'D9-D5', 'P3', 7, '']\nreads = ['P4', 'D5']\nshows = 'D5'\n",
+    );
     assert_eq!(wrong.matches("names no devices").count(), 2, "{wrong}");
     assert!(
         wrong.contains("a panel writes devices X, Y, M, S, T, C, D, R"),
         "{wrong}"
     );
-    assert!(wrong.contains("`[hmi]` has no key `reads`"), "{wrong}");
+    assert!(
+        wrong.contains("a panel reads devices X, Y, M, S, T, C, D, R"),
+        "{wrong}"
+    );
+    assert!(wrong.contains("`[hmi]` has no key `shows`"), "{wrong}");
+    let wrong = mistakes("[hmi]\nwrites = 'D200-D299, m100'\n[latched]\nM = 'M500-M600,M700'\n");
+    for list in [r#"["D200-D299", "m100"]"#, r#"["M500-M600", "M700"]"#] {
+        assert!(
+            wrong.contains(&format!("write a list: `{list}`")),
+            "{wrong}"
+        );
+    }
 }
 
 #[test]

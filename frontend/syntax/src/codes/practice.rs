@@ -15,7 +15,7 @@ super::codes! {
 
     DOUBLE_COIL = "W0203" "double-coil" Warning None,
     "coil driven in two places",
-    "Whenever the first rung writes the coil, a later one of the same scan writes it again, so the last one decides its state; the result of the first is lost. The later one may also be an instruction that writes the coil as part of a word. Join the conditions with OR, or use SET and RST. In different states of a step ladder, or in subroutines that are not both called, a coil may be driven again.",
+    "Whenever the first rung writes the coil, a later one of the same scan writes it again, so the last one decides its state; the result of the first is lost. The later one may also be an instruction that writes the coil as part of a word. Pulses and a coil disturb each other on one output. Join the conditions with OR, or use SET and RST. In different states of a step ladder, or in subroutines that are not both called, a coil may be driven again.",
     wrong: "LD X0\nOUT Y0\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nOR X1\nOUT Y0\nEND\n";
 

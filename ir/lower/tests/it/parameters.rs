@@ -95,3 +95,32 @@ fn a_program_longer_than_the_memory_that_the_project_sets() {
     };
     insta::assert_snapshot!(findings(small, ModelId::Fx3u));
 }
+
+#[test]
+fn what_a_panel_writes_may_be_reset_there() {
+    let run = |class, first| DeviceRun {
+        class,
+        first,
+        count: 1,
+    };
+    let findings = |written: &[DeviceRun]| {
+        let text = "LD X0\nOUT C0 K10\nOUT C1 K10\nSET Y3\nLD C0\nOR C1\nOUT Y0\nEND\n";
+        let mut program = read_text("press.il", text).program;
+        program.parameters = Some(Parameters {
+            written_externally: written.to_vec(),
+            ..Parameters::default()
+        });
+        let found = compile(&program, &CompileOptions::default()).diagnostics;
+        found.iter().map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let [c0, c1, y3] = [
+        (DeviceClass::C, 0),
+        (DeviceClass::C, 1),
+        (DeviceClass::Y, 3),
+    ]
+    .map(|(class, first)| run(class, first));
+    assert_eq!(findings(&[]).len(), 2);
+    let some = findings(&[c0, y3]);
+    assert_eq!(some, ["`C1` reaches its preset once and is never reset"]);
+    assert_eq!(findings(&[c0, c1, y3]), [""; 0]);
+}

@@ -5,11 +5,12 @@ use super::modules::Modules;
 use super::ports::Roles;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Lower};
+use rungc_models::Model;
 use rungc_models::runs::is_special;
-use rungc_models::special::{self, Missed, Reason, Special};
-use rungc_rt::modules::Place;
+use rungc_models::special::{self, Missed, Reason, Special, Status};
+use rungc_rt::modules::{KINDS, Kind, Place};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
 const MAX_RUN: u32 = 32;
@@ -23,6 +24,7 @@ pub(super) struct Inert<'a> {
     used: BTreeMap<Device, Used>,
     /// Numbers and places of the PLC's special modules.
     fitted: Vec<(u16, Place)>,
+    model: &'static Model,
     /// Roles of the serial ports.
     roles: &'a Roles<'a>,
 }
@@ -37,8 +39,9 @@ struct Used {
 }
 
 impl<'a> Inert<'a> {
-    pub(super) fn new(modules: &Modules, roles: &'a Roles<'a>) -> Self {
+    pub(super) fn new(code: &Code, modules: &Modules, roles: &'a Roles<'a>) -> Self {
         Inert {
+            model: code.model(),
             used: BTreeMap::new(),
             fitted: modules.places().collect(),
             roles,
@@ -85,6 +88,7 @@ impl<'a> Inert<'a> {
 
     /// Warns of those whose work the program misses.
     pub(super) fn report(self, out: &mut Diagnostics) {
+        let model = self.model;
         let missed = self.used.into_iter();
         let missed = missed.filter(|(device, used)| used.is_missed(*device));
         let mut by_reason: Vec<(Reason, Vec<(Device, Used)>)> = Vec::new();
@@ -100,9 +104,9 @@ impl<'a> Inert<'a> {
         for (reason, mut same) in by_reason {
             same.sort_by_key(|(_, used)| used.places.first().map(|&(span, _)| span));
             if same.len() > MAX_SINGLE {
-                out.extend(report(reason, &same));
+                out.extend(report(model, reason, &same));
             } else {
-                out.extend(same.chunks(1).filter_map(|one| report(reason, one)));
+                out.extend(same.chunks(1).filter_map(|one| report(model, reason, one)));
             }
         }
     }
@@ -138,7 +142,7 @@ fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
     }
 }
 
-fn report(reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
+fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
     let (_, first) = devices.first()?;
     let &(span, _) = first.places.first()?;
     let names: Vec<_> = devices
@@ -167,7 +171,31 @@ fn report(reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
             };
         }
     }
-    Some(diagnostic.help("the host that runs the program must do what it does on the PLC"))
+    Some(diagnostic.help(help(model, devices)))
+}
+
+/// The modules of the settings that make the devices work, if there are any; else it is up to the host.
+fn help(model: &Model, devices: &[(Device, Used)]) -> String {
+    let mut names = BTreeSet::new();
+    for (_, used) in devices {
+        let fits = |kind: &&Kind| match used.row.status {
+            Status::Modules(place) => kind.place == place,
+            Status::Module(unit) => {
+                model.module_places.contains(&kind.place) && kind.place.named().contains(&unit)
+            }
+            _ => false,
+        };
+        names.extend(KINDS.iter().filter(fits).map(|kind| kind.name));
+    }
+    let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => "the host that runs the program must do what it does on the PLC".to_owned(),
+        [one] => format!("add a `[[module]]` with the kind {one} to rungc.toml"),
+        many => format!(
+            "add a `[[module]]` with its kind to rungc.toml: one of {}",
+            listed(many)
+        ),
+    }
 }
 
 /// Names in a row: all of them, if there are not too many.

@@ -1,6 +1,7 @@
 //! Counters that count once, and outputs that stay on, because nothing resets them.
 
 use super::Code;
+use super::unused::fine_if;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Drive};
 use rungc_syntax::codes::Code as Finding;
@@ -35,6 +36,24 @@ pub(super) struct Resets {
 }
 
 impl Resets {
+    /// What something outside the program writes may be reset there.
+    pub(super) fn new(code: &Code) -> Self {
+        let mut resets = Resets::default();
+        let parameters = code.resolved.program.parameters.as_ref();
+        let outside = parameters.map(|parameters| parameters.written_externally.as_slice());
+        for run in outside.unwrap_or_default() {
+            for number in run.first..run.first.saturating_add(run.count.min(MAX_DEVICES)) {
+                let class = run.class;
+                resets
+                    .known
+                    .entry(Device { class, number })
+                    .or_default()
+                    .cleared = true;
+            }
+        }
+        resets
+    }
+
     /// Takes an access of instruction `i`.
     pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
         let class = access.first.class;
@@ -113,10 +132,10 @@ fn summary<'a>(
         0 => format!("`{first}` {what}"),
         n => format!("`{first}` {what}, and {n} more"),
     };
-    let mut diagnostic = code
-        .at(span, message)
-        .label(here)
-        .help("this is fine if an operator panel or another program resets it");
+    let mut diagnostic =
+        code.at(span, message)
+            .label(here)
+            .help(fine_if("resets", "writes", others.len() + 1));
     if !others.is_empty() {
         let all = std::iter::once(first).chain(others.iter().map(|&(_, device, _)| device));
         diagnostic = diagnostic.devices(all);

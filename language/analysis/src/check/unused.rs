@@ -157,7 +157,7 @@ impl<'a, 'p> Unused<'a, 'p> {
         let unread = self.coils.iter().filter(|(device, _)| lacks(device, false));
         summary(
             &codes::NEVER_READ,
-            ["driven and never read", "driven here"],
+            ["driven and never read", "driven here", "reads"],
             unread,
             out,
         );
@@ -167,7 +167,7 @@ impl<'a, 'p> Unused<'a, 'p> {
             .filter(|(device, _)| lacks(device, true));
         summary(
             &codes::NEVER_WRITTEN,
-            ["read, but nothing drives them", "read here"],
+            ["read, but nothing drives them", "read here", "writes"],
             undriven,
             out,
         );
@@ -235,7 +235,7 @@ impl Class {
 /// One diagnostic for all devices of a kind: a program with an operator panel may have many.
 fn summary<'d>(
     code: &'static Finding,
-    [what, here]: [&'static str; 2],
+    [what, here, outside]: [&'static str; 3],
     found: impl Iterator<Item = &'d (Device, Span)>,
     out: &mut Diagnostics,
 ) {
@@ -243,13 +243,12 @@ fn summary<'d>(
     let Some((&&(first, span), others)) = found.split_first() else {
         return;
     };
-    let (message, them) = match others.len() {
-        0 => (format!("`{first}` is {}", what.replace("them", "it")), "it"),
-        n => (format!("`{first}` and {n} more are {what}"), "them"),
+    let message = match others.len() {
+        0 => format!("`{first}` is {}", what.replace("them", "it")),
+        n => format!("`{first}` and {n} more are {what}"),
     };
-    let mut diagnostic = code.at(span, message).label(here).help(format!(
-        "this is fine if an operator panel or another program uses {them}"
-    ));
+    let mut diagnostic = code.at(span, message).label(here);
+    diagnostic = diagnostic.help(fine_if(outside, outside, found.len()));
     if !others.is_empty() {
         diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
     }
@@ -257,4 +256,13 @@ fn summary<'d>(
         diagnostic = diagnostic.other(*span, format!("`{device}` {here}"));
     }
     out.push(diagnostic);
+}
+
+/// The help for devices of which something outside the program may do the other half, as a key of `[hmi]` says.
+pub(super) fn fine_if(does: &str, key: &str, count: usize) -> String {
+    let them = if count == 1 { "it" } else { "them" };
+    format!(
+        "this is fine if an operator panel or another program {does} {them}; then name {them} in \
+         `[hmi] {key}` of rungc.toml"
+    )
 }

@@ -9,13 +9,18 @@ use rungc_syntax::DeviceClass::{D, M};
 use rungc_syntax::{FittedModule, codes};
 use std::collections::BTreeSet;
 
-/// Returns true if `rungc check` warns of an inert device in a program for a PLC with these modules.
-fn is_warned(model: &'static Model, text: &str, modules: Vec<FittedModule>) -> bool {
+/// The help of what `rungc check` says of an inert device in a program for a PLC with these modules.
+fn help(model: &'static Model, text: &str, modules: Vec<FittedModule>) -> Option<String> {
     let mut program = rungc_frontend::read_text("p.il", text).program;
     program.parameters.get_or_insert_default().modules = modules;
     let (resolved, _) = resolve(&program, model);
     let found = check(&resolved);
-    found.iter().any(|d| d.code == codes::INERT_DEVICE.id)
+    let found = found.iter().find(|d| d.code == codes::INERT_DEVICE.id)?;
+    found.help.as_deref().map(str::to_owned)
+}
+
+fn is_warned(model: &'static Model, text: &str, modules: Vec<FittedModule>) -> bool {
+    help(model, text, modules).is_some()
 }
 
 /// Programs that change a device, and that read it.
@@ -101,6 +106,10 @@ fn modules_that_are_listed_work() {
             _ => continue,
         };
         let kind = kind.unwrap();
+        let [_, reads] = users(row);
+        let help = help(model, &reads, Vec::new()).unwrap();
+        let named = help.contains(&format!("`{}`", kind.name)) || help.ends_with(" more");
+        assert!(named && help.contains("`[[module]]`"), "{help}");
         let fitted = vec![FittedModule {
             unit,
             kind: kind.name,
