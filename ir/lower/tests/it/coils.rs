@@ -112,3 +112,34 @@ fn timers_of_routines_that_every_scan_runs() {
     ];
     judge("timer-in-routine", &lines(&wrong), &lines(&right));
 }
+
+#[test]
+fn coils_in_branches_that_run_at_the_same_time() {
+    let ladder = |first: &str, second: &str, set: &str| {
+        format!(
+            "LD M8002 / SET S0 / STL S0 / LD X0 / SET S20 / {set}SET S30 / STL S20 / {first} / LD X1 / SET S21 / STL S21 \
+             / STL S30 / {second} / LD X2 / SET S31 / STL S31 / STL S21 / STL S31 / LD X3 / SET S40 / STL S40 / LD X5 \
+             / OUT Y0 / OUT T1 K5 / LD X6 / OUT S0 / RET / LD M0 / OUT Y7"
+        )
+    };
+    let wrong = [
+        ladder("OUT Y0", "LD X4 / OUT Y0", ""),
+        ladder("OUT M0", "LD X4 / OUT M0", ""),
+    ];
+    let right = [
+        // On while either is.
+        ladder("LD X4 / OUT Y0", "OUT Y0", ""),
+        ladder("OUT Y1", "LD X4 / OUT Y2", ""),
+        ladder("OUT M0", "LD M0 / OUT Y1 / LD X4 / OUT M0", ""),
+        // One of the two, and after both.
+        ladder("OUT Y0", "LD X4 / OUT Y0", "LD X7 / "),
+        ladder("OUT Y0", "OUT T1 K10", ""),
+    ];
+    judge("double-coil", &lines(&wrong), &lines(&right));
+    let timers = ladder("OUT T0 K10", "OUT T0 K20", "");
+    judge(
+        "timer-twice",
+        &[&timers],
+        &[&ladder("OUT T0 K10", "OUT T0 K20", "LD X7 / ")],
+    );
+}

@@ -4,6 +4,7 @@ use super::Code;
 use super::calls::{Calls, Order};
 use super::drives::{Drives, Lasts};
 use super::overlaps::clears;
+use super::parallel::Ladders;
 use super::set_and_out::{Condition, begins_of_rungs, condition};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
@@ -15,7 +16,7 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// A coil: a device, or a bit of a word.
-type Coil = (Device, Option<u8>);
+pub(super) type Coil = (Device, Option<u8>);
 
 /// The place of each instruction in the program.
 #[derive(Clone, Copy)]
@@ -45,12 +46,15 @@ pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
     others(code, places, &mut driven, &mut found);
     driven.retain(|_, coils| coils.len() > 1);
     let reads = Reads::of(code, places.nesting, &driven);
+    let together = Ladders::new(code, places.nesting).pairs(&driven, &reads);
     for (coil, places) in driven {
         let places = Places::new(places);
         if let Some((lost, last)) = places.lost(coil.0, &reads) {
             let words = lost.iter().chain([&last]).any(|place| place.is_word);
             let lost: Vec<_> = lost.iter().map(|place| place.at).collect();
             found.push(driven_twice(code, (coil, words), &lost, last.at));
+        } else if let Some(&pair) = together.get(&coil) {
+            found.push(driven_together(code, coil.0, pair));
         }
     }
     found.sort_by_key(|diagnostic| diagnostic.span);
@@ -144,15 +148,15 @@ fn pulses(code: &Code, places: Where, i: usize, coils: &[Place]) -> Option<Diagn
 }
 
 /// A place that drives a coil.
-struct Place {
-    at: usize,
-    condition: Condition,
+pub(super) struct Place {
+    pub(super) at: usize,
+    pub(super) condition: Condition,
     /// Its last place in a scan that runs it, if that is known.
     last: Option<Order>,
     /// Its place in every scan, if each runs it.
     certain: Option<Order>,
     /// True if it writes more than the coil.
-    is_word: bool,
+    pub(super) is_word: bool,
     /// True if it matters that its result is lost.
     is_lost: bool,
     /// True if it writes the coil whenever it runs.
@@ -248,7 +252,7 @@ impl Places {
 }
 
 /// Instructions that read devices with several coils.
-struct Reads {
+pub(super) struct Reads {
     /// By device: the places that read it, in order.
     places: BTreeMap<Device, Vec<usize>>,
     /// Devices that a routine reads.
@@ -289,7 +293,7 @@ impl Reads {
     }
 
     /// Returns true if a device is read after a coil and before the next one, so that the result of the first counts.
-    fn any(&self, device: Device, coil: &Place, next: &Place) -> bool {
+    pub(super) fn any(&self, device: Device, coil: &Place, next: &Place) -> bool {
         let Some(places) = self.places.get(&device) else {
             return false;
         };
@@ -388,4 +392,27 @@ fn driven_twice(
         diagnostic = diagnostic.other(code.span(coil), text);
     }
     diagnostic
+}
+
+fn driven_together(code: &Code, device: Device, [first, second]: [usize; 2]) -> Diagnostic {
+    let (finding, what, label, help) = match device.class {
+        DeviceClass::T | DeviceClass::C => (
+            &codes::TIMER_TWICE,
+            "",
+            "… and in this one",
+            "use a separate one in each branch",
+        ),
+        _ => (
+            &codes::DOUBLE_COIL,
+            "coil ",
+            "… and in this one, which decides while both run",
+            "drive it after RET, with the contacts of both states",
+        ),
+    };
+    let message = format!("{what}`{device}` is driven in branches that run at the same time");
+    finding
+        .at(code.span(second), message)
+        .label(label)
+        .other(code.span(first), "driven in one branch …")
+        .help(help)
 }

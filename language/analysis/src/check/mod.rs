@@ -23,6 +23,7 @@ mod one_output;
 mod operation_errors;
 mod overlaps;
 mod pairs;
+mod parallel;
 mod pointers;
 pub mod ports;
 mod resets;
