@@ -176,7 +176,7 @@ impl Diagnostic {
         Diagnostic {
             code,
             severity,
-            message: message.into(),
+            message: shortened(message.into()),
             span,
             label: Cow::Borrowed(""),
             others: Vec::new(),
@@ -190,7 +190,7 @@ impl Diagnostic {
     /// Sets the text at the main place.
     #[must_use]
     pub fn label(mut self, text: impl Into<Cow<'static, str>>) -> Self {
-        self.label = text.into();
+        self.label = shortened_if_owned(text.into());
         self
     }
 
@@ -199,7 +199,7 @@ impl Diagnostic {
     pub fn other(mut self, span: Span, text: impl Into<Cow<'static, str>>) -> Self {
         self.others.push(Label {
             span,
-            text: text.into(),
+            text: shortened_if_owned(text.into()),
         });
         self
     }
@@ -214,7 +214,7 @@ impl Diagnostic {
     /// Sets the help line.
     #[must_use]
     pub fn help(mut self, text: impl Into<Cow<'static, str>>) -> Self {
-        self.help = Some(text.into());
+        self.help = Some(shortened_if_owned(text.into()));
         self
     }
 
@@ -326,6 +326,34 @@ impl Diagnostics {
     }
 }
 
+/// Longest text between back quotes that a message repeats in full, in characters; commands and file names are shorter.
+const MAX_QUOTED: usize = 100;
+/// Length of the beginning of a longer one that a message shows.
+const SHOWN: usize = 40;
+
+/// A message in which no quotation of the source is longer than a reader needs to recognise it.
+fn shortened(message: String) -> String {
+    let long = |part: &str| part.chars().nth(MAX_QUOTED).is_some();
+    if message.len() <= MAX_QUOTED || !message.split('`').skip(1).step_by(2).any(long) {
+        return message;
+    }
+    let parts = message.split('`').enumerate().map(|(nth, part)| {
+        if nth % 2 == 1 && long(part) {
+            Cow::Owned(part.chars().take(SHOWN).chain(['…']).collect())
+        } else {
+            Cow::Borrowed(part)
+        }
+    });
+    parts.collect::<Vec<_>>().join("`")
+}
+
+fn shortened_if_owned(text: Cow<'static, str>) -> Cow<'static, str> {
+    match text {
+        Cow::Owned(text) => Cow::Owned(shortened(text)),
+        fixed => fixed,
+    }
+}
+
 /// A number with its noun: `1 case`, `2 431 steps`.
 pub fn counted(n: usize, what: &str) -> String {
     format!("{} {what}{}", grouped(n), if n == 1 { "" } else { "s" })
@@ -349,19 +377,53 @@ pub fn did_you_mean<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
-    let near = |candidate: &str| strsim::osa_distance(word, candidate);
     let limit = if word.chars().count() <= 3 { 1 } else { 2 };
     candidates
         .into_iter()
-        .map(|c| (near(c), c))
-        .filter(|&(d, _)| d <= limit)
+        .filter_map(|c| Some((distance(word, c, limit)?, c)))
         .min()
         .map(|(_, c)| c)
 }
 
+/// Number of letters that were mistyped, missed, added or exchanged between two words; `None` if it exceeds a limit.
+pub fn distance(word: &str, candidate: &str, limit: usize) -> Option<usize> {
+    // It is at least the difference in length, and computing it takes time with their product.
+    let length = |text: &str| text.chars().count();
+    let alike = length(word).abs_diff(length(candidate)) <= limit;
+    alike
+        .then(|| strsim::osa_distance(word, candidate))
+        .filter(|distance| *distance <= limit)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Fix, Span, apply};
+    use super::{Diagnostic, Fix, Span, apply, did_you_mean};
+
+    #[test]
+    fn long_quotations_are_cut() {
+        let long = "Я".repeat(100_000);
+        let quoted = format!("`{long}` is not `X`, nor `{long}`");
+        let found = Diagnostic::error("E0001", Span::default(), quoted.clone())
+            .label(quoted.clone())
+            .help(quoted.clone())
+            .other(Span::default(), quoted);
+        let short = format!("`{0}…` is not `X`, nor `{0}…`", "Я".repeat(40));
+        assert_eq!(found.message, short);
+        assert_eq!(found.label, short);
+        assert_eq!(found.help.as_deref(), Some(short.as_str()));
+        assert_eq!(found.others[0].text, short);
+        let usual = format!("`{}` stays", "a".repeat(100));
+        let found = Diagnostic::error("E0001", Span::default(), usual.clone());
+        assert_eq!(found.message, usual);
+    }
+
+    #[test]
+    fn long_words_resemble_nothing_and_take_no_time() {
+        assert_eq!(did_you_mean("ZRTS", ["ZRST", "ZR"]), Some("ZRST"));
+        assert_eq!(did_you_mean("ADDD", ["ADD", "D"]), Some("ADD"));
+        let long = "A".repeat(50_000_000);
+        assert_eq!(did_you_mean(&long, ["ADD", "A".repeat(100).as_str()]), None);
+    }
 
     #[test]
     fn fixes_that_touch_each_other_are_left_out() {

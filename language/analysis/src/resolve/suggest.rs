@@ -6,6 +6,7 @@
 use super::operands::takes;
 use rungc_catalogue::{Basic, Found, Inst};
 use rungc_models::{Model, ModelSet};
+use rungc_syntax::diag::distance;
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
 use std::sync::OnceLock;
 
@@ -356,7 +357,6 @@ fn misfit(
     if found.inst.basic() == Some(Basic::Label) {
         return None;
     }
-    let distance = strsim::osa_distance(name, near) as i32;
     let fits = takes(found, &instr.operands, model);
     let ends = open.is_ended_by(found.inst, last);
     let limit = match (name.len(), fits, ends) {
@@ -364,6 +364,7 @@ fn misfit(
         (0..=3, ..) | (_, false, _) => 1,
         _ => 2,
     };
+    let distance = distance(name, near, limit)? as i32;
     let likely = letters(name) == letters(near) || near.starts_with(name);
     let of_structure = match ends {
         Some(true) => -1,
@@ -371,7 +372,7 @@ fn misfit(
         None => 0,
     };
     let of_operands = if fits { 0 } else { 3 };
-    (distance <= limit).then_some(2 * distance - i32::from(likely) + of_operands + of_structure)
+    Some(2 * distance - i32::from(likely) + of_operands + of_structure)
 }
 
 /// The letters of a name in alphabetical order.
