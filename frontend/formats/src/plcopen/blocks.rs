@@ -2,8 +2,9 @@
 
 use super::drawing::{Drawing, Failure, Value, Word};
 use super::logic::{Contact, Logic, Output, Part, Sense};
+use super::modifiers::{Accepted, Edge, Modifiers, ONE_WAY};
 use super::variables::{Kind, constant, milliseconds};
-use super::{FREE, Fault, Reader, called, children, flag, functions};
+use super::{FREE, Fault, Reader, called, children, functions};
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -59,8 +60,9 @@ impl<'a, 'i> Pins<'a, 'i> {
         }
         let pin = point.parent_element().unwrap_or(point);
         // Counters catch the rise of what they count in any case.
-        let counts = matches!(name, "CU" | "CD") && pin.attribute("edge") == Some("rising");
-        if matches!(pin.attribute("edge"), Some("rising" | "falling")) && !counts {
+        let modifiers = Modifiers::of(pin, ONE_WAY, Accepted::Read)?;
+        let counts = matches!(name, "CU" | "CD") && modifiers.edge == Some(Edge::Rising);
+        if modifiers.edge.is_some() && !counts {
             let what = format!(
                 "the input `{name}` of {} catches an edge",
                 called(self.node)
@@ -69,10 +71,7 @@ impl<'a, 'i> Pins<'a, 'i> {
             return Err(Some(Fault::at(pin, what, help)));
         }
         let value = drawing.value_into(point, self.node)?;
-        Ok(Some(match value {
-            Value::Flow(logic) if flag(pin, "negated") => Value::Flow(logic.changed("INV")),
-            value => value,
-        }))
+        Ok(Some(value.modified(pin, modifiers)?))
     }
 
     /// The power at an input, if anything leads to it.
@@ -378,6 +377,24 @@ pub(super) fn read<'a, 'i>(
     Ok(outputs)
 }
 
+/// The outputs of a block as its pins pass them on.
+pub(super) fn passed_on(
+    node: Node,
+    mut outputs: BTreeMap<SmolStr, Value>,
+) -> Result<BTreeMap<SmolStr, Value>, Failure> {
+    let lists = children(node, "outputVariables");
+    for pin in lists.flat_map(|list| children(list, "variable")) {
+        let modifiers = Modifiers::of(pin, ONE_WAY, Accepted::Negated)?;
+        let name = upper(pin.attribute("formalParameter").unwrap_or_default());
+        match outputs.remove(&name) {
+            Some(value) => _ = outputs.insert(name, value.modified(pin, modifiers)?),
+            // The operand of an instruction.
+            None => _ = Modifiers::of(pin, ONE_WAY, Accepted::None)?,
+        }
+    }
+    Ok(outputs)
+}
+
 /// A block while it is read.
 struct Block<'d, 'a, 'i, 'r> {
     drawing: &'d mut Drawing<'a, 'i, 'r>,
@@ -610,6 +627,9 @@ fn instruction<'a, 'i>(
     let number = |name: &str| name.strip_prefix('P')?.parse::<u32>().ok();
     for (name, pin) in &pins.inputs {
         let point = children(*pin, "connectionPointIn").next();
+        if number(name).is_some() {
+            Modifiers::of(*pin, ONE_WAY, Accepted::None)?;
+        }
         let written = point.and_then(|point| drawing.written(point));
         if let (Some(number), Some(written)) = (number(name), written) {
             operands.insert(number, written);
@@ -617,6 +637,9 @@ fn instruction<'a, 'i>(
     }
     for name in &pins.outputs {
         let uses = drawing.uses_of(node, name);
+        for output in uses.iter().filter(|_| number(name).is_some()) {
+            Modifiers::of(*output, ONE_WAY, Accepted::None)?;
+        }
         let expression = uses.iter().find_map(|n| children(*n, "expression").next());
         if let (Some(number), Some(written)) = (number(name), expression) {
             operands.insert(number, super::text(written));

@@ -5,7 +5,7 @@
 
 use super::drawing::Drawing;
 use super::logic::{Logic, Output, Part, Sense};
-use super::{FREE, Fault, Reader, called, children, expression, flag, list, text, variables};
+use super::{FREE, Fault, Reader, called, children, expression, list, modifiers, text, variables};
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -187,7 +187,7 @@ impl<'a, 'i> Chart<'a, 'i> {
                     FREE,
                 )
             })?;
-            if flag(node, "initialStep") {
+            if modifiers::flag(node, "initialStep")? {
                 reader
                     .variables
                     .first_scan
@@ -490,7 +490,7 @@ fn condition(reader: &mut Reader, pou: Node, body: Node, transition: Node) -> Re
             "write TRUE",
         ));
     };
-    let negated = flag(condition, "negated");
+    let negated = modifiers::flag(condition, "negated")?;
     let Some(kind) = condition.first_element_child() else {
         return Err(Fault::at(
             transition,

@@ -1,8 +1,9 @@
 //! Ladders and function block diagrams: what the wires lead to, from the top down.
 
 use super::logic::{Contact, Logic, Output, Part, Sense};
+use super::modifiers::{Accepted, Edge, INTO, Modifiers, ONE_WAY, OUT_OF, Storage};
 use super::variables::{Kind, constant};
-use super::{Fault, Reader, called, children, flag, text};
+use super::{Fault, Reader, called, children, text};
 use roxmltree::Node;
 use rungc_syntax::DeviceClass;
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -21,6 +22,18 @@ pub(super) enum Value {
 }
 
 impl Value {
+    /// The value after the modifiers of an element or a pin, which numbers do not have.
+    pub fn modified(self, node: Node, modifiers: Modifiers) -> Result<Self, Fault> {
+        match self {
+            Value::Flow(logic) => Ok(Value::Flow(modifiers.negate(logic))),
+            value if modifiers == Modifiers::default() => Ok(value),
+            Value::Word(word) => {
+                let what = format!("`{}` is a number, which is not negated here", word.operand);
+                Err(Fault::at(node, what, "connect a bit"))
+            }
+        }
+    }
+
     /// The power, if it is power.
     pub fn flow(&self) -> Option<Logic> {
         match self {
@@ -143,7 +156,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
                     .ok_or_else(|| Fault::outside(node, "give the coil a variable"))?;
                 let logic = self.flow_into(node)?;
                 let device = self.reader.bit(node, &name)?;
-                self.store(node, logic, &device.to_smolstr());
+                self.store(node, ONE_WAY, logic, &device.to_smolstr())?;
             }
             "block" => _ = self.block(node.attribute("localId").unwrap_or_default())?,
             "outVariable" | "inOutVariable" => self.out_variable(node)?,
@@ -178,20 +191,33 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     /// Lets power drive a device as an element says: negated, stored, or by an edge.
-    fn store(&mut self, node: Node, logic: Logic, device: &str) {
-        let mnemonic = match (node.attribute("storage"), node.attribute("edge")) {
-            (Some("set"), _) => "SET",
-            (Some("reset"), _) => "RST",
-            (_, Some("rising")) => "PLS",
-            (_, Some("falling")) => "PLF",
-            _ => "OUT",
-        };
-        let logic = match flag(node, "negated") {
-            true => logic.changed("INV"),
-            false => logic,
+    fn store(
+        &mut self,
+        node: Node,
+        names: [&'static str; 3],
+        logic: Logic,
+        device: &str,
+    ) -> Result<(), Fault> {
+        let modifiers = Modifiers::of(node, names, Accepted::All)?;
+        let logic = modifiers.negate(logic);
+        let (mnemonic, logic) = match (modifiers.storage, modifiers.edge) {
+            (None, None) => ("OUT", logic),
+            (None, Some(Edge::Rising)) => ("PLS", logic),
+            (None, Some(Edge::Falling)) => ("PLF", logic),
+            (Some(storage), edge) => {
+                let mnemonic = match storage {
+                    Storage::Set => "SET",
+                    Storage::Reset => "RST",
+                };
+                match edge {
+                    Some(edge) => (mnemonic, logic.pulsed(edge)),
+                    None => (mnemonic, logic),
+                }
+            }
         };
         self.reader
             .output(logic, format_smolstr!("{mnemonic} {device}"));
+        Ok(())
     }
 
     /// Stores what leads to an output variable.
@@ -205,14 +231,19 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
             };
         };
         let name = children(node, "expression").map(text).collect::<String>();
+        let names = match node.tag_name().name() {
+            "inOutVariable" => INTO,
+            _ => ONE_WAY,
+        };
         let from = self.by_id.get(source.0);
         let of_block = from.is_some_and(|from| from.tag_name().name() == "block");
         match self.value_into(point, node)? {
             Value::Flow(logic) => {
                 let device = self.reader.bit(node, &name)?;
-                self.store(node, logic, &device.to_smolstr());
+                self.store(node, names, logic, &device.to_smolstr())?;
             }
             Value::Word(word) => {
+                Modifiers::of(node, names, Accepted::None)?;
                 let found = self.reader.find(node, &name)?;
                 let device = found.device.to_smolstr();
                 if word.operand == device && of_block {
@@ -356,13 +387,12 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
             }
             "inVariable" | "inOutVariable" => {
                 let written = children(node, "expression").map(text).collect::<String>();
-                let value = self.expression(node, &written)?;
-                match value {
-                    Value::Flow(logic) if flag(node, "negated") => {
-                        Ok(Value::Flow(logic.changed("INV")))
-                    }
-                    value => Ok(value),
-                }
+                let modifiers = Modifiers::of(node, read_by(node), Accepted::Read)?;
+                let value = self.expression(node, &written)?.modified(node, modifiers)?;
+                Ok(match (value, modifiers.edge) {
+                    (Value::Flow(logic), Some(edge)) => Value::Flow(logic.pulsed(edge)),
+                    (value, _) => value,
+                })
             }
             "continuation" => {
                 let name = node.attribute("name").unwrap_or_default();
@@ -406,7 +436,8 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         let Some(node) = self.by_id.get(id).copied() else {
             return Err(None);
         };
-        match super::blocks::read(self, node) {
+        let outputs = super::blocks::read(self, node);
+        match outputs.and_then(|outputs| super::blocks::passed_on(node, outputs)) {
             Ok(outputs) => {
                 self.done.insert(id, outputs.clone());
                 Ok(outputs)
@@ -419,12 +450,13 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
     }
 
     fn contact(&mut self, node: Node<'a, 'i>) -> Result<Contact, Failure> {
-        let sense = match (node.attribute("edge"), flag(node, "negated")) {
+        let modifiers = Modifiers::of(node, ONE_WAY, Accepted::Read)?;
+        let sense = match (modifiers.edge, modifiers.negated) {
+            (Some(edge), false) => Sense::from(edge),
             // The edge of the negated value is the other edge of the value.
-            (Some("rising"), false) | (Some("falling"), true) => Sense::Rising,
-            (Some("falling"), false) | (Some("rising"), true) => Sense::Falling,
-            (_, true) => Sense::Off,
-            _ => Sense::On,
+            (Some(edge), true) => Sense::from(edge.opposite()),
+            (None, true) => Sense::Off,
+            (None, false) => Sense::On,
         };
         let name = variable_of(node).ok_or_else(|| {
             let help = "give the contact a variable";
@@ -549,6 +581,7 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
         let (id, _) = self.one_source(point)?;
         let node = self.by_id.get(id)?;
         let expression = children(*node, "expression").next()?;
+        Modifiers::of(*node, read_by(*node), Accepted::None).ok()?;
         Some(text(expression))
     }
 
@@ -569,6 +602,14 @@ fn first_output<'a>(block: Node<'a, '_>) -> &'a str {
     let pins = lists.flat_map(|list| children(list, "variable"));
     let mut names = pins.filter_map(|pin| pin.attribute("formalParameter"));
     names.find(|name| *name != "ENO").unwrap_or_default()
+}
+
+/// The attributes that change the value of a variable where it is read.
+fn read_by(node: Node) -> [&'static str; 3] {
+    match node.tag_name().name() {
+        "inOutVariable" => OUT_OF,
+        _ => ONE_WAY,
+    }
 }
 
 /// The variable of a contact or coil.

@@ -45,6 +45,9 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
         }
     }
     list.remark();
+    if let Err(fault) = list.closed() {
+        list.reader.report(fault);
+    }
     if list.skipped.is_some() {
         let fault = list.foreign("JMPCN");
         list.reader.report(fault);
@@ -59,6 +62,7 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
             list.line(&code)?;
         }
     }
+    list.closed()?;
     match list.result {
         Accumulator::Flow(logic) => Ok(logic),
         _ => Err(Fault::at(
@@ -84,8 +88,8 @@ struct List<'a, 'i, 'r> {
     reader: &'r mut Reader,
     body: Node<'a, 'i>,
     result: Accumulator,
-    /// State pushed by parentheses: the operator, whether it negates, and the result before it.
-    deferred: Vec<(SmolStr, bool, Accumulator)>,
+    /// Open parentheses.
+    deferred: Vec<Deferred>,
     /// Each instruction is a separate element.
     instructions: u32,
     /// Comments above the network that comes next.
@@ -96,6 +100,16 @@ struct List<'a, 'i, 'r> {
     inputs: BTreeMap<String, Logic>,
     /// The label that skips what is read, and the condition that does not.
     skipped: Option<(String, Logic)>,
+}
+
+/// State pushed by a parenthesis.
+struct Deferred {
+    operator: SmolStr,
+    negated: bool,
+    /// The result before it.
+    before: Accumulator,
+    /// The line that opens it.
+    code: SmolStr,
 }
 
 /// A result that branches continue.
@@ -143,6 +157,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
                 self.result = Accumulator::Flow(logic);
                 return self.line(rest);
             }
+            self.closed()?;
             self.remark();
             let pointer = self.reader.pointer(label.trim());
             self.reader.parts.push(Part::Line(pointer.into()));
@@ -154,12 +169,14 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         }
         self.instructions += 1;
         if let Some(rest) = code.strip_prefix(')') {
-            let (operator, negated, before) =
-                self.deferred.pop().ok_or_else(|| self.foreign(code))?;
+            let open = self.deferred.pop().ok_or_else(|| self.foreign(code))?;
             let inner = self.flow(code)?;
-            let inner = if negated { inner.changed("INV") } else { inner };
-            self.result = before;
-            self.combine(&operator, inner, code)?;
+            let inner = match open.negated {
+                true => inner.changed("INV"),
+                false => inner,
+            };
+            self.result = open.before;
+            self.combine(&open.operator, inner, code)?;
             return self.line(rest);
         }
         let (operator, operand) = code
@@ -176,6 +193,15 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         let what = format!("`{code}` has no counterpart in an FX list");
         let help = "`rungc book plcopen` lists the operators that rungc reads";
         Fault::at(self.body, what, help)
+    }
+
+    /// An error if a parenthesis is open, since what stands before it would be lost.
+    fn closed(&self) -> Result<(), Fault> {
+        let Some(open) = self.deferred.last() else {
+            return Ok(());
+        };
+        let what = format!("the parenthesis of `{}` is not closed", open.code);
+        Err(Fault::at(self.body, what, "close it by a line `)`"))
     }
 
     /// The result so far, if it is a bit.
@@ -221,7 +247,12 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
                         return Err(self.foreign(code));
                     }
                     let before = std::mem::replace(&mut self.result, Accumulator::Nothing);
-                    self.deferred.push((name.into(), negated, before));
+                    self.deferred.push(Deferred {
+                        operator: name.into(),
+                        negated,
+                        before,
+                        code: code.into(),
+                    });
                     return self.parenthesis(rest.trim());
                 }
                 let next = bit(self.reader, self.body, element, !negated, operand)?;

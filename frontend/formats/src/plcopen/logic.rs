@@ -1,5 +1,6 @@
 //! Logic of an output, as an expression of contacts, and outputs as instructions.
 
+use super::modifiers::Edge;
 use smol_str::SmolStr;
 
 /// Arrangement of contacts between the left power rail and an output.
@@ -39,6 +40,15 @@ pub(super) enum Sense {
     Falling,
     /// While a comparison holds: what follows `LD`, such as `D>=`.
     Compare(SmolStr),
+}
+
+impl From<Edge> for Sense {
+    fn from(edge: Edge) -> Self {
+        match edge {
+            Edge::Rising => Sense::Rising,
+            Edge::Falling => Sense::Falling,
+        }
+    }
 }
 
 /// Operation by which a contact joins the preceding logic.
@@ -122,6 +132,34 @@ impl Logic {
             _ => items.push(Logic::Result(by.into())),
         }
         Logic::Series(items)
+    }
+
+    /// It as a pulse of one scan at its edge.
+    pub fn pulsed(self, edge: Edge) -> Self {
+        if self.is_wire() {
+            return match edge {
+                Edge::Rising => Logic::contact(0, true, "M8002"),
+                Edge::Falling => Logic::contact(0, false, "M8000"),
+            };
+        }
+        let mut items = self.items();
+        if let [Logic::Contact(contact)] = items.as_mut_slice() {
+            match contact.sense {
+                Sense::On => {
+                    contact.sense = edge.into();
+                    return Logic::Series(items);
+                }
+                Sense::Off => {
+                    contact.sense = edge.opposite().into();
+                    return Logic::Series(items);
+                }
+                _ => {}
+            }
+        }
+        Logic::Series(items).changed(match edge {
+            Edge::Rising => "MEP",
+            Edge::Falling => "MEF",
+        })
     }
 
     /// First element, unless it is a wire.

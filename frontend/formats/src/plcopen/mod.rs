@@ -4,7 +4,7 @@
 //! What a program contains becomes instructions where these do the same; all else is an error with the element and its
 //! line. `variables` finds the devices of variables, `logic` turns what leads to an output into a list, `drawing`
 //! follows the wires of ladders and diagrams, `blocks` knows the standard's functions and blocks, `list` its
-//! instruction lists, `chart` its steps and transitions, `expression` their conditions.
+//! instruction lists, `modifiers` the attributes that change a value, `chart` its steps and transitions, `expression` their conditions.
 
 mod blocks;
 mod chart;
@@ -13,6 +13,7 @@ mod expression;
 mod functions;
 mod list;
 mod logic;
+mod modifiers;
 mod variables;
 
 use crate::Read;
@@ -22,7 +23,7 @@ use logic::{Logic, Output, Part};
 use roxmltree::{Document, Node, ParsingOptions};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
 use smol_str::{SmolStr, ToSmolStr};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use variables::{Found, Kind, Missing, Variables};
 
 pub use blocks::iec_timer_unit;
@@ -180,11 +181,6 @@ fn text(node: Node) -> String {
         .collect()
 }
 
-/// Value of a boolean attribute.
-fn flag(node: Node, name: &str) -> bool {
-    matches!(node.attribute(name), Some("true" | "1"))
-}
-
 impl Reader {
     fn project(&mut self, document: &Document) {
         let root = document.root_element();
@@ -226,6 +222,7 @@ impl Reader {
     fn body(&mut self, pou: Node, body: Node) {
         let result = match body.tag_name().name() {
             "LD" | "FBD" => {
+                self.check(body);
                 drawing::read(self, body);
                 Ok(())
             }
@@ -234,7 +231,10 @@ impl Reader {
                 list::read(self, body);
                 Ok(())
             }
-            "SFC" => chart::read(self, pou, body),
+            "SFC" => {
+                self.check(body);
+                chart::read(self, pou, body)
+            }
             "documentation" | "addData" => Ok(()),
             _ => Err(Fault::outside(
                 body,
@@ -243,6 +243,32 @@ impl Reader {
         };
         if let Err(fault) = result {
             self.report(fault);
+        }
+    }
+
+    /// Checks what concerns each element of a drawing by itself: its number or name, which wires name, is its own, and
+    /// its modifiers have a counterpart.
+    fn check(&mut self, body: Node) {
+        let mut seen = HashSet::new();
+        for node in body.children().filter(Node::is_element) {
+            if self.gives_up() {
+                return;
+            }
+            let tag = node.tag_name().name();
+            let named = matches!(tag, "connector" | "step");
+            for key in ["localId", "name"] {
+                let value = node.attribute(key).filter(|_| key == "localId" || named);
+                let kind = if key == "localId" { "" } else { tag };
+                if let Some(value) = value
+                    && !seen.insert((kind, value.trim().to_uppercase()))
+                {
+                    let what = format!("{} has the {key} `{value}` of another", called(node));
+                    self.report(Fault::at(node, what, "export the project again"));
+                }
+            }
+            if let Err(fault) = modifiers::check(node) {
+                self.report(fault);
+            }
         }
     }
 

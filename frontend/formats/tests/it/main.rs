@@ -9,6 +9,7 @@ mod image;
 mod ladder_text;
 mod learn;
 mod plcopen;
+mod plcopen_modifiers;
 mod print;
 mod robust;
 mod works2;
