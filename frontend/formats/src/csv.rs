@@ -297,8 +297,7 @@ impl Reader {
     fn head(&mut self, record: &StringRecord, first: bool) {
         self.listing
             .line(&record.iter().collect::<Vec<_>>().join("  "));
-        let cpu = record.iter().skip(1).map(str::trim).find_map(cpu::of_head);
-        if let Some(cpu) = cpu {
+        if let Some(cpu) = cpu::of_head(record) {
             self.program.cpu = clean(cpu).map(Into::into);
         } else if first {
             self.program.title = record.get(0).and_then(clean).map(Into::into);

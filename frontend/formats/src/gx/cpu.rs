@@ -97,16 +97,20 @@ fn is_fx(cpu: &str) -> bool {
     cpu.starts_with("FX") && !cpu.starts_with("FX5")
 }
 
-/// The CPU that a field above a list names, as `FXCPU FX3U/FX3UC` or `QCPU (Q mode) Q03UDV` do, without the word for
-/// its family if that is FX.
-pub(crate) fn of_head(field: &str) -> Option<&str> {
-    let own = field.strip_prefix("FXCPU").unwrap_or(field).trim();
-    let mut words = field.split(|c: char| !c.is_ascii_alphanumeric());
+/// The CPU that a row above a list names, as `FXCPU FX3U/FX3UC` or `QCPU (Q mode) Q03UDV` do, without the word for
+/// its family if that is FX. After the label of this row, any text is a CPU.
+pub(crate) fn of_head<'r>(row: impl IntoIterator<Item = &'r str>) -> Option<&'r str> {
+    let mut row = row.into_iter().map(str::trim);
+    let label = row.next()?;
+    let labelled = label.contains("PLC") || label.ends_with([':', '：']);
     let is_name = |word: &str| word.starts_with("FX") || word.ends_with("CPU") || is_other(word);
-    words
-        .any(is_name)
-        .then_some(own)
-        .filter(|own| !own.is_empty())
+    let names_cpu = |field: &str| {
+        let mut words = field.split(|c: char| !c.is_ascii_alphanumeric());
+        words.any(is_name)
+    };
+    let cpu = row.find(|field| !field.is_empty() && (labelled || names_cpu(field)))?;
+    let own = cpu.strip_prefix("FXCPU").unwrap_or(cpu).trim();
+    Some(own).filter(|own| !own.is_empty())
 }
 
 /// Returns true for the name of a CPU of another family of MELSEC. Compatible PLCs have names that begin with L, too.
@@ -130,15 +134,20 @@ pub(crate) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
     (!is_fx(cpu)).then(|| other_family(file, kind, cpu))
 }
 
+/// Advice about programs for a CPU of another family.
+pub(crate) const ONLY_FX: &str = "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC";
+
 /// That a program is for a CPU of another family.
 pub(crate) fn rejection(span: Span, what: &str, cpu: &str) -> Diagnostic {
-    let message = format!("the {what} is for the CPU {cpu}, which is not one of the FX family");
     codes::OTHER_FAMILY
-        .at(span, message)
+        .at(span, rejection_message(what, cpu))
         .label(format!("the CPU of the {what}"))
-        .help(
-            "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC",
-        )
+        .help(ONLY_FX)
+}
+
+/// Message of [`rejection`].
+pub(crate) fn rejection_message(what: &str, cpu: &str) -> String {
+    format!("the {what} is for the CPU {cpu}, which is not one of the FX family")
 }
 
 pub(crate) fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {

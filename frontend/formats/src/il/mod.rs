@@ -196,8 +196,9 @@ impl Reader {
                 let start = end - written.trim_start().len() as u32;
                 let span = Span::new(start, start + written.trim().len() as u32);
                 self.diagnostics.push(cpu::rejection(span, "list", cpu));
+            } else {
+                self.program.cpu = value;
             }
-            self.program.cpu = value;
         } else if key.eq_ignore_ascii_case("title") {
             self.program.title = value;
         } else if let (Some(device), Some(value)) = (device(key), value) {

@@ -17,6 +17,7 @@ mod modifiers;
 mod variables;
 
 use crate::Read;
+use crate::gx::cpu;
 use crate::il;
 use crate::listing::Listing;
 use logic::{Logic, Output, Part};
@@ -190,6 +191,13 @@ impl Reader {
         let described = header.and_then(|h| h.attribute("contentDescription"));
         let cpu = described.and_then(|text| text.trim().strip_prefix(PLCOPEN_CPU));
         self.cpu = cpu.map(|cpu| cpu.trim().to_owned());
+        if let Some(cpu) = self.cpu.as_deref().filter(|cpu| cpu::is_other_family(cpu)) {
+            self.faults.push(Fault {
+                code: &codes::OTHER_FAMILY,
+                what: cpu::rejection_message("project", cpu),
+                help: cpu::ONLY_FX,
+            });
+        }
         let pous = root
             .descendants()
             .filter(|node| node.tag_name().name() == "pou");

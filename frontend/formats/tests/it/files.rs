@@ -161,11 +161,32 @@ fn an_export_for_another_family_is_refused() {
         "H2U",
         "L02S",
         "HM",
+        "H1U",
+        "A1SJH",
+        "F1",
+        "AM600",
+        "Remote I/O",
+        "SIMATIC S7-200",
         "FXCPU FX0/FX0S",
     ] {
         let read = read_bytes("MAIN.csv", &export(cpu)).unwrap();
         assert!(!read.diagnostics.has_errors(), "{cpu}");
         assert_eq!(texts(&read.program), ["LD X010", "END"], "{cpu}");
+        // What the row names is the CPU, so that the compiler finds its model or says that it has none.
+        let named = cpu.strip_prefix("FXCPU ").unwrap_or(cpu);
+        assert_eq!(read.program.cpu.as_deref().unwrap_or_default(), named);
+    }
+    for cpu in ["Q03UDV", "FX5U", "RCPU R04"] {
+        let list = format!(";! cpu = {cpu}\nLD X0\nOUT Y0\nEND\n");
+        let project = format!(
+            "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"><fileHeader contentDescription=\"CPU type {cpu}\"/>\
+             <types><pous><pou pouType=\"program\"/></pous></types></project>"
+        );
+        for text in [list, project] {
+            let read = read_bytes("a", text.as_bytes()).unwrap();
+            let codes: Vec<_> = read.diagnostics.iter().map(|d| d.code).collect();
+            assert_eq!(codes, ["E0018"], "{text}");
+        }
     }
 }
 
