@@ -178,6 +178,11 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// Checks that this many numbers follow.
+    fn check_numbers(mut self, count: u32, bytes: usize) -> Result<(), Refusal> {
+        (0..count).try_for_each(|_| self.number(bytes).map(drop))
+    }
+
     fn end(self) -> Result<(), Refusal> {
         if self.left.is_empty() {
             Ok(())

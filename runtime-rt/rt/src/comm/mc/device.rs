@@ -221,6 +221,7 @@ impl Device {
         if !self.has_words(count, map) {
             return Err(Refusal::Device);
         }
+        data.check_numbers(count, 2)?;
         for index in 0..count {
             self.set_word(index, data.number(2)? as u16, map);
         }

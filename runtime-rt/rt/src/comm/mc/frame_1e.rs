@@ -236,6 +236,9 @@ fn counters32(
     if !all.clone().all(|counter| counter.has_double_word(map)) {
         return Err(Refusal::Device);
     }
+    if command != READ_WORDS {
+        fields.check_numbers(count, 4)?;
+    }
     for counter in all {
         if command == READ_WORDS {
             reply.number(counter.double_word(map)?, 4);
@@ -254,7 +257,7 @@ fn test(bit: bool, most: u32, mut fields: Fields, map: &mut dyn Map) -> Result<(
     let mut checked = fields;
     for _ in 0..count {
         let device = Device::of_1e(&mut checked)?;
-        checked.skip(bytes)?;
+        checked.number(bytes)?;
         if !device.exists(bit, map) {
             return Err(Refusal::Device);
         }

@@ -169,7 +169,7 @@ fn random_write(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
         } else {
             (device.has_double_word(map), 4)
         };
-        checked.skip(bytes)?;
+        checked.number(bytes)?;
         if !exists {
             return Err(Refusal::Device);
         }

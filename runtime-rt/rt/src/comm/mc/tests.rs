@@ -353,6 +353,38 @@ fn frames_of_3e_in_ascii() {
     }
 }
 
+/// Every command that writes, in ASCII, with a bad digit at each place: what is rejected writes nothing.
+#[test]
+fn a_bad_digit_anywhere_writes_nothing() {
+    let three = |body| in_3e("5000", body);
+    let frames = [
+        three("001014010000D*0001000003111122223333"),
+        three("001014010000M*0001000002FFFF0001"),
+        three("001014010001M*0001000003101"),
+        three("0010140200000201D*0001001111D*0001012222D*00010233334444"),
+        three("00101402000102M*00010001M*00010101"),
+        "02FF000A4D2000000064020011".into(),
+        "03FF000A4420000000640300111122223333".into(),
+        "03FF000A434E000000C802000000111100002222".into(),
+        "04FF000A02004D2000000064014D200000006501".into(),
+        "05FF000A020044200000006411114420000000652222".into(),
+    ];
+    for frame in frames {
+        let frame = frame.as_bytes();
+        let mut map = Watched::new();
+        assert_eq!(exchange(&mut map, frame).1, Ok(()), "{frame:?}");
+        assert!(map.writes > 0);
+        for place in 0..frame.len() {
+            let mut request = frame.to_vec();
+            request[place] = b'G';
+            let mut map = Watched::new();
+            let (_, outcome) = exchange(&mut map, &request);
+            let request = String::from_utf8(request).unwrap();
+            assert!(outcome.is_ok() || map.writes == 0, "{request}");
+        }
+    }
+}
+
 /// Returns true if an answer reports success.
 fn is_done(reply: &[u8]) -> bool {
     match reply {
