@@ -169,12 +169,11 @@ impl Lowerer<'_> {
     fn single_operation(&self, i: usize) -> Option<u32> {
         let (first, last) = self.model.single_operation?;
         let operand = self.resolved.program.instrs[i].operands.first()?;
-        match operand.kind {
-            OperandKind::Device(device, None) if device.class == DeviceClass::M => (first..=last)
-                .contains(&device.number)
-                .then_some(device.number),
-            _ => None,
-        }
+        let OperandKind::Device(device, None) = operand.kind else {
+            return None;
+        };
+        let holds = device.class == DeviceClass::M && (first..=last).contains(&device.number);
+        holds.then_some(device.number)
     }
 
     pub(super) fn compare_contact(&mut self, join: Join, op: CmpOp) {
