@@ -21,12 +21,9 @@ use std::process::ExitCode;
 /// Does what the arguments of the process ask for, and returns its exit code.
 pub fn main() -> ExitCode {
     crash::report_panics();
-    let mut arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
-    // Messages show arguments, and what begins a line there may be a command to a CI server.
-    if let Some(broken) = arguments.find(|argument| report::breaks_lines(argument)) {
-        let shown = report::visible_line(&broken);
+    if let Some(broken) = broken_argument() {
         commands::eprint_line(&format!(
-            "rungc: the argument `{shown}` contains a line break"
+            "rungc: the argument `{broken}` contains a line break"
         ));
         return ExitCode::from(2);
     }
@@ -103,6 +100,14 @@ pub fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// An argument that is more than one line, on one. Messages show arguments, and what begins a line there may be a
+/// command to a CI server.
+fn broken_argument() -> Option<String> {
+    let mut arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    let broken = arguments.find(|argument| report::breaks_lines(argument))?;
+    Some(report::visible_line(&broken).into_owned())
 }
 
 /// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown

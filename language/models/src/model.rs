@@ -216,8 +216,8 @@ pub struct Model {
     pub instruction_times: Option<InstructionTimes>,
     /// True if a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
-    /// True if an index counts 16-bit words also where the device has 32 bits: C200 with the index 1 is the high word of
-    /// C200, not C201 (hm-motion-controller §5.1.8).
+    /// True if an index counts 16-bit words also where the device has 32 bits: C200 with the index 1 is the high word
+    /// of C200, not C201 (hm-motion-controller §5.1.8).
     pub index_counts_words: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
     pub error_relay: Relay,
