@@ -12,6 +12,8 @@ pub const FIRST: u32 = 235;
 pub struct HighSpeed {
     /// Its counters.
     pub counters: &'static [Counter],
+    /// Counters that the manual lists without inputs.
+    pub idle: &'static [u32],
     /// Counters of two phases, each with the relay that makes it count all four edges of a cycle.
     pub four_fold: &'static [(u32, Relay)],
     /// Counters of one input may take turns.
@@ -175,10 +177,28 @@ const COUNTERS: &[Counter] = &{
     ]
 };
 
+/// C243 of L01S has no inputs (l01s-programming §6.1).
+pub(crate) const IDLE_L01S: u32 = 243;
+
+/// The other counters of L01S.
+pub(crate) const COUNTERS_L01S: &[Counter] = &{
+    let mut counters = [COUNTERS[0]; COUNTERS.len() - 1];
+    let (mut from, mut to) = (0, 0);
+    while from < COUNTERS.len() {
+        if COUNTERS[from].number != IDLE_L01S {
+            counters[to] = COUNTERS[from];
+            to += 1;
+        }
+        from += 1;
+    }
+    counters
+};
+
 /// Common properties of the FX family's models: comparisons act at a count that equals the value, and an edge of a
 /// reset input resets.
 pub(crate) const FX: HighSpeed = HighSpeed {
     counters: COUNTERS,
+    idle: &[],
     four_fold: &[],
     counters_take_turns: false,
     held_by_reset: false,

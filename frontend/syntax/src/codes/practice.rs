@@ -177,6 +177,13 @@ super::codes! {
     wrong: "LD X0\nABSD K4M12 C0 M100 K1\nEND\n",
     right: "LD X0\nABSD K4M16 C0 M100 K1\nEND\n";
 
+    COUNTS_NOTHING = "W0233" "counts-nothing" Warning None,
+    "high-speed counter without inputs",
+    "The table of high-speed counters in the manual gives this counter no inputs. It never counts.",
+    model: "l01s",
+    wrong: "LD M8000\nOUT C243 K10\nEND\n",
+    right: "LD M8000\nOUT C242 K10\nEND\n";
+
     INDEXED_COUNTER = "W0235" "indexed-counter" Warning None,
     "32-bit counter with an index on HM",
     "On HM, an index counts 16-bit words. With the index 1, C200 is therefore not C201 but the high word of C200, and the manual advises against such operands (hm-motion-controller §5.1.8). A compiled program goes to the next counter. Copy the counters to data registers and index these: `DMOV C200 D1000`, `DMOV C201 D1002`, then D1000 with an index of 0 or 2.",

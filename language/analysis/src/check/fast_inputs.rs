@@ -148,7 +148,10 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
                 .operands
                 .first()
                 .map_or(code.span(i), |o| o.span);
-            out.push(codes::NO_DEVICE.at(span, message));
+            out.push(match counters.idle.contains(&device.number) {
+                true => codes::COUNTS_NOTHING.at(span, message),
+                false => codes::NO_DEVICE.at(span, message),
+            });
         }
     }
 }

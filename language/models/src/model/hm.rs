@@ -64,6 +64,7 @@ pub(super) const HM: Model = Model {
     cleared_in_stop: &[],
     high_speed: HighSpeed {
         counters: COUNTERS,
+        idle: &[],
         four_fold: &[],
         // hm-motion-controller §8.2.2.
         counters_take_turns: true,

@@ -8,7 +8,7 @@ use super::shared::{
     joined, latched, timers,
 };
 use super::{ErrorNumbers, Model, ModelId, Range, Timers};
-use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
+use crate::high_speed::{self, COUNTERS_L01S, FOUR_FOLD, HighSpeed, IDLE_L01S, Meter};
 use crate::interrupts::{self, Interrupts, Kind, PULSE_CATCH_OF_8, Precedence};
 use crate::times::InstructionTimes;
 use rungc_rt::modules::Place;
@@ -66,6 +66,8 @@ pub(super) const L01S: Model = Model {
     notations: Classes::E.or(Classes::TEXT),
     special: &[special::L01S],
     high_speed: HighSpeed {
+        counters: COUNTERS_L01S,
+        idle: &[IDLE_L01S],
         four_fold: FOUR_FOLD,
         // l01s-programming §6.3.
         held_by_reset: true,
