@@ -995,7 +995,7 @@ typedef struct rungc_hal {
      */
     bool (*write_bfm)(void *context, uint16_t unit, uint16_t address, int16_t value);
     /**
-     * Waits until a remote module (101 to 162) answers, for this many milliseconds at most; false if it has not.
+     * Waits until a remote module (101 to 163) answers, for this many milliseconds at most; false if it has not.
      * `NULL`: only its buffer memory shows whether it is there.
      */
     bool (*module_answers)(void *context, uint16_t unit, uint16_t most_ms);
