@@ -61,11 +61,95 @@ impl Fault {
         Fault { span, kind }
     }
 
-    /// Diagnostic for the error. `folded` is the text that was read, `place` leads from it to the source.
-    pub fn diagnostic(self, folded: &str, place: impl Fn(Span) -> Span) -> Diagnostic {
+    /// Diagnostic for the error. `folded` is the text that was read, `place` leads from it to the source; `wanted` is
+    /// what its operand names, if only one kind comes into question.
+    pub fn diagnostic(
+        self,
+        folded: &str,
+        place: impl Fn(Span) -> Span,
+        wanted: Option<Wanted>,
+    ) -> Diagnostic {
         let range = self.span.start..self.span.end;
         let span = place(Span::new(range.start as u32, range.end as u32));
-        self.kind.diagnostic(span, folded.get(range).unwrap_or(""))
+        let text = folded.get(range).unwrap_or("");
+        match wanted.filter(|_| self.kind == Kind::Operand) {
+            Some(wanted) => wanted
+                .number(span, text)
+                .or_else(|| wanted.label(span, text)),
+            None => None,
+        }
+        .unwrap_or_else(|| self.kind.diagnostic(span, text))
+    }
+}
+
+/// What an operand names, where only one kind comes into question.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Wanted {
+    /// A device or constant with this prefix.
+    Prefix(&'static str),
+    /// A contact.
+    Contact,
+    /// A coil.
+    Coil,
+}
+
+impl Wanted {
+    /// What the operand at this position of a line names.
+    pub fn at(instr: &grammar::Body, span: SimpleSpan) -> Option<Self> {
+        let mut operands = instr.operands.iter();
+        let at = operands.position(|operand| operand.span.start as usize == span.start)?;
+        Some(match (&*instr.mnemonic, at) {
+            ("CALL" | "CALLP" | "CJ" | "CJP", 0) => Wanted::Prefix("P"),
+            ("MC" | "MCR", 0) => Wanted::Prefix("N"),
+            ("STL", 0) | ("IST", 1 | 2) => Wanted::Prefix("S"),
+            ("OUT", 1) => Wanted::Prefix("K"),
+            ("OUT" | "SET" | "RST" | "PLS" | "PLF", 0) => Wanted::Coil,
+            (
+                "LD" | "LDI" | "LDP" | "LDF" | "AND" | "ANI" | "ANDP" | "ANDF" | "OR" | "ORI"
+                | "ORP" | "ORF",
+                0,
+            ) => Wanted::Contact,
+            _ => return None,
+        })
+    }
+
+    /// The error for a word that names no label, where a pointer is wanted.
+    fn label(self, span: Span, text: &str) -> Option<Diagnostic> {
+        let is_word = text.bytes().all(|byte| byte.is_ascii_alphabetic());
+        let upper = text.to_ascii_uppercase();
+        let mistyped = mistyped_digit(&upper).is_some_and(|meant| is_operand(&meant));
+        let is_device = mistyped || DeviceClass::from_prefix(&upper).is_some();
+        (self == Wanted::Prefix("P") && is_word && !is_device && !is_name(text)).then(|| {
+            codes::BAD_OPERAND
+                .at(span, format!("`{text}` is not a valid operand"))
+                .label("not a pointer")
+                .help("jumps and calls name the number of a label, for example `P0`")
+        })
+    }
+
+    /// The error for a number alone, if it is one.
+    fn number(self, span: Span, text: &str) -> Option<Diagnostic> {
+        let number = text
+            .bytes()
+            .all(|byte| byte.is_ascii_digit())
+            .then_some(text)?;
+        let prefix = match self {
+            Wanted::Prefix(prefix) => prefix,
+            Wanted::Contact => "X",
+            Wanted::Coil => "Y",
+        };
+        let mut meant = [format!("{prefix}{number}"), format!("M{number}")].into_iter();
+        let meant = meant.find(|meant| is_operand(meant))?;
+        let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not a valid operand"));
+        Some(match self {
+            Wanted::Prefix(_) => error
+                .label(format!("a number without its {prefix}"))
+                .help(format!("write `{meant}`"))
+                .fix(Fix::suggested(format!("write `{meant}`")).replace(span, meant)),
+            _ => error.label("a number without its device").help(format!(
+                "write the device with its letter, for example `{meant}`"
+            )),
+        })
     }
 }
 

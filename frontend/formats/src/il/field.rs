@@ -72,6 +72,6 @@ fn report(mut faults: Faults, folded: &Folded, start: u32, diagnostics: &mut Dia
     diagnostics.extend(
         faults
             .drain()
-            .map(|f| f.diagnostic(&folded.text, place(folded, start))),
+            .map(|f| f.diagnostic(&folded.text, place(folded, start), None)),
     );
 }

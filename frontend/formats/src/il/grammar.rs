@@ -189,7 +189,10 @@ fn mnemonic<'s>() -> impl Rule<'s, (Cow<'s, str>, Span)> {
         .map(|(operator, pulse)| (None, operator, pulse));
     let compared = separators()
         .ignore_then(letter('D').to_slice().or_not())
-        .then(one_of("<=>").repeated().at_least(1).at_most(2).to_slice())
+        .then(choice((
+            just("!=").to_slice(),
+            one_of("<=>").repeated().at_least(1).at_most(2).to_slice(),
+        )))
         .then(pulse)
         .map(|((wide, operator), pulse)| (wide, operator, pulse));
     let plain = word_end().to((None, "", None));

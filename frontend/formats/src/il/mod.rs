@@ -21,7 +21,7 @@ pub(crate) mod windows;
 use crate::Read;
 use crate::gx::cpu;
 use crate::text::{append, clean};
-use fault::Faults;
+use fault::{Faults, Wanted};
 use fold::Folded;
 use rungc_syntax::{
     Device, Diagnostics, Instr, Operands, Program, Remarks, Source, SourceKind, Span,
@@ -110,8 +110,11 @@ impl Reader {
     ) {
         let before = self.program.instrs.len();
         let faulty = !self.faults.is_empty();
+        let instr = line.as_ref().and_then(|line| line.instr.as_ref());
         for fault in self.faults.drain() {
-            self.diagnostics.push(fault.diagnostic(folded, &place));
+            let wanted = instr.and_then(|instr| Wanted::at(instr, fault.span));
+            let diagnostic = fault.diagnostic(folded, &place, wanted);
+            self.diagnostics.push(diagnostic);
         }
         if let Some(line) = line {
             self.content(line, original, &place);

@@ -175,3 +175,55 @@ fn an_unknown_code_may_be_any_instruction() {
     program.kind = SourceKind::GxWorks2;
     assert!(errors(&program).is_empty());
 }
+
+#[test]
+fn comparisons_of_other_languages_keep_their_sense() {
+    let rows = [
+        ("LDI= D0 K1", "LD<>"),
+        ("LDDI> D0 K1", "LDD<="),
+        ("LD!= D0 K1", "LD<>"),
+        ("LD== D0 K1", "LD="),
+        ("LD X0\nANI= D0 K1", "AND<>"),
+        ("LD X0\nANDN< D0 K1", "AND>="),
+        ("LD X0\nORI> D0 K2", "OR<="),
+        ("LD X0\nORI<> D0 K2", "OR="),
+    ];
+    for (lines, right) in rows {
+        let (_, found) = findings(ModelId::Fx3u, &format!("{lines}\nOUT Y0\nEND\n"));
+        let [error] = found.as_slice() else {
+            panic!("{lines}: {found:?}");
+        };
+        let help = error.help.as_deref().expect("a help");
+        assert!(help.ends_with(&format!("`{right}`")), "{lines}: {help}");
+        let fix = error.fix.as_ref().expect("a fix");
+        assert_eq!(fix.edits[0].text, right, "{lines}");
+    }
+}
+
+#[test]
+fn numbers_get_what_their_operand_names() {
+    let rows = [
+        ("OUT T0 5", Some("K5")),
+        ("CALL 1", Some("P1")),
+        ("CJ 5", Some("P5")),
+        ("MC 0 M0", Some("N0")),
+        ("STL 20", Some("S20")),
+        ("IST X20 20 S27", Some("S20")),
+        ("SET 5", None),
+        ("OUT 19", None),
+        ("AND 7", None),
+        // Names of instructions, where a jump or call awaits a label.
+        ("CALL SUB", None),
+        ("CJ NEXT", None),
+    ];
+    for (line, fix) in rows {
+        let (_, found) = findings(ModelId::Fx3u, &format!("LD X0\n{line}\nEND\n"));
+        let error = found.iter().find(|d| matches!(d.code, "E0002" | "E0017"));
+        let error = error.unwrap_or_else(|| panic!("{line}: {found:?}"));
+        let text = error.fix.as_ref().map(|fix| &*fix.edits[0].text);
+        assert_eq!(text, fix, "{line}");
+        let help = error.help.as_deref().expect("a help");
+        let constant = help.contains("constant") || fix.is_none() && help.contains("`K");
+        assert!(!constant, "{line}: {help}");
+    }
+}

@@ -155,6 +155,7 @@ pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Opt
     const LONGEST: usize = 14;
     let name = instr.mnemonic.as_str();
     habit(name)
+        .or_else(|| comparison(name))
         .or_else(|| mistyped_label(instr))
         .or_else(|| glued(instr, model))
         .or_else(|| moved_affix(instr, model))
@@ -171,6 +172,60 @@ fn habit(name: &str) -> Option<Meant> {
         found: rungc_catalogue::find(row),
         label: None,
         instead: same.then(|| ((*row).to_owned(), true)),
+    })
+}
+
+/// Joins of comparisons, with the letters that negate a contact: the right one, and whether it is negated.
+const JOINS: &[(&str, &str, bool)] = &[
+    ("LD", "LD", false),
+    ("LDD", "LDD", false),
+    ("AND", "AND", false),
+    ("ANDD", "ANDD", false),
+    ("OR", "OR", false),
+    ("ORD", "ORD", false),
+    ("LDI", "LD", true),
+    ("LDN", "LD", true),
+    ("LDDI", "LDD", true),
+    ("LDID", "LDD", true),
+    ("ANI", "AND", true),
+    ("ANDI", "AND", true),
+    ("ANDN", "AND", true),
+    ("ANDDI", "ANDD", true),
+    ("ANID", "ANDD", true),
+    ("ORI", "OR", true),
+    ("ORN", "OR", true),
+    ("ORDI", "ORD", true),
+    ("ORID", "ORD", true),
+];
+
+/// Operators of comparisons as other languages write them, too: the right one, and its opposite.
+const OPERATORS: &[(&[&str], &str, &str)] = &[
+    (&["=", "=="], "=", "<>"),
+    (&["<>", "!=", "><"], "<>", "="),
+    (&[">"], ">", "<="),
+    (&["<"], "<", ">="),
+    (&[">=", "=>"], ">=", "<"),
+    (&["<=", "=<"], "<=", ">"),
+];
+
+/// `LDI=` or `LD!=`: a comparison that is negated or has the operator of another language.
+fn comparison(name: &str) -> Option<Meant> {
+    let (join, operator) = name.split_at_checked(name.find(['=', '<', '>', '!'])?)?;
+    let (_, join, negated) = JOINS.iter().find(|(written, ..)| *written == join)?;
+    let mut operators = OPERATORS.iter();
+    let (_, same, opposite) = operators.find(|(written, ..)| written.contains(&operator))?;
+    let (right, help) = match negated {
+        true => (
+            format!("{join}{opposite}"),
+            "comparisons are not negated: the opposite is",
+        ),
+        false => (format!("{join}{same}"), "the comparison is"),
+    };
+    Some(Meant {
+        help: format!("{help} `{right}`"),
+        found: rungc_catalogue::find(&right),
+        label: None,
+        instead: Some((right, true)),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Messages for operands that do not fit.
 
 use super::operands::{Matched, is_unreadable};
-use rungc_catalogue::{Basic, Form, Found, Inst, Param, Role};
+use rungc_catalogue::{Basic, Form, Found, Inst, Param, Role, Shape};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
@@ -17,8 +17,14 @@ pub(super) fn second_instruction(
     let names = |(at, operand): (usize, &Operand)| {
         // `TO` is a mistyped `T0` where an operand is awaited.
         let operand_meant = matches!(operand.kind, OperandKind::Unreadable(Some(_)));
+        // A name where a jump or call awaits its label: `CALL SUB`.
+        let label = at + 1 == instr.operands.len()
+            && params
+                .get(at)
+                .is_some_and(|param| param.shape == Shape::Pointer);
         is_unreadable(operand)
             && !(operand_meant && at < params.len())
+            && !label
             && rungc_catalogue::find(&text(operand)).is_some()
     };
     let at = instr.operands.iter().enumerate().position(names)?;
