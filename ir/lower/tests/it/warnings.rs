@@ -281,3 +281,24 @@ fn a_reset_may_be_what_could_not_be_read() {
     let resets = [codes::NEVER_RESET.id, codes::NEVER_SWITCHED_OFF.id];
     assert!(!checked.diagnostics.iter().any(|d| resets.contains(&d.code)));
 }
+
+#[test]
+fn states_with_one_half() {
+    let ladder = |rest: &str| format!("LD M8002 / SET S0 / STL S0 / LD X0 / {rest} / RET");
+    let [lost, entered, plain] = [
+        ladder("SET S20 / STL S20 / LD X2 / SET S30 / LD X1 / OUT S0"),
+        ladder("SET S20 / STL S20 / LD X1 / OUT S0 / STL S25 / OUT Y0"),
+        format!("{} / LD S101 / OUT Y1", ladder("OUT S0")),
+    ];
+    let whole = [
+        ladder("SET S20 / STL S20 / LD X1 / OUT S0"),
+        "LD M8000 / IST X20 S20 S27 / STL S0 / OUT Y0 / STL S1 / OUT Y1 / STL S2 / LD X0 / SET S20 / STL S20 / OUT Y2 / RET"
+            .to_owned(),
+        "LD X0 / SET S900".to_owned(),
+        "LD X0 / MOV D0 K4S20 / LD S30 / OUT Y0".to_owned(),
+        "LD M8002 / SET S5 / LD S5 / OUT Y0".to_owned(),
+    ];
+    let whole: Vec<_> = whole.iter().map(String::as_str).collect();
+    judge("never-read", &[&lost], &whole);
+    judge("never-written", &[&entered, &plain], &whole);
+}

@@ -1,14 +1,24 @@
-//! Relays, timers and counters that are driven and never read, or read and never driven.
+//! Relays, states, timers and counters that are driven and never read, or read and never driven.
 
 use super::Code;
 use crate::accesses::Access;
-use rungc_catalogue::Basic;
+use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
+use rungc_rt::RtFn;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 
-/// The classes that are looked at. States are not: step ladders use them in many ways.
-const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::C];
+/// The classes that are looked at. STL reads its state.
+const CLASSES: [DeviceClass; 4] = [
+    DeviceClass::M,
+    DeviceClass::S,
+    DeviceClass::T,
+    DeviceClass::C,
+];
+/// The first annunciator: D8049 and M8048 show that one is on.
+const ANNUNCIATORS: u32 = 900;
+/// The states that IST sets as well as those it names, from S0 on.
+const INITIAL: u32 = 3;
 /// Places in [`Class::met`].
 const COIL: usize = 0;
 const CONTACT: usize = 1;
@@ -31,7 +41,7 @@ struct Class {
 /// Collects accesses to find devices of which one half is missing.
 pub(super) struct Unused<'a, 'p> {
     code: &'a Code<'p>,
-    classes: [Class; 3],
+    classes: [Class; 4],
     /// Coils, each once, in the order of the program.
     coils: Vec<(Device, Span)>,
     /// Contacts, each once, in the order of the program.
@@ -40,7 +50,7 @@ pub(super) struct Unused<'a, 'p> {
 
 impl<'a, 'p> Unused<'a, 'p> {
     pub(super) fn new(code: &'a Code<'p>) -> Self {
-        let mut classes: [Class; 3] = Default::default();
+        let mut classes: [Class; 4] = Default::default();
         for (class, known) in CLASSES.iter().zip(&mut classes) {
             let last = code.model().ranges_of(*class).map(|range| range.last).max();
             let len = last.map_or(0, |last| last as usize + 2);
@@ -84,6 +94,11 @@ impl<'a, 'p> Unused<'a, 'p> {
             return;
         };
         let basic = self.code.basic(i);
+        if matches!(self.code.lower(i), Some(Lower::Call(RtFn::Ist)))
+            && access.first.class == DeviceClass::S
+        {
+            self.classes[at].add_run(0, INITIAL, true);
+        }
         // RST alone never switches anything on.
         if access.writes() && basic != Some(Basic::Rst) {
             self.classes[at].add(access, true);
@@ -105,6 +120,10 @@ impl<'a, 'p> Unused<'a, 'p> {
             Some(_) if access.reads() && access.count == Some(1) => (&mut self.contacts, CONTACT),
             _ => return,
         };
+        let shown = access.first.class == DeviceClass::S && access.first.number >= ANNUNCIATORS;
+        if shown && what == COIL {
+            return;
+        }
         if self.classes[at].meets(access, what) {
             list.push((access.first, access.span));
         }
