@@ -7,8 +7,8 @@
 //! of an index is known from [`Expr::Within`].
 
 use crate::node::{
-    Access, AccessKind, Action, Arg, Count, Counter16Coil, Counter32Coil, Expr, ExprId, Fetch,
-    IndexedCoil, Module, Place, Send, Stmt, TimerCoil,
+    Access, AccessKind, Action, Arg, Call, Count, Counter16Coil, Counter32Coil, Expr, ExprId,
+    Fetch, IndexedCoil, Module, Place, Send, Stmt, TimerCoil,
 };
 use crate::walk::statements;
 use rungc_models::Model;
@@ -176,6 +176,37 @@ fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Footprint
         }
         Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
     }
+}
+
+/// Last output of any model (Y377).
+const LAST_OUTPUT: u32 = 0o377;
+
+/// Runs of devices (class, first, last) that a call may write although no operand names them, in addition to special
+/// devices; the program may have none of them. [`rungc_rt::Needs::anywhere`] is not among them.
+pub fn beyond_operands(call: &Call) -> Vec<(DeviceClass, u32, u32)> {
+    use DeviceClass::{S, Y};
+    let mut runs = Vec::new();
+    let needs = call.function.needs();
+    if needs.pulses || needs.signals || needs.clears {
+        runs.push((Y, 0, LAST_OUTPUT));
+    }
+    if call.function == RtFn::Anr {
+        // The annunciators.
+        runs.push((S, 900, 999));
+    }
+    if call.function == RtFn::Ist {
+        // It chooses one of the first states, and ends those of automatic operation with all outputs.
+        runs.extend([(S, 0, 2), (Y, 0, LAST_OUTPUT)]);
+        if let [
+            _,
+            Arg::Device { place: first, .. },
+            Arg::Device { place: last, .. },
+        ] = call.args[..]
+        {
+            runs.push((S, first.number, last.number));
+        }
+    }
+    runs
 }
 
 /// The devices of a class that indexes lead to, as runs (first, last) in order. They are all in arrays, but for those

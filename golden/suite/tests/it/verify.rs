@@ -4,7 +4,8 @@
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
 //! another one.
 
-use rungc_golden::operands::candidates;
+use rungc_catalogue::Lower;
+use rungc_golden::operands::{accepted, candidates};
 use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
 use rungc_interp::Machine;
@@ -13,7 +14,7 @@ use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_models::runs::{is_special, rt_class};
-use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
+use rungc_rt::{Class, Plc, Program, RtFn, Stop, VirtualHal};
 use rungc_syntax::DeviceClass;
 use rungc_verify::aig::Lit;
 use rungc_verify::model::{CounterPart, Digit, Encoder, Input, Key, TimerPart, World};
@@ -22,6 +23,7 @@ use rungc_verify::prove::{Options, Verdict, decide};
 use rungc_verify::sat::{Answer, Solver};
 use rungc_verify::system::System;
 use rungc_verify::unroll::Unroller;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 fn setting(name: &str, default: u64) -> u64 {
@@ -260,6 +262,66 @@ fn the_logic_allows_what_the_interpreter_does() {
         "{too_large} of {count} programs are too large"
     );
     assert!(computed > free, "{computed} bits computed, {free} free");
+}
+
+/// Devices that an instruction may write though no operand names them: outputs, first states and those of a sequence,
+/// annunciators.
+const BESIDE: [&str; 14] = [
+    "Y000", "Y001", "Y002", "Y005", "M0", "M1", "S0", "S1", "S2", "S5", "S21", "S22", "S900",
+    "S901",
+];
+
+#[test]
+fn an_instruction_writes_what_the_logic_says() {
+    let mut rng = Rng::new(setting("SEED", 1));
+    let mut exact = Exactness::default();
+    let (mut followed, mut wrong) = (BTreeSet::new(), Vec::new());
+    for model in ModelId::ALL {
+        let has = |device: &&str| accepted(&format!("SET {device}"), model);
+        let beside: Vec<_> = BESIDE.iter().copied().filter(has).collect();
+        let set: String = beside
+            .iter()
+            .map(|device| format!("SET {device}\n"))
+            .collect();
+        let read: String = beside
+            .iter()
+            .map(|device| format!("LD {device}\nOUT M50\n"))
+            .collect();
+        for candidate in candidates(model) {
+            let Lower::Call(function) = candidate.inst().lower_on_model(model) else {
+                continue;
+            };
+            if followed.contains(&function) {
+                continue;
+            }
+            let drawn = (0..8).find_map(|_| {
+                let text = candidate.draw(&mut rng, model)?;
+                let text = format!("LD M8002\n{set}LD M8000\n{text}\n{read}END\n");
+                Some((compiled(&text, model, false)?, text))
+            });
+            let Some((module, text)) = drawn else {
+                continue;
+            };
+            followed.insert(function);
+            if let Err(why) = follow(&module, followed.len() as u64, 12, &mut exact) {
+                wrong.push(format!("{model:?}: {why}\n{text}"));
+            }
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} wrong:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+    for function in [RtFn::Ist, RtFn::Anr, RtFn::Zpop, RtFn::Plsy] {
+        assert!(followed.contains(&function), "{function:?} is not followed");
+    }
+    println!(
+        "{} instructions followed, {} too large",
+        followed.len(),
+        exact.too_large
+    );
 }
 
 /// Pairs of outputs that nothing decides: what sends pulses is not modelled, and the relay Y000 stays off while pulses

@@ -4,7 +4,7 @@ use crate::node::{
     Action, Arg, Body, Branch, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId,
     FunctionKind, Module, Send, SetEntry, Stmt, TableId, TempId,
 };
-use crate::reach::{Footprint, of_action, of_expr};
+use crate::reach::{Footprint, beyond_operands, of_action, of_expr};
 use crate::walk::{action_exprs_mut, bodies, operands, operands_mut};
 use rungc_rt::{Needs, Register, Relay};
 use rungc_syntax::DeviceClass;
@@ -556,6 +556,9 @@ impl<'a> Reader<'a> {
             ..Needs::default()
         };
         self.runtime(step, needs != at_rest, reads, writes);
+        let beyond = beyond_operands(call);
+        reads.runs.extend(&beyond);
+        writes.runs.extend(beyond);
         reads.all = needs.anywhere;
         writes.all = needs.anywhere;
         memory

@@ -5,7 +5,7 @@ use super::{Encoder, Input, Key};
 use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
-use rungc_ir::reach::of_action;
+use rungc_ir::reach::{beyond_operands, of_action};
 use rungc_rt::Transfer;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -35,7 +35,8 @@ const ERRORS: [(DeviceClass, u32, u32); 5] = [
 ];
 
 impl Encoder<'_> {
-    fn named_in(&self, runs: &[(DeviceClass, u32, u32)]) -> Vec<Key> {
+    /// The memory of these runs of devices.
+    pub(super) fn named_in(&self, runs: &[(DeviceClass, u32, u32)]) -> Vec<Key> {
         let keys = runs.iter();
         keys.flat_map(|&(class, first, last)| self.named(class, first, last))
             .collect()
@@ -56,9 +57,7 @@ impl Encoder<'_> {
             return self.state.keys().copied().collect();
         }
         let mut keys = self.specials();
-        if needs.pulses || needs.signals || needs.clears {
-            keys.extend(self.named(DeviceClass::Y, 0, u32::MAX));
-        }
+        keys.extend(self.named_in(&beyond_operands(call)));
         keys
     }
 

@@ -9,6 +9,7 @@ use super::{Encoder, Gap, Input, Key};
 use crate::aig::{Aig, Lit};
 use crate::bits::Bits;
 use rungc_ir::node::{Action, Arg, Call, Place, Stmt};
+use rungc_ir::reach::beyond_operands;
 use rungc_ir::walk::statements;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
@@ -205,6 +206,9 @@ impl Encoder<'_> {
         let mut bits = Vec::new();
         let mut keys = self.of_operands(action);
         keys.extend(self.specials());
+        if let Action::Call(call) = action {
+            keys.extend(self.named_in(&beyond_operands(call)));
+        }
         if anywhere {
             keys.extend(self.state.keys().copied());
         }
