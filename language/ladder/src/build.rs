@@ -94,11 +94,13 @@ fn network(instrs: &[Class], starts_rung: &[bool], start: InstrIndex) -> Network
         starts_rung,
         at,
         depth: 0,
+        nops: Vec::new(),
     };
     match reader.network() {
         Ok(node) => Network {
             instrs: start..reader.at,
             labels,
+            nops: reader.nops,
             body: match changes_a_block(&node) {
                 true => NetworkBody::List { why: ONE_BLOCK },
                 false => NetworkBody::Rung(node),
@@ -107,6 +109,7 @@ fn network(instrs: &[Class], starts_rung: &[bool], start: InstrIndex) -> Network
         Err(why) => Network {
             instrs: start..end_of_list(instrs, starts_rung, at),
             labels,
+            nops: Vec::new(),
             body: NetworkBody::List { why },
         },
     }
@@ -183,6 +186,8 @@ struct Reader<'a> {
     at: InstrIndex,
     /// Of the node that is being read.
     depth: usize,
+    /// NOPs that were passed over.
+    nops: Vec<InstrIndex>,
 }
 
 /// Parts that a LD has started.
@@ -198,6 +203,25 @@ type Undrawable = &'static str;
 impl Reader<'_> {
     fn peek(&self) -> Option<Class> {
         self.instrs.get(self.at).copied()
+    }
+
+    /// Passes over NOP within a rung: where what follows belongs to what precedes. Between rungs, NOP is a network.
+    fn skip_nops(&mut self) {
+        let rest = &self.instrs[self.at..];
+        let nops = rest
+            .iter()
+            .take_while(|class| **class == Class::Nop)
+            .count();
+        let next = self.at + nops;
+        let continues = match self.instrs.get(next) {
+            None | Some(Class::Label | Class::Alone | Class::Unknown) => false,
+            Some(Class::Contact(catalogue::Join::Ld, _)) => !self.starts_rung[next],
+            Some(_) => true,
+        };
+        if continues {
+            self.nops.extend(self.at..next);
+            self.at = next;
+        }
     }
 
     /// Reads the network after its labels.
@@ -230,7 +254,7 @@ impl Reader<'_> {
                 | Class::Nop,
             ) => Ok(node),
             Some(Class::Mrd | Class::Mpp) => Err("no MPS opens a branch"),
-            Some(_) => Err("NOP or another instruction interrupts it"),
+            Some(_) => Err("another instruction interrupts it"),
         }
     }
 
@@ -243,7 +267,11 @@ impl Reader<'_> {
         self.depth += 1;
         let series = self.series(at_rail)?;
         let mut items = Vec::new();
-        while let Some(class) = self.peek() {
+        loop {
+            self.skip_nops();
+            let Some(class) = self.peek() else {
+                break;
+            };
             match class {
                 Class::Output(coil) => {
                     items.push(Item::Output(Output {
@@ -290,6 +318,7 @@ impl Reader<'_> {
             if last {
                 return Ok(branches);
             }
+            self.skip_nops();
             if !matches!(self.peek(), Some(Class::Mrd | Class::Mpp)) {
                 return Err("no MPP closes a branch");
             }
@@ -303,7 +332,11 @@ impl Reader<'_> {
             blocks.push(Block::of(Series::new()));
         }
         let underflow = "a block is joined that is not there";
-        while let Some(class) = self.peek() {
+        loop {
+            self.skip_nops();
+            let Some(class) = self.peek() else {
+                break;
+            };
             match class {
                 Class::Contact(join, shape) => {
                     let contact = Contact {

@@ -46,7 +46,13 @@ fn of_network(network: &Network, list: &mut Vec<Listed>) {
     let body = network.instrs.start + network.labels;
     list.extend((network.instrs.start..body).map(Listed::Other));
     match &network.body {
-        NetworkBody::Rung(node) => of_node(node, Entry::Ld, list),
+        NetworkBody::Rung(node) => {
+            let first = list.len();
+            of_node(node, Entry::Ld, list);
+            for &nop in &network.nops {
+                list.insert(first + (nop - body), Listed::Other(nop));
+            }
+        }
         NetworkBody::List { .. } => list.extend((body..network.instrs.end).map(Listed::Other)),
     }
 }

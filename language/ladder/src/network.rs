@@ -17,6 +17,8 @@ pub struct Network {
     pub instrs: std::ops::Range<InstrIndex>,
     /// Number of labels (`P0`, `I001`) among them, which come first.
     pub labels: usize,
+    /// The NOPs among them that stand within a rung, in order: they have no picture.
+    pub nops: Vec<InstrIndex>,
     /// Contents after the labels.
     pub body: NetworkBody,
 }

@@ -454,3 +454,23 @@ fn what_cannot_be_drawn_is_a_list() {
         "LD X0\nOUT Y0\nOR X1\nOUT Y1\nNOP\nLD X2\nANB\nOUT Y2\nQQQ\nEND\n"
     ));
 }
+
+/// NOP within a rung has no picture, and stays in the list.
+#[test]
+fn nops_within_rungs_are_passed_over() {
+    let plain = "LD X0\nMPS\nAND X1\nOUT Y0\nMPP\nLD X2\nOR X3\nANB\nOUT Y1\nOUT Y2";
+    // Without step numbers, which count NOP.
+    let body = |line: &str| line.chars().skip(5).collect::<String>();
+    let drawn = |list: &str| {
+        let list = format!("{list}\nLD X4\nOUT Y4\nNOP\nEND\n");
+        let program = read(&list);
+        assert_inverse(&program, &list);
+        with(&program, |_, ladder| {
+            let mut bodies = ladder.networks.iter().map(|network| &network.body);
+            let all = bodies.all(|body| matches!(body, NetworkBody::Rung(_)));
+            assert!(all, "{ladder:?}");
+        });
+        picture(&list).lines().map(body).collect::<Vec<_>>()
+    };
+    assert_eq!(drawn(&plain.replace('\n', "\nNOP\nNOP\n")), drawn(plain));
+}
