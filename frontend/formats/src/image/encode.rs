@@ -8,7 +8,10 @@ use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, OperandKind, Program
 pub(super) fn words(program: &Program) -> Result<Vec<u16>, Diagnostics> {
     let mut words = Vec::new();
     let mut diagnostics = Diagnostics::new();
-    for instr in &program.instrs {
+    let end = program.instrs.iter().position(|i| i.mnemonic == "END");
+    let end = end.map_or(program.instrs.len(), |end| end + 1);
+    let (executed, after) = program.instrs.split_at(end);
+    for instr in executed {
         match instruction(instr) {
             Some(more) => words.extend(more),
             None => diagnostics.push(
@@ -22,7 +25,19 @@ pub(super) fn words(program: &Program) -> Result<Vec<u16>, Diagnostics> {
             ),
         }
     }
-    let last = program.instrs.last();
+    // Memory after the program is filled with NOP.
+    if let Some(lost) = after.iter().find(|instr| instr.mnemonic != "NOP") {
+        diagnostics.push(
+            codes::NO_MACHINE_CODE
+                .at(
+                    lost.span,
+                    format!("`{lost}` stands after `END`, where a PLC stops reading"),
+                )
+                .label("an image ends before it")
+                .help("remove what follows `END`"),
+        );
+    }
+    let last = executed.last();
     if last.is_none_or(|last| last.mnemonic != "END") {
         let span = last.map(|last| last.span).unwrap_or_default();
         diagnostics.push(

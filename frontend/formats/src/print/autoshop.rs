@@ -65,7 +65,8 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
     let instrs = program.instrs.as_slice();
     let is = |mnemonic: &'static str| move |instr: &Instr| instr.mnemonic == mnemonic;
     let end = instrs.iter().position(is("END")).unwrap_or(instrs.len());
-    if let Some(after) = instrs.get(end + 1) {
+    let mut after = instrs.iter().skip(end + 1);
+    if let Some(after) = after.find(|instr| !is_nop(instr)) {
         return Err(refused(
             after,
             format!("`{after}` stands after END"),

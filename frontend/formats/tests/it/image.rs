@@ -1,7 +1,7 @@
 //! Program memory of PLCs: what images hold, what comes back from written ones, and what is rejected.
 
 use proptest::prelude::*;
-use rungc_frontend::{Read, ReadOptions, image, read_bytes, read_bytes_with, read_text};
+use rungc_frontend::{Read, ReadOptions, image, print, read_bytes, read_bytes_with, read_text};
 use rungc_syntax::{DeviceClass, Program, SourceKind};
 use std::path::{Path, PathBuf};
 
@@ -317,4 +317,33 @@ proptest! {
         let again = read(&image::write(&whole).unwrap()).program;
         prop_assert_eq!(texts(&again), texts(&whole));
     }
+}
+
+/// A PLC stops reading at END: NOP after it is unused memory, anything else would be lost.
+#[test]
+fn what_follows_the_end_is_unused_memory_or_an_error() {
+    let program = |list: &str| read_text("a.il", list).program;
+    let plain = program("LD X0\nOUT Y0\nEND\n");
+    let filled = program("LD X0\nOUT Y0\nEND\nNOP\nNOP\n");
+    assert_eq!(
+        image::write(&filled).unwrap(),
+        image::write(&plain).unwrap()
+    );
+    assert_eq!(
+        print::to_autoshop(&filled).unwrap(),
+        print::to_autoshop(&plain).unwrap()
+    );
+    let tail = program("LD X0\nOUT Y0\nEND\nNOP\nLD X1\nOUT Y1\nEND\n");
+    let found = image::write(&tail).unwrap_err();
+    let found: Vec<_> = found.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(
+        found,
+        ["`LD X001` stands after `END`, where a PLC stops reading"]
+    );
+    assert!(
+        print::to_autoshop(&tail)
+            .unwrap_err()
+            .message
+            .contains("`LD X001`")
+    );
 }
