@@ -7,7 +7,8 @@ use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 use rungc_syntax::{
-    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, codes,
+    Device, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks,
+    SourceKind, Span, codes,
 };
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
@@ -40,6 +41,9 @@ const NAMES: [&[&str]; 7] = [
     &["pistatement", "piステートメント", "pi声明"],
     &["note", "ノート", "注解", "注释"],
 ];
+
+/// Label of the row above the list that names the CPU.
+pub(crate) const INFORMATION: &str = "PLC Information:";
 
 /// Maximum number of rows above the row of headers.
 const HEAD_ROWS: usize = 12;
@@ -129,21 +133,6 @@ fn columns(instruction: usize, width: usize) -> Option<[usize; 7]> {
     Some([step, statement, instruction, device, blank, pointer, note])
 }
 
-/// Returns true for an export of device comments: rows of a device and a text.
-pub(crate) fn is_comments(text: &str) -> bool {
-    let delimiter = if text.contains('\t') { b'\t' } else { b',' };
-    let rows: Vec<StringRecord> = table(text, delimiter)
-        .into_records()
-        .flatten()
-        .take(ROWS)
-        .collect();
-    let is_device =
-        |row: &&StringRecord| row.len() > 1 && row.get(0).and_then(il::device).is_some();
-    let devices = rows.iter().filter(is_device).count();
-    // Below a head of one row or two.
-    devices > 0 && devices + 2 >= rows.len()
-}
-
 fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
     let mut reader = table(text, delimiter);
     let mut record = StringRecord::new();
@@ -153,11 +142,7 @@ fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
         }
         let mut columns = [usize::MAX; 7];
         for (at, field) in record.iter().enumerate() {
-            let field: String = field
-                .chars()
-                .filter(|c| c.is_alphanumeric())
-                .flat_map(char::to_lowercase)
-                .collect();
+            let field = plain(field);
             if let Some(column) = NAMES
                 .iter()
                 .position(|names| names.contains(&field.as_str()))
@@ -175,6 +160,12 @@ fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
         }
     }
     None
+}
+
+/// The name of a column without spaces and punctuation, in lower case.
+fn plain(name: &str) -> String {
+    let letters = name.chars().filter(|c| c.is_alphanumeric());
+    letters.flat_map(char::to_lowercase).collect()
 }
 
 fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
@@ -247,6 +238,27 @@ pub(crate) struct StatementRow {
 impl ExportHead {
     fn push(&mut self, record: &StringRecord) {
         self.rows.push(record.iter().map(str::to_owned).collect());
+    }
+
+    /// Writes a CPU into the row that names it; without such a row, below the title.
+    pub fn set_cpu(&mut self, cpu: &str) {
+        let cpu = format!("FXCPU {cpu}");
+        // The label alone shows the row, whatever it names.
+        let names_cpu = |row: &Vec<String>| {
+            let label = row.iter().map(String::as_str).take(1).chain(["?"]);
+            let fields = row.iter().map(String::as_str);
+            cpu::of_head(label).or(cpu::of_head(fields)).is_some()
+        };
+        let above = self.rows.len().saturating_sub(1);
+        match self.rows.iter().take(above).position(names_cpu) {
+            Some(at) => {
+                self.rows[at].truncate(1);
+                self.rows[at].push(cpu);
+            }
+            None => self
+                .rows
+                .insert(above.min(1), vec![INFORMATION.to_owned(), cpu]),
+        }
     }
 
     /// Returns true if the columns below are those of [`HEADERS`], in the order in which the writer writes them.
@@ -454,19 +466,98 @@ impl Reader {
     }
 }
 
-/// Reads an export of device comments: rows of device and comment. Rows that name no device are headings.
-pub(crate) fn comments(text: &str) -> BTreeMap<Device, String> {
-    let delimiter = if text.contains('\t') { b'\t' } else { b',' };
-    let mut rows = table(text, delimiter);
+/// Names of the columns of devices, with `false`, and of comments, with `true`, spelled as in [`NAMES`].
+const COMMENT_NAMES: [(&str, bool); 13] = [
+    ("devicename", false),
+    ("device", false),
+    ("デバイス名", false),
+    ("デバイス", false),
+    ("软元件名", false),
+    ("软元件", false),
+    ("軟元件名", false),
+    ("comment", true),
+    ("devicecomment", true),
+    ("コメント", true),
+    ("注释", true),
+    ("註解", true),
+    ("注解", true),
+];
+
+/// Separators of fields.
+const DELIMITERS: [u8; 3] = [b'\t', b',', b';'];
+
+/// The rows of an export of device comments, by the separator that gives the most devices, and the columns of devices
+/// and comments.
+fn comment_rows(text: &str) -> (Vec<StringRecord>, [usize; 2]) {
+    let of = |delimiter| {
+        let rows: Vec<StringRecord> = table(text, delimiter).into_records().flatten().collect();
+        let columns = comment_columns(&rows);
+        let devices = rows.iter().filter(|row| {
+            let comment = row.get(columns[1]);
+            row.get(columns[0]).and_then(il::device).is_some() && comment.is_some()
+        });
+        (devices.count(), rows, columns)
+    };
+    let tables = DELIMITERS.map(of).into_iter();
+    // The first of equals.
+    let best = tables.rev().max_by_key(|(devices, ..)| *devices);
+    best.map_or_else(Default::default, |(_, rows, columns)| (rows, columns))
+}
+
+/// The columns of devices and comments: those that a row of names shows, or the first two.
+fn comment_columns(rows: &[StringRecord]) -> [usize; 2] {
+    let named = |row: &StringRecord| {
+        let find = |comment| {
+            row.iter().position(|field| {
+                let name = plain(field);
+                COMMENT_NAMES.contains(&(name.as_str(), comment))
+            })
+        };
+        Some([find(false)?, find(true)?])
+    };
+    rows.iter()
+        .take(HEAD_ROWS)
+        .find_map(named)
+        .unwrap_or([0, 1])
+}
+
+/// Returns true for an export of device comments: rows of a device and a text.
+pub(crate) fn is_comments(text: &str) -> bool {
+    let (rows, columns) = comment_rows(text);
+    let is_device = |row: &&StringRecord| {
+        let comment = row.get(columns[1]).is_some();
+        comment && row.get(columns[0]).and_then(il::device).is_some()
+    };
+    let devices = rows.iter().filter(is_device).count();
+    // Below a head of one row or two.
+    devices > 0 && devices + 2 >= rows.len()
+}
+
+/// Reads an export of device comments, and warns of comments on what is not a device. Rows without a comment, and those
+/// above the first device, are headings.
+pub(crate) fn comments(text: &str) -> (BTreeMap<Device, String>, Vec<Diagnostic>) {
+    let (rows, [device_column, comment_column]) = comment_rows(text);
     let mut comments = BTreeMap::new();
-    let mut record = StringRecord::new();
-    while rows.read_record(&mut record).unwrap_or(false) {
-        let device = record.get(0).and_then(il::device);
-        if let (Some(device), Some(comment)) = (device, record.get(1).and_then(clean)) {
-            comments.insert(device, comment.into());
+    let mut unread = Vec::new();
+    for row in rows {
+        let device = row.get(device_column).unwrap_or_default().trim();
+        let Some(comment) = row.get(comment_column).and_then(clean) else {
+            continue;
+        };
+        match il::device(device) {
+            Some(device) => _ = comments.insert(device, comment.into()),
+            None if device.contains(|c: char| c.is_ascii_digit()) => {
+                let what = format!("the comment on `{device}` is left out, which is not a device");
+                unread.push(
+                    codes::DAMAGED_PART
+                        .at(Span::default(), what)
+                        .help("correct it in the table of comments; X and Y count in octal"),
+                );
+            }
+            None => {}
         }
     }
-    comments
+    (comments, unread)
 }
 
 /// Rows as the editors write them: UTF-16LE with BOM, tabs, every field quoted, CR LF.

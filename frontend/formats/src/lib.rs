@@ -74,6 +74,9 @@ impl ReadOptions {
     }
 }
 
+/// End of a text in the way of DOS, Ctrl-Z.
+const DOS_END: char = '\u{1a}';
+
 /// Files over this size are rejected, in bytes: a list of a million steps takes a tenth of it.
 pub const MAX_SIZE: u64 = 128 << 20;
 
@@ -143,7 +146,9 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     };
     let file = inside.as_deref().unwrap_or(path);
     let bytes = load(file)?;
-    if gx::is_wpg(&bytes) {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    check_kind(&name, &bytes, options)?;
+    if gx::is_wpg(&bytes) || gx::is_cut_wpg(&name, &bytes) {
         let beside = beside(file)?;
         return Ok(gx::read_wpg(
             &project_name(file, path),
@@ -152,7 +157,6 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
             options,
         ));
     }
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
     let is_list = file
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("il"));
@@ -167,9 +171,11 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     let takes_comments = matches!(read.program.kind, SourceKind::Csv | SourceKind::Image);
     if let (true, Some(comments)) = (takes_comments, &comments) {
         let text = encoding::decode(comments, options.encoding);
-        read.program.comments = text
-            .map(|(text, _)| csv::comments(&text))
-            .unwrap_or_default();
+        if let Some((text, _)) = text {
+            let (comments, unread) = csv::comments(&text);
+            read.program.comments = comments;
+            read.diagnostics.extend(unread);
+        }
     }
     Ok(read)
 }
@@ -243,27 +249,22 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
             name: name.to_owned(),
         });
     }
-    if let Some(Recognised { what, help }) = recognise(name, bytes).filter(|_| !options.image) {
-        return Err(ReadError::NoProgram {
-            name: name.to_owned(),
-            what,
-            help,
-        });
-    }
+    check_kind(name, bytes, options)?;
     if gx::is_ole(bytes) {
         return Ok(gx::read_gxw(name, bytes, options));
     }
-    if gx::is_wpg(bytes) {
+    if gx::is_wpg(bytes) || gx::is_cut_wpg(name, bytes) {
         return Ok(gx::read_wpg(name, bytes, &gx::Beside::default(), options));
     }
     if image::is_image(bytes) || options.image {
         return Ok(image::read(name, bytes, options));
     }
-    let Some((text, replaced)) = encoding::decode(bytes, options.encoding) else {
+    let Some((mut text, replaced)) = encoding::decode(bytes, options.encoding) else {
         return Err(ReadError::Undecodable {
             name: name.to_owned(),
         });
     };
+    text.truncate(text.trim_end_matches(DOS_END).len());
     let mut read = match csv::detect(&text) {
         _ if plcopen::is_project(&text) => plcopen::read(name, &text, &options.names),
         Some(layout) => csv::read(name, &text, layout),
@@ -274,6 +275,18 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         read.diagnostics.push(undecoded(&read.program));
     }
     Ok(read)
+}
+
+/// Rejects a file that is recognised as something other than a program.
+fn check_kind(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<(), ReadError> {
+    match recognise(name, bytes).filter(|_| !options.image) {
+        Some(Recognised { what, help }) => Err(ReadError::NoProgram {
+            name: name.to_owned(),
+            what,
+            help,
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Some characters of a text were bytes without a meaning in its encoding.

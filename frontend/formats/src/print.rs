@@ -1,7 +1,7 @@
 //! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the
 //! same program, save for the source text and places.
 
-use crate::csv::{ExportHead, HEADERS, StatementRow, encode};
+use crate::csv::{ExportHead, HEADERS, INFORMATION, StatementRow, encode};
 use crate::il::{device, is_label, windows::is_heading};
 use crate::text::clean;
 use rungc_syntax::{Device, Instr, Operand, OperandKind, Program, Source};
@@ -261,7 +261,7 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
     let head = vec![
         vec![program.title.clone().unwrap_or_default()],
         vec![
-            "PLC Information:".to_owned(),
+            INFORMATION.to_owned(),
             program
                 .cpu
                 .as_ref()

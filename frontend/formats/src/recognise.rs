@@ -1,5 +1,7 @@
 //! Files that are not programs: what each is, by its content, and what to do with it.
 
+mod texts;
+
 use crate::{csv, encoding, gx, il, image, ladder_text, plcopen};
 
 /// A file that is not a program.
@@ -136,7 +138,7 @@ const PARTS: [(&str, Recognised); 8] = [
         },
     ),
     (
-        "content.xml",
+        "application/vnd.oasis.opendocument",
         Recognised {
             what: "a document (OpenDocument)",
             help: DOCUMENT,
@@ -187,6 +189,9 @@ pub fn recognise(name: &str, bytes: &[u8]) -> Option<Recognised> {
             })
     };
     let by_name = ending.as_deref().and_then(of_name);
+    if let Some(nothing) = without_content(ending.as_deref(), bytes) {
+        return Some(nothing);
+    }
     if bytes.starts_with(b"PK\x03\x04") {
         let zip = Recognised {
             what: "a ZIP archive",
@@ -215,9 +220,29 @@ pub fn recognise(name: &str, bytes: &[u8]) -> Option<Recognised> {
         return by_name;
     }
     match encoding::decode(head(bytes), None) {
-        Some((text, _)) => of_text(&text),
+        Some((text, _)) => of_text(name, &text),
         None => by_name,
     }
+}
+
+/// A file that was not written whole, or was erased.
+fn without_content(ending: Option<&str>, bytes: &[u8]) -> Option<Recognised> {
+    /// Endings of lists; one without lines is an empty program.
+    const LISTS: [&str; 4] = ["il", "txt", "csv", "lst"];
+    let is = |what, help| Some(Recognised { what, help });
+    if bytes.is_empty() && ending.is_some_and(|ending| !LISTS.contains(&ending)) {
+        return is(
+            "an empty file",
+            "copy it again; it has no content, whatever its name says",
+        );
+    }
+    if bytes.len() >= 16 && bytes.iter().all(|&byte| byte == 0xFF) {
+        return is(
+            "erased memory: every byte is FFh",
+            "read the program from the PLC or its memory cassette again",
+        );
+    }
+    None
 }
 
 /// The first lines of a text, as far as they decide. In UTF-16 a line feed has a zero beside it.
@@ -248,7 +273,7 @@ const HEAD: usize = 64 << 10;
 const LINES: usize = 60;
 
 /// A text that is not a program.
-fn of_text(text: &str) -> Option<Recognised> {
+fn of_text(name: &str, text: &str) -> Option<Recognised> {
     let is = |what, help| Some(Recognised { what, help });
     let text = text.trim_start_matches('\u{FEFF}');
     let lines = || {
@@ -279,7 +304,8 @@ fn of_text(text: &str) -> Option<Recognised> {
             "open it in a waveform viewer such as GTKWave",
         );
     }
-    if let Some(known) = of_toml(&lines().collect::<Vec<_>>()) {
+    let all: Vec<&str> = lines().collect();
+    if let Some(known) = of_toml(&all).or_else(|| texts::spoilt(&all)) {
         return Some(known);
     }
     if lines().any(is_instruction) {
@@ -298,11 +324,24 @@ fn of_text(text: &str) -> Option<Recognised> {
     ]) {
         return is("source code in C", SOURCE);
     }
-    if starts(&["fn main", "#![", "use std::", "pub fn ", "impl "]) {
+    let is_rust = [
+        "fn main",
+        "#![",
+        "use std::",
+        "use super::",
+        "use crate::",
+        "pub fn ",
+        "impl ",
+        "//! ",
+    ];
+    if starts(&is_rust) {
         return is("source code in Rust", SOURCE);
     }
     if first.starts_with("#!") || starts(&["import ", "def ", "from __future__"]) {
         return is("a script", SOURCE);
+    }
+    if let Some(known) = texts::other(name, text, &all) {
+        return Some(known);
     }
     if csv::is_comments(text) {
         return is(
@@ -388,7 +427,7 @@ pub fn is_program(bytes: &[u8]) -> bool {
     let Some((text, _)) = encoding::decode(bytes, None) else {
         return false;
     };
-    let is_list = of_text(&text).is_none() && text.lines().any(is_instruction);
+    let is_list = of_text("", &text).is_none() && text.lines().any(is_instruction);
     is_list
         || plcopen::is_project(&text)
         || csv::detect(&text).is_some()

@@ -20,6 +20,7 @@ use crate::{Read, ReadOptions};
 use comments::Comments;
 use encoding_rs::Encoding;
 use program::{Code, bytes_error};
+use rungc_syntax::diag::counted;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 
 /// Length of the header that all files of a project begin with.
@@ -38,6 +39,12 @@ const OLE: [u8; 8] = [0xD0, 0xCF, 0x11, 0xE0, 0xA1, 0xB1, 0x1A, 0xE1];
 /// Returns true for a GX Works2 project, or another OLE file.
 pub(crate) fn is_ole(bytes: &[u8]) -> bool {
     bytes.starts_with(&OLE)
+}
+
+/// Returns true for a `MAIN.wpg` by its name, which is too short to show what it is.
+pub(crate) fn is_cut_wpg(name: &str, bytes: &[u8]) -> bool {
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending);
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("wpg")) && bytes.len() <= START
 }
 
 /// Returns true for a file of a GX Developer project.
@@ -142,6 +149,18 @@ pub(crate) fn without_program(
 
 /// A project file in which no program can be found.
 fn no_program(name: &str, bytes: &[u8]) -> Read {
+    if bytes.len() <= START {
+        return without_program(name, "?? cut off", |span| {
+            let bytes = counted(bytes.len(), "byte");
+            codes::DAMAGED
+                .at(
+                    span,
+                    format!("the project is cut off after {bytes}, before its program"),
+                )
+                .label("the file ends here")
+                .help("copy the project again")
+        });
+    }
     let shown = hex(bytes.get(HEADER..).unwrap_or(bytes));
     without_program(name, &format!("?? {shown}"), |span| {
         let what = "no program found; the data";

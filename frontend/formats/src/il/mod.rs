@@ -204,8 +204,15 @@ impl Reader {
             }
         } else if key.eq_ignore_ascii_case("title") {
             self.program.title = value;
-        } else if let (Some(device), Some(value)) = (device(key), value) {
-            self.program.comments.insert(device, value);
+        } else if let (Some((device, faults)), Some(value)) = (named(key), value) {
+            if faults.is_empty() {
+                self.program.comments.insert(device, value);
+            }
+            let start = end - text.trim_start().len() as u32;
+            for fault in faults.into_iter() {
+                let place = |span: Span| Span::new(start + span.start, start + span.end);
+                self.diagnostics.push(fault.diagnostic(key, place));
+            }
         } else {
             return false;
         }
@@ -215,11 +222,16 @@ impl Reader {
 
 /// The device that a text names by itself, e.g. `X010`.
 pub(crate) fn device(text: &str) -> Option<Device> {
-    grammar::parse(
-        &grammar::device_field(),
-        &Folded::of(text).text,
-        &mut Faults::default(),
-    )
+    let (device, faults) = named(text)?;
+    faults.is_empty().then_some(device)
+}
+
+/// The device that a text names by itself, and what is wrong with its number: the device is a stand-in then.
+fn named(text: &str) -> Option<(Device, Vec<fault::Fault>)> {
+    let mut faults = Faults::default();
+    let folded = Folded::of(text).text;
+    let device = grammar::parse(&grammar::device_field(), &folded, &mut faults)?;
+    Some((device, faults.drain().collect()))
 }
 
 /// Instructions that every program has some of.

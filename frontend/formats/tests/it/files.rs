@@ -9,6 +9,147 @@ fn texts(program: &Program) -> Vec<String> {
     program.instrs.iter().map(ToString::to_string).collect()
 }
 
+/// Texts of other kinds, some of which contain lines of a program.
+const TEXTS: [(&str, &str); 19] = [
+    (
+        "lfs.gxw",
+        "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n",
+    ),
+    (
+        "a.hex",
+        ":020000040800F2\n:10000000000002201D0100082501000829010008AA\n:00000001FF\n",
+    ),
+    (
+        "a.s19",
+        "S00F000068656C6C6F202020202000003C\nS11F00007C0802A6900100049421FFF07C6C1B787C8C23783C6000003863000026\n",
+    ),
+    (
+        "conflict.il",
+        "LD X0\n<<<<<<< HEAD\nOUT Y0\n=======\nOUT Y1\n>>>>>>> other\nEND\n",
+    ),
+    (
+        "a.patch",
+        "--- a/x.il\n+++ b/x.il\n@@ -1,2 +1,2 @@\n-LD X0\n+LD X1\n OUT Y0\n",
+    ),
+    (
+        "git.patch",
+        "From 12 Mon Sep 17\nSubject: x\n\ndiff --git a/x.il b/x.il\n",
+    ),
+    ("README.md", "# Press\n\nThe program of the press.\n"),
+    ("list.md", "Program:\n\n```\nLD X0\nOUT Y0\nEND\n```\n"),
+    ("a.ini", "; settings\n[main]\nspeed=3\n"),
+    ("a.yml", "---\nname: ci\non: push\n"),
+    ("b.yml", "name: ci\njobs:\n  - build\n  - test\n"),
+    (
+        "a.eml",
+        "From: a@example.org\nTo: b@example.org\nSubject: program\n\nHello\n",
+    ),
+    (
+        "Cargo.toml",
+        "[package]\nname = \"own\"\nversion = \"0.1.0\"\n",
+    ),
+    ("Makefile", "# make\nCFLAGS ?= -std=c99\nall: libn.a\n"),
+    (
+        "CMakeLists.txt",
+        "# Libraries\ncmake_minimum_required(VERSION 3.16)\n",
+    ),
+    ("unit.rs", "//! A unit.\n\nuse super::Kind;\n"),
+    (
+        "junit.xml",
+        "<?xml version=\"1.0\"?>\n<testsuites name=\"rungc\"></testsuites>\n",
+    ),
+    ("run.txt", "      time Y000\n   0.000 s    ·\n"),
+    (
+        "xref.csv",
+        "first,last,comment,network,step,use,instruction,reach\nX000,X000,,1,0,contact,LD X000,\n",
+    ),
+];
+
+#[test]
+fn cut_off_programs_say_where() {
+    let whole = wpg(0x0208, &[b"\x34"]);
+    for length in [1, 10, 64] {
+        let read = read_bytes("MAIN.wpg", &whole[..length]).unwrap();
+        let found: Vec<_> = read
+            .diagnostics
+            .iter()
+            .map(|d| d.message.as_str())
+            .collect();
+        let bytes = if length == 1 {
+            "1 byte"
+        } else {
+            &format!("{length} bytes")
+        };
+        assert_eq!(
+            found,
+            [format!(
+                "the project is cut off after {bytes}, before its program"
+            )]
+        );
+    }
+}
+
+/// Tables of comments by any separator, with any columns; what is not a device is named.
+#[test]
+fn device_comments_are_found_by_their_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let tables = [
+        "Device;Comment\r\nX000;start\r\nX8;bad\r\nY001;motor, left\r\n",
+        "Device\tLabel\tComment\r\nX000\ta\tstart\r\nX8\tb\tbad\r\nY001\tc\tmotor, left\r\n",
+        "\"Comment\",\"Device Name\"\r\n\"start\",\"X000\"\r\n\"bad\",\"X8\"\r\n\"motor, left\",\"Y001\"\r\n",
+        "X000,start\r\nX8,bad\r\nY001,\"motor, left\"\r\nM0,\"a\tb\"\r\n",
+    ];
+    std::fs::write(folder.path().join("MAIN.csv"), export("FXCPU FX3S")).unwrap();
+    for table in tables {
+        std::fs::write(folder.path().join("COMMENT.csv"), table).unwrap();
+        let read = read(&folder.path().join("MAIN.csv")).unwrap();
+        let mut comments = read.program.comments.iter();
+        let comment = comments
+            .next()
+            .map(|(device, text)| format!("{device} {text}"));
+        assert_eq!(comment.as_deref(), Some("X000 start"), "{table}");
+        let comment = comments
+            .next()
+            .map(|(device, text)| format!("{device} {text}"));
+        assert_eq!(comment.as_deref(), Some("Y001 motor, left"), "{table}");
+        let found: Vec<_> = read
+            .diagnostics
+            .iter()
+            .map(|d| (d.code, d.message.as_str()))
+            .collect();
+        assert_eq!(
+            found,
+            [(
+                "W0525",
+                "the comment on `X8` is left out, which is not a device"
+            )]
+        );
+    }
+    let list = read_bytes("a.il", b";! X8 = bad\nLD X0\nOUT Y0\nEND\n").unwrap();
+    let codes: Vec<_> = list.diagnostics.iter().map(|d| d.code).collect();
+    assert_eq!((codes, list.program.comments.len()), (vec!["E0003"], 0));
+}
+
+/// Lists stay lists, whatever their comments and ends look like.
+#[test]
+fn lists_with_other_signs_are_read() {
+    for text in [
+        "LD X0\nOUT Y0\nEND\n\u{1a}",
+        "; [main]\n; speed=3\nLD X0\nOUT Y0\nEND\n",
+        "; From: a\n; Subject: b\nLD X0\nOUT Y0\nEND\n",
+        "0\tLD\tX0\n1\tOUT\tY0\n2\tEND\n",
+        "S2 K1\nLD X0\nOUT Y0\nEND\n",
+        "P0:\nLD X0\nOUT Y0\nEND\n",
+    ] {
+        let read = read_bytes("a.il", text.as_bytes()).unwrap();
+        let texts = texts(&read.program);
+        assert!(
+            texts.ends_with(&["LD X000".into(), "OUT Y000".into(), "END".into()]),
+            "{texts:?}"
+        );
+    }
+}
+
 /// Each kind of file is named for what it is, with what to do.
 #[test]
 fn files_that_are_no_programs_are_named() {
@@ -61,13 +202,18 @@ fn files_that_are_no_programs_are_named() {
         ("a.svg", b"<svg xmlns=\"\"></svg>\n".to_vec()),
         ("a.vcd", b"$date today $end\n".to_vec()),
         ("a.elf", b"\x7FELF\x01\x01\0\0".to_vec()),
+        ("any.zip", b"PK\x03\x04....content.xml".to_vec()),
+        ("erased.bin", vec![0xFF; 8000]),
+        ("a.gxw", Vec::new()),
+        ("COMMENT.wcd", wpg(0x0208, &[b"\x34"])),
+        ("param.wpa", wpg(0x0208, &[b"\x34"])),
     ];
-    let said = files
-        .iter()
-        .map(|(name, bytes)| match read_bytes(name, bytes) {
-            Err(error) => error.to_string(),
-            Ok(read) => panic!("{name}: {:?}", read.diagnostics.iter().next()),
-        });
+    let texts = TEXTS.map(|(name, text)| (name, text.as_bytes().to_vec()));
+    let files = files.into_iter().chain(texts);
+    let said = files.map(|(name, bytes)| match read_bytes(name, &bytes) {
+        Err(error) => error.to_string(),
+        Ok(read) => panic!("{name}: {:?}", read.diagnostics.iter().next()),
+    });
     insta::assert_snapshot!(said.collect::<Vec<_>>().join("\n"));
 }
 
