@@ -4,14 +4,17 @@
 //! impossible, each by itself; only what is proved is reported. An output that changes in every scan is shown by
 //! a run that the interpreter has confirmed.
 
+mod dependence;
+
 use crate::aig::Lit;
-use crate::model::{Encoder, Key, Probes, World, device_of, is_settable};
+use crate::model::{Encoder, Key, Probes, World};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
 use crate::random::{Lanes, Random};
 use crate::replay::{Run, plain};
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
+use dependence::dependent;
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Expr, ExprId, Stmt};
 use rungc_ir::walk::statements;
@@ -70,8 +73,11 @@ pub struct Finding {
     pub network: u32,
     /// Evidence for it.
     pub evidence: Evidence,
-    /// Devices that nothing but the program may write, or the proof does not hold; of what a run shows, none.
+    /// Devices that nothing but the program may write for the proof to hold, without outputs and relays that every scan
+    /// writes anew; of what a run shows, none.
     pub untouched: Vec<(DeviceClass, u32)>,
+    /// Some of these devices: if something else writes them, it can happen.
+    pub possible_with: Vec<(DeviceClass, u32)>,
 }
 
 impl Finding {
@@ -83,6 +89,7 @@ impl Finding {
             network,
             evidence: Evidence::Trace(trace),
             untouched: Vec::new(),
+            possible_with: Vec::new(),
         }
     }
 }
@@ -140,12 +147,13 @@ const INDUCTION: usize = 3;
 /// Number of successive changes that make an output one that oscillates.
 const CHANGES: usize = 6;
 
-/// Assumptions about the environment of the program, whose devices in `free` may be written from outside: none about
-/// the time of a scan.
-pub fn world(free: BTreeSet<(DeviceClass, u32)>) -> World {
+/// Assumptions about the environment of the program, whose devices in `free` may be written from outside, while nothing
+/// else sets those in `unset`: none about the time of a scan.
+pub fn world(free: BTreeSet<(DeviceClass, u32)>, unset: BTreeSet<(DeviceClass, u32)>) -> World {
     World {
         scan_ms: FOREVER_MS,
         free,
+        unset,
         ..World::default()
     }
 }
@@ -164,6 +172,7 @@ pub fn look(module: &Module, world: World, time: Duration) -> Report {
         (&mut candidates, &mut report),
         begin + time / 4,
     );
+    let mut proved = Vec::new();
     for candidate in candidates.iter().filter(|c| !c.happened && c.began) {
         let now = Instant::now();
         if now >= begin + time {
@@ -172,27 +181,27 @@ pub fn look(module: &Module, world: World, time: Duration) -> Report {
         }
         let about = system.about(candidate.happens);
         match never(&about, (now + PROOF).min(begin + time)) {
-            Answer::Proved(evidence) => report.findings.push(Finding {
-                kind: candidate.kind.clone(),
-                device: candidate.device,
-                network: candidate.network,
-                evidence,
-                untouched: untouched(&about, candidate.device),
-            }),
+            Answer::Proved(evidence) => {
+                let finding = Finding {
+                    kind: candidate.kind.clone(),
+                    device: candidate.device,
+                    network: candidate.network,
+                    evidence,
+                    untouched: Vec::new(),
+                    possible_with: Vec::new(),
+                };
+                proved.push((finding, about));
+            }
             Answer::Possible => {}
             Answer::Open => report.open += 1,
         }
     }
+    for (finding, about) in proved {
+        let finding = dependent(finding, &about, &encoder, begin + time);
+        report.findings.push(finding);
+    }
     report.findings.sort_by_key(|finding| finding.network);
     report
-}
-
-/// Devices other than the one in question whose values a proof depends on and that something else could write.
-fn untouched(system: &System, of: Option<(DeviceClass, u32)>) -> Vec<(DeviceClass, u32)> {
-    let keys = system.latches.iter().map(|latch| latch.key);
-    let devices = keys.filter(|key| is_settable(*key)).filter_map(device_of);
-    let others = devices.filter(|device| Some(*device) != of && !is_special(device.0, device.1));
-    BTreeSet::from_iter(others).into_iter().collect()
 }
 
 /// Events that a program provides for.
@@ -377,16 +386,27 @@ enum Answer {
 }
 
 fn never(system: &System, deadline: Instant) -> Answer {
+    by_induction(system, deadline).unwrap_or_else(|| by_invariant(system, deadline))
+}
+
+/// The answer of a few scans, if there is one.
+fn by_induction(system: &System, deadline: Instant) -> Option<Answer> {
     let mut bounded = Bounded::new(system, false, deadline);
     let mut induction = Induction::new(system, deadline);
     for scans in 1..=INDUCTION {
         match bounded.step() {
-            Step::Holds if induction.step() => return Answer::Proved(Evidence::Induction(scans)),
+            Step::Holds if induction.step() => {
+                return Some(Answer::Proved(Evidence::Induction(scans)));
+            }
             Step::Holds => {}
-            Step::Violated(_) => return Answer::Possible,
-            Step::Impossible | Step::TimeUp => return Answer::Open,
+            Step::Violated(_) => return Some(Answer::Possible),
+            Step::Impossible | Step::TimeUp => return Some(Answer::Open),
         }
     }
+    None
+}
+
+fn by_invariant(system: &System, deadline: Instant) -> Answer {
     match pdr::search(system, deadline) {
         pdr::Found::Invariant(cubes) => {
             let checked = pdr::check(system, &cubes, deadline + PROOF);

@@ -50,6 +50,16 @@ impl System {
         self.keep(&self.cone(bad), bad)
     }
 
+    /// The same with memory that may change between two scans.
+    pub(crate) fn releasing(&self, released: impl Fn(Key) -> bool) -> System {
+        let mut system = self.clone();
+        system.latches.retain(|latch| !released(latch.key));
+        let free = self.latches.iter().filter(|latch| released(latch.key));
+        let free = free.map(|latch| (latch.now, Input::Device(latch.key, latch.bit)));
+        system.inputs.extend(free);
+        system.sliced()
+    }
+
     /// Nodes that the answer to a question depends on.
     pub(crate) fn cone(&self, bad: Lit) -> Vec<bool> {
         let number_of = self.latch_numbers();

@@ -1,5 +1,6 @@
 //! Properties of programs, proved and violated.
 
+mod causes;
 mod peers;
 
 #[cfg(unix)]

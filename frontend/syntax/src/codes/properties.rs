@@ -27,7 +27,7 @@ super::codes! {
 
     NEVER_ON = "W0901" "never-on" Warning None,
     "a coil that can never be on",
-    "No run of the program switches this relay or output on, whatever its inputs are: the contacts before it contradict each other, or depend on something that never happens. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`. Networks that name M8000 or M8001 are left out, since they are meant so.",
+    "No run of the program switches this relay or output on, whatever its inputs are: the contacts before it contradict each other, or depend on something that never happens. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`. Networks that name M8000 or M8001 are left out, since they are meant so, and so are those that depend on a relay that such a network keeps off or on. What follows from a finding is shown with it. RST and ZRST alone make no coil.",
     wrong: "",
     right: "";
 
@@ -39,7 +39,7 @@ super::codes! {
 
     STATE_UNREACHABLE = "W0903" "state-unreachable" Warning None,
     "a step that can never be reached",
-    "No run of the program switches this step on: the transition to it never takes place. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
+    "No run of the program switches this step on: the transition to it never takes place. A step that nothing in the program sets counts as off, unless rungc.toml names it or a server whose clients could set it. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 
@@ -51,7 +51,7 @@ super::codes! {
 
     COMPARISON_CONSTANT = "W0905" "comparison-constant" Warning None,
     "a comparison that always has the same result",
-    "In every run of the program, this comparison has the same result whenever the scan comes to it. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
+    "In every run of the program, this comparison has the same result whenever the scan comes to it. If it keeps a whole rung open, it is shown with that rung (W0901 to W0903). `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 

@@ -182,6 +182,7 @@ impl Encoder<'_> {
         let model = self.module.model;
         let latched = |class, number| self.module.is_latched(class, number) && !self.world.fresh;
         match key {
+            _ if self.is_unset(key) => Some(0),
             Key::Bit(class, number) if latched(class, number) => None,
             Key::Bit(DeviceClass::M, number) => {
                 let relay = u16::try_from(number).ok().map(Relay);

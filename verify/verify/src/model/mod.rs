@@ -134,6 +134,8 @@ pub struct World {
     pub fresh: bool,
     /// Devices that something other than the program writes.
     pub free: BTreeSet<(DeviceClass, u32)>,
+    /// Devices that nothing sets unless the program does: as far as it does not, they are off from power-on.
+    pub unset: BTreeSet<(DeviceClass, u32)>,
     /// True if a running timer may expire at any time, as far as its value is not read: a proof then holds for every
     /// preset.
     pub any_preset: bool,
@@ -147,6 +149,7 @@ impl Default for World {
             scan_ms: 200,
             fresh: false,
             free: BTreeSet::new(),
+            unset: BTreeSet::new(),
             any_preset: false,
             observed: BTreeSet::new(),
         }
@@ -401,7 +404,17 @@ impl<'m> Encoder<'m> {
             Key::Bit(class, _) | Key::Word(class, _) => matches!(class, M | S | D | R | ER | V | Z),
             _ => true,
         };
-        asked && memory::is_settable(key) && !self.written.contains(&key)
+        let written = self.written.contains(&key) || self.is_unset(key);
+        asked && memory::is_settable(key) && !written
+    }
+
+    /// Returns true if it belongs to a device of [`World::unset`] that nothing sets, so that it is off.
+    pub(crate) fn is_unset(&self, key: Key) -> bool {
+        let is_unset = |device| self.world.unset.contains(&device);
+        memory::device_of(key).is_some_and(is_unset)
+            && !self.written.contains(&key)
+            && !self.external.contains(&key)
+            && !self.is_named_free(key)
     }
 
     /// Returns true if something other than the program sets a device before each scan.

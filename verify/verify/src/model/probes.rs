@@ -16,6 +16,8 @@ pub struct Written {
     pub on: Lit,
     /// It is switched off somewhere in the scan.
     pub off: Lit,
+    /// Every scan writes it, whatever happens in it.
+    pub always: bool,
 }
 
 /// Execution of a timer.
@@ -83,7 +85,9 @@ impl Encoder<'_> {
             network,
             on: Lit::FALSE,
             off: Lit::FALSE,
+            always: false,
         });
+        known.always |= guard == Lit::TRUE;
         known.on = self.aig.or(known.on, on);
         known.off = self.aig.or(known.off, off);
     }

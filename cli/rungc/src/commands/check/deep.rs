@@ -1,22 +1,29 @@
 //! `--deep`: what can never happen in a program, though it is written as if it could.
 
+mod causes;
+
 use crate::commands::counted;
 use crate::commands::properties::ExternalWrites;
 use crate::commands::subject::Subject;
 use crate::commands::verify::report::{assumptions, changes};
-use rungc_catalogue::{Basic, Drive, Lower};
+use causes::Contacts;
+use rungc_catalogue::{Basic, Drive, Lower, Role};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId};
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_models::Model;
 use rungc_rt::CmpOp;
 use rungc_sim::Target;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Label, OperandKind, Program,
+};
 use rungc_verify::deep::{Evidence, Finding, Kind, look, world};
 use rungc_verify::property::{Condition, Property};
 use rungc_verify::replay::story;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Time limit for a program.
@@ -47,40 +54,105 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
     };
     simplify(&mut module);
     let external = ExternalWrites::of(None, subject.own_project());
-    let world = world(external.devices.keys().copied().collect());
-    let report = look(&module, world.clone(), TIME);
     let place = Place {
         program: &read.program,
         steps: &checked.step_numbers,
         module: &module,
+        contacts: causes::contacts(&read.program, &checked.step_numbers, &module),
     };
-    let mut seen = Vec::new();
-    for finding in &report.findings {
-        if let Some(diagnostic) = place.diagnostic(finding)
-            && !seen.contains(&diagnostic.span)
-        {
-            seen.push(diagnostic.span);
-            found.diagnostics.push(diagnostic);
-            if found.assumptions.is_empty() && !matches!(finding.evidence, Evidence::Trace(_)) {
-                found.assumptions = assumptions(&world, &[], &external);
-            }
+    // A client might set a step, too.
+    let steps = place.steps_of_ladders().filter(|_| !external.has_clients);
+    let steps = steps.map(|step| (step.class, step.number));
+    let world = world(external.devices.keys().copied().collect(), steps.collect());
+    let report = look(&module, world.clone(), TIME);
+    let mut placed: Vec<Placed> = report
+        .findings
+        .iter()
+        .filter_map(|finding| place.placed(finding))
+        .collect();
+    place.leave_out_intended(&mut placed);
+    let mut seen = BTreeSet::new();
+    placed.retain(|placed| seen.insert(placed.instr.span));
+    for (first, others) in place.by_cause(&placed) {
+        if found.assumptions.is_empty() && !matches!(first.finding.evidence, Evidence::Trace(_)) {
+            found.assumptions = assumptions(&world, &[], &external);
         }
+        found.diagnostics.push(place.diagnostic(first, &others));
     }
     found.open = report.open;
     found
 }
 
 /// Returns true if an instruction writes a device as its first operand, such as a coil.
-pub fn writes(instr: &Instr, device: Device) -> bool {
+pub fn writes(instr: &Instr, device: Device, model: &Model) -> bool {
+    let Some(found) = rungc_catalogue::find(&instr.mnemonic) else {
+        return false;
+    };
+    if found.inst.drive == Drive::Logic || found.inst.basic() == Some(Basic::Stl) {
+        return false;
+    }
+    let params = found.inst.params_of(&instr.operands, model);
+    let first = instr.operands.first().zip(params.first());
+    first.is_some_and(|(operand, param)| {
+        param.role != Role::Read && operand.kind.device() == Some(device)
+    })
+}
+
+/// Returns true if an instruction only switches off what it writes.
+fn clears(instr: &Instr) -> bool {
     let found = rungc_catalogue::find(&instr.mnemonic);
-    let reads = found.is_some_and(|found| {
-        found.inst.drive == Drive::Logic || found.inst.basic() == Some(Basic::Stl)
-    });
-    let first = instr
-        .operands
-        .first()
-        .and_then(|operand| operand.kind.device());
-    !reads && first == Some(device)
+    found.is_some_and(|found| found.inst.basic() == Some(Basic::Rst) || found.inst.name == "ZRST")
+}
+
+fn basic(instr: &Instr) -> Option<Basic> {
+    rungc_catalogue::find(&instr.mnemonic).and_then(|found| found.inst.basic())
+}
+
+/// A finding with its place.
+struct Placed<'a> {
+    finding: &'a Finding,
+    /// The device that it is about.
+    device: Option<Device>,
+    instr: &'a Instr,
+    /// The network of the instruction, by number in the module.
+    network: u32,
+}
+
+impl Placed<'_> {
+    fn name(&self) -> String {
+        self.device
+            .map(|device| device.to_string())
+            .unwrap_or_default()
+    }
+
+    fn code(&self) -> &'static Code {
+        match self.finding.kind {
+            Kind::NeverOn => &codes::NEVER_ON,
+            Kind::NeverReached => &codes::STATE_UNREACHABLE,
+            Kind::NeverLeft => &codes::STATE_ENDLESS,
+            Kind::NeverExpires => &codes::TIMER_NEVER_EXPIRES,
+            Kind::Oscillates => &codes::OUTPUT_OSCILLATES,
+            Kind::NeverActs => &codes::RUNG_NEVER_ACTS,
+            Kind::Constant { .. } => &codes::COMPARISON_CONSTANT,
+        }
+    }
+
+    fn text(&self) -> String {
+        let name = self.name();
+        match self.finding.kind {
+            Kind::NeverOn => format!("`{name}` can never be on"),
+            Kind::NeverReached => format!("step `{name}` can never be reached"),
+            Kind::NeverLeft => format!("once step `{name}` is on, it stays on"),
+            Kind::NeverExpires => format!("`{name}` runs but can never expire"),
+            Kind::Oscillates => {
+                format!("`{name}` can change in every scan while no input does")
+            }
+            Kind::NeverActs => {
+                "this rung can never do anything: its contacts never conduct".to_string()
+            }
+            Kind::Constant { result, .. } => format!("this comparison is always {result}"),
+        }
+    }
 }
 
 /// Positions of findings in the source.
@@ -89,6 +161,8 @@ struct Place<'a> {
     /// The step of each instruction.
     steps: &'a [u32],
     module: &'a Module,
+    /// The contacts of each network.
+    contacts: Vec<Contacts>,
 }
 
 impl Place<'_> {
@@ -123,78 +197,90 @@ impl Place<'_> {
         })
     }
 
-    /// Returns true if a step ladder has this step.
-    fn is_step(&self, device: Device) -> bool {
-        self.program.instrs.iter().any(|instr| {
-            let first = instr
-                .operands
-                .first()
-                .and_then(|operand| operand.kind.device());
-            let found = rungc_catalogue::find(&instr.mnemonic);
-            let basic = found.and_then(|found| found.inst.basic());
-            basic == Some(Basic::Stl) && first == Some(device)
-        })
+    /// The number of the network that an instruction is in.
+    fn network_of(&self, instr: &Instr) -> u32 {
+        let mut instrs = self.program.instrs.iter().zip(self.steps);
+        let step = instrs.find(|(other, _)| std::ptr::eq(*other, instr));
+        self.network_at(step.map_or(0, |(_, step)| *step))
     }
 
-    fn diagnostic(&self, finding: &Finding) -> Option<Diagnostic> {
+    /// The number of the network that a step is in.
+    fn network_at(&self, step: u32) -> u32 {
+        let networks = &self.module.networks;
+        let begun = networks.partition_point(|network| network.step <= step);
+        begun.saturating_sub(1) as u32
+    }
+
+    /// The steps of step ladders.
+    fn steps_of_ladders(&self) -> impl Iterator<Item = Device> {
+        let steps = self.program.instrs.iter();
+        let steps = steps.filter(|instr| basic(instr) == Some(Basic::Stl));
+        steps.filter_map(|instr| instr.operands.first()?.kind.device())
+    }
+
+    /// A finding with the instruction that it is about, if it is one to report.
+    fn placed<'f>(&'f self, finding: &'f Finding) -> Option<Placed<'f>> {
         let device = finding
             .device
             .map(|(class, number)| Device { class, number });
-        if self.is_meant(finding.network) && !matches!(finding.kind, Kind::Oscillates) {
-            return None;
-        }
-        let writes = |instr: &&Instr| device.is_some_and(|device| writes(instr, device));
+        let model = self.module.model;
+        let writes = |instr: &&Instr| device.is_some_and(|device| writes(instr, device, model));
         let is_driven = |instr: &&Instr| {
             let found = rungc_catalogue::find(&instr.mnemonic);
             found.is_some_and(|found| found.inst.drive == Drive::Contact)
         };
-        let name = device.map(|device| device.to_string()).unwrap_or_default();
-        let (code, instr, text): (&Code, _, _) = match &finding.kind {
-            Kind::NeverOn => (
-                &codes::NEVER_ON,
-                self.instrs(finding.network).find(writes)?,
-                format!("`{name}` can never be on"),
-            ),
-            Kind::NeverReached => (
-                &codes::STATE_UNREACHABLE,
-                self.instrs(finding.network).find(writes)?,
-                format!("step `{name}` can never be reached"),
-            ),
+        let mut here = self.instrs(finding.network);
+        let instr = match &finding.kind {
+            Kind::NeverOn | Kind::NeverReached => {
+                let all = here.chain(&self.program.instrs);
+                let mut setting = all.filter(writes).filter(|instr| !clears(instr));
+                let first = setting.next()?;
+                let mut others = std::iter::once(first).chain(setting);
+                let unintended = others.find(|instr| !self.is_meant(self.network_of(instr)));
+                unintended.unwrap_or(first)
+            }
             // As a relay, a step may stay on.
-            Kind::NeverLeft if !self.is_step(device?) => return None,
-            Kind::NeverLeft => (
-                &codes::STATE_ENDLESS,
-                self.instrs(finding.network).find(writes)?,
-                format!("once step `{name}` is on, it stays on"),
-            ),
-            Kind::NeverExpires => (
-                &codes::TIMER_NEVER_EXPIRES,
-                self.instrs(finding.network).find(writes)?,
-                format!("`{name}` runs but can never expire"),
-            ),
-            Kind::Oscillates => (
-                &codes::OUTPUT_OSCILLATES,
-                self.instrs(finding.network).find(writes)?,
-                format!("`{name}` can change in every scan while no input does"),
-            ),
-            Kind::NeverActs => (
-                &codes::RUNG_NEVER_ACTS,
-                self.instrs(finding.network).find(is_driven)?,
-                "this rung can never do anything: its contacts never conduct".to_string(),
-            ),
-            Kind::Constant { op, sides, result } => {
-                let instr = self.comparison(finding.network, *op, sides)?;
-                let always = if *result { "true" } else { "false" };
-                (
-                    &codes::COMPARISON_CONSTANT,
-                    instr,
-                    format!("this comparison is always {always}"),
-                )
+            Kind::NeverLeft => {
+                let step = device?;
+                self.steps_of_ladders().find(|other| *other == step)?;
+                here.find(writes)?
+            }
+            Kind::NeverExpires | Kind::Oscillates => here.find(writes)?,
+            Kind::NeverActs => here.find(is_driven)?,
+            Kind::Constant { op, sides, .. } => {
+                drop(here);
+                self.comparison(finding.network, *op, sides)?
             }
         };
-        let mut diagnostic = code.at(instr.span, text);
-        diagnostic.help = Some(self.evidence(finding, &name).into());
-        Some(diagnostic)
+        Some(Placed {
+            finding,
+            device,
+            instr,
+            network: self.network_of(instr),
+        })
+    }
+
+    fn diagnostic(&self, placed: &Placed, others: &[&Placed]) -> Diagnostic {
+        let finding = placed.finding;
+        let mut diagnostic = placed.code().at(placed.instr.span, placed.text());
+        diagnostic.help = Some(self.evidence(finding, &placed.name()).into());
+        diagnostic.others = others
+            .iter()
+            .map(|other| Label {
+                span: other.instr.span,
+                text: match other.finding.kind {
+                    Kind::Constant { .. } => other.text().into(),
+                    _ => format!("{}, too", other.text()).into(),
+                },
+            })
+            .collect();
+        if finding.untouched.len() > SHOWN {
+            let devices = finding.untouched.iter();
+            diagnostic.devices = devices
+                .map(|&(class, number)| Device { class, number })
+                .collect();
+        }
+        diagnostic
     }
 
     /// The contact of the source that compares these numbers, if it does nothing else.
@@ -242,14 +328,19 @@ impl Place<'_> {
             Some(more) => format!(" and {more} more"),
         };
         let shown = &names[..names.len().min(SHOWN)];
-        if let Some(first) = shown.first() {
-            text += &format!(
-                ", if only the program writes {}{more}; what a panel writes belongs in rungc.toml: \
-                 `[hmi] writes = \"{first}\"`",
-                shown.join(", ")
-            );
+        if !shown.is_empty() {
+            text += &format!(", if only the program writes {}{more}", shown.join(", "));
         }
-        text
+        let panel = finding.possible_with.iter();
+        let panel: Vec<_> = panel
+            .map(|(class, n)| format!("\"{}\"", class.number(*n)))
+            .collect();
+        let panel = match panel.as_slice() {
+            [] => return text,
+            [only] => only.clone(),
+            several => format!("[{}]", several.join(", ")),
+        };
+        text + &format!("; what a panel writes belongs in rungc.toml: `[hmi] writes = {panel}`")
     }
 
     fn grounds(&self, finding: &Finding, name: &str) -> String {

@@ -209,6 +209,9 @@ pub fn assumptions(world: &World, assumed: &[String], external: &ExternalWrites)
         },
         untouched(external),
     ];
+    if !world.unset.is_empty() {
+        lines.push("nothing but the program switches steps on".to_string());
+    }
     lines.extend(
         assumed
             .iter()

@@ -143,6 +143,7 @@ fn publish(
     reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
     let mut diagnostics = Diagnostics::new();
+    let model = rungc_lower::compile::model(&read.program, &subject.options());
     for output in &compared.outputs {
         let name = named(output);
         let Some((code, text)) = finding(output) else {
@@ -152,7 +153,7 @@ fn publish(
             .program
             .instrs
             .iter()
-            .filter(|instr| writes(instr, name));
+            .filter(|instr| writes(instr, name, model));
         let span = written.next().map(|instr| instr.span);
         let mut diagnostic = code.at(span.unwrap_or_default(), text);
         if span.is_some() {
