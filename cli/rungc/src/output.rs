@@ -135,6 +135,10 @@ pub fn refuse_outside(
 /// Why not, and what to do.
 pub fn permit(path: &Path, kind: Kind, force: bool) -> Result<(), Failure> {
     refuse_input(path)?;
+    if is_stream(path) {
+        let what = "is a stream of a process, not a file; name a file";
+        return Err(Failure::Because(format!("{} {what}", path.display())));
+    }
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => {
             let what = "already exists and is not a regular file";
@@ -148,6 +152,22 @@ pub fn permit(path: &Path, kind: Kind, force: bool) -> Result<(), Failure> {
         ))),
         // A broken link, or nothing at all.
         Err(_) => Ok(()),
+    }
+}
+
+/// Returns true for the names of a process's open files, such as `/dev/stdout`. Replaced as files are, they would no
+/// longer be what every process of the machine takes them for.
+fn is_stream(path: &Path) -> bool {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let devices = ["stdin", "stdout", "stderr", "fd"].map(|name| Path::new("/dev").join(name));
+    path.starts_with("/proc") || devices.iter().any(|device| path.starts_with(device))
+}
+
+/// The file that a link leads to: it is replaced, and the link stays.
+fn target(path: &Path) -> PathBuf {
+    match path.is_symlink() {
+        true => resolved(path).unwrap_or_else(|_| path.to_owned()),
+        false => path.to_owned(),
     }
 }
 
@@ -226,9 +246,10 @@ impl AtomicFile {
         mode: u32,
     ) -> Result<AtomicFile, Failure> {
         permit(path, kind, force)?;
+        let path = target(path);
         Ok(AtomicFile {
-            file: making(path, mode)?,
-            path: path.to_path_buf(),
+            file: making(&path, mode)?,
+            path,
             kind,
             force,
         })

@@ -80,9 +80,9 @@ impl Kind {
 fn of_text(text: &str) -> Option<Kind> {
     let start = text.trim_start();
     let first = start.lines().next().unwrap_or_default();
-    let kind = if start.starts_with("<!DOCTYPE html>") && start.contains(":root { color-scheme:") {
+    let kind = if start.starts_with("<!DOCTYPE html>") && is_page(start) {
         Kind::Html
-    } else if start.starts_with("<svg height=\"") {
+    } else if start.starts_with("<svg height=\"") && first.contains(" role=\"img\" viewBox=\"0 ") {
         Kind::Svg
     } else if start.starts_with("<?xml") && start.contains("<testsuites name=\"rungc") {
         Kind::Report
@@ -94,7 +94,7 @@ fn of_text(text: &str) -> Option<Kind> {
         Kind::Proof
     } else if start.starts_with('{') && is_document(start) {
         Kind::Report
-    } else if first.starts_with("first,last,comment,network,") || first.starts_with("time_ms,") {
+    } else if first.starts_with("first,last,comment,network,") || is_samples(first) {
         Kind::Table
     } else if is_frame(first) {
         Kind::Frames
@@ -106,22 +106,41 @@ fn of_text(text: &str) -> Option<Kind> {
     Some(kind)
 }
 
-/// Returns true for the beginning of one of rungc's documents, by the first of its keys.
+/// Returns true for a page, by the beginning of its style sheet.
+fn is_page(text: &str) -> bool {
+    const STYLES: [&str; 2] = [
+        ":root { color-scheme: light dark; --paper: #fff; --ink: ",
+        ":root { color-scheme: light dark; }\nbody { margin: 0; font: 14px/1.4 system-ui, ",
+    ];
+    STYLES.iter().any(|style| text.contains(style))
+}
+
+/// Returns true for the heading of samples: the time, and devices.
+fn is_samples(line: &str) -> bool {
+    let Some(columns) = line.strip_prefix("time_ms,") else {
+        return false;
+    };
+    let is_device = |column: &str| {
+        let number = column.trim_start_matches(|c: char| c.is_ascii_uppercase());
+        number.len() < column.len() && number.starts_with(|c: char| c.is_ascii_digit())
+    };
+    columns.split(',').all(is_device)
+}
+
+/// Returns true for the beginning of one of rungc's documents: the first of its keys, and one that comes with it.
 fn is_document(text: &str) -> bool {
-    const KEYS: [&str; 9] = [
-        "$schema",
-        "comments",
-        "differs",
-        "diagnostics",
-        "file",
-        "files",
-        "model",
-        "passed",
-        "programs",
+    const KEYS: [(&str, &str); 7] = [
+        ("$schema", "\"name\": \"rungc\""),
+        ("comments", "\n  \"differs\": "),
+        ("errors", "\n  \"notes\": "),
+        ("file", "\n  \"warnings\": "),
+        ("model", "\n  \"devices\": ["),
+        ("passed", "\n  \"seconds\": "),
+        ("programs", "\n      \"file\": "),
     ];
     let first = text.split('"').nth(1).unwrap_or_default();
-    let sarif = first != "$schema" || text.contains("sarif-2.1.0");
-    KEYS.contains(&first) && sarif
+    let mut keys = KEYS.iter();
+    keys.any(|(key, other)| *key == first && text.contains(other))
 }
 
 /// Returns true for a proof in DRAT: numbers that end in 0.
@@ -146,29 +165,61 @@ fn is_model(text: &str) -> bool {
         .is_some_and(|line| line.starts_with("1 sort bitvec "))
 }
 
-/// Returns true for a line of a log of frames: its time, and the direction.
+/// Returns true for a line of a log of frames: its time, the direction, and the bytes.
 fn is_frame(line: &str) -> bool {
     let mut words = line.split_whitespace();
     let time = words.next().and_then(|word| word.split_once('.'));
+    let bytes = line.trim_end().strip_suffix(']');
+    let bytes = bytes.and_then(|line| line.rsplit_once("  ["));
+    let is_byte = |word: &str| word.len() == 2 && u8::from_str_radix(word, 16).is_ok();
     time.is_some_and(|(s, us)| us.len() == 6 && s.parse::<u64>().is_ok())
         && (line.contains(" <- ") || line.contains(" -> "))
+        && bytes.is_some_and(|(_, bytes)| bytes.split(' ').all(is_byte))
 }
 
 /// Returns true for a report: of `test`, its coverage and its mutants, of `diff`, `verify` and `xref`.
 fn is_report(text: &str) -> bool {
     const VERDICTS: [&str; 5] = ["proved", "violated", "reached", "not", "differs"];
     let mut lines = text.lines();
-    let first = lines.next().unwrap_or_default();
-    let second = lines.next().unwrap_or_default();
+    let mut line = || lines.next().unwrap_or_default();
+    let (first, second, third) = (line(), line(), line());
     let last = text.trim_end().lines().last().unwrap_or_default();
-    let compared = first.starts_with("--- ") && second.starts_with("+++ ");
+    // In patches, the place of the first change follows.
+    let is_patch = third.starts_with("@@") || third.is_empty();
+    let compared = first.starts_with("--- ") && second.starts_with("+++ ") && !is_patch;
     let compared = compared || first.starts_with("### `") && first.contains("` → `");
     let uses = second.starts_with("    network ") && second.contains(" step ");
-    let cases = last.contains(" passed, ") && last.ends_with(" s)");
+    let words: Vec<_> = last.split(' ').collect();
+    let cases = matches!(words[..], [n, "passed,", m, ..] if is_number(n) && is_number(m));
     let word = first.split(' ').next().unwrap_or_default();
-    let verdict = VERDICTS.contains(&word) && first.ends_with(" s)");
+    let verdict = VERDICTS.contains(&word) && ends_in_seconds(first);
     let verdict = verdict || first.starts_with("the same    ");
-    let share =
-        first.contains(" mutants noticed") || first.contains(" of ") && first.ends_with(" %)");
-    compared || uses || cases || verdict || share || first.starts_with("::error file=")
+    compared
+        || uses
+        || cases && ends_in_seconds(last)
+        || verdict
+        || is_share(first)
+        || first.contains(" mutants noticed")
+        || first.starts_with("::error file=")
+}
+
+fn is_number(word: &str) -> bool {
+    !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Returns true for a line that ends in a time: `(0.2 s)`.
+fn ends_in_seconds(line: &str) -> bool {
+    let time = line
+        .strip_suffix(" s)")
+        .and_then(|line| line.rsplit_once('('));
+    let parts = time.and_then(|(_, time)| time.split_once('.'));
+    parts.is_some_and(|(whole, rest)| is_number(whole) && is_number(rest))
+}
+
+/// Returns true for a share after what it is of: `motor.il: 3 of 5 (60 %)`.
+fn is_share(line: &str) -> bool {
+    let words = line.rsplit(": ").next().unwrap_or_default();
+    let words: Vec<_> = words.split(' ').collect();
+    matches!(words[..], [n, "of", m, percent, "%)"]
+        if is_number(n) && is_number(m) && percent.strip_prefix('(').is_some_and(is_number))
 }

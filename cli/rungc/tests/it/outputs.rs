@@ -35,6 +35,23 @@ const OWN: [(&str, &[u8]); 16] = [
     ),
     ("mine.pdf", b"%PDF-1.7\nmine\n"),
     ("package.json", b"{\n  \"name\": \"mine\"\n}\n"),
+    ("tsconfig.json", b"{\n  \"files\": [\"core.ts\"]\n}\n"),
+    ("mine.json", b"{\n  \"model\": \"my settings\"\n}\n"),
+    ("mine.csv", b"time_ms,temperature\n0,21.5\n"),
+    (
+        "mine.patch",
+        b"--- a/main.c\n+++ b/main.c\n@@ -1 +1 @@\n-a\n+b\n",
+    ),
+    (
+        "mine.txt",
+        b"3 of 10 machines are done (30 %)\n\n5 passed, 1 failed, in all (3 s)\n",
+    ),
+    ("mine.log", b"12.123456 x -> y\n"),
+    (
+        "page.html",
+        b"<!DOCTYPE html>\n<style>\n:root { color-scheme: light dark; }\n</style>\n",
+    ),
+    ("drawing.svg", b"<svg height=\"10\" width=\"10\"/>\n"),
     (
         "project.xml",
         b"<?xml version=\"1.0\"?>\n<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"/>\n",
@@ -362,4 +379,32 @@ fn a_refused_folder_is_named_with_the_option() {
         last,
         @"rungc: FOLDER/project/rungc.toml: `[io.a] files` leads out of the project's folder, to FOLDER; `--allow-folder FOLDER` allows it"
     );
+}
+
+/// A result that replaces an earlier one by a link leaves the link.
+#[cfg(unix)]
+#[test]
+fn links_stay_links() {
+    let folder = folder(&[("a.il", b"LD X0\nOUT Y0\nEND\n")]);
+    let at = folder.path();
+    std::fs::create_dir(at.join("results")).unwrap();
+    std::os::unix::fs::symlink("results/a.html", at.join("a.html")).unwrap();
+    for _ in 0..2 {
+        let output = rungc(at, &["view", "a.il", "-o", "a.html"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(at.join("a.html").is_symlink());
+        assert!(at.join("results/a.html").is_file());
+    }
+}
+
+/// Streams of the process are not files.
+#[cfg(unix)]
+#[test]
+fn streams_are_not_replaced() {
+    let folder = folder(&[("a.il", b"LD X0\nOUT Y0\nEND\n")]);
+    for path in ["/proc/self/fd/1", "/dev/fd/1"] {
+        let output = rungc(folder.path(), &["xref", "a.il", "-o", path, "--force"]);
+        assert_eq!(output.status.code(), Some(2), "{path}");
+        assert!(text(&output.stderr).contains("is a stream"), "{path}");
+    }
 }

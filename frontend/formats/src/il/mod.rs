@@ -211,7 +211,7 @@ impl Reader {
             let start = end - text.trim_start().len() as u32;
             for fault in faults.into_iter() {
                 let place = |span: Span| Span::new(start + span.start, start + span.end);
-                self.diagnostics.push(fault.diagnostic(key, place));
+                self.diagnostics.push(fault.diagnostic(key, place, None));
             }
         } else {
             return false;
