@@ -8,6 +8,9 @@ use std::ops::RangeInclusive;
 
 /// The identifier of a warning, given by its code or name.
 pub(super) fn warning(name: &str) -> Result<&'static str, String> {
+    if codes::find(name).is_some_and(|code| code.severity == Severity::Error) {
+        return Err("it is an error already".to_string());
+    }
     let id = omissible(name)?;
     match codes::find(id).map(|code| code.severity) {
         Some(Severity::Warning) => Ok(id),

@@ -79,6 +79,13 @@ fn rules_about_codes() {
     assert_eq!(check(deny, &[]), (1, true));
     assert_eq!(check(deny, &["-A", "W0203"]), (0, false));
     assert_eq!(check("", &["--deny", "double-coil"]), (1, true));
+    for (option, reason) in [
+        ("-D", "is an error already"),
+        ("-A", "cannot be suppressed"),
+    ] {
+        let output = rungc(path, &["check", "double.il", option, "E0106"]);
+        assert!(text(&output.stderr).contains(reason), "{option}");
+    }
 }
 
 #[test]
