@@ -68,7 +68,8 @@ Examples:
   rungc book test-files                        a page of the book; `rungc book` lists them
 
 Exit codes: 0: success; 1: errors in the program, a failed test, or a simulated machine that hit its end stop;
-2: incorrect usage or unreadable input; 3: `verify` has not decided; 130: interrupted with Ctrl-C.")]
+2: incorrect usage or unreadable input; 3: `verify` has not decided; 130: interrupted with Ctrl-C.
+Of `verify`, `explore` and `diff`, 1 is a violation, a finding or a difference, and 2 also an error in a program.")]
 pub struct Cli {
     /// The command.
     #[command(subcommand)]
@@ -107,12 +108,12 @@ pub enum Command {
     /// Prove that a program has a property, or show how it violates it.
     ///
     /// A property is a condition on the devices after a scan, such as `Y000 & Y001`. Exit codes: 0: proved; 1:
-    /// violated; 2: incorrect usage; 3: undecided.
+    /// violated; 2: incorrect usage, or errors in the program; 3: undecided.
     Verify(VerifyArgs),
     /// Search for runs with property violations, operation errors, or coils that drive an output to conflicting states.
     ///
     /// Tries sequences of inputs, and extends those that reach new behaviour. Prints the shortest run for each finding.
-    /// Exit codes: 0: nothing found, which is not a proof; 1: found; 2: incorrect usage.
+    /// Exit codes: 0: nothing found, which is not a proof; 1: found; 2: incorrect usage, or errors in the program.
     Explore(ExploreArgs),
     /// Draw a program as a ladder diagram.
     View(ViewArgs),
@@ -123,6 +124,8 @@ pub enum Command {
     /// Format instruction lists, preserving comments.
     Fmt(FmtArgs),
     /// Compare two programs network by network, or by behaviour.
+    ///
+    /// Exit codes: 0: no difference; 1: a difference; 2: incorrect usage, or a program that cannot be read whole.
     Diff(DiffArgs),
     /// Convert a program to an instruction list, list export, ladder drawing, PLCopen XML or program memory.
     Convert(ConvertArgs),

@@ -90,7 +90,7 @@ pub fn main() -> ExitCode {
         Err(Failure::Because(_)) if interruption::is_requested() => {
             ExitCode::from(interruption::EXIT_CODE)
         }
-        Ok(Outcome::Success) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
+        Ok(Outcome::Success) => ExitCode::SUCCESS,
         Ok(Outcome::Undecided) => ExitCode::from(3),
         Ok(Outcome::Failed) => ExitCode::from(1),
         Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),

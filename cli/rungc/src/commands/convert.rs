@@ -4,7 +4,8 @@ mod ladder;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, eprint_line, print_text, read, stem,
+    Context, Failure, Outcome, Result, conclude, counted, eprint_line, print_bytes, print_text,
+    read, stem,
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::output::write_file;
@@ -15,7 +16,7 @@ use rungc_frontend::{Read, image, print};
 use rungc_lower::compile::{CompileOptions, model};
 use rungc_syntax::{Diagnostics, Program, codes};
 use std::borrow::Cow;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
@@ -63,7 +64,7 @@ fn convert(
         None if args.to.is_text() && io::stdout().is_terminal() => {
             print_text(&String::from_utf8_lossy(&bytes))?;
         }
-        None => io::stdout().write_all(&bytes)?,
+        None => print_bytes(&bytes)?,
     }
     Ok(Outcome::Success)
 }

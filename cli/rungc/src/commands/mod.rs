@@ -43,6 +43,7 @@ pub use rungc_syntax::diag::{counted, grouped};
 use rungc_syntax::{SourceKind, Span, codes, text};
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use subject::Subject;
 
 /// Outcome of a command, the worst last.
@@ -77,7 +78,7 @@ pub enum Failure {
     Because(String),
     /// The same, where the report already says it.
     Reported,
-    /// The reader of the output, such as `head`, has closed it: no failure at all.
+    /// The reader of a run's output, such as `head`, has closed it, which ends the run.
     BrokenPipe,
 }
 
@@ -99,10 +100,7 @@ impl From<String> for Failure {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        match error.kind() {
-            io::ErrorKind::BrokenPipe => Failure::BrokenPipe,
-            _ => Failure::Because(error.to_string()),
-        }
+        Failure::Because(error.to_string())
     }
 }
 
@@ -195,10 +193,39 @@ fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::
     Ok(Failure::Reported)
 }
 
+/// True once the reader of standard output has closed it.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Returns true if the reader of standard output, such as `head`, has closed it.
+pub fn is_output_closed() -> bool {
+    CLOSED.load(Ordering::Relaxed)
+}
+
 /// Writes a text to standard output, with all written out that a terminal would act on.
 pub fn print_text(text: &str) -> io::Result<()> {
+    print_bytes(visible(text).as_bytes())
+}
+
+/// Writes bytes to standard output. A reader that closes it, such as `head`, changes nothing about the outcome of the
+/// command, which continues.
+pub fn print_bytes(bytes: &[u8]) -> io::Result<()> {
+    match write_bytes(bytes) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+            CLOSED.store(true, Ordering::Relaxed);
+            Ok(())
+        }
+        written => written,
+    }
+}
+
+/// Writes a text to standard output as [`print_text`] does, for commands that end when the reader closes it.
+pub fn stream_text(text: &str) -> io::Result<()> {
+    write_bytes(visible(text).as_bytes())
+}
+
+fn write_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(visible(text).as_bytes())?;
+    out.write_all(bytes)?;
     out.flush()
 }
 

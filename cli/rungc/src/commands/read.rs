@@ -3,7 +3,7 @@
 mod client;
 
 use super::convert::written;
-use super::{Context, Failure, Result, conclude, grouped, interruption, print_text};
+use super::{Context, Failure, Result, conclude, grouped, interruption, print_bytes, print_text};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
 use crate::output::{spare, write_file};
 use crate::progress;
@@ -12,7 +12,7 @@ use client::{Client, Reply};
 use rungc_frontend::{ReadOptions, image};
 use rungc_lower::compile::CompileOptions;
 use rungc_rt::comm::fx_port::PROGRAM_MEMORY;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::time::Instant;
 
@@ -72,7 +72,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
             None if args.to.is_text() && io::stdout().is_terminal() => {
                 print_text(&String::from_utf8_lossy(&bytes))?;
             }
-            None => io::stdout().write_all(&bytes)?,
+            None => print_bytes(&bytes)?,
         }
     }
     let steps = read.program.instrs.last().and_then(|end| end.step);

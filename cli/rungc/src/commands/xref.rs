@@ -5,14 +5,16 @@ mod table;
 
 use super::names::Names;
 use super::subject::{self, OutputPaths, Subject};
-use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
+use super::{
+    Context, Failure, Outcome, Result, found_reading, print_bytes, print_text, read_as_written,
+    stem,
+};
 use crate::args::{XrefArgs, XrefTo};
 use crate::output::write_file;
 use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
-use std::io::{self, Write};
 use table::Table;
 
 /// Lists who uses which device.
@@ -64,7 +66,7 @@ fn xref(
         let file = || format!("{}.{ending}", stem(subject, &read));
         match outputs.place(args.output.as_deref(), reporter.many(), file, subject)? {
             Some(path) => write_file(&path, &bytes, args.force)?,
-            None => io::stdout().write_all(&bytes)?,
+            None => print_bytes(&bytes)?,
         }
     }
     Ok(Outcome::of(&findings))

@@ -12,7 +12,7 @@ mod window;
 pub use visible::{breaks_lines, to_json, visible, visible_line};
 
 use crate::args::{Format, Reporting};
-use crate::commands::{Context, Verbosity, counted};
+use crate::commands::{Context, Verbosity, counted, print_bytes};
 use rungc_analysis::check::ports::Setup;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
@@ -328,9 +328,11 @@ impl<'a> Reporter<'a> {
             return Ok(());
         };
         if stdout_in_use {
-            write!(io::stderr(), "{document}")
+            // A closed output does not stop the command.
+            let _ = io::stderr().write_all(document.as_bytes());
+            Ok(())
         } else {
-            write!(io::stdout(), "{document}")
+            print_bytes(document.as_bytes())
         }
     }
 

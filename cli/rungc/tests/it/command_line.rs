@@ -3,7 +3,6 @@
 use crate::common;
 use crate::common::{MOTOR, code, folder, rungc, shown, text};
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -460,45 +459,6 @@ fn build_makes_an_executable_that_scans() {
         None => running.kill().unwrap(),
     }
     running.wait().unwrap();
-}
-
-/// Whoever reads may stop reading: `rungc explain ADD | head -1`.
-#[test]
-fn closed_output_is_no_error() {
-    let folder = folder(&[("motor.il", MOTOR.as_bytes()), ("bad.il", BAD.as_bytes())]);
-    for args in [
-        &["explain", "ADD"][..],
-        &["completions", "bash"],
-        &["build", "motor.il", "--emit", "ir"],
-        &["check", "motor.il", "--format", "json"],
-        &["convert", "motor.il", "--to", "il"],
-        &["run", "motor.il", "--for", "20s", "--watch", "M8011"],
-    ] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-            .args(args)
-            .current_dir(folder.path())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        drop(child.stdout.take());
-        let mut messages = String::new();
-        child
-            .stderr
-            .take()
-            .unwrap()
-            .read_to_string(&mut messages)
-            .unwrap();
-        assert_eq!(
-            child.wait().unwrap().code(),
-            Some(0),
-            "{args:?}: {messages}"
-        );
-        assert!(
-            !messages.contains("panicked") && !messages.contains("pipe"),
-            "{args:?}: {messages}"
-        );
-    }
 }
 
 #[test]

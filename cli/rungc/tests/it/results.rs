@@ -431,3 +431,85 @@ fn only_what_passed_with_the_same_files_is_known() {
         assert_eq!(known(&[]), [true, false]);
     }
 }
+
+/// Whoever reads may stop reading: `rungc explain ADD | head -1`. The exit code is the one without that.
+#[test]
+fn closed_output_is_no_error() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
+    let bad = "LD X000\nOUT Y000\nLD X009\nMOVE D0 D1\nADD D0 K1\nOUT Y000\nEND\n";
+    let failing = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n\
+                   [[case.step]]\nexpect = { D0 = 1 }\n";
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("bad.il", bad.as_bytes()),
+        ("fails.plctest.toml", failing.as_bytes()),
+        ("divides.il", b"LD M8000\nDIV D0 K0 D2\nOUT M0\nEND\n"),
+    ]);
+    for (args, expected) in [
+        (&["explain", "ADD"][..], 0),
+        (&["completions", "bash"], 0),
+        (&["build", "motor.il", "--emit", "ir"], 0),
+        (&["check", "motor.il", "--format", "json"], 0),
+        (&["convert", "motor.il", "--to", "il"], 0),
+        (&["run", "motor.il", "--for", "20s", "--watch", "M8011"], 0),
+        (&["check", "bad.il", "--format", "json"], 1),
+        (&["check", "bad.il", "motor.il", "--format", "sarif"], 1),
+        (&["stats", "bad.il", "motor.il"], 1),
+        (&["test", "fails.plctest.toml"], 1),
+        (&["test", "fails.plctest.toml", "--coverage", "text"], 1),
+        (&["diff", "motor.il", "divides.il"], 1),
+        (&["verify", "motor.il", "--never", "Y000"], 1),
+        (&["explore", "motor.il", "--never", "Y000"], 1),
+        (
+            &["run", "divides.il", "--deny-errors", "--watch", "M8011"],
+            1,
+        ),
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+            .args(args)
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let mut messages = String::new();
+        child
+            .stderr
+            .take()
+            .unwrap()
+            .read_to_string(&mut messages)
+            .unwrap();
+        assert_eq!(
+            child.wait().unwrap().code(),
+            Some(expected),
+            "{args:?}: {messages}"
+        );
+        assert!(
+            !messages.contains("panicked") && !messages.contains("pipe"),
+            "{args:?}: {messages}"
+        );
+    }
+}
+
+/// The exit codes of `--help`: where 1 says something else, an error in the program is 2.
+#[test]
+fn errors_in_a_program_have_their_exit_codes() {
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("bad.il", b"LD X000\nFROB Y000 Q\nEND\n"),
+    ]);
+    for (args, expected) in [
+        (&["check", "bad.il"][..], 1),
+        (&["build", "bad.il", "--emit", "ir"], 1),
+        (&["run", "bad.il"], 1),
+        (&["stats", "bad.il"], 1),
+        (&["verify", "bad.il", "--never", "Y000"], 2),
+        (&["verify", "motor.il", "--same-as", "bad.il"], 2),
+        (&["explore", "bad.il"], 2),
+        (&["diff", "motor.il", "bad.il"], 2),
+    ] {
+        assert_eq!(code(folder.path(), args), expected, "{args:?}");
+    }
+}

@@ -149,11 +149,7 @@ impl Run<'_> {
             pending: self.settings.iter().peekable(),
             shown: self.shown,
             view: self.view(),
-            out: Table::new(
-                !self.table,
-                recording.is_some() || plotting.is_some() || scope.is_some(),
-                args.serve.any(),
-            ),
+            out: Table::new(!self.table, self.has_other_results(), args.serve.any()),
             recording,
             recorder,
             plotting,
@@ -179,8 +175,18 @@ impl Run<'_> {
         if let Some(priority) = args.serve.priority {
             pace::raise(priority)?;
         }
-        let outcome = simulation.run(args)?;
-        simulation.end(args, outcome)
+        match simulation.run(args) {
+            // What the run has found so far.
+            Err(Failure::BrokenPipe) => Ok(simulation.outcome(args)),
+            outcome => simulation.end(args, outcome?),
+        }
+    }
+
+    /// Returns true if the run has results beside its table: files, and faults that it may find.
+    fn has_other_results(&self) -> bool {
+        let args = self.args;
+        let files = [&args.vcd, &args.plot, &args.scope, &args.record];
+        files.iter().any(|file| file.is_some()) || args.machine.is_some() || args.deny_errors
     }
 
     /// The view of the table.
@@ -245,9 +251,8 @@ impl<'a> Simulation<'a> {
             true => Ok(()),
             false => print_text(&format!("\n{}\n", table.join("\n"))),
         };
-        let errors = self.machine.errors();
-        self.errors.summarise(errors);
-        let denied = args.deny_errors && !errors.is_empty();
+        let denied = self.is_denied(args);
+        self.errors.summarise(self.machine.errors());
         let cut_short = self.machine.watchdog_tripped() || interruption::is_requested();
         let end_ms = match args.end_ms() {
             Some(end_ms) if !cut_short => end_ms,
@@ -340,7 +345,7 @@ impl<'a> Simulation<'a> {
                 late.target, late.at_ms
             ));
         }
-        Ok(self.outcome())
+        Ok(self.outcome(args))
     }
 
     /// Goes to RUN or STOP if a signal has requested it.
@@ -353,12 +358,17 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Outcome of the run.
-    fn outcome(&self) -> Outcome {
+    /// Outcome of the run so far.
+    fn outcome(&self, args: &RunArgs) -> Outcome {
         match self.plant.as_ref().and_then(Plant::collision) {
-            Some(_) => Outcome::Failed,
-            None => Outcome::Success,
+            None if !self.is_denied(args) => Outcome::Success,
+            _ => Outcome::Failed,
         }
+    }
+
+    /// Returns true if there were operation errors, of which `--deny-errors` allows none.
+    fn is_denied(&self, args: &RunArgs) -> bool {
+        args.deny_errors && !self.machine.errors().is_empty()
     }
 
     /// Reports new operation errors, and shows them and frames on the page.

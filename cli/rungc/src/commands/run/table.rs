@@ -1,13 +1,13 @@
 //! The table of a run on standard output.
 
-use crate::commands::{Failure, eprint_line, print_text};
+use crate::commands::{Failure, eprint_line, stream_text};
 use std::io;
 
 /// Standard output.
 pub struct Table {
     /// The reader has closed it.
     pub muted: bool,
-    /// A run that writes files continues then.
+    /// A run with other results continues then.
     optional: bool,
     /// A run that serves others continues whatever happens to it.
     serves: bool,
@@ -16,7 +16,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// That of a run that writes files (`optional`), or serves others.
+    /// That of a run with other results (`optional`), or that serves others.
     pub const fn new(muted: bool, optional: bool, serves: bool) -> Self {
         Table {
             muted,
@@ -34,17 +34,17 @@ impl Table {
         if self.muted {
             return Ok(());
         }
-        let written = print_text(&format!("{line}\n"));
+        let written = stream_text(&format!("{line}\n"));
         if self.serves {
             self.report(written.err());
             return Ok(());
         }
-        match written.map_err(Failure::from) {
-            Err(Failure::BrokenPipe) if self.optional => {
+        match written {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 self.muted = true;
-                Ok(())
+                self.optional.then_some(()).ok_or(Failure::BrokenPipe)
             }
-            result => result,
+            result => Ok(result?),
         }
     }
 

@@ -3,7 +3,7 @@
 //! The files are looked at several times a second, which works on every file system, also on those of networks and
 //! containers, and with editors that replace a file.
 
-use super::super::{Context, Failure, Outcome, Result, eprint_line, interruption};
+use super::super::{Context, Outcome, Result, eprint_line, interruption, is_output_closed};
 use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
@@ -43,11 +43,10 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
             }
         }
         let ran = loaded.and_then(|(chosen, files)| run_files(args, &chosen, files, cx));
-        if let Err(failure) = ran {
-            match failure {
-                Failure::BrokenPipe => return Err(failure),
-                _ => eprint_line(&format!("rungc: {failure}")),
-            }
+        match ran {
+            Ok(outcome) if is_output_closed() => return Ok(outcome),
+            Ok(_) => {}
+            Err(failure) => eprint_line(&format!("rungc: {failure}")),
         }
         cx.note("    Watching for changes; Ctrl-C ends");
         while !interruption::is_requested() && look(args, &inputs) == before {
