@@ -204,14 +204,19 @@ impl Line {
 
     /// Error of the line on a model, and the remedy: the model does not have the port.
     pub fn missing(&self, model: &Model) -> Option<(String, String)> {
-        if model.ports.get(self.port).is_some() {
-            return None;
-        }
-        let message = format!("{} has no port {}", model.title, self.name());
-        let known = model.ports.all().iter();
-        let known: Vec<_> = known.map(|port| port_name(port.number)).collect();
-        Some((message, format!("its ports are {}", known.join(", "))))
+        missing_port(model, self.port)
     }
+}
+
+/// Error of a port that a model does not have, and the ports that it has.
+pub fn missing_port(model: &Model, number: u8) -> Option<(String, String)> {
+    if model.ports.get(number).is_some() {
+        return None;
+    }
+    let message = format!("{} has no port {}", model.title, port_name(number));
+    let known = model.ports.all().iter();
+    let known: Vec<_> = known.map(|port| port_name(port.number)).collect();
+    Some((message, format!("its ports are {}", known.join(", "))))
 }
 
 /// Name of a port in reports: `COM1`, `CAN`.

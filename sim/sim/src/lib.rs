@@ -2,13 +2,14 @@
 //! run.
 //!
 //! [`plctest`] reads test files and runs them on any [`engines::Engine`]: the [interpreter](rungc_interp), or the
-//! executables that the emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine that a
-//! PLC is wired to, and [`record`] writes recordings and plots. None of it knows an instruction or an output language;
-//! `engines` alone calls the backends. The modules build on one another in this order: [`Target`], [`wire`] and the
-//! mistakes in files ([`LoadError`]); `plant` and `record`; [`serve`]; [`protocol`] and `engines`; `plctest`. Start
-//! reading at [`plctest::run`].
+//! executables that the emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine
+//! that a PLC is wired to, and [`record`] writes recordings and plots. None of it knows an instruction or an output
+//! language; `engines` alone calls the backends. The modules build on one another in this order: [`Target`] and
+//! [`names`], [`wire`] and the mistakes in files ([`LoadError`]); `plant` and `record`; [`serve`]; [`protocol`] and
+//! `engines`; `plctest`. Start reading at [`plctest::run`].
 
 pub mod engines;
+pub mod names;
 pub mod plant;
 pub mod plctest;
 mod problem;

@@ -132,6 +132,9 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
 /// Message of the TOML reader, in the words of TOML rather than of Rust; for an unknown field with the name that is
 /// meant, if it is known.
 fn plain(message: &str) -> String {
+    if message.contains("$__toml_private") {
+        return "write a date or a time in quotes".to_string();
+    }
     let unknown = message
         .strip_prefix("unknown field `")
         .and_then(|rest| rest.split_once('`'));
@@ -152,9 +155,16 @@ fn plain(message: &str) -> String {
             "write tables of this name in double brackets",
         ),
         ("invalid type: map", "invalid type: table"),
+        ("expected a map", "expected a table: `{ NAME = VALUE }`"),
         ("expected a sequence", "expected a list in brackets"),
     ];
-    let message = message.to_string();
+    let message = match message.split_once("expected struct ") {
+        Some((before, name)) => {
+            let rest = name.trim_start_matches(|c: char| c.is_ascii_alphanumeric());
+            format!("{before}expected a table: `{{ KEY = VALUE }}`{rest}")
+        }
+        None => message.to_string(),
+    };
     words
         .iter()
         .fold(message, |text, (from, to)| text.replace(from, to))

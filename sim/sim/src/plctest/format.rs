@@ -1,8 +1,9 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
-use super::program::{self, RawProgram, Tested};
+use super::naming::Named;
+use super::program::{self, CaseProgram, RawProgram, Tested};
 use super::raw::{Map, Near, RawCase, RawFile, RawPlc, RawRow, RawScenario, Scalar};
-use super::serial::{self, Port, PortId, Way};
+use super::serial::{self, PortId};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
@@ -32,15 +33,6 @@ fn named(row: &RawRow) -> (Option<String>, Row) {
     (own, row)
 }
 
-/// A path as seen from the current folder, where it lies below it.
-fn near(path: PathBuf) -> PathBuf {
-    let folder = std::env::current_dir().and_then(dunce::canonicalize);
-    let below = folder
-        .ok()
-        .and_then(|f| path.strip_prefix(f).ok().map(Path::to_path_buf));
-    below.unwrap_or(path)
-}
-
 /// Collects the problems of one file.
 pub(super) struct Reader<'t> {
     source: &'t Source,
@@ -51,6 +43,8 @@ pub(super) struct Reader<'t> {
     pub(super) inputs: BTreeSet<PathBuf>,
     /// Names of the other PLCs of the case being read.
     pub(super) others: Vec<String>,
+    /// The PLC of the case being read, and the others in their order.
+    pub(super) named: Vec<Named>,
     /// The scenarios of the file, and how many of them the step being read may name.
     pub(super) scenarios: Vec<RawScenario>,
     pub(super) scenarios_known: usize,
@@ -67,6 +61,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
         programs: BTreeMap::new(),
         inputs: BTreeSet::from([PathBuf::from(&source.name)]),
         others: Vec::new(),
+        named: Vec::new(),
         scenarios: Vec::new(),
         scenarios_known: 0,
         row: None,
@@ -114,6 +109,7 @@ impl Reader<'_> {
         let modules = self.modules(raw.modules);
         self.no_index(raw.index.as_ref());
         self.take_scenarios(raw.scenario);
+        self.named = self.of_file(given, program.as_ref());
         let rules = self.rules(raw.never, raw.whenever);
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
@@ -143,6 +139,15 @@ impl Reader<'_> {
             inputs: std::mem::take(&mut self.inputs),
             cases,
         }
+    }
+
+    /// The PLC that the rules of the file are about, as far as the file says.
+    fn of_file(&self, given: Option<Plc>, program: Option<&Tested>) -> Vec<Named> {
+        let named = program.and_then(|program| {
+            let plc = given.or(program.plc)?;
+            Some(Named::new(plc, program.program.clone()))
+        });
+        named.into_iter().collect()
     }
 
     /// Takes notice of the file's scenarios.
@@ -183,7 +188,7 @@ impl Reader<'_> {
     fn of_project(&mut self, at: usize) -> Option<Tested> {
         let settings = Project::find(Path::new(&self.source.name))?;
         let path = match Project::load(&settings) {
-            Ok(project) => near(project.program()?),
+            Ok(project) => program::near(project.program()?),
             Err(error) => {
                 self.report(at, program::error_lines(&error));
                 return Some(Tested::unread());
@@ -263,6 +268,7 @@ impl Reader<'_> {
             Plc::any(ModelId::Fx3u)
         });
         self.no_index(raw.index.as_ref());
+        self.named = vec![Named::new(plc, tested.program.clone())];
         let others = self.others(raw.plc, plc);
         let wires = raw.wire.iter();
         let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
@@ -323,6 +329,7 @@ impl Reader<'_> {
     fn others(&mut self, plcs: Vec<RawPlc>, usual: Plc) -> Vec<OtherPlc> {
         self.others = plcs.iter().map(|plc| plc.name.get_ref().clone()).collect();
         let mut others: Vec<OtherPlc> = Vec::new();
+        let mut all = std::mem::take(&mut self.named);
         for plc in plcs {
             let (at, name) = (plc.name.span().start, plc.name.into_inner());
             if plc.program.trim().is_empty() {
@@ -338,7 +345,10 @@ impl Reader<'_> {
                 );
             }
             let named = plc.model.as_ref().map(|model| self.plc(model));
-            let Plc { model, variant } = named.unwrap_or(usual);
+            let named = named.unwrap_or(usual);
+            let Plc { model, variant } = named;
+            // Its own devices are named without it.
+            self.named = vec![Named::new(named, CaseProgram::List(plc.program.clone()))];
             others.push(OtherPlc {
                 name,
                 model,
@@ -346,48 +356,13 @@ impl Reader<'_> {
                 program: plc.program,
                 init: self.settings(plc.init),
             });
+            all.append(&mut self.named);
         }
+        self.named = all;
         for (i, other) in (1..).zip(&mut others) {
             other.init.iter_mut().for_each(|setting| setting.plc = i);
         }
         others
-    }
-
-    /// A name without that of another PLC before it, and the number of its PLC.
-    pub(super) fn own<'n>(&self, name: &'n str) -> (&'n str, usize) {
-        let other = name.split_once(':').and_then(|(plc, own)| {
-            let number = self.others.iter().position(|other| other == plc)?;
-            Some((own, number + 1))
-        });
-        other.unwrap_or((name, 0))
-    }
-
-    /// The port of a name.
-    pub(super) fn port(&mut self, port: &Spanned<String>) -> Option<Port> {
-        let (own, plc) = self.own(port.get_ref());
-        match PortId::parse(own) {
-            Ok(id) => Some(Port { plc, id }),
-            Err(message) => {
-                self.report(port.span().start, message.to_string());
-                None
-            }
-        }
-    }
-
-    /// Holds what goes over a port to the format; returns the port.
-    pub(super) fn line_text(
-        &mut self,
-        port: &Spanned<String>,
-        way: Way,
-        texts: &[String],
-    ) -> Option<Port> {
-        let (own, _) = self.own(port.get_ref());
-        for text in texts {
-            if let Err(message) = serial::check_text(own, way, text) {
-                self.report(port.span().start, message.to_string());
-            }
-        }
-        self.port(port)
     }
 
     /// Devices that are given these values.
@@ -403,10 +378,22 @@ impl Reader<'_> {
 
     /// Devices of which these values are expected.
     pub(super) fn expected(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
-        let settings = raw.into_iter();
-        settings
-            .filter_map(|(name, value)| self.setting(&name, &value))
-            .collect()
+        let mut settings: Vec<(String, Setting)> = Vec::new();
+        for (name, value) in raw {
+            let Some(setting) = self.setting(&name, &value) else {
+                continue;
+            };
+            let place = (setting.plc, setting.target);
+            let mut before = settings.iter();
+            match before.find(|(_, other)| (other.plc, other.target) == place) {
+                Some((other, _)) => {
+                    let message = format!("`{}` and `{other}` are one device", name.get_ref());
+                    self.report(name.span().start, message);
+                }
+                None => settings.push((name.into_inner(), setting)),
+            }
+        }
+        settings.into_iter().map(|(_, setting)| setting).collect()
     }
 
     fn setting(&mut self, name: &Spanned<String>, value: &Spanned<Scalar>) -> Option<Setting> {
@@ -427,18 +414,6 @@ impl Reader<'_> {
             Err(expected) => {
                 let message = format!("the value of `{}` must be {expected}", name.get_ref());
                 self.report(at, message);
-                None
-            }
-        }
-    }
-
-    /// The device of a name, and the number of its PLC.
-    pub(super) fn target(&mut self, name: &Spanned<String>) -> Option<(usize, Target)> {
-        let (own, plc) = self.own(name.get_ref());
-        match Target::parse(own) {
-            Ok(target) => Some((plc, target)),
-            Err(message) => {
-                self.report(name.span().start, message);
                 None
             }
         }

@@ -6,6 +6,7 @@
 mod format;
 mod lines;
 mod modules;
+mod naming;
 mod program;
 mod raw;
 mod report;

@@ -30,6 +30,8 @@ pub struct ProgramFile {
     pub warn: Vec<&'static str>,
     /// The file.
     pub path: PathBuf,
+    /// The settings that name a model, and the model.
+    pub settings: Option<(PathBuf, ModelId)>,
 }
 
 impl CaseProgram {
@@ -91,9 +93,19 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
             bounds: project.bounds(path),
             warn: project.check.warn,
             path: path.to_path_buf(),
+            settings: project.model.map(|model| (near(project.path), model)),
             read,
         })),
     })
+}
+
+/// A path as seen from the current folder, where it lies below it.
+pub(super) fn near(path: PathBuf) -> PathBuf {
+    let folder = std::env::current_dir().and_then(dunce::canonicalize);
+    let below = folder
+        .ok()
+        .and_then(|f| path.strip_prefix(f).ok().map(Path::to_path_buf));
+    below.unwrap_or(path)
 }
 
 /// Errors in settings, one per line.

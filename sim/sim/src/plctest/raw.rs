@@ -5,8 +5,9 @@ use super::modules;
 use super::program::RawProgram;
 use super::serial::{Protocol, RawMode, RawSent};
 use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeMap;
+use std::fmt;
 use toml::Spanned;
 
 /// Values by names, each with its place.
@@ -174,8 +175,8 @@ pub(super) struct RawEncoder {
     pub(super) hz: f64,
 }
 
-#[derive(Clone, Deserialize)]
-#[serde(untagged)]
+/// A value of a device.
+#[derive(Clone)]
 pub(super) enum Scalar {
     Integer(i64),
     Float(f64),
@@ -184,11 +185,76 @@ pub(super) enum Scalar {
 }
 
 /// A number that need not be exact.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy)]
 pub(super) struct Near {
     /// The number in the middle.
     pub(super) value: f64,
     /// Tolerance, in the same unit.
     pub(super) tolerance: f64,
+}
+
+impl<'de> Deserialize<'de> for Scalar {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ScalarVisitor)
+    }
+}
+
+struct ScalarVisitor;
+
+/// Words after the dot of a name that TOML takes for a table, if the name is not in quotes.
+const VIEWS: [&str; 6] = ["value", "i32", "f32", "str", "pulses", "hz"];
+
+impl<'de> Visitor<'de> for ScalarVisitor {
+    type Value = Scalar;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, a text in quotes, or `{ value = 5, tolerance = 1 }`")
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Scalar, E> {
+        Ok(Scalar::Integer(value))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Scalar, E> {
+        Ok(Scalar::Float(value))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Scalar, E> {
+        Ok(Scalar::Text(text.to_string()))
+    }
+
+    fn visit_bool<E: Error>(self, value: bool) -> Result<Scalar, E> {
+        let bit = u8::from(value);
+        Err(E::custom(format!("write {bit}, not {value}")))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, _: A) -> Result<Scalar, A::Error> {
+        let message = "a list is not a value: give each device its own";
+        Err(A::Error::custom(message))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Scalar, A::Error> {
+        let (mut value, mut tolerance) = (None, None);
+        while let Some(key) = map.next_key::<String>()? {
+            let view = VIEWS.iter().find(|view| **view == key);
+            match (key.as_str(), view) {
+                ("value", _) => value = Some(map.next_value()?),
+                ("tolerance", _) => tolerance = Some(map.next_value()?),
+                (_, Some(view)) => {
+                    let message =
+                        format!("write a name with a dot in quotes, such as `\"D0.{view}\"`");
+                    return Err(A::Error::custom(message));
+                }
+                _ => return Err(A::Error::unknown_field(&key, &["value", "tolerance"])),
+            }
+        }
+        match (value, tolerance) {
+            (Some(value), Some(tolerance)) => Ok(Scalar::Near(Near { value, tolerance })),
+            (Some(_), None) => {
+                let message = "write a name with a dot in quotes, such as `\"T0.value\"`; or is `tolerance` missing?";
+                Err(A::Error::custom(message))
+            }
+            (None, _) => Err(A::Error::missing_field("value")),
+        }
+    }
 }

@@ -224,8 +224,8 @@ impl Reader<'_> {
     }
 
     fn terminal(&mut self, name: &Spanned<String>) -> Option<u32> {
-        match Target::parse(name.get_ref()) {
-            Ok(Target::Bit(DeviceClass::X, number)) => Some(number),
+        match self.target(name)? {
+            (_, Target::Bit(DeviceClass::X, number)) => Some(number),
             _ => {
                 let message = format!("`{}` is not an input terminal", name.get_ref());
                 self.report(name.span().start, message);

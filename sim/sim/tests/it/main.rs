@@ -3,3 +3,4 @@
 mod plant;
 mod program_files;
 mod runner;
+mod test_files;
