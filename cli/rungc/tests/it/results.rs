@@ -513,3 +513,40 @@ fn errors_in_a_program_have_their_exit_codes() {
         assert_eq!(code(folder.path(), args), expected, "{args:?}");
     }
 }
+
+/// A program that does not compile is one mistake, at its place in the program, whatever the number of its cases.
+#[test]
+fn programs_that_do_not_compile_are_reported_once() {
+    let cases = "topic = \"t\"\n[[case]]\nname = \"a\"\n[[case.step]]\nscans = 1\n\
+                 [[case]]\nname = \"b\"\n[[case.step]]\nscans = 1\n";
+    let folder = folder(&[
+        (
+            "rungc.toml",
+            b"[project]\nprogram = \"bad.il\"\nmodel = \"fx1s\"\n",
+        ),
+        ("bad.il", b"LD X000\nMOV D0 R5\nOUTT Y000\nEND\n"),
+        ("t.plctest.toml", cases.as_bytes()),
+    ]);
+    let results = |format: &str| {
+        let output = rungc(
+            folder.path(),
+            &["test", "t.plctest.toml", "--format", format],
+        );
+        assert_eq!(output.status.code(), Some(1));
+        timeless(&text(&output.stdout))
+    };
+    let human = results("human");
+    let human: Vec<_> = human
+        .lines()
+        .filter(|line| !line.contains(" passed, "))
+        .collect();
+    insta::assert_snapshot!("uncompiled_human", human.join("\n"));
+    let github = results("github");
+    let github: Vec<_> = github
+        .lines()
+        .filter(|line| line.starts_with("::"))
+        .collect();
+    insta::assert_snapshot!("uncompiled_github", github.join("\n"));
+    assert!(results("json").contains("\"program\": \"bad.il\""));
+    assert!(results("sarif").contains("\"uri\": \"bad.il\""));
+}

@@ -21,7 +21,7 @@ mod values;
 mod wiring;
 
 pub use program::{CaseProgram, ProgramFile};
-pub use report::{Failure, Outcome, Report};
+pub use report::{Failure, Outcome, Report, Uncompiled};
 pub use rules::{Never, RuleKind, Rules, Whenever, Within};
 pub use runner::{run, run_steps};
 pub use serial::{Item, Port, PortId, Protocol, Sent};

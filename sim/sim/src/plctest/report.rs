@@ -1,9 +1,11 @@
 //! Results of the cases.
 
-use super::{Id, RuleKind, Suite, Value};
+use super::{Case, CaseProgram, Id, RuleKind, Suite, Value};
 use crate::target::Target;
+use rungc_models::Model;
 use rungc_syntax::diag::counted;
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Maximum number of errors of a program that a report shows.
@@ -12,8 +14,8 @@ const ERRORS_SHOWN: usize = 5;
 /// Reason why a case failed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Failure {
-    /// Its program does not compile: line and message of each error.
-    Refused(Vec<(u32, String)>),
+    /// Its program does not compile.
+    Refused(Uncompiled),
     /// Its program had to be rejected, and was not, or for another reason.
     Accepted(String),
     /// A device of it does not exist on the model.
@@ -66,6 +68,70 @@ pub enum Failure {
     },
 }
 
+/// A program that does not compile.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Uncompiled {
+    /// The file; `None` for a list in the test file.
+    pub file: Option<PathBuf>,
+    /// Description of the program: its PLC and what names the model, for a file.
+    pub what: String,
+    /// Line and message of each error.
+    pub errors: Vec<(u32, String)>,
+}
+
+impl Uncompiled {
+    /// The program of the case (0), or that of another PLC.
+    pub(super) fn new(case: &Case, plc: usize, errors: &[(Option<u16>, u32, String)]) -> Self {
+        let other = plc.checked_sub(1).and_then(|other| case.others.get(other));
+        let (file, what) = match (other, &case.program) {
+            (Some(other), _) => (None, format!("the program of the PLC `{}`", other.name)),
+            (None, CaseProgram::List(_)) => (None, "the program".to_owned()),
+            (None, CaseProgram::File(file)) => {
+                let title = Model::get(case.model).title;
+                let settings = file.settings.as_ref();
+                let settings = settings.filter(|(_, model)| *model == case.model);
+                let by = settings.map(|(path, _)| format!(", by {}", path.display()));
+                let by = by.unwrap_or_default();
+                let what = format!("{} ({title}{by})", file.path.display());
+                (Some(file.path.clone()), what)
+            }
+        };
+        Uncompiled {
+            file,
+            what,
+            errors: errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
+        }
+    }
+
+    /// The errors that a report shows.
+    pub fn shown(&self) -> &[(u32, String)] {
+        &self.errors[..self.errors.len().min(ERRORS_SHOWN)]
+    }
+}
+
+impl fmt::Display for Uncompiled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} does not compile:", self.what)?;
+        for (line, message) in self.shown() {
+            write!(f, " line {line}: {message};")?;
+        }
+        match (self.errors.len().saturating_sub(ERRORS_SHOWN), &self.file) {
+            (0, _) => Ok(()),
+            (more, Some(file)) => {
+                let more = counted(more, "more error");
+                write!(f, " and {more} (see `rungc check {}`)", file.display())
+            }
+            (more, None) => {
+                write!(
+                    f,
+                    " and {} (see `rungc check`)",
+                    counted(more, "more error")
+                )
+            }
+        }
+    }
+}
+
 impl Failure {
     /// Returns true if the program ran and its behaviour differs from the expectation.
     pub fn is_of_program(&self) -> bool {
@@ -85,21 +151,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Refused(errors) => {
-                write!(f, "the program does not compile:")?;
-                let shown = errors.iter().take(ERRORS_SHOWN);
-                for (line, message) in shown {
-                    write!(f, " line {line}: {message};")?;
-                }
-                match errors.len().saturating_sub(ERRORS_SHOWN) {
-                    0 => Ok(()),
-                    more => write!(
-                        f,
-                        " and {} (see `rungc check`)",
-                        counted(more, "more error")
-                    ),
-                }
-            }
+            Failure::Refused(uncompiled) => uncompiled.fmt(f),
             Failure::Accepted(message) => write!(f, "{message}"),
             Failure::NoDevice { step, target } => {
                 write!(f, "step {step}: `{target}` does not exist on the model")
@@ -170,11 +222,27 @@ impl Report {
 }
 
 impl Outcome {
-    /// The line of the test file that the result is about: of the step or rule that failed, else of the case.
-    pub fn line(&self, suite: &Suite) -> u32 {
-        match &self.failure {
+    /// The file and the line that the result is about: of the first error of a program that does not compile, else in
+    /// the test file those of the step or rule that failed, else of the case.
+    pub fn place<'s>(&'s self, suite: &'s Suite) -> (&'s Path, u32) {
+        let file = &suite.files()[self.id.file];
+        let line = match &self.failure {
             Some(Failure::Differs { line, .. } | Failure::Rule { line, .. }) => *line,
-            _ => suite.files()[self.id.file].cases[self.id.case].line,
+            Some(Failure::Refused(Uncompiled {
+                file: Some(program),
+                errors,
+                ..
+            })) => return (program, errors.first().map_or(1, |(line, _)| *line)),
+            _ => file.cases[self.id.case].line,
+        };
+        (Path::new(&file.name), line)
+    }
+
+    /// The program file of the case, if it does not compile.
+    pub fn uncompiled(&self) -> Option<(&Path, &Uncompiled)> {
+        match &self.failure {
+            Some(Failure::Refused(uncompiled)) => Some((uncompiled.file.as_deref()?, uncompiled)),
+            _ => None,
         }
     }
 

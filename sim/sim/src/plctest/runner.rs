@@ -8,7 +8,8 @@ use super::suite::Built;
 use super::trace::Tracer;
 use super::wiring;
 use super::{
-    Case, Check, Failure, Outcome, Port, Rejects, Report, Run, Setting, Step, Suite, Value,
+    Case, Check, Failure, Outcome, Port, Rejects, Report, Run, Setting, Step, Suite, Uncompiled,
+    Value,
 };
 use crate::engines::{Engine, EngineError};
 use crate::plant::{Description, Plant};
@@ -45,9 +46,9 @@ pub fn run(
         let result = match (&case.check, built) {
             (_, Built::Known) => Ok(()),
             (Check::Rejects(rejects), built) => check_rejects(*rejects, built),
-            (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
-                errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
-            )),
+            (Check::Steps { .. }, Built::Refused(plc, errors)) => {
+                Err(Failure::Refused(Uncompiled::new(case, *plc, errors)))
+            }
             (Check::Steps { .. }, Built::Modules(built)) => {
                 let plcs = built
                     .iter()
@@ -99,7 +100,7 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
         (code, None) => format!("error {code}"),
         (code, Some(line)) => format!("error {code} on line {line}"),
     };
-    let Built::Refused(errors) = built else {
+    let Built::Refused(_, errors) = built else {
         let message = format!("expected {wanted}, but the program compiles");
         return Err(Failure::Accepted(message));
     };

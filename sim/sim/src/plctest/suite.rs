@@ -25,8 +25,8 @@ pub struct Id {
 pub(super) enum Built {
     /// They are these modules: the program of the case, and those of the other PLCs in their order.
     Modules(Vec<usize>),
-    /// One of them raised errors.
-    Refused(Errors),
+    /// One of them raised errors: the program of the case (0), or that of another PLC.
+    Refused(usize, Errors),
     /// The case is known to pass.
     Known,
 }
@@ -104,7 +104,7 @@ impl Suite {
                 });
                 of_file.push(match compiled {
                     Ok(module) => Built::Modules(vec![*module]),
-                    Err(errors) => Built::Refused(errors.clone()),
+                    Err(errors) => Built::Refused(0, errors.clone()),
                 });
             }
             built.push(of_file);
@@ -128,7 +128,7 @@ impl Suite {
     pub fn modules_of(&self, id: Id) -> &[usize] {
         match self.built(id) {
             Built::Modules(modules) => modules,
-            Built::Refused(_) | Built::Known => &[],
+            Built::Refused(..) | Built::Known => &[],
         }
     }
 
@@ -194,13 +194,15 @@ fn build(case: &Case, how: How, modules: &mut Vec<Lowered>) -> Built {
     let others = others.map(|(plc, other)| compile_other(case, plc, other, how));
     let own = compile_case(case, observed(case, 0), how);
     let compiled = std::iter::once(own).chain(others);
-    match compiled.collect::<Result<Vec<Lowered>, Errors>>() {
+    let compiled = (0..).zip(compiled);
+    let compiled = compiled.map(|(plc, result)| result.map_err(|errors| (plc, errors)));
+    match compiled.collect::<Result<Vec<Lowered>, (usize, Errors)>>() {
         Ok(compiled) => {
             let first = modules.len();
             modules.extend(compiled);
             Built::Modules((first..modules.len()).collect())
         }
-        Err(errors) => Built::Refused(errors),
+        Err((plc, errors)) => Built::Refused(plc, errors),
     }
 }
 

@@ -1,27 +1,44 @@
 //! Results of tests as workflow commands of GitHub Actions.
 
 use super::report::{Results, human, kind, message};
+use crate::report::github;
 use rungc_sim::plctest::Outcome;
-use std::path::Path;
+use std::collections::BTreeSet;
 
-/// An annotation for each case that failed, then what people read in the log.
+/// An annotation for each case that failed, and for each error of a program that does not compile, then what people
+/// read in the log.
 pub fn github(results: &Results) -> String {
-    let failed = results.report.failures();
-    let mut text: String = failed.map(|outcome| annotation(results, outcome)).collect();
+    let mut text = String::new();
+    let mut known = BTreeSet::new();
+    for outcome in results.report.failures() {
+        for annotation in annotations(results, outcome) {
+            if known.insert(annotation.clone()) {
+                text.push_str(&annotation);
+            }
+        }
+    }
     text.push_str(&human(results));
     text
 }
 
-fn annotation(results: &Results, outcome: &Outcome) -> String {
-    let file = &results.suite.files()[outcome.id.file];
-    let name = &file.cases[outcome.id.case].name;
+fn annotations(results: &Results, outcome: &Outcome) -> Vec<String> {
+    if let Some((path, uncompiled)) = outcome.uncompiled() {
+        let title = format!("{} does not compile", uncompiled.what);
+        let errors = uncompiled.shown().iter();
+        let errors = errors
+            .map(|(line, message)| github::annotation("error", path, Some(*line), &title, message));
+        return errors.collect();
+    }
+    let name = &results.suite.files()[outcome.id.file].cases[outcome.id.case].name;
     let failure = outcome.failure.as_ref();
     let title = format!("{name} [{}]: {}", outcome.engine, failure.map_or("", kind));
-    crate::report::github::annotation(
+    let (path, line) = outcome.place(results.suite);
+    let message = failure.map_or(String::new(), message);
+    vec![github::annotation(
         "error",
-        Path::new(&file.name),
-        Some(outcome.line(results.suite)),
+        path,
+        Some(line),
         &title,
-        &failure.map_or(String::new(), message),
-    )
+        &message,
+    )]
 }

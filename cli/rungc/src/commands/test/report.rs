@@ -2,8 +2,10 @@
 
 use crate::report::to_json;
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
+use rungc_syntax::diag::counted;
 use serde::Serialize;
 use std::io;
+use std::path::Path;
 use std::time::Duration;
 
 /// Cases that ran, and their results.
@@ -16,12 +18,24 @@ pub struct Results<'a> {
     pub elapsed: Duration,
 }
 
-/// The cases that failed, a paragraph each, and how many did.
+/// The cases that failed, a paragraph each, and how many did. Those with one program that does not compile are one.
 pub fn human(results: &Results) -> String {
-    let failed = results.report.failures();
-    let mut text: String = failed
-        .map(|outcome| format!("{}\n", outcome.describe(results.suite)))
-        .collect();
+    let mut failed: Vec<&Outcome> = results.report.failures().collect();
+    let mut text = String::new();
+    while let Some(outcome) = failed.first().copied() {
+        let is_same = |other: &Outcome| {
+            let (own, other) = (outcome.uncompiled(), other.uncompiled());
+            own.is_some() && own == other
+        };
+        failed.remove(0);
+        let same = failed.extract_if(.., |other| is_same(other)).count();
+        text.push_str(&outcome.describe(results.suite));
+        if same > 0 {
+            let more = counted(same, "more case");
+            text.push_str(&format!("\n    and {more} with this program"));
+        }
+        text.push('\n');
+    }
     text.push_str(&format!(
         "{} passed, {} failed ({:.1} s)\n",
         results.report.passed(),
@@ -65,6 +79,8 @@ struct Why<'a> {
     step: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    program: Option<&'a Path>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     values: Vec<Differs<'a>>,
 }
@@ -122,6 +138,10 @@ fn why(failure: &Failure) -> Why<'_> {
         | Failure::Engine { step, .. } => (Some(*step), None),
         Failure::Refused(_) | Failure::Accepted(_) | Failure::Trace { .. } => (None, None),
     };
+    let program = match failure {
+        Failure::Refused(uncompiled) => uncompiled.file.as_deref(),
+        _ => None,
+    };
     let values = match failure {
         Failure::Differs { values, .. } => &values[..],
         _ => &[],
@@ -131,6 +151,7 @@ fn why(failure: &Failure) -> Why<'_> {
         message: message(failure),
         step: step.filter(|step| *step > 0),
         line,
+        program,
         values: values
             .iter()
             .map(|(name, expected, actual)| Differs {

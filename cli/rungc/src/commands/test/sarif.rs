@@ -6,7 +6,6 @@ use rungc_sim::plctest::Outcome;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io;
-use std::path::Path;
 
 /// The log of a run.
 pub fn sarif(results: &Results) -> io::Result<String> {
@@ -37,8 +36,8 @@ fn rule(kind: &str) -> Value {
 }
 
 fn item(results: &Results, outcome: &Outcome) -> Value {
-    let file = &results.suite.files()[outcome.id.file];
-    let case = &file.cases[outcome.id.case];
+    let case = &results.suite.files()[outcome.id.file].cases[outcome.id.case];
+    let (path, line) = outcome.place(results.suite);
     let failure = outcome.failure.as_ref();
     let why = failure.map_or(String::new(), message);
     json!({
@@ -47,8 +46,8 @@ fn item(results: &Results, outcome: &Outcome) -> Value {
         "message": { "text": format!("{} [{}]: {why}", case.name, outcome.engine) },
         "locations": [{
             "physicalLocation": {
-                "artifactLocation": { "uri": sarif::uri(Path::new(&file.name)) },
-                "region": { "startLine": outcome.line(results.suite) },
+                "artifactLocation": { "uri": sarif::uri(path) },
+                "region": { "startLine": line },
             },
             "logicalLocations": [{ "name": case.name, "kind": "function" }],
         }],
