@@ -49,6 +49,42 @@ pub fn range(text: &str) -> Option<(DeviceClass, u32, u32)> {
     ))
 }
 
+/// What is wrong with a text that is not read as a [`range`], where it is like one.
+pub fn mistake(text: &str) -> Option<String> {
+    let ends = text.split_once("..").or_else(|| text.split_once('-'));
+    let (first, last) = ends.unwrap_or((text, text));
+    let (first, last) = (first.trim(), last.trim());
+    if let Some(why) = [first, last].into_iter().find_map(mistake_in_device) {
+        return Some(why);
+    }
+    let (first, last) = (device(first)?, device(last)?);
+    match first.class == last.class {
+        true => (first.number > last.number)
+            .then(|| format!("the first device is after the last: write `{last}..{first}`")),
+        false => Some("both ends are devices of one class".to_owned()),
+    }
+}
+
+/// What is wrong with a device, of which there are letters and digits.
+fn mistake_in_device(text: &str) -> Option<String> {
+    let letters = text.find(|c: char| !c.is_ascii_uppercase())?;
+    let (letters, digits) = text.split_at(letters);
+    if letters.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return None;
+    }
+    let Some(class) = DeviceClass::from_prefix(letters) else {
+        return Some(format!("there are no devices {letters}"));
+    };
+    let is_octal = |digit: u8| digit < b'8';
+    match device(text) {
+        Some(_) => None,
+        None if class.is_octal() && !digits.bytes().all(is_octal) => {
+            Some(format!("the numbers of {letters} are octal"))
+        }
+        None => Some("no model has that many".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -307,7 +307,7 @@ pub struct Plan {
     #[arg(long, value_name = "BOARD")]
     pub board: Option<PathBuf>,
     /// Scripted inputs for simulator images: `X000=1@2s`; may be repeated or separated by commas.
-    #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
+    #[arg(long, value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Run time of a simulator image, after which it exits: `30s`.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
@@ -380,14 +380,15 @@ pub struct RunArgs {
     /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
-    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`, `Start button=1`; may be repeated
-    /// or separated by commas.
-    #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
+    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`, `D1=H1F`, `Start button=1`; may be
+    /// repeated or separated by commas. A comment with a comma may stand in quotes: `"Speed, set"=5`.
+    #[arg(long, value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or
-    /// characters (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`), a comment
-    /// (`Main contactor`). Default: what the program writes, outputs first, and the inputs that change, up to twelve.
-    #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
+    /// Devices to show: `Y000`, `Y000..Y007`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float
+    /// (`D0.f32`) or characters (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`,
+    /// `Y000.hz`), a comment (`Main contactor`). Default: what the program writes, outputs first, and the inputs that
+    /// change, up to twelve.
+    #[arg(long, value_name = "DEVICE")]
     pub watch: Vec<String>,
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
     #[arg(long, value_name = "FILE")]

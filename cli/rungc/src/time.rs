@@ -7,6 +7,10 @@ pub fn parse(text: &str) -> Result<u64, String> {
         .find(|c: char| !c.is_ascii_digit() && c != '.')
         .unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
+    let wrong = || format!("`{text}` is not a time: write for example 200ms or 5s");
+    if number.is_empty() {
+        return Err(wrong());
+    }
     let factor = match unit.trim() {
         "" | "ms" => 1.0,
         "s" => 1000.0,
@@ -18,10 +22,11 @@ pub fn parse(text: &str) -> Result<u64, String> {
             ));
         }
     };
-    let value: f64 = number
-        .parse()
-        .map_err(|_| format!("`{text}` is not a time: write for example 200ms or 5s"))?;
+    let value: f64 = number.parse().map_err(|_| wrong())?;
     let ms = value * factor;
+    if (ms - ms.round()).abs() > 1e-6 {
+        return Err(format!("`{text}` is not a whole number of milliseconds"));
+    }
     // A year is far beyond what a scan-by-scan run can do.
     if ms > 31_536_000_000.0 {
         Err("that is longer than a year".to_string())
@@ -53,5 +58,9 @@ mod tests {
         assert!(parse("5 days").is_err());
         assert!(parse("").is_err());
         assert!(parse("s").is_err());
+        assert!(parse("-1s").unwrap_err().contains("not a time"));
+        assert!(parse("1.4ms").unwrap_err().contains("whole number"));
+        assert_eq!(parse("0.001s"), Ok(1));
+        assert_eq!(parse("1.1s"), Ok(1100));
     }
 }

@@ -202,9 +202,10 @@ impl Target {
         }
     }
 
-    /// Returns true if a pair of words can hold this float.
+    /// Returns true if a pair of words can hold this float, rounded, but not to 0.
     pub fn is_float(value: f64) -> bool {
-        (value as f32).is_finite()
+        let held = value as f32;
+        held.is_finite() && (held != 0.0 || value == 0.0)
     }
 
     /// The devices it covers, as (class, first, count); a text covers `text_len` bytes, a channel of a module none.

@@ -1,47 +1,76 @@
 //! Devices as the command line and the page name them: `D0`, or by the comment that the program has on it.
 
 use super::setting;
-use rungc_syntax::{Device, DeviceClass, Program, diag};
-use std::collections::BTreeMap;
+use rungc_project::device;
+use rungc_sim::Target;
+use rungc_sim::names::Comments;
+use rungc_syntax::{Device, DeviceClass, Program};
 
 /// Devices of a program by their comments.
 #[derive(Clone, Debug)]
-pub struct Names(BTreeMap<String, Vec<Device>>);
+pub struct Names(Comments);
 
-/// A comment without what people leave out: case, and blanks at the ends and in rows.
-fn plain(comment: &str) -> String {
-    let words: Vec<_> = comment.split_whitespace().collect();
-    words.join(" ").to_lowercase()
+/// A name in quotes, and what follows it.
+fn quoted(text: &str) -> Option<(&str, &str)> {
+    text.trim().strip_prefix('"')?.split_once('"')
 }
 
 impl Names {
     /// The names that the comments of a program give.
     pub fn of(program: &Program) -> Self {
-        let mut names: BTreeMap<String, Vec<Device>> = BTreeMap::new();
-        for (device, comment) in &program.comments {
-            names.entry(plain(comment)).or_default().push(*device);
-        }
-        names.remove("");
-        Names(names)
+        Names(Comments::of(program))
     }
 
     /// The devices with this comment.
     pub fn with_comment(&self, name: &str) -> &[Device] {
-        self.0.get(&plain(name)).map_or(&[], Vec::as_slice)
+        self.0.devices(name)
     }
 
-    /// Reads what is set or watched: `D0.f32`, or `Speed.f32` of a comment `Speed`.
+    /// Splits a list at its commas, but for those in quotes and in comments; `name` finds the name in an item.
+    pub fn items<'t>(&self, list: &'t str, name: fn(&str) -> &str) -> Vec<&'t str> {
+        let mut items = Vec::new();
+        let mut rest = Some(list);
+        while let Some(text) = rest {
+            let end = self.item(text, name);
+            items.push(&text[..end]);
+            rest = text.get(end + 1..);
+        }
+        items
+    }
+
+    /// Length of the first item of a list.
+    fn item(&self, list: &str, name: fn(&str) -> &str) -> usize {
+        let next = |from: usize| list[from..].find(',').map_or(list.len(), |at| from + at);
+        if let Some((_, after)) = quoted(list) {
+            return next(list.trim_end().len() - after.len());
+        }
+        let ends = list.match_indices(',').map(|(at, _)| at);
+        let is_comment = |end: &usize| {
+            let name = name(&list[..*end]);
+            let is_view = |view: &str| view.bytes().all(|byte| byte.is_ascii_alphanumeric());
+            let view = name.rsplit_once('.').filter(|(_, view)| is_view(view));
+            let plain = view.map_or(name, |(plain, _)| plain);
+            name.contains(',')
+                && [name, plain]
+                    .iter()
+                    .any(|name| !self.0.devices(name).is_empty())
+        };
+        let longest = ends.chain([list.len()]).filter(is_comment).last();
+        longest.unwrap_or_else(|| next(0))
+    }
+
+    /// Reads what is set or watched: `D0.f32`, or `Speed.f32` of a comment `Speed`. A name in quotes is a comment.
     ///
     /// # Errors
     /// Description of the mistake.
-    pub fn target(&self, text: &str) -> Result<rungc_sim::Target, String> {
-        self.read(text, setting::target, |wrong| match text.rsplit_once('.') {
-            Some((name, view)) => match self.commented(name)? {
-                Some(device) => setting::target(&format!("{device}.{view}")),
-                None => Err(wrong),
-            },
-            None => Err(wrong),
-        })
+    pub fn target(&self, text: &str) -> Result<Target, String> {
+        if let Some((name, view)) = quoted(text) {
+            let device = self.0.device(name)?;
+            let device = device.ok_or_else(|| self.unknown(name, &not_a_comment(name)))?;
+            return setting::target(&format!("{device}{view}"));
+        }
+        let target = self.0.target(text, setting::target);
+        target.map_err(|wrong| self.unknown(text, &wrong))
     }
 
     /// Reads one device: `M100`.
@@ -50,8 +79,9 @@ impl Names {
     /// Description of the mistake.
     fn device(&self, text: &str) -> Result<Device, String> {
         let device = |text: &str| {
-            rungc_project::device::device(&text.trim().to_uppercase())
-                .ok_or_else(|| format!("`{text}`: a device is written `X010`, `M100` or `D0`"))
+            let upper = text.trim().to_uppercase();
+            device::device(&upper)
+                .ok_or_else(|| wrong(text, &upper, "a device is written `X010`, `M100` or `D0`"))
         };
         self.read(text, device, Err)
     }
@@ -62,8 +92,9 @@ impl Names {
     /// Description of the mistake.
     pub fn range(&self, text: &str) -> Result<(DeviceClass, u32, u32), String> {
         let range = |text: &str| {
-            rungc_project::device::range(&text.to_uppercase())
-                .ok_or_else(|| format!("`{text}`: devices are written `M100` or `D100..D199`"))
+            let upper = text.to_uppercase();
+            let example = "devices are written `M100` or `D100..D199`";
+            device::range(&upper).ok_or_else(|| wrong(text, &upper, example))
         };
         self.read(text, range, |wrong| {
             let Some((first, last)) = text.split_once("..") else {
@@ -82,24 +113,18 @@ impl Names {
         read: impl Fn(&str) -> Result<T, String>,
         another: impl FnOnce(String) -> Result<T, String>,
     ) -> Result<T, String> {
+        if let Some((name, "")) = quoted(text) {
+            let device = self.0.device(name)?;
+            let device = device.ok_or_else(|| self.unknown(name, &not_a_comment(name)))?;
+            return read(&device.to_string());
+        }
         let wrong = match read(text) {
             Ok(read) => return Ok(read),
             Err(wrong) => wrong,
         };
-        match self.commented(text)? {
+        match self.0.device(text)? {
             Some(device) => read(&device.to_string()),
             None => another(wrong).map_err(|wrong| self.unknown(text, &wrong)),
-        }
-    }
-
-    /// The device with this comment, if there is one.
-    fn commented(&self, name: &str) -> Result<Option<Device>, String> {
-        match self.with_comment(name) {
-            [] => Ok(None),
-            [device] => Ok(Some(*device)),
-            [first, second, ..] => Err(format!(
-                "`{name}` is the comment of several devices, such as {first} and {second}"
-            )),
         }
     }
 
@@ -113,21 +138,29 @@ impl Names {
         if digits < text.len() && DeviceClass::from_prefix(&letters).is_some() {
             return wrong.to_string();
         }
-        let name = plain(text);
-        let near = diag::did_you_mean(&name, self.0.keys().map(String::as_str));
-        let is_part = |known: &&String| name.chars().count() > 2 && known.contains(&name);
-        let part = || self.0.keys().find(is_part).map(String::as_str);
-        match near.or_else(part) {
+        match self.0.similar(text) {
             Some(near) => format!("`{text}` is not a device or a comment; did you mean `{near}`?"),
             None => wrong.to_string(),
         }
     }
 }
 
+/// Message for a text that does not name devices; `example` says how it would.
+fn wrong(text: &str, upper: &str, example: &str) -> String {
+    match device::mistake(upper) {
+        Some(why) => format!("`{text}`: {why}; {example}"),
+        None => format!("`{text}`: {example}"),
+    }
+}
+
+/// Message for a name in quotes that is not a comment.
+fn not_a_comment(name: &str) -> String {
+    format!("no device has the comment `{name}`")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rungc_sim::Target;
 
     fn names() -> Names {
         let list = ";! X003 = Guard  open\n;! D10 = Speed\n;! T5 = Delay\n;! M1 = Ready\n;! M2 = ready\nLD X3\nEND\n";
@@ -179,7 +212,7 @@ mod tests {
         let near = names.device("Guards open").unwrap_err();
         assert_eq!(
             near,
-            "`Guards open` is not a device or a comment; did you mean `guard open`?"
+            "`Guards open` is not a device or a comment; did you mean `Guard open`?"
         );
         assert!(
             names
@@ -190,5 +223,56 @@ mod tests {
         assert!(names.target("X008").unwrap_err().contains("octal"));
         assert!(names.target("Speed.hz").is_err());
         assert!(names.range("Guard open..Speed").is_err());
+    }
+
+    #[test]
+    fn lists_are_split_at_commas_between_items() {
+        let list = ";! D0 = Speed, set\n;! D2 = Speed\n;! M0 = a, b, c\nLD M0\nEND\n";
+        let names = Names::of(&rungc_frontend::read_text("a.il", list).program);
+        let of_setting = |text: &str| {
+            let name: fn(&str) -> &str =
+                |item| item.rsplit_once('=').map_or(item, |(name, _)| name);
+            names.items(text, name).join("|")
+        };
+        for (list, items) in [
+            ("X0=1,Speed=2", "X0=1|Speed=2"),
+            ("Speed, set=5,X0=1", "Speed, set=5|X0=1"),
+            ("X0=1,speed,  set.f32=5@1s", "X0=1|speed,  set.f32=5@1s"),
+            ("\"Speed, set\"=5,X0=1", "\"Speed, set\"=5|X0=1"),
+            ("A, B, C=1,M1=0", "A, B, C=1|M1=0"),
+            ("M0=1,,M1=1", "M0=1||M1=1"),
+            ("M0=1,", "M0=1|"),
+        ] {
+            assert_eq!(of_setting(list), items);
+        }
+        let watched = names.items("Speed, set.f32,Speed,D0", |name| name);
+        assert_eq!(watched, ["Speed, set.f32", "Speed", "D0"]);
+        assert_eq!(
+            names.target("\"speed, set\".i32"),
+            Ok(Target::Pair(DeviceClass::D, 0))
+        );
+        assert!(
+            names
+                .target("\"D0\"")
+                .unwrap_err()
+                .contains("no device has the comment")
+        );
+    }
+
+    #[test]
+    fn ranges_that_are_wrong_say_why() {
+        let names = names();
+        for (text, why) in [
+            ("Q9", "there are no devices Q"),
+            ("X999", "the numbers of X are octal"),
+            ("X0..X8", "the numbers of X are octal"),
+            ("D5..D0", "the first device is after the last"),
+            ("Speed..D0", "the first device is after the last"),
+            ("D0..M5", "both ends are devices of one class"),
+            ("D9999999", "no model has that many"),
+        ] {
+            let wrong = names.range(text).unwrap_err();
+            assert!(wrong.contains(why), "{text}: {wrong}");
+        }
     }
 }

@@ -194,9 +194,19 @@ impl Requested {
             target.map_err(|why| Failure::Because(format!("{option}: {why}")))
         };
         let settings = setting::settings(&args.set, &names)?;
-        let watched = args.watch.iter().map(|name| target("--watch", name));
+        let mut watched = Vec::new();
+        for name in setting::items("--watch", &args.watch, &names)? {
+            match names.range(name) {
+                Ok((class, first, last)) if first < last => {
+                    let devices =
+                        (first..=last).map(|n| target("--watch", &class.number(n).to_string()));
+                    watched.extend(devices.collect::<std::result::Result<Vec<_>, _>>()?);
+                }
+                _ => watched.push(target("--watch", name)?),
+            }
+        }
         Ok(Requested {
-            watched: watched.collect::<std::result::Result<_, _>>()?,
+            watched,
             over: args
                 .over
                 .as_deref()

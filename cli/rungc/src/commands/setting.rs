@@ -45,9 +45,35 @@ fn upper(name: &str) -> String {
     })
 }
 
+/// Splits the lists that follow an option.
+///
+/// # Errors
+/// An item is empty.
+pub fn items<'t>(
+    option: &str,
+    lists: &'t [String],
+    names: &Names,
+) -> std::result::Result<Vec<&'t str>, Failure> {
+    let mut all = Vec::new();
+    for list in lists {
+        let items = names.items(list, name);
+        if items.iter().any(|item| item.trim().is_empty()) {
+            let why = "nothing stands before or after a comma";
+            return Err(Failure::Because(format!("{option} \"{list}\": {why}")));
+        }
+        all.extend(items);
+    }
+    Ok(all)
+}
+
+/// The name in a setting. Comments may contain the sign.
+fn name(setting: &str) -> &str {
+    setting.rsplit_once('=').map_or(setting, |(name, _)| name)
+}
+
 /// Reads what follows `--set`, in the order of the times.
 pub fn settings(texts: &[String], names: &Names) -> std::result::Result<Vec<Setting>, Failure> {
-    let settings = texts.iter().map(|text| {
+    let settings = items("--set", texts, names)?.into_iter().map(|text| {
         parse(text, names).map_err(|why| Failure::Because(format!("--set {text}: {why}")))
     });
     let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
@@ -117,16 +143,31 @@ pub fn parse(text: &str, names: &Names) -> std::result::Result<Setting, String> 
         .map_or((rest, None), |(value, at)| (value, Some(at)));
     let at_ms = at.map_or(Ok(0), crate::time::parse)?;
     let target = names.target(name)?;
-    let value: f64 = value
-        .trim()
-        .parse()
-        .map_err(|_| format!("`{value}` is not a number"))?;
+    let value = number(value.trim()).ok_or_else(|| {
+        format!("`{value}` is not a number: write for example 5, -1.5, H1F or 0x1F")
+    })?;
     fits(target, value)?;
     Ok(Setting {
         at_ms,
         target,
         value,
     })
+}
+
+/// Reads a number as people or programs write it: `31`, `K31`, `H1F`, `0x1F`.
+fn number(text: &str) -> Option<f64> {
+    let digits = ["0x", "0X", "H", "h"]
+        .iter()
+        .find_map(|prefix| text.strip_prefix(prefix));
+    if let Some(digits) = digits {
+        let is_hex = digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let number = i64::from_str_radix(digits, 16).ok().filter(|_| is_hex);
+        return number.map(|number| number as f64);
+    }
+    match text.strip_prefix(['K', 'k']) {
+        Some(digits) => digits.parse::<i64>().ok().map(|number| number as f64),
+        None => text.parse().ok(),
+    }
 }
 
 /// Checks that a device can be set to a value; the error states the reason if not.
@@ -147,9 +188,15 @@ pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
             value.fract() == 0.0 && range.is_some_and(|range| range.contains(&(value as i64)))
         }
     };
+    let holds = match (target, target.integers()) {
+        (Target::Bit(..), _) => "is 0 or 1".to_owned(),
+        (_, Some(range)) => format!("holds integers from {} to {}", range.start(), range.end()),
+        (Target::Channel(_), None) => format!("is -{MOST_SIGNAL} to {MOST_SIGNAL}"),
+        (_, None) => "holds numbers of 32 bits: 0, or 1.4e-45 to 3.4e38".to_owned(),
+    };
     match fits {
         true => Ok(()),
-        false => Err(format!("`{value}` does not fit `{target}`")),
+        false => Err(format!("`{value}` does not fit `{target}`, which {holds}")),
     }
 }
 
@@ -216,6 +263,12 @@ mod tests {
             "K4M0=-1",
             "K8M0=4294967295",
             "D0.f32=3.4e38",
+            "D0.f32=1.4e-45",
+            "D0.f32=0",
+            "D0=HFFFF",
+            "D0=0x1f",
+            "D0=K-5",
+            "D0=k7@1s",
         ] {
             assert!(setting(right).is_ok(), "{right}");
         }
@@ -237,6 +290,13 @@ mod tests {
             "K5M0=1048576",
             "D0=x",
             "D0=1@soon",
+            "D0=1@-1s",
+            "D0=1@1.4ms",
+            "D0=H",
+            "D0=H-1",
+            "D0=0x+1",
+            "D0=K1.5",
+            "D0.f32=1e-50",
             "Q1=1",
         ] {
             assert!(setting(wrong).is_err(), "{wrong}");

@@ -87,6 +87,40 @@ fn every_option_takes_comments() {
     }
 }
 
+/// Commas separate items, but not within a comment, whether or not it is in quotes.
+#[test]
+fn comments_may_contain_commas() {
+    let list = ";! D0 = Speed, set\n;! Y000 = Lamp, left\nLD= D0 K5\nOUT Y000\nOUT Y001\nEND\n";
+    let folder = folder(&[("lamp.il", list.as_bytes())]);
+    let table = |set: &str, watch: &str| {
+        let args = ["run", "lamp.il", "--set", set, "--watch", watch];
+        let output = rungc(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let plain = table("D0=5@20ms", "Y0,Y1,D0");
+    assert_eq!(
+        table("Speed, set=5@20ms", "Lamp, left,Y1,speed,  set"),
+        plain
+    );
+    assert_eq!(
+        table("\"Speed, set\"=H5@20ms", "Y0..Y1,\"Speed, set\""),
+        plain
+    );
+    for (set, why) in [
+        ("D0=1,,D0=2", "nothing stands before or after a comma"),
+        ("D0=70000", "which holds integers from -32768 to 65535"),
+        ("Y0=2", "which is 0 or 1"),
+        ("D0=x", "is not a number: write for example"),
+        ("D0=5@-1s", "`-1s` is not a time"),
+    ] {
+        let output = rungc(folder.path(), &["run", "lamp.il", "--set", set]);
+        assert_eq!(output.status.code(), Some(2), "{set}");
+        let messages = text(&output.stderr);
+        assert!(messages.contains(why), "{set}: {messages}");
+    }
+}
+
 #[test]
 fn names_that_are_not_there_are_explained_by_every_option() {
     let folder = folder(&[("press.il", PRESS.as_bytes())]);
@@ -121,7 +155,7 @@ fn names_that_are_not_there_are_explained_by_every_option() {
         };
         let near = named("Main contacter");
         assert!(
-            near.contains("did you mean `main contactor`?"),
+            near.contains("did you mean `Main contactor`?"),
             "{args:?}: {near}"
         );
         let several = named("Lamp");
