@@ -9,6 +9,7 @@ mod fleet;
 mod forms;
 mod listings;
 mod properties;
+mod repeated;
 mod serve;
 mod test;
 mod values;
@@ -20,7 +21,7 @@ pub use emit::{Backend, Emit};
 pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
-pub use forms::{ConvertArgs, ConvertTo, PlcopenBody, ReadArgs, ReadFrom};
+pub use forms::{ConvertArgs, ConvertTo, NamesFile, PlcopenBody, ReadArgs, ReadFrom};
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use properties::Properties;
 pub use serve::ServeArgs;
@@ -30,7 +31,7 @@ pub use verify::VerifyArgs;
 use crate::output::OutputPath;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::Target;
-use rungc_frontend::{Encoding, Names, ReadOptions};
+use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
 use std::path::PathBuf;
@@ -202,7 +203,7 @@ pub struct FileKind {
     /// Devices of the variables of PLCopen XML: a table of rows such as `Start,X000`; `*,M100-M199` lists devices for
     /// variables without an address.
     #[arg(long, value_parser = forms::names, value_name = "FILE")]
-    pub names: Option<Names>,
+    pub names: Option<NamesFile>,
 }
 
 /// Options for reading programs and reporting diagnostics.
@@ -225,7 +226,7 @@ impl Reading {
             encoding: self.kind.encoding,
             compiled: self.kind.compiled,
             image: self.kind.from == Some(ReadFrom::Image),
-            names: self.kind.names.clone().unwrap_or_default(),
+            names: self.kind.names.clone().unwrap_or_default().names,
             ..ReadOptions::default()
         }
     }

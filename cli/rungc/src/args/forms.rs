@@ -145,10 +145,22 @@ impl ConvertTo {
     }
 }
 
+/// A table of variables and their devices.
+#[derive(Clone, Debug, Default)]
+pub struct NamesFile {
+    /// The file as named.
+    pub path: String,
+    /// What it says.
+    pub names: Names,
+}
+
 /// Reads a table of variables and their devices.
-pub fn names(path: &str) -> Result<Names, String> {
+pub fn names(path: &str) -> Result<NamesFile, String> {
     rungc_syntax::inputs::note(path.as_ref());
     let table = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    Names::parse(&table)
-        .map_err(|row| format!("`{row}` is not a row of a name and a device, such as `Start,X000`"))
+    let names = Names::parse(&table).map_err(|row| {
+        format!("`{row}` is not a row of a name and a device, such as `Start,X000`")
+    })?;
+    let path = path.to_owned();
+    Ok(NamesFile { path, names })
 }

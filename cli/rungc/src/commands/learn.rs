@@ -58,6 +58,7 @@ fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failur
     let file = args.file.clone();
     if args.project.as_ref().is_some_and(|given| !given.exists()) {
         return Ok(Subject {
+            arguments: Vec::new(),
             file,
             project: None,
             model: args.model,

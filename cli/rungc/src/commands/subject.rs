@@ -32,6 +32,8 @@ pub struct Subject {
     pub reporting: Reporting,
     /// Options for reading.
     pub options: ReadOptions,
+    /// Arguments of the command line that `rungc check` takes as well.
+    pub arguments: Vec<String>,
 }
 
 impl Subject {
@@ -42,12 +44,14 @@ impl Subject {
 
     /// Command that lists all that can be said of the program; `None` for standard input.
     pub fn check_command(&self) -> Option<String> {
-        let file = self.file.display().to_string();
-        let quoted = match file.contains(char::is_whitespace) {
-            true => format!("\"{file}\""),
-            false => file,
+        let quoted = |word: &String| match word.contains(char::is_whitespace) {
+            true => format!(" \"{word}\""),
+            false => format!(" {word}"),
         };
-        (!self.is_stdin()).then(|| format!("rungc check {quoted}"))
+        let file = self.file.display().to_string();
+        let words = std::iter::once(&file).chain(&self.arguments);
+        let words: String = words.map(quoted).collect();
+        (!self.is_stdin()).then(|| format!("rungc check{words}"))
     }
 
     /// Options for compiling, by its settings.
@@ -142,6 +146,7 @@ impl Projects<'_> {
             project,
             reporting,
             options,
+            arguments: self.reading.arguments(),
         })
     }
 

@@ -195,10 +195,35 @@ fn runs_count_warnings_that_check_lists() {
     assert!(!counted.contains("W0203"), "{counted}");
     assert!(said(&[&run[..], &["-v"]].concat()).contains("W0203"));
     assert!(said(&["check", "twice.il"]).contains("W0203"));
-    assert!(!said(&[&run[..], &["-A", "W0203"]].concat()).contains("W0203"));
+    assert!(counted.contains("2 warnings"), "{counted}");
+    let allowed = said(&[&run[..], &["-A", "W0203"]].concat());
+    assert!(
+        allowed.contains("1 warning (`rungc check twice.il -A W0203`"),
+        "{allowed}"
+    );
     let denied = [&run[..], &["-D", "W0203"]].concat();
     assert_eq!(code(folder.path(), &denied), 1);
     assert!(said(&denied).contains("W0203"));
+    // The command lists what was counted: it reads and judges the program as the run did.
+    let options = [
+        "--model",
+        "fx3g",
+        "-A",
+        "W0204",
+        "-W",
+        "E0105",
+        "--encoding",
+        "gbk",
+    ];
+    let counted = said(&[&run[..], &options].concat());
+    let (_, command) = counted.split_once("(`rungc ").unwrap();
+    let (command, _) = command.split_once('`').unwrap();
+    assert_eq!(
+        command,
+        "check twice.il --model fx3g --encoding gbk -A W0204 -W E0105"
+    );
+    let words: Vec<_> = command.split(' ').collect();
+    assert_eq!(code(folder.path(), &words), 0);
     let json = rungc(folder.path(), &[&run[..], &["--format", "json"]].concat());
     let report = [text(&json.stdout), text(&json.stderr)].concat();
     assert!(report.contains("W0203"), "{report}");
