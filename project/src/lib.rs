@@ -43,6 +43,8 @@ pub struct Project {
     pub source: Source,
     /// The program that the project is about: `[project] program`.
     pub program: Option<PathBuf>,
+    /// Position of `[project] program`.
+    pub program_span: Span,
     /// The PLC model: `[project] model`.
     pub model: Option<ModelId>,
     /// The PLC of its family that the program is for, if `[project] model` names one.
@@ -122,7 +124,7 @@ pub struct Build {
 #[derive(Clone, Debug, Default)]
 pub struct Test {
     /// Test files and folders of them.
-    pub files: Vec<PathBuf>,
+    pub files: Vec<Named>,
     /// Engine for the cases.
     pub engine: Option<Named>,
 }
@@ -227,11 +229,12 @@ impl Project {
             let message = format!("it is larger than {} MiB", MAX_SIZE >> 20);
             return Err(io(io::Error::new(io::ErrorKind::InvalidData, message)));
         }
-        let text = String::from_utf8(bytes).map_err(|_| {
-            io(io::Error::new(
-                io::ErrorKind::InvalidData,
-                "it is not UTF-8",
-            ))
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let why = match error.as_bytes() {
+                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "it is UTF-16; save it as UTF-8",
+                _ => "it is not UTF-8; save it as UTF-8",
+            };
+            io(io::Error::new(io::ErrorKind::InvalidData, why))
         })?;
         Project::parse(path, &text)
     }
@@ -297,6 +300,21 @@ impl Project {
         let place = |path: &Path| path.canonicalize().ok();
         self.program()
             .is_some_and(|program| place(&program).is_some_and(|p| Some(p) == place(file)))
+    }
+}
+
+impl Project {
+    /// That there is nothing at a path of the file, which is at this place.
+    pub fn absent(&self, path: &Path, place: Span) -> Option<Error> {
+        let at = self.at(path);
+        if at.exists() {
+            return None;
+        }
+        let why = codes::PROJECT_VALUE.at(place, format!("there is no `{}`", path.display()));
+        let folder = self.path.parent().unwrap_or(Path::new("")).display();
+        Some(self.error(why.help(format!(
+            "paths begin at the folder of this file, `{folder}`"
+        ))))
     }
 }
 

@@ -315,7 +315,10 @@ impl Reader {
     }
 
     fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
-        project.program = self.path(table, "program");
+        if let Some(program) = self.get(table, "program") {
+            project.program = Some(PathBuf::from(program.text));
+            project.program_span = program.span;
+        }
         if let Some(name) = self.get(table, "model") {
             match Plc::named(&name.text) {
                 Ok(plc) => (project.model, project.variant) = (Some(plc.model), plc.variant),
@@ -419,8 +422,7 @@ impl Reader {
     }
 
     fn test(&mut self, table: &DeTable<'_>, project: &mut Project) {
-        let files = self.list(table, "files").into_iter();
-        project.test.files = files.map(|file| PathBuf::from(file.text)).collect();
+        project.test.files = self.list(table, "files");
         project.test.engine = self.get(table, "engine");
     }
 

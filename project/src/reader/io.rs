@@ -67,7 +67,11 @@ impl Reader {
             }
             Err(errors) => {
                 for error in errors {
-                    let at = error.pair.map_or(at, |pair| places[pair].1);
+                    let place = error.pair.map(|pair| match error.of_key {
+                        true => places[pair].0,
+                        false => places[pair].1,
+                    });
+                    let at = place.unwrap_or(at);
                     self.misconnected(at, error.message, &error.help);
                 }
                 None

@@ -31,6 +31,21 @@ impl Reader {
         let kinds: Vec<_> = kinds.collect();
         let [(kind, others)] = kinds[..] else {
             let names: Vec<_> = KINDS.iter().map(|(kind, _)| *kind).collect();
+            let others = KINDS.iter().flat_map(|(_, others)| *others).copied();
+            let keys: Vec<_> = names
+                .iter()
+                .copied()
+                .chain(others)
+                .chain(["name"])
+                .collect();
+            if kinds.is_empty()
+                && table
+                    .keys()
+                    .any(|key| !keys.contains(&key.get_ref().as_ref()))
+            {
+                self.known(PROPERTY, table, &keys);
+                return None;
+            }
             let message = format!("a property has one of {}", listed(&names));
             self.wrong(at, message, "add for example `never = \"Y000 & Y001\"`");
             return None;

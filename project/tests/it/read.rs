@@ -347,8 +347,13 @@ fn a_file_that_cannot_be_read() {
     let path = folder.path().join(FILE);
     let why = |path: &Path| Project::load(path).unwrap_err().to_string();
     assert!(why(&path).starts_with("cannot read"), "{}", why(&path));
-    std::fs::write(&path, [0xff, 0xfe, 0x41]).unwrap();
-    assert!(why(&path).ends_with("it is not UTF-8"), "{}", why(&path));
+    for (bytes, message) in [
+        (&[0xff, 0xfe, 0x41][..], "it is UTF-16; save it as UTF-8"),
+        (&[0x41, 0xff], "it is not UTF-8; save it as UTF-8"),
+    ] {
+        std::fs::write(&path, bytes).unwrap();
+        assert!(why(&path).ends_with(message), "{}", why(&path));
+    }
     std::fs::write(&path, vec![b'#'; (rungc_project::MAX_SIZE + 1) as usize]).unwrap();
     assert!(
         why(&path).ends_with("it is larger than 1 MiB"),
@@ -676,4 +681,21 @@ fn mistakes_in_a_network_of_canlink() {
     };
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
     assert_eq!(messages, ["Mitsubishi FX3U has no CANlink"]);
+}
+
+/// Unknown keys are marked themselves, not their values.
+#[test]
+fn unknown_keys_are_marked() {
+    let shown = [
+        "[[property]]\nneverr = 'Y000'\n",
+        "[[property]]\nname = 'a'\n",
+        "[io.a]\nmqtt = 'host'\nqoss = '1'\nX0 = 'read a'\n",
+        "[io.a]\nmqtt = 'host'\nQ0 = 'read a'\nevery = 'soon'\n",
+        "[project]\nmodl = 'fx3u'\n",
+        "[verify]\nasume = ['M0']\n",
+        "[[module]]\nnumbre = 0\n",
+        "[[modbus]]\nservr = 'a'\n",
+        "[canlink]\nstaton = 1\n",
+    ];
+    insta::assert_snapshot!(shown.map(mistakes).join("\n"));
 }

@@ -350,6 +350,7 @@ impl Reader {
                     pair,
                     message,
                     help,
+                    ..
                 } in invalid
                 {
                     let at = pair.and_then(|pair| spans.get(pair)).copied();

@@ -156,6 +156,10 @@ impl Projects<'_> {
             let why = "no program given: name a FILE, or create rungc.toml with `rungc init`";
             return Err(Failure::Because(why.to_string()));
         };
+        let named = project.program.as_deref();
+        if let Some(absent) = named.and_then(|path| project.absent(path, project.program_span)) {
+            return Err(refuse(absent, &self.reading.reporting, self.cx));
+        }
         project.program().map(near).ok_or_else(|| {
             let path = project.path.display();
             Failure::Because(format!(

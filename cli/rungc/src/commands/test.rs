@@ -11,7 +11,7 @@ mod verdicts;
 mod watch;
 
 use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
-use crate::args::{EngineChoice, TestArgs, TestFormat};
+use crate::args::{EngineChoice, Reporting, TestArgs, TestFormat};
 use crate::progress;
 use report::Results;
 use rungc_project::Project;
@@ -50,8 +50,13 @@ impl Chosen {
         let settings = project.as_ref();
         let mut paths = args.files.clone();
         if let (true, Some(project)) = (paths.is_empty(), settings) {
-            let files = project.test.files.iter();
-            paths.extend(files.map(|file| subject::near(project.at(file))));
+            for file in &project.test.files {
+                let path = Path::new(&file.text);
+                if let Some(absent) = project.absent(path, file.span) {
+                    return Err(subject::refuse(absent, &Reporting::default(), cx));
+                }
+                paths.push(subject::near(project.at(path)));
+            }
         }
         if paths.is_empty() {
             let why = "no tests given: name a FILE, or set `files` in `[test]` of rungc.toml";

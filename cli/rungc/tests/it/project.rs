@@ -309,3 +309,24 @@ fn programs_are_held_to_a_variant() {
         shown(path, &["explain", "H1U-0806"])
     );
 }
+
+/// Files that the settings name and that are not there are marked in the settings.
+#[test]
+fn absent_files_are_marked_where_they_are_named() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    for (settings, command, place) in [
+        ("[project]\nprogram = 'n.il'\n", "check", "rungc.toml:2:11"),
+        ("[project]\nprogram = 'n.il'\n", "run", "rungc.toml:2:11"),
+        ("[test]\nfiles = [\n  'nope']\n", "test", "rungc.toml:3:3"),
+    ] {
+        fs::write(path.join("rungc.toml"), settings).unwrap();
+        let output = rungc(path, &[command]);
+        assert_eq!(output.status.code(), Some(2), "{settings}");
+        let messages = text(&output.stderr);
+        assert!(messages.contains(place), "{messages}");
+        assert!(messages.contains("there is no `"), "{messages}");
+    }
+    fs::write(path.join("rungc.toml"), b"\xff\xfe[\0p\0").unwrap();
+    assert!(messages(path, &["check", "motor.il"]).contains("it is UTF-16; save it as UTF-8"));
+}

@@ -203,6 +203,8 @@ pub struct Connection {
 pub struct SettingError {
     /// The place of the key among the pairs; none: what is wrong is the whole.
     pub pair: Option<usize>,
+    /// True if the key is wrong, not its value.
+    pub of_key: bool,
     /// Description of the error.
     pub message: String,
     /// Suggested remedy; may be empty.
@@ -220,6 +222,7 @@ impl Connection {
         let (Some(&(key, end)), None) = (found.next(), found.next()) else {
             return Err([SettingError {
                 pair: None,
+                of_key: false,
                 message: format!("a connection has one of {}", listed(&kinds)),
                 help: "write for example `modbus-tcp = \"192.168.1.20:502\"`".to_owned(),
             }]
@@ -242,6 +245,7 @@ impl Connection {
             if let Err((message, help)) = connection.set(key, value) {
                 errors.push(SettingError {
                     pair: Some(pair),
+                    of_key: !connection.knows(key),
                     message,
                     help,
                 });
@@ -252,6 +256,7 @@ impl Connection {
         {
             errors.push(SettingError {
                 pair: None,
+                of_key: false,
                 message: message.to_owned(),
                 help: String::new(),
             });
@@ -259,6 +264,7 @@ impl Connection {
         if errors.is_empty() && connection.rows.is_empty() {
             errors.push(SettingError {
                 pair: None,
+                of_key: false,
                 message: "a connection without devices".to_owned(),
                 help: connection.kind.example().to_owned(),
             });
@@ -367,6 +373,17 @@ impl Connection {
             let missing = numbers.find(|&number| !has(class, number))?;
             Some(device_name(class, missing))
         })
+    }
+
+    /// Returns true for a key that the connection has.
+    fn knows(&self, key: &str) -> bool {
+        match key.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => devices(key).is_some(),
+            false => {
+                let mut keys = COMMON.iter().chain(self.kind.options());
+                key == self.kind.key() || keys.any(|known| *known == key)
+            }
+        }
     }
 
     fn set(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {

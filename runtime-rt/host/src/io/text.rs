@@ -114,6 +114,7 @@ impl Lines<'_> {
                 pair,
                 message,
                 help,
+                ..
             }) = errors.first()
             else {
                 return String::new();
