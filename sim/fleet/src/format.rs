@@ -130,7 +130,20 @@ impl Fleet {
             error,
         };
         inputs::note(path);
-        let text = std::fs::read_to_string(path).map_err(io)?;
+        let bytes = std::fs::read(path).map_err(io)?;
+        let is_toml = std::str::from_utf8(&bytes).is_ok_and(rungc_frontend::is_meant_as_toml);
+        if !is_toml && rungc_frontend::is_program(&bytes) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let why = format!(
+                "this is a program; a fleet is a file with `[plc.NAME]` and `program = \"{name}\"` (`rungc book fleet`)"
+            );
+            return Err(io(std::io::Error::new(
+                std::io::ErrorKind::InvalidData,
+                why,
+            )));
+        }
+        let text = String::from_utf8(bytes);
+        let text = text.map_err(|_| io(std::io::ErrorKind::InvalidData.into()))?;
         Fleet::parse(path, &text)
     }
 

@@ -328,3 +328,15 @@ mod brokers {
         });
     }
 }
+
+#[test]
+fn programs_are_not_taken_for_fleets() {
+    let folder = common::folder(&[("motor.il", common::MOTOR.as_bytes())]);
+    let output = common::rungc(folder.path(), &["fleet", "motor.il"]);
+    assert_eq!(output.status.code(), Some(2));
+    let messages = common::text(&output.stderr);
+    assert!(
+        messages.contains("this is a program; a fleet is a file with"),
+        "{messages}"
+    );
+}
