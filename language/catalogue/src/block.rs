@@ -1,27 +1,32 @@
 //! Blocks, limits, scaling and tables of FX3U, FNC 182–214 and 256–269.
 
 use super::row::*;
-use super::{Inst, Param};
+use super::{Inst, Param, Rule};
 use rungc_rt::RtFn;
 
 const BLOCK: &[Param] = &[
     src("S1", REGISTERS).per(3),
     src("S2", REGISTERS.or(CONSTANTS)).per(3),
     dst("D", REGISTERS).per(3),
-    src("n", CONSTANTS.or(DATA)),
+    src("n", CONSTANTS.or(DATA)).rules(COUNTED),
 ];
 const COMPARE_BLOCK: &[Param] = &[
     src("S1", REGISTERS.or(CONSTANTS)).per(3),
     src("S2", REGISTERS).per(3),
     coil("D", RESULT_BITS).per(3),
-    src("n", CONSTANTS.or(DATA)),
+    src("n", CONSTANTS.or(DATA)).rules(COUNTED),
 ];
-const THREE: &[Param] = &[
-    src("S1", VALUES.without(INDEX)),
-    src("S2", VALUES.without(INDEX)),
-    src("S3", VALUES.without(INDEX)),
-    dst("D", RESULT_GROUPS.or(PLACES)),
-];
+const THREE: &[Param] = &three(&[]);
+/// The upper end is not below the lower one.
+const RANGE: &[Param] = &three(&[Rule::WorksFrom(0)]);
+const fn three(rules: &'static [Rule]) -> [Param; 4] {
+    [
+        src("S1", VALUES.without(INDEX)),
+        src("S2", VALUES.without(INDEX)).rules(rules),
+        src("S3", VALUES.without(INDEX)),
+        dst("D", RESULT_GROUPS.or(PLACES)),
+    ]
+}
 /// The number of points is in the table itself.
 const SCALE: &[Param] = &[
     src("S1", VALUES),
@@ -31,7 +36,7 @@ const SCALE: &[Param] = &[
 const TABLE: &[Param] = &[
     both("S", REGISTERS),
     both("D", REGISTERS).open_ended(),
-    src("n", CONSTANTS.or(DATA)),
+    src("n", CONSTANTS.or(DATA)).rules(COUNTED),
 ];
 
 const fn block(name: &'static str, fnc: u16, title: &'static str) -> Inst {
@@ -88,16 +93,16 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S", CONSTANTS.or(REGISTERS)),
             both("D", REGISTERS).open_ended(),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(COUNTED),
         ])
         .call(RtFn::Fins)
         .text("Inserts S into the table at D, whose first word is its length, as entry n; the entries after it move down."),
     block("LIMIT", 256, "Limit")
-        .takes(THREE)
+        .takes(RANGE)
         .call(RtFn::Limit)
         .text("D = S3, held between S1 and S2. S1 above S2 is an error."),
     block("BAND", 257, "Dead band")
-        .takes(THREE)
+        .takes(RANGE)
         .call(RtFn::Band)
         .text("D = 0 while S3 lies between S1 and S2, else how far it lies outside."),
     block("ZONE", 258, "Zone offset")

@@ -49,19 +49,29 @@ macro_rules! at_most_4_of_a_word {
     };
 }
 
+/// Other numbers of words are an error each time (h1u-h2u-programming, FNC 45).
+const MEAN_OF: &[Rule] = &[Rule::WorksWith(1, 64)];
 const MEAN: &[Param] = &[
     src("S", WORDS).per(2),
     dst("D", RESULTS),
-    src("n", CONSTANTS).word().also_on(LIKE_FX3, DATA),
+    src("n", CONSTANTS)
+        .word()
+        .also_on(LIKE_FX3, DATA)
+        .rules(MEAN_OF),
 ];
 /// With M8490 on, the sum follows the mean.
 const MEAN_INOVANCE: &[Param] = &[
     src("S", WORDS).per(2),
     dst("D", RESULTS).len(3),
-    src("n", CONSTANTS).word(),
+    src("n", CONSTANTS).word().rules(MEAN_OF),
 ];
 const MEAN_HM: &[Param] = &[src("S", WORDS).per(2), dst("D", RESULTS), count("n", 1, 64)];
-const ROOT: &[Param] = &[src("S", CONSTANTS.or(DATA_PLACES)), dst("D", DATA_PLACES)];
+const ROOT: &[Param] = &[
+    src("S", CONSTANTS.or(DATA_PLACES)).rules(NOT_NEGATIVE),
+    dst("D", DATA_PLACES),
+];
+/// On HM the root of a negative number is 0.
+const ROOT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA_PLACES)), dst("D", DATA_PLACES)];
 const TO_FLOAT: &[Param] = &[src("S", DATA_PLACES), real_out("D", DATA_PLACES)];
 const TO_FLOAT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 
@@ -108,7 +118,9 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).per(2),
             mixed_out("D", COILS.or(PLACES)).len_of(bits_of_n),
-            src("n", CONSTANTS).word(),
+            src("n", CONSTANTS)
+                .word()
+                .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(1, 4)]),
         ])
         .variants(&[on(FX).takes(&[
             mixed("S", VALUE_OR_BITS.or(CONSTANTS)).per(2),
@@ -127,7 +139,9 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
             dst("D", PLACES.or(INDEX)),
-            src("n", CONSTANTS).word(),
+            src("n", CONSTANTS)
+                .word()
+                .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(0, 4)]),
         ])
         .variants(&[on(FX).takes(&[
             mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
@@ -193,6 +207,7 @@ pub(super) const ROWS: &[Inst] = &[
     data("SQR", 48, "Square root")
         .on(NOT_SMALL_FX)
         .takes(ROOT)
+        .variants(&[on(HM).takes(ROOT_HM)])
         .flags(&["M8020", "M8021"])
         .errors(&[6706])
         .call(RtFn::Sqr)
@@ -213,7 +228,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S", PLACES).per(2),
             dst("D", PLACES).len(2),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(COUNTED),
         ])
         .errors(&[6706, 6707])
         .call(RtFn::Wsum)
@@ -225,7 +240,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S", REGISTERS).len_of(words_of_n_bytes),
             dst("D", REGISTERS).per(2),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
         ])
         .errors(&[6706, 6707])
         .call(RtFn::Wtob)
@@ -237,7 +252,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S", REGISTERS).per(2),
             dst("D", REGISTERS).len_of(words_of_n_bytes),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
         ])
         .errors(&[6706, 6707])
         .call(RtFn::Btow)

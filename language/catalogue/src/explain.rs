@@ -162,6 +162,11 @@ fn meaning(param: &Param, params: &[Param]) -> String {
         text += &match *rule {
             Rule::WideLimits(min, max) => format!("; in the 32-bit form, {min} to {max}"),
             Rule::Not(min, max) => format!("; not {min} to {max}"),
+            Rule::WorksWith(min, i64::MAX) => format!("; fails below {min}"),
+            Rule::WorksWith(min, max) => format!("; fails outside {min} to {max}"),
+            Rule::WorksAbove(bound) => format!("; fails unless above {bound}"),
+            Rule::WordWorksTo(i, max) => format!("; fails above {max} if {} is a word", name(i)),
+            Rule::WorksFrom(i) => format!("; fails below {}", name(i)),
             Rule::MultipleOf(of) => format!("; a multiple of {of}"),
             Rule::AtMost(i) => format!("; at most {}", name(i)),
             Rule::AtLeast(i) => format!("; at least {}", name(i)),

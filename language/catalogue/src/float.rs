@@ -1,7 +1,7 @@
 //! Floating point, FNC 110–137 and 438–440. All but INT have only the 32-bit form, written with D: `DEADD`.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param};
+use super::{Classes, Inst, Lower, Param, Rule};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
@@ -17,9 +17,18 @@ const TWO: &[Param] = &[
     real("S2", NUMBERS),
     real_out("D", REAL_RESULTS),
 ];
-const ONE: &[Param] = &[real("S", REALS), real_out("D", REAL_RESULTS.or(INDEX))];
+const ONE: &[Param] = &one(&[]);
 /// The trigonometric functions that came first take no V and Z (h1u-h2u-programming §4.3.10).
 const ONE_PLACE: &[Param] = &[real("S", REALS.without(INDEX)), real_out("D", REAL_RESULTS)];
+/// Logarithms, of numbers greater than 0, and the arcs of a sine or cosine.
+const LOGARITHM: &[Param] = &one(&[Rule::WorksAbove(0)]);
+const ARC: &[Param] = &one(&[Rule::WorksWith(-1, 1)]);
+const fn one(rules: &'static [Rule]) -> [Param; 2] {
+    [
+        real("S", REALS).rules(rules),
+        real_out("D", REAL_RESULTS.or(INDEX)),
+    ]
+}
 /// L01S lists K and H for EMOV too (l01s-programming §4.2).
 const ONE_L01S: &[Param] = &[
     real("S", REALS.or(CONSTANTS)),
@@ -117,14 +126,16 @@ pub(super) const ROWS: &[Inst] = &[
         .on(WITHOUT_SMALL_FX_HM)
         .text("D = e^S. A result outside the float range is an error."),
     function("LOGE", 125, "Natural logarithm", RtFn::Loge)
+        .takes(LOGARITHM)
         .on(WITHOUT_SMALL_FX_HM)
         .text("D = ln S. S of 0 or below is an error."),
     function("LOG10", 126, "Common logarithm", RtFn::Log10)
         .aliases(&["LOG"])
+        .takes(LOGARITHM)
         .on(WITHOUT_SMALL_FX_HM)
         .text("D = log10 S. S of 0 or below is an error. H1U and H2U also write DLOG."),
     float("ESQR", 127, "Square root of a float", RtFn::Esqr)
-        .takes(&[real("S", NUMBERS), real_out("D", REAL_RESULTS)])
+        .takes(&[real("S", NUMBERS).rules(NOT_NEGATIVE), real_out("D", REAL_RESULTS)])
         .flags(&["M8020"])
         .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
         .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM, a value that is not a finite number gives 0."),
@@ -156,9 +167,11 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(ONE_PLACE)
         .text("D = tan S, S in radians."),
     function("ASIN", 133, "Arc sine", RtFn::Asin)
+        .takes(ARC)
         .on(WITHOUT_SMALL_FX)
         .text("D = the angle in radians, from -π/2 to π/2, whose sine is S. S outside -1 to 1 is an error."),
     function("ACOS", 134, "Arc cosine", RtFn::Acos)
+        .takes(ARC)
         .on(WITHOUT_SMALL_FX)
         .text("D = the angle in radians, from 0 to π, whose cosine is S. S outside -1 to 1 is an error."),
     function("ATAN", 135, "Arc tangent", RtFn::Atan)

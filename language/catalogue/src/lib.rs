@@ -117,6 +117,14 @@ pub enum Rule {
     WideLimits(i64, i64),
     /// A constant does not lie between these, inclusive.
     Not(i64, i64),
+    /// With a constant that does not lie between these, inclusive, the instruction fails each time it runs.
+    WorksWith(i64, i64),
+    /// With a constant that is not greater than this, it does.
+    WorksAbove(i64),
+    /// With a constant that is greater than `.1`, it does if operand `.0` is a word.
+    WordWorksTo(usize, i64),
+    /// With a constant that is smaller than the one of operand `i`, it does.
+    WorksFrom(usize),
     /// A constant is a multiple of this.
     MultipleOf(i64),
     /// A constant is not larger than the one of operand `i`.

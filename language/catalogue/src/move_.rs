@@ -42,6 +42,8 @@ const fn convert(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .takes(CONVERT)
 }
 
+const GRAY: &[Param] = &[src("S", VALUES).rules(NOT_NEGATIVE), dst("D", RESULTS)];
+
 pub(super) const ROWS: &[Inst] = &[
     row("MOV", "Move", "h1u-h2u-programming §4.3.2")
         .fnc(12)
@@ -164,7 +166,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(5, 9)
         .on(NOT_HM_FX1)
-        .takes(&[src("S", VALUES), dst("D", RESULTS)])
+        .takes(GRAY)
         .errors(&[6706])
         .call(RtFn::Gry)
         .text("D = S in Gray code. A negative S is an error."),
@@ -173,7 +175,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(5, 9)
         .on(NOT_HM_FX1)
-        .takes(&[src("S", VALUES), dst("D", RESULTS)])
+        .takes(GRAY)
         .errors(&[6706])
         .call(RtFn::Gbin)
         .text("D = the number whose Gray code is S. A negative S is an error."),

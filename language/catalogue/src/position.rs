@@ -15,7 +15,7 @@ const fn position_output(name: &'static str) -> Param {
 }
 const DIRECTION: Param = coil("D2", COILS).directs();
 const DISTANCE: Param = src("S1", VALUES);
-const SPEED: Param = src("S2", VALUES);
+const SPEED: Param = src("S2", VALUES).rules(NOT_NEGATIVE);
 const MOVE: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT, DIRECTION];
 /// A speed of at least 10 Hz; in 32 bits, up to the model's highest.
 const fn speed(name: &'static str, wide: &'static [Rule]) -> Param {

@@ -58,6 +58,10 @@ pub(super) const BITS: Classes = Classes::X.or(COILS);
 pub(super) const RESULT_BITS: Classes = COILS.or(Classes::WORD_BIT);
 /// Bits that can be taken: also those of words.
 pub(super) const SOURCE_BITS: Classes = BITS.or(Classes::WORD_BIT);
+/// A negative constant is an error at run time.
+pub(super) const NOT_NEGATIVE: &[Rule] = &[Rule::WorksWith(0, i64::MAX)];
+/// A constant below 1 is an error at run time.
+pub(super) const COUNTED: &[Rule] = &[Rule::WorksWith(1, i64::MAX)];
 /// Everything that has a contact.
 pub(super) const CONTACTS: Classes = BITS.or(Classes::T).or(Classes::C);
 

@@ -64,7 +64,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
         ])
         .call(RtFn::Right)
         .text("Writes the last n characters of the text at S to D."),
@@ -72,7 +72,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
         ])
         .call(RtFn::Left)
         .text("Writes the first n characters of the text at S to D."),
@@ -98,7 +98,7 @@ pub(super) const ROWS: &[Inst] = &[
             text("S1", REGISTERS.or(Classes::TEXT)).open_ended(),
             text("S2", REGISTERS).open_ended(),
             dst("D", REGISTERS),
-            src("n", CONSTANTS.or(DATA)),
+            src("n", CONSTANTS.or(DATA)).rules(COUNTED),
         ])
         .call(RtFn::Instr)
         .text("D = the position of the text S1 in the text at S2, searched from character n, counted from 1; 0 if not found."),

@@ -184,6 +184,12 @@ super::codes! {
     wrong: "LD M8000\nOUT C243 K10\nEND\n",
     right: "LD M8000\nOUT C242 K10\nEND\n";
 
+    CONSTANT_FAILS = "W0234" "constant-fails" Warning Some(6706),
+    "constant with which the instruction always fails",
+    "The instruction does not accept this constant. Each time it runs, the PLC reports an operation error in M8067 and D8067 and leaves the result unchanged.",
+    wrong: "LD X0\nMEAN D0 D100 K65\nEND\n",
+    right: "LD X0\nMEAN D0 D100 K64\nEND\n";
+
     INDEXED_COUNTER = "W0235" "indexed-counter" Warning None,
     "32-bit counter with an index on HM",
     "On HM, an index counts 16-bit words. With the index 1, C200 is therefore not C201 but the high word of C200, and the manual advises against such operands (hm-motion-controller §5.1.8). A compiled program goes to the next counter. Copy the counters to data registers and index these: `DMOV C200 D1000`, `DMOV C201 D1002`, then D1000 with an index of 0 or 2.",

@@ -10,6 +10,7 @@ mod counters;
 mod differential;
 mod embedded;
 mod explore_faults;
+mod failing_constants;
 mod faults;
 mod inlined;
 mod lanes;

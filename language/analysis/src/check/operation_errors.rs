@@ -1,14 +1,15 @@
 //! Operands that make an instruction fail, or do less than it says, each time it runs.
 
 use super::Code;
-use rungc_catalogue::{ArithOp, Lower};
-use rungc_syntax::{Diagnostics, Fix, OperandKind, codes};
+use rungc_catalogue::{ArithOp, Lower, Rule};
+use rungc_syntax::{DeviceClass, Diagnostics, Fix, Operand, OperandKind, codes};
 
 /// Checks the constants of instruction `i`.
 pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
     let Some(inst) = code.inst(i) else {
         return;
     };
+    failing_constants(code, i, out);
     match code.lower(i) {
         Some(Lower::Arith(ArithOp::Div)) => by_zero(code, i, true, out),
         Some(Lower::ArithSaturating(ArithOp::Div)) => by_zero(code, i, false, out),
@@ -42,6 +43,73 @@ fn by_zero(code: &Code, i: usize, fails: bool, out: &mut Diagnostics) {
         }
         false => diagnostic.label("gives the limit of the range each time this runs"),
     });
+}
+
+/// Constants with which the instruction always fails, by the rules of the catalogue.
+fn failing_constants(code: &Code, i: usize, out: &mut Diagnostics) {
+    let instr = code.instr(i);
+    for (operand, param) in instr.operands.iter().zip(code.params(i)) {
+        let Some(works) = param
+            .rules
+            .iter()
+            .find_map(|rule| broken(rule, operand, &instr.operands))
+        else {
+            continue;
+        };
+        let message = format!("`{}` always fails with `{}`", instr.mnemonic, operand.kind);
+        out.push(
+            codes::CONSTANT_FAILS
+                .at(operand.span, message)
+                .label("an operation error each time this runs")
+                .help(works),
+        );
+    }
+}
+
+/// The constants that work, if this one breaks the rule.
+fn broken(rule: &Rule, operand: &Operand, all: &[Operand]) -> Option<String> {
+    let value = number(&operand.kind)?;
+    let (breaks, works) = match *rule {
+        Rule::WorksWith(min, i64::MAX) => (value < min as f64, format!("use {min} or more")),
+        Rule::WorksWith(min, max) => (
+            value < min as f64 || value > max as f64,
+            format!("use a constant from {min} to {max}"),
+        ),
+        Rule::WorksAbove(bound) => (
+            value <= bound as f64,
+            format!("use a constant above {bound}"),
+        ),
+        Rule::WordWorksTo(at, max) => {
+            let word = !matches!(all.get(at)?.kind, OperandKind::Device(device, _) if is_bit(device.class));
+            (
+                word && value > max as f64,
+                format!("use at most {max} with a word"),
+            )
+        }
+        Rule::WorksFrom(at) => {
+            let other = all.get(at)?;
+            let least = number(&other.kind)?;
+            (value < least, format!("use `{}` or more", other.kind))
+        }
+        _ => return None,
+    };
+    breaks.then_some(works)
+}
+
+/// The value of a constant.
+fn number(kind: &OperandKind) -> Option<f64> {
+    match *kind {
+        OperandKind::Float(value) => Some(value.into()),
+        ref kind => kind.constant().map(|value| value as f64),
+    }
+}
+
+/// Returns true for bits.
+fn is_bit(class: DeviceClass) -> bool {
+    matches!(
+        class,
+        DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
+    )
 }
 
 /// ZRST whose first device comes after its last one resets only the first (FX3 programming manual, FNC 40).

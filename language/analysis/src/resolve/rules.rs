@@ -16,7 +16,13 @@ pub(super) fn broken(
         compare(operand, operands.get(other)?, wrong, demand)
     };
     param.rules.iter().find_map(|rule| match *rule {
-        Rule::WideLimits(..) | Rule::WordsWith(_) => None,
+        // A failure at run time is a warning.
+        Rule::WorksWith(..)
+        | Rule::WorksAbove(_)
+        | Rule::WordWorksTo(..)
+        | Rule::WorksFrom(_)
+        | Rule::WideLimits(..)
+        | Rule::WordsWith(_) => None,
         Rule::Not(min, max) => {
             let value = operand.kind.constant()?;
             (min..=max)
