@@ -126,6 +126,8 @@ enum Refusal {
     Length,
     /// A value that is not allowed.
     Data,
+    /// Another PLC, which cannot be reached through this one.
+    Station,
     /// A character that is not a digit of a number in ASCII.
     Digit,
 }
@@ -137,6 +139,7 @@ impl Refusal {
             Refusal::Points | Refusal::Data => LineFault::Data,
             Refusal::Device => LineFault::Address,
             Refusal::Length => LineFault::Length,
+            Refusal::Station => LineFault::Station,
             Refusal::Digit => LineFault::Unknown,
         }
     }

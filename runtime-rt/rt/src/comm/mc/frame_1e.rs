@@ -122,6 +122,7 @@ pub(super) fn answer(
                 Refusal::Device => 0x56,
                 Refusal::Points => 0x57,
                 Refusal::Data | Refusal::Digit => 0x54,
+                Refusal::Station => 0x5b,
             };
             reply.number(code, 1);
             Err(refusal.fault())

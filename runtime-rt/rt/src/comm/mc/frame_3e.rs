@@ -10,6 +10,8 @@ use crate::comm::{LineFault, Map};
 const HEAD: usize = 9;
 /// Bytes from the network number to the station, which the answer repeats.
 const ROUTE: usize = 5;
+/// Network, PC, module and station of the PLC that is connected: what libraries send unless configured otherwise.
+const HERE: [u32; 4] = [0, 0xff, 0x03ff, 0];
 /// Bytes before the length.
 const BEFORE_LENGTH: usize = 7;
 
@@ -75,6 +77,7 @@ pub(super) fn answer(
             Refusal::Device => 0xc056,
             Refusal::Length => 0xc061,
             Refusal::Data => 0xc05c,
+            Refusal::Station => 0x4a00,
         };
         reply.replace(end_code, code, 2);
         // The rejected request: route and command.
@@ -94,7 +97,14 @@ fn execute(request: Fields, map: &mut dyn Map, reply: &mut Reply) -> Result<(), 
         return Err(Refusal::Length);
     }
     let mut fields = request;
-    fields.skip(HEAD + 2)?;
+    fields.skip(2)?;
+    let (network, pc) = (fields.number(1)?, fields.number(1)?);
+    let (module, station) = (fields.number(2)?, fields.number(1)?);
+    if [network, pc, module, station] != HERE {
+        return Err(Refusal::Station);
+    }
+    // Length and timer.
+    fields.skip(4)?;
     let (command, subcommand) = (fields.number(2)?, fields.number(2)?);
     match (command, subcommand) {
         (BATCH_READ | BATCH_WRITE, 0 | 1) => {

@@ -111,6 +111,20 @@ fn control_of_pymcprotocol() {
 fn refusals_of_3e() {
     let mut map = Watched::new();
     for (request, code) in [
+        // Network 2, PC 5, module 3E0, station 9.
+        (
+            "50 00 02 FF FF 03 00 0C 00 04 00 01 04 00 00 00 00 00 A8 01 00",
+            0x4a00,
+        ),
+        (
+            "50 00 00 05 FF 03 00 10 00 04 00 01 14 00 00 00 00 00 A8 02 00 01 00 02 00",
+            0x4a00,
+        ),
+        ("50 00 00 FF E0 03 00 08 00 04 00 02 10 00 00 01 00", 0x4a00),
+        (
+            "50 00 00 FF FF 03 09 0C 00 04 00 01 04 00 00 00 00 00 A8 01 00",
+            0x4a00,
+        ),
         // D8511 is the last register.
         (
             "50 00 00 FF FF 03 00 10 00 04 00 01 14 00 00 3E 21 00 A8 03 00 01 00 02 00",
@@ -154,6 +168,7 @@ fn refusals_of_3e() {
         assert!(outcome.is_err());
     }
     assert_eq!((map.writes, map.strays), (0, 0));
+    assert_eq!(map.request, None);
 }
 
 #[test]
