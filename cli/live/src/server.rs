@@ -240,11 +240,12 @@ impl Shared {
 
     /// Path of a request after the token; a rejection if it is not permitted.
     fn admit<'r>(&self, request: &'r Request) -> Result<&'r str, Rejection> {
-        let port = self.address.port();
+        // As browsers write it: no sign, no leading zeros.
+        let port = self.address.port().to_string();
         let named = |host: &str| {
             let (name, given) = host.rsplit_once(':').unwrap_or((host, "80"));
             let name = name.to_ascii_lowercase();
-            ["127.0.0.1", "localhost", "[::1]"].contains(&&*name) && given.parse() == Ok(port)
+            ["127.0.0.1", "localhost", "[::1]"].contains(&&*name) && given == port
         };
         let host = request.host.as_deref().filter(|host| named(host));
         let host = host.ok_or(Rejection::Forbidden)?;

@@ -421,6 +421,9 @@ fn only_the_page_itself_may_ask() {
         "Host: evil.example\r\n",
         &format!("Host: evil.example:{port}\r\n"),
         "Host: 127.0.0.1\r\n",
+        &format!("Host: 127.0.0.1:+{port}\r\n"),
+        &format!("Host: 127.0.0.1:0{port}\r\n"),
+        &format!("Host: 127.0.0.1: {port}\r\n"),
         "",
     ] {
         assert_eq!(page.get("", elsewhere), 403, "{elsewhere}");

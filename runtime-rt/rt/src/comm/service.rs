@@ -70,8 +70,12 @@ impl ServerProtocol {
 
 /// Reads the address of a server: `127.0.0.1:5020`, or `5020`, a port of this machine alone.
 pub fn address(text: &str) -> Option<SocketAddr> {
-    let own = text.parse().map(|port| (Ipv4Addr::LOCALHOST, port).into());
-    own.ok().or_else(|| text.parse().ok())
+    // `parse` alone takes a sign.
+    if text.bytes().all(|byte| byte.is_ascii_digit()) {
+        let port = text.parse().ok()?;
+        return Some((Ipv4Addr::LOCALHOST, port).into());
+    }
+    text.parse().ok()
 }
 
 /// Protocol of a server, for a model.
