@@ -105,6 +105,74 @@ impl Command {
 
     /// Reads a command; the error describes the problem.
     pub(crate) fn read(json: &[u8]) -> Result<Command, String> {
-        serde_json::from_slice(json).map_err(|error| error.to_string())
+        // Serde would take a list for an object.
+        if json.trim_ascii_start().first() != Some(&b'{') {
+            return Err(r#"a command is an object, such as {"do": "run"}"#.to_string());
+        }
+        serde_json::from_slice(json).map_err(|error| in_words_of_json(&error.to_string()))
+    }
+}
+
+/// Names of Serde, and what a client calls them.
+const WORDS: [(&str, &str); 7] = [
+    (
+        "expected variant identifier",
+        "expected the name of a command",
+    ),
+    ("expected f64", "expected a number"),
+    ("expected u32", "expected a whole number from 0"),
+    ("expected usize", "expected a whole number from 0"),
+    ("invalid type: sequence", "invalid type: array"),
+    ("invalid type: map", "invalid type: object"),
+    ("unknown variant", "unknown command"),
+];
+
+/// An error without names of Rust and Serde.
+fn in_words_of_json(error: &str) -> String {
+    WORDS.iter().fold(error.to_string(), |text, (ours, words)| {
+        text.replace(ours, words)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_are_objects() {
+        let read = |json: &str| Command::read(json.as_bytes());
+        assert_eq!(read(r#" {"do": "run"}"#), Ok(Command::Run {}));
+        let object = r#"a command is an object, such as {"do": "run"}"#;
+        for (json, error) in [
+            (r#"["run"]"#, object),
+            (r#"["set", "M0", 1]"#, object),
+            (r#""run""#, object),
+            ("1", object),
+            ("", object),
+            ("{}", "missing field `do`"),
+            (r#"{"do": ["run"]}"#, "expected the name of a command"),
+            (r#"{"do": "fly"}"#, "unknown command `fly`"),
+            (r#"{"do": "set", "device": "M0"}"#, "missing field `value`"),
+            (
+                r#"{"do": "set", "device": "M0", "value": "1"}"#,
+                "expected a number",
+            ),
+            (
+                r#"{"do": "scan", "count": -1}"#,
+                "expected a whole number from 0",
+            ),
+            (
+                r#"{"do": "unbreak", "index": [0]}"#,
+                "invalid type: array, expected a whole number from 0",
+            ),
+        ] {
+            let message = read(json).unwrap_err();
+            assert!(message.contains(error), "{json}: {message}");
+            let internals = [
+                "enum", "variant", "f64", "u32", "usize", "tagged", "sequence",
+            ];
+            let shown = internals.iter().find(|word| message.contains(**word));
+            assert_eq!(shown, None, "{json}: {message}");
+        }
     }
 }
