@@ -218,6 +218,10 @@ impl Line {
         };
         if protocol != self.protocol {
             if let Some(whole) = self.frames.take() {
+            Event::Rejected(client) => eprint_line(&format!(
+                "rungc: {port}: {name} rejects {}: another client is connected",
+                client.ip()
+            )),
                 self.seen(whole, now_ms, watch);
             }
             self.protocol = protocol;

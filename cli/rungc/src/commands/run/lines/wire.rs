@@ -5,10 +5,11 @@
 use super::can::Interface;
 use rungc_io::ports;
 use rungc_project::serve::LineEnd;
+use rungc_rt::comm::service::IDLE_S;
 use rungc_rt::comm::{LineFormat, Parity};
 use serial2::{CharSize, SerialPort, Settings, StopBits};
 use std::io::{self, ErrorKind, Read, Write};
-use std::net::{TcpListener, TcpStream, ToSocketAddrs};
+use std::net::{SocketAddr, TcpListener, TcpStream, ToSocketAddrs};
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -24,6 +25,9 @@ const PAUSES: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(5
 
 /// Timeout of an attempt to connect.
 const CONNECT_WAIT: Duration = Duration::from_secs(3);
+
+/// Time after which a silent client of a socket gives way to another.
+const IDLE: Duration = Duration::from_secs(IDLE_S as u64);
 
 /// Before the program has set up the line.
 const USUAL_RATE: u32 = 9600;
@@ -50,6 +54,8 @@ pub enum Event {
     Down(io::Error),
     /// Characters have come.
     Chunk(Chunk),
+    /// A client is rejected, the first one since the present client has connected.
+    Rejected(SocketAddr),
 }
 
 /// Characters that came together.
@@ -64,7 +70,7 @@ pub struct Chunk {
 enum Source {
     /// An end that can be opened again.
     Known(LineEnd),
-    /// Clients of a socket; the latest is the other end.
+    /// Clients of a socket, one at a time.
     Clients(TcpListener),
     /// A pseudo-terminal, with the end of its clients: open, so that clients can come and go.
     Pty { _clients: SerialPort },
@@ -128,7 +134,7 @@ impl Source {
                     if events.send(Event::Up(theirs)).is_err() {
                         return;
                     }
-                    match ours.listen(events, || self.newcomer()) {
+                    match ours.listen(events, self) {
                         Ok(End::Failed(error)) => error,
                         Ok(End::Replaced(newcomer)) => {
                             wire = Some(newcomer);
@@ -154,13 +160,10 @@ impl Source {
         }
     }
 
-    /// A client that has connected: the latest is the other end, because the one before it may be dead without notice.
-    fn newcomer(&self) -> Option<Wire> {
+    /// A client that has connected.
+    fn newcomer(&self) -> Option<(TcpStream, SocketAddr)> {
         match self {
-            Source::Clients(listener) => listener
-                .accept()
-                .and_then(|(stream, _)| connected(stream))
-                .ok(),
+            Source::Clients(listener) => listener.accept().ok(),
             Source::Known(_) | Source::Pty { .. } => None,
         }
     }
@@ -168,7 +171,7 @@ impl Source {
     fn open(&self) -> io::Result<Wire> {
         match self {
             Source::Known(end) => open(end),
-            Source::Clients(_) => self.newcomer().ok_or_else(|| ErrorKind::WouldBlock.into()),
+            Source::Clients(listener) => connected(listener.accept()?.0),
             Source::Pty { .. } => Err(ErrorKind::NotFound.into()),
         }
     }
@@ -325,16 +328,22 @@ impl Wire {
         port.set_configuration(&settings)
     }
 
-    /// Reports what comes, until the end fails or another takes its place.
-    fn listen(
-        mut self,
-        events: &Sender<Event>,
-        newcomer: impl Fn() -> Option<Wire>,
-    ) -> Result<End, Over> {
+    /// Reports what comes, until the end fails or another takes its place: one that has been silent for long may be
+    /// dead without notice. Until then, others are rejected.
+    fn listen(mut self, events: &Sender<Event>, source: &Source) -> Result<End, Over> {
         let mut buffer = [0; 1024];
+        let mut last_received = Instant::now();
+        let mut has_rejected = false;
         loop {
-            if let Some(wire) = newcomer() {
-                return Ok(End::Replaced(wire));
+            if let Some((stream, client)) = source.newcomer() {
+                if last_received.elapsed() >= IDLE
+                    && let Ok(wire) = connected(stream)
+                {
+                    return Ok(End::Replaced(wire));
+                }
+                if !std::mem::replace(&mut has_rejected, true) {
+                    events.send(Event::Rejected(client)).map_err(|_| Over)?;
+                }
             }
             let event = match self.read(&mut buffer) {
                 Ok(0) => return Ok(End::Failed(ErrorKind::UnexpectedEof.into())),
@@ -345,6 +354,7 @@ impl Wire {
                 Err(error) if is_patience(&error) => continue,
                 Err(error) => return Ok(End::Failed(error)),
             };
+            last_received = Instant::now();
             events.send(event).map_err(|_| Over)?;
         }
     }
