@@ -9,6 +9,7 @@ mod frames;
 pub mod wire;
 
 use super::watch::{Watch, Way};
+use crate::args::ServeArgs;
 use crate::commands::{Failure, eprint_line};
 use frames::{Frames, Whole};
 use rungc_interp::Machine;
@@ -64,7 +65,8 @@ impl Lines {
     ///
     /// # Errors
     /// A port that the model does not have, and one that cannot be opened.
-    pub fn open(lines: &[serve::Line], model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
+    pub fn open(serve: &ServeArgs, model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
+        let lines = serve.lines(model);
         for (i, line) in lines.iter().enumerate() {
             if lines[..i].iter().any(|other| other.port == line.port) {
                 let why = format!("{} is connected to two lines", line.name());
@@ -72,7 +74,14 @@ impl Lines {
             }
         }
         let lines = lines.iter().map(|line| {
-            let line = Line::open(line, model)?;
+            let option = if line.port == CAN_PORT {
+                "--can"
+            } else if serve.serial.contains(line) {
+                "--serial"
+            } else {
+                "--fx"
+            };
+            let line = Line::open(line, option, model)?;
             watch.open(&line.place, LinkProtocol::Serial(line.protocol));
             Ok(line)
         });
@@ -125,13 +134,9 @@ impl Lines {
 }
 
 impl Line {
-    fn open(line: &serve::Line, model: &Model) -> Result<Line, Failure> {
+    /// Opens the line that an option names.
+    fn open(line: &serve::Line, option: &str, model: &Model) -> Result<Line, Failure> {
         let port = line.name();
-        let option = if line.port == CAN_PORT {
-            "--can"
-        } else {
-            "--serial"
-        };
         if let Some((message, help)) = line.missing(model) {
             return Err(Failure::Because(format!("{option}: {message}; {help}")));
         }

@@ -159,7 +159,7 @@ impl Run<'_> {
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
             requests: NetworkRequests::new(module, args.in_real_time(), &mut watch),
-            lines: Lines::open(&args.serve.lines(module.model), module.model, &mut watch)?,
+            lines: Lines::open(&args.serve, module.model, &mut watch)?,
             connecting: Connecting::start(self.connections.clone())?,
             pace: Pace::new(),
             mode: Mode::listen(args.in_real_time()),
