@@ -67,6 +67,41 @@ static uint64_t not_late(uint64_t next)
 }
 
 /* Takes commands like X12=1 (octal) from standard input, without waiting for them, and no more in a scan than fit the buffer. */
+/* The first character of a text that is not a space. */
+static char *without_spaces(char *text)
+{
+    while (*text == ' ' || *text == '\t') {
+        text++;
+    }
+    return text;
+}
+
+/* Executes a line of standard input. */
+static void execute_command(PROGRAM_plc *plc, char *line)
+{
+    char *const command = without_spaces(line);
+
+    for (size_t end = strlen(command); end > 0 && (command[end - 1] == ' ' || command[end - 1] == '\t'); end--) {
+        command[end - 1] = '\0';
+    }
+    if (strcmp(command, "quit") == 0) {
+        stopped = 1;
+        return;
+    }
+    if ((command[0] == 'X' || command[0] == 'x') && command[1] >= '0' && command[1] <= '7') {
+        char *value = command;
+        const unsigned long number = strtoul(command + 1, &value, 8);
+        value = without_spaces(value);
+        if (*value == '=') {
+            value = without_spaces(value + 1);
+            if ((value[0] == '0' || value[0] == '1') && value[1] == '\0' && set_input(plc, number, value[0] == '1')) {
+                return;
+            }
+        }
+    }
+    print(stderr, "%s: not an input of the program; type for example X0=1\n", command);
+}
+
 static void read_commands(PROGRAM_plc *plc)
 {
     static bool closed;
@@ -93,18 +128,7 @@ static void read_commands(PROGRAM_plc *plc)
         }
         line[length] = '\0';
         length = 0;
-        if (strcmp(line, "quit") == 0) {
-            stopped = 1;
-            continue;
-        }
-        char *end = line;
-        if (line[0] == 'X' || line[0] == 'x') {
-            const unsigned long number = strtoul(line + 1, &end, 8);
-            if (end != line + 1 && end[0] == '=' && (end[1] == '0' || end[1] == '1') && set_input(plc, number, end[1] == '1')) {
-                continue;
-            }
-        }
-        print(stderr, "%s: not an input of the program; type for example X0=1\n", line);
+        execute_command(plc, line);
     }
 }
 

@@ -133,7 +133,7 @@ fn batch_answers_requests() {
 #[test]
 fn host_main_runs_in_real_time() {
     let expected = ["s  Y000 on  main contactor", "X9=1: not an input"];
-    build::run_host(&motor(), "X0=1\nX9=1\n", &expected);
+    build::run_host(&motor(), " x0 = 1 \nX9=1\n", &expected);
 }
 
 /// Firmware that includes `rungc.h` may be compiled with warnings that emitted programs do not ask for.
