@@ -30,6 +30,7 @@ static void print(FILE *to, const char *format, ...)
     /* NOTE */
 }
 
+/* PARTNER */
 /* Output terminals: number, name, comment. The last entry ends the table. */
 static const struct {
     unsigned number;
@@ -66,7 +67,6 @@ static uint64_t not_late(uint64_t next)
     return now;
 }
 
-/* Takes commands like X12=1 (octal) from standard input, without waiting for them, and no more in a scan than fit the buffer. */
 /* The first character of a text that is not a space. */
 static char *without_spaces(char *text)
 {
@@ -102,6 +102,7 @@ static void execute_command(PROGRAM_plc *plc, char *line)
     print(stderr, "%s: not an input of the program; type for example X0=1\n", command);
 }
 
+/* Takes commands like X12=1 (octal) from standard input, without waiting for them, and no more in a scan than fit the buffer. */
 static void read_commands(PROGRAM_plc *plc)
 {
     static bool closed;
@@ -169,6 +170,7 @@ static void print_stop(const PROGRAM_plc *plc, uint32_t now_ms)
     static bool reported;
     const plc_error error = PROGRAM_error(plc);
 
+    /* STOPPED */
     if (!reported && error.stop == PLC_STOP_WATCHDOG) {
         print(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, %s; the PLC is in STOP\n", (unsigned long)now_ms, error.stop_step,
                 instructions[instruction_at(error.stop_step)].text, error.stop, meaning(error.stop));

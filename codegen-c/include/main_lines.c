@@ -22,6 +22,9 @@ static serial_line serial_lines[] = {
     /* LINES */
 };
 
+/* True while the program receives characters: between two scans. */
+static bool lines_receive;
+
 static serial_line *line_of(uint8_t port)
 {
     for (size_t i = 0; i < sizeof serial_lines / sizeof serial_lines[0]; i++) {
@@ -114,10 +117,13 @@ static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received
     serial_line *const line = line_of(port);
 
     (void)context;
-    if (line != NULL && line->file < 0) {
+    if (line == NULL || !lines_receive) {
+        return false;
+    }
+    if (line->file < 0) {
         reopen_line(line, now_us);
     }
-    if (line == NULL || line->file < 0) {
+    if (line->file < 0) {
         return false;
     }
     if (line->next == line->count) {
@@ -190,6 +196,40 @@ static uint16_t unsent(void *context, uint8_t port, uint32_t now_us)
     return (uint16_t)(left_us > 0 && line->character_us > 0u ? (uint32_t)left_us / line->character_us + 1u : line->waiting);
 }
 
+/* Reports that a partner on a serial port switches the PLC: on one that is being answered, if that is known. */
+static void report_switch(rungc_map *map, bool runs)
+{
+    char ports[64] = "";
+    bool is_known = false;
+
+    for (size_t i = 0; i < sizeof serial_lines / sizeof serial_lines[0]; i++) {
+        is_known = is_known || (serial_lines[i].path != NULL && rungc_is_answering(map, serial_lines[i].port));
+    }
+    for (size_t i = 0; i < sizeof serial_lines / sizeof serial_lines[0]; i++) {
+        if (serial_lines[i].path != NULL && (!is_known || rungc_is_answering(map, serial_lines[i].port))) {
+            const size_t length = strlen(ports);
+            snprintf(ports + length, sizeof ports - length, "%sCOM%u", length == 0u ? "" : " or ", serial_lines[i].port);
+        }
+    }
+    print(stderr, "PROGRAM: %s switches to %s\n", ports, runs ? "RUN" : "STOP");
+}
+
+/* Advances time between two scans, and has the serial ports receive and answer characters. Reports a partner that switches to RUN or STOP. */
+static void advance_lines(PROGRAM_plc *plc, uint32_t now_ms)
+{
+    rungc_map map = PROGRAM_map(plc);
+    const bool ran = rungc_will_run(&map, FAMILY);
+
+    lines_receive = true;
+    PROGRAM_tick(plc, now_ms);
+    lines_receive = false;
+    const bool runs = rungc_will_run(&map, FAMILY);
+    if (runs != ran) {
+        report_switch(&map, runs);
+        partner_stops = !runs;
+    }
+}
+
 /* A new pseudo-terminal, whose other end is for clients. */
 static bool open_pseudo_terminal(serial_line *line)
 {
@@ -212,6 +252,28 @@ static bool open_pseudo_terminal(serial_line *line)
     return tcsetattr(line->client_end, TCSANOW, &settings) == 0;
 }
 
+/* Prints the serial ports of this machine: those of adapters and boards. */
+static void list_ports(void)
+{
+    static const char *const patterns[] = {"/dev/ttyUSB*", "/dev/ttyACM*", "/dev/ttyAMA*", "/dev/cu.*"};
+    bool any = false;
+
+    for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; i++) {
+        glob_t found;
+        if (glob(patterns[i], 0, NULL, &found) != 0) {
+            continue;
+        }
+        for (size_t n = 0; n < found.gl_pathc; n++) {
+            any = true;
+            print(stderr, "PROGRAM: this machine has %s\n", found.gl_pathv[n]);
+        }
+        globfree(&found);
+    }
+    if (!any) {
+        print(stderr, "PROGRAM: this machine has no serial port: is the adapter connected?\n");
+    }
+}
+
 /* Connects a serial port to `/dev/ttyUSB0` or `pty`. */
 static bool connect_line(uint8_t port, const char *path)
 {
@@ -230,7 +292,11 @@ static bool connect_line(uint8_t port, const char *path)
         line->file = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK);
     }
     if (strcmp(path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
+        const bool is_missing = errno == ENOENT;
         print(stderr, "PROGRAM: COM%u=%s: %s\n", port, path, strerror(errno));
+        if (is_missing) {
+            list_ports();
+        }
         return false;
     }
     print(stderr, "PROGRAM: COM%u at %s\n", port, line->path);

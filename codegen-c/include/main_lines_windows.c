@@ -43,3 +43,8 @@ static bool open_line(const char *what)
 {
     return connect_line(0, what);
 }
+
+static void advance_lines(PROGRAM_plc *plc, uint32_t now_ms)
+{
+    PROGRAM_tick(plc, now_ms);
+}

@@ -121,7 +121,7 @@ static bool limit_connections(const char *text)
 }
 
 /* Opens a server. */
-static bool open_server(rungc_server_protocol protocol, const char *name, const char *text)
+static bool open_server(rungc_server_protocol protocol, const char *option, const char *name, const char *text)
 {
     if (tcp_server_count == SERVERS) {
         print(stderr, "PROGRAM: at most %d servers\n", SERVERS);
@@ -129,7 +129,7 @@ static bool open_server(rungc_server_protocol protocol, const char *name, const 
     }
     struct addrinfo *const found = find_address(text);
     if (found == NULL) {
-        print(stderr, "PROGRAM: %s: an address is written 127.0.0.1:5020, [::1]:5020 or 5020\n", text);
+        print(stderr, "PROGRAM: %s %s: an address is written 127.0.0.1:5020, [::1]:5020 or 5020\n", option, text);
         return false;
     }
     tcp_server *const server = &tcp_servers[tcp_server_count];
@@ -139,7 +139,8 @@ static bool open_server(rungc_server_protocol protocol, const char *name, const 
     const bool listens = listen_at(server, found);
     freeaddrinfo(found);
     if (!listens) {
-        print(stderr, "PROGRAM: cannot serve %s at %s: %s\n", name, text, strerror(errno));
+        const char *const next = errno == EADDRINUSE ? "; another program uses the port: choose another, or 0 for a free one" : "";
+        print(stderr, "PROGRAM: %s %s: cannot serve %s: %s%s\n", option, text, name, strerror(errno), next);
         return false;
     }
     tcp_server_count++;
@@ -270,11 +271,14 @@ static bool feed(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
     memcpy(connection->to_send + connection->waiting, reply.bytes, reply.length);
     connection->waiting += reply.length;
     if (reply.request != RUNGC_REQUEST_NONE) {
-        const bool runs = reply.request == RUNGC_REQUEST_RUN;
+        PROGRAM_set_running(plc, reply.request == RUNGC_REQUEST_RUN);
+    }
+    if (reply.switched != RUNGC_REQUEST_NONE) {
+        const bool runs = reply.switched == RUNGC_REQUEST_RUN;
         const tcp_client *const client = connection->client;
         connection->client->stops += runs ? 0u : 1u;
         print(stderr, "PROGRAM: %s switches to %s (%s)\n", client->address, runs ? "RUN" : "STOP", tcp_servers[client->server].name);
-        PROGRAM_set_running(plc, runs);
+        partner_stops = !runs;
     }
     return result != RUNGC_FEED_RESULT_LOST;
 }

@@ -1,8 +1,8 @@
 /* Executables in C have no servers on Windows. */
-static bool open_server(rungc_server_protocol protocol, const char *name, const char *text)
+static bool open_server(rungc_server_protocol protocol, const char *option, const char *name, const char *text)
 {
     (void)protocol;
-    print(stderr, "PROGRAM: cannot serve %s at %s: executables in C have no servers on Windows; those in Rust do (`--emit rust`)\n", name, text);
+    print(stderr, "PROGRAM: %s %s: cannot serve %s: executables in C have no servers on Windows; those in Rust do (`--emit rust`)\n", option, text, name);
     return false;
 }
 

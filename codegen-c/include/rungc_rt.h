@@ -1091,6 +1091,10 @@ typedef struct rungc_reply {
      */
     rungc_request request;
     /**
+     * RUN or STOP, if the request switches the PLC to it, by a command or by special relays.
+     */
+    rungc_request switched;
+    /**
      * Length in characters; 0: the request is not answered.
      */
     uint16_t length;
@@ -1221,6 +1225,11 @@ typedef struct rungc_connection {
      * It is a request that is over.
      */
     bool over;
+    /**
+     * Modes before and after the last request: the PLC is in RUN, or goes there.
+     */
+    bool ran;
+    bool runs;
     uint8_t received[RUNGC_LONGEST_REQUEST];
     struct rungc_memory memory;
 } rungc_connection;
@@ -1535,6 +1544,16 @@ rungc_feed_result rungc_feed(struct rungc_connection *connection,
                              struct rungc_map *map,
                              uint8_t byte,
                              struct rungc_reply *reply);
+
+/**
+ * Returns true if a PLC of this family is in RUN, or goes there when the next scan begins, and stays there.
+ */
+bool rungc_will_run(struct rungc_map *map, rungc_ports family);
+
+/**
+ * Returns true if a frame is being sent over a port, or waits to be.
+ */
+bool rungc_is_answering(struct rungc_map *map, uint8_t port);
 
 /**
  * The virtual hardware as instructions see it, for `Map::hal`.

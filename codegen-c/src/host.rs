@@ -17,7 +17,7 @@ use std::fmt::Write;
 const WAIT_WITH_TIME: &str = "\
 for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()) {
             sleep_until(now + 1000u < next ? now + 1000u : next);
-            PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
+            ADVANCE(plc, (uint32_t)((microseconds() - start) / 1000u));
 /* INTERRUPTS */        }";
 
 /// Start of the next scan.
@@ -93,7 +93,7 @@ const SERVERS_HEADERS: [&str; 1] = ["errno"];
 /// Those beside them of systems with POSIX.
 const POSIX_HEADERS: [&str; 2] = ["poll", "unistd"];
 const POSIX_RETAIN_HEADERS: [&str; 2] = ["fcntl", "sys/stat"];
-const POSIX_LINES_HEADERS: [&str; 2] = ["fcntl", "termios"];
+const POSIX_LINES_HEADERS: [&str; 3] = ["fcntl", "glob", "termios"];
 const POSIX_SERVERS_HEADERS: [&str; 5] =
     ["fcntl", "netdb", "netinet/in", "netinet/tcp", "sys/socket"];
 
@@ -116,6 +116,15 @@ static void print_overrun(uint32_t scan_us, uint32_t constant_us)
 }
 
 ";
+
+/// State of a host with partners on lines or connections, and what it means for the report of a STOP.
+const PARTNER: [&str; 2] = [
+    "/* True if a partner has switched the PLC to STOP, which is reported. */\nstatic bool partner_stops;\n\n",
+    "\
+    reported = reported || (partner_stops && error.stop == PLC_STOP_M8037);
+    partner_stops = partner_stops && !plc->sys.running;
+",
+];
 
 /// Report of operation errors by the host of a program that may fail.
 const PRINT_ERROR: &str = "\
@@ -182,6 +191,14 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let record = format!("{}_RECORD_LENGTH", name.to_ascii_uppercase());
     let (lines, serving) = (lines(module), server_code(module, servers));
     let parts = [clock, &lines, &retain.functions, &hardware, &serving];
+    let [partner, stopped] = match servers || module.has_ports() {
+        true => PARTNER,
+        false => [""; 2],
+    };
+    let (advance, receive) = match module.has_ports() {
+        true => ("advance_lines", "        advance_lines(plc, now_ms);\n"),
+        false => ("PROGRAM_tick", ""),
+    };
     environment
         .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
@@ -192,7 +209,9 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("        /* SAVE */\n", retain.save)
         .replace("    /* END */\n", retain.end)
         .replace("    /* ASK */\n", begin_clients)
-        .replace("        /* SERVE */\n", &[serve, ask].concat())
+        .replace("        /* SERVE */\n", &[serve, ask, receive].concat())
+        .replace("/* PARTNER */\n", partner)
+        .replace("    /* STOPPED */\n", stopped)
         .replace("    /* CONNECTIONS */\n", &[connections, asked].concat())
         .replace("/* MISSING */\n", &missing)
         .replace("/* ON_ERROR */\n", print_error)
@@ -203,6 +222,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("/* PERIOD */", period)
         .replace("/* OVERRUN */\n", overrun)
         .replace("/* WAIT */", wait)
+        .replace("ADVANCE", advance)
         .replace("/* INTERRUPTS */", interrupts)
         .replace("RECORD_LENGTH", &record)
         .replace("PROGRAM", name)
@@ -393,8 +413,9 @@ fn valued(module: &Module, host: &Host) -> String {
 
 /// The call that opens a server.
 fn open_server(protocol: ServerProtocol) -> String {
-    let (name, protocol) = (protocol.name(), constant(protocol));
-    format!("open_server(RUNGC_SERVER_PROTOCOL_{protocol}, \"{name}\", argv[++i])")
+    let (option, name) = (protocol.option(), protocol.name());
+    let protocol = constant(protocol);
+    format!("open_server(RUNGC_SERVER_PROTOCOL_{protocol}, \"{option}\", \"{name}\", argv[++i])")
 }
 
 /// Name of a protocol in the runtime's header.
@@ -439,7 +460,9 @@ fn lines(module: &Module) -> String {
     let ports = module.ports.iter();
     let rows = ports.map(|port| format!("    {{.port = {port}, .file = -1, .client_end = -1}},\n"));
     let posix = template!("main_lines.c").replace("    /* LINES */\n", &rows.collect::<String>());
-    by_system(template!("main_lines_windows.c"), &posix) + "\n"
+    let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
+    let code = by_system(template!("main_lines_windows.c"), &posix) + "\n";
+    code.replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
 }
 
 /// The hardware that the program asks, if it asks any.

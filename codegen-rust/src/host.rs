@@ -16,9 +16,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Imports of a host with serial ports from the standard library and the runtime.
-const LINES_USES: [&str; 5] = [
-    "rungc_host::io::SerialPort",
-    "rungc_rt::comm::{LineFormat, Received}",
+const LINES_USES: [&str; 6] = [
+    "rungc_host::io::{SerialPort, cannot_open}",
+    "rungc_host::servers::switched_by_line",
+    "rungc_rt::comm::{LineFormat, Received, Served}",
     "std::io::{self, BufRead, Read, Write}",
     "std::sync::mpsc::{self, Receiver, SendError, Sender}",
     "std::time::{Duration, Instant}",
@@ -47,9 +48,8 @@ const OUTSIDE_USES: [&str; 2] = [
 ];
 
 /// Imports of servers.
-const SERVERS_USES: [&str; 3] = [
-    "rungc_host::servers::Servers",
-    "rungc_rt::Ports",
+const SERVERS_USES: [&str; 2] = [
+    "rungc_host::servers::{Servers, Switch, cannot_serve}",
     "rungc_rt::comm::service::{MAX_CLIENTS, Service, ServerProtocol, address}",
 ];
 
@@ -84,6 +84,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
     } else {
         [""; 2]
     };
+    let has_partners = servers || module.has_ports();
+    let [partner, stopped_by] = if has_partners { PARTNER } else { [""; 2] };
     let asks = servers && !module.requests.is_empty();
     let [ask, asked] = if asks { [ASK, ASKED] } else { [""; 2] };
     let serve = format!("{follow}{poll}{ask}{exchange}");
@@ -122,6 +124,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, options: &Options) -> 
         .replace("    OPEN;\n", &open(module, &host))
         .replace("        SERVE;\n", &serve)
         .replace("    CONNECTIONS;\n", &[connections, asked].concat())
+        .replace("    PARTNER;\n", partner)
+        .replace("        STOPPED_BY;\n", stopped_by)
         .replace("        SAVE;\n", &save(keeps, options.unsaved))
         .replace("    END;\n", end)
         .replace("    LEAVE;\n", leave)
@@ -208,6 +212,9 @@ fn uses(generator: &Generator, crate_name: &str, options: &Options) -> String {
         .chain(OUTSIDE_USES.iter().chain([&MUTEX]).filter(|_| io));
     let mut all: BTreeSet<_> = all.map(|name| (*name).to_string()).collect();
     all.insert(format!("{crate_name}::{}", generator.type_name));
+    if ports || servers {
+        all.insert("rungc_rt::Ports".to_string());
+    }
     if module.may_fail() {
         all.extend(ERROR_USES.map(String::from));
     }
@@ -359,12 +366,24 @@ const INTERRUPTED: [&str; 2] = [
 
 /// Transfer of received characters to the ports.
 const EXCHANGE: &str =
-    "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
+    "        partner = advance(&mut plc, &mut hal, &mut lines, start, now_ms).or(partner);\n";
+
+/// Last mode that a partner has switched the PLC to; a STOP by it that is reported is not one by the program.
+const PARTNER: [&str; 2] = [
+    "    let mut partner: Option<bool> = None;\n",
+    "        if partner == Some(false) && plc.last_error().stop == Stop::Program {
+            stop = Stop::Program;
+        }
+        partner = partner.filter(|_| !plc.sys().running);
+",
+];
 
 /// Clients are answered between two scans.
-const POLL: &str = "        if let Some(running) = servers.poll(&mut plc, report) {
+const POLL: &str = "        let Switch { requested, reported } = servers.poll(&mut plc, report);
+        if let Some(running) = requested {
             plc.set_running(running);
         }
+        partner = reported.or(partner);
 ";
 
 /// The table of connections, at the end.
@@ -479,8 +498,7 @@ const WAIT_WITH_LINES: &str = "\
             std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
             let now_ms = start.elapsed().as_millis() as u32;
             hal.advance_to(now_ms);
-            lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));
-            plc.tick(&mut hal, now_ms);
+            partner = advance(&mut plc, &mut hal, &mut lines, start, now_ms).or(partner);
             plc.take_interrupts(&mut hal);
         }
 ";

@@ -56,6 +56,7 @@ fn main() {
     let mut next = start;
     let mut scan_us = 0;
     let mut stop = Stop::default();
+    PARTNER;
     REPORT;
     OVERRUN;
     CATCH;
@@ -84,6 +85,7 @@ fn main() {
                 show(&format!("{seconds:>11.3} s  {name} {state:<3} {comment}"));
             }
         }
+        STOPPED_BY;
         report_stop(&plc, now_ms, &mut stop);
         SAVE;
         scan_us = begin.elapsed().as_micros() as u32;

@@ -51,6 +51,27 @@ fn ends(path: &str) -> io::Result<(SerialPort, SerialPort)> {
     Ok((serial.try_clone()?, serial))
 }
 
+/// Has the ports receive and answer characters, between two scans. Reports a partner that switches the PLC to RUN or
+/// STOP, and returns which.
+fn advance(
+    plc: &mut TYPE,
+    hal: &mut VirtualHal,
+    lines: &mut [Line],
+    start: Instant,
+    now_ms: u32,
+) -> Option<bool> {
+    let ran = Ports::FAMILY.will_run(&Served::<TYPE>::new(plc, TYPE_CODE));
+    lines.iter_mut().for_each(|line| line.exchange(hal, start, now_ms));
+    plc.tick(hal, now_ms);
+    let runs = Ports::FAMILY.will_run(&Served::<TYPE>::new(plc, TYPE_CODE));
+    if ran == runs {
+        return None;
+    }
+    let ports: Vec<_> = lines.iter().map(|line| line.port).collect();
+    report(&switched_by_line(runs, plc, &ports));
+    Some(runs)
+}
+
 impl Line {
     /// The line that an option names: `COM1=/dev/ttyUSB0`.
     fn connect(plc: &mut TYPE, value: &str) -> Result<Line, String> {
@@ -66,7 +87,7 @@ impl Line {
         if plc.port(port).is_none() {
             return Err(format!("the program has no port COM{port}"));
         }
-        let line = Line::open(port, path).map_err(|error| error.to_string())?;
+        let line = Line::open(port, path).map_err(|error| cannot_open(&error))?;
         report!("COM{port} at {path}");
         Ok(line)
     }

@@ -10,7 +10,7 @@ fn open_server(servers: &mut Servers, protocol: ServerProtocol, value: &str) -> 
     let service = Service::new(protocol, Ports::FAMILY, TYPE_CODE);
     let name = protocol.name();
     let opened = servers.open(service, at);
-    let at = opened.map_err(|error| format!("cannot serve {name} at {at}: {error}"))?;
+    let at = opened.map_err(|error| cannot_serve(protocol, at, &error))?;
     report!("{name} at {at}");
     Ok(())
 }

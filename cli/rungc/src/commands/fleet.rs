@@ -15,6 +15,7 @@ use crate::report::Reporter;
 use engine::Chosen;
 use failures::About;
 use rungc_fleet::{At, Choice, Engine, Fleet, Group, Machines, Plcs, Schedule, Setting, Written};
+use rungc_host::servers::cannot_serve;
 use rungc_host::wall::WallClock;
 use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
@@ -72,7 +73,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             let service = Service::new(ServerProtocol::ModbusTcp, model.ports, model.type_code());
             let opened = group.serve(first, plcs.units, service);
             opened.map_err(|(address, error)| {
-                let why = format!("cannot serve Modbus TCP at {address}: {error}");
+                let why = cannot_serve(ServerProtocol::ModbusTcp, address, &error);
                 refuse(FLEET_PORT.at(plcs.modbus_span, why).into())
             })?;
             print_ports(&group, plcs, cx);

@@ -187,6 +187,7 @@ impl Host {
             let left = end.saturating_duration_since(Instant::now());
             let line = self.lines.recv_timeout(left);
             let line = line.unwrap_or_else(|_| panic!("the program never says {words:?}"));
+            assert!(!line.contains("has stopped itself"), "{line}");
             if let Some((_, rest)) = line.split_once(words) {
                 return rest.to_string();
             }
@@ -231,6 +232,17 @@ fn serves(program: &Path) {
     host.says("127.0.0.1 switches to STOP (MC protocol)");
     assert_eq!(ask(&mc, b"13FF000A", 4), b"9300");
     host.says("127.0.0.1 switches to RUN (MC protocol)");
+    // So are M8037 on, and M8035 and M8036; the program has not stopped itself. STOP in STOP switches nothing.
+    assert_eq!(ask(&mc, b"04FF000A01004D2000001F6501", 4), b"8400");
+    host.says("127.0.0.1 switches to STOP (MC protocol)");
+    let run = b"04FF000A02004D2000001F63014D2000001F6401";
+    assert_eq!(ask(&mc, run, 4), b"8400");
+    host.says("127.0.0.1 switches to RUN (MC protocol)");
+    assert_eq!(ask(&mc, b"14FF000A", 4), b"9400");
+    host.says("127.0.0.1 switches to STOP (MC protocol)");
+    assert_eq!(ask(&mc, b"14FF000A", 4), b"9400");
+    assert_eq!(ask(&mc, b"13FF000A", 4), b"9300");
+    host.says("127.0.0.1 switches to RUN (MC protocol)");
     // No request at all: the connection is closed.
     let mut stream = TcpStream::connect(&modbus).unwrap();
     stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
@@ -240,13 +252,20 @@ fn serves(program: &Path) {
         .stdin
         .take()
         .unwrap()
-        .write_all(b"quit\n")
+        .write_all(b" x0 = 1\n quit \n")
         .unwrap();
     let row = host.says(&format!("{modbus:<21}  "));
     let words: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(
         words,
         ["127.0.0.1", "Modbus", "TCP", "3", "2", "2", "0"],
+        "{row}"
+    );
+    let row = host.says(&format!("{mc:<21}  "));
+    let words: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(
+        words,
+        ["127.0.0.1", "MC", "protocol", "8", "8", "0", "3"],
         "{row}"
     );
     assert_eq!(host.child.wait().unwrap().code(), Some(0));
@@ -264,15 +283,20 @@ fn answers_a_programmer_until_interrupted(program: &Path, line: &str, client: Op
     let mut port = serial2::SerialPort::open(client, 9600).unwrap();
     port.set_read_timeout(Duration::from_secs(4)).unwrap();
     let mut answer = [0];
-    let end = Instant::now() + HANG;
-    while port
-        .write_all(b"\x05")
-        .and_then(|()| port.read_exact(&mut answer))
-        .is_err()
-    {
-        assert!(Instant::now() < end, "the programming port never answers");
-    }
-    assert_eq!(answer, [6]);
+    // A request that comes while the port still sends is lost.
+    let mut ask = |request: &[u8]| {
+        soon("the programming port answers", || {
+            let sent = port.write_all(request);
+            sent.and_then(|()| port.read_exact(&mut answer)).is_ok()
+        });
+        assert_eq!(answer, [6]);
+    };
+    ask(b"\x05");
+    // M8037 on and off.
+    ask(b"\x027250F\x0317");
+    host.says("COM0 switches to STOP");
+    ask(b"\x028250F\x0318");
+    host.says("COM0 switches to RUN");
     let pid = host.child.id().to_string();
     let kill = Command::new("kill").args(["-INT", &pid]).status().unwrap();
     assert!(kill.success());

@@ -294,3 +294,42 @@ fn only_some_models_have_a_can_card() {
         "{message}"
     );
 }
+
+/// A gateway has one client at a time, and who switches the PLC over it is reported.
+#[test]
+fn one_client_at_a_time_stops_and_starts_the_plc() {
+    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
+    let mut run = Run::start(folder.path(), "h2u", &["--fx", "tcp-listen:0"]);
+    run.opens(1);
+    let mut client = TcpStream::connect(("127.0.0.1", run.port("COM0"))).unwrap();
+    assert_eq!(ask_stream(&mut client, b"\x05", 1), b"\x06");
+    let mut newcomer = TcpStream::connect(("127.0.0.1", run.port("COM0"))).unwrap();
+    run.says("rejects 127.0.0.1: another client is connected");
+    newcomer.set_read_timeout(Some(HANG)).unwrap();
+    assert!(!matches!(newcomer.read(&mut [0]), Ok(1..)));
+    assert_eq!(ask_stream(&mut client, b"\x027250F\x0317", 1), b"\x06");
+    run.says("COM0 switches to STOP");
+    assert_eq!(ask_stream(&mut client, b"\x028250F\x0318", 1), b"\x06");
+    run.says("COM0 switches to RUN");
+    drop(client);
+    run.says("is gone");
+    let mut client = TcpStream::connect(("127.0.0.1", run.port("COM0"))).unwrap();
+    assert_eq!(ask_stream(&mut client, b"\x05", 1), b"\x06");
+}
+
+#[test]
+fn a_message_names_the_option_of_its_line() {
+    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
+    for option in [
+        &["--fx", "/dev/no-such-tty"],
+        &["--serial", "COM1=/dev/no-such-tty"],
+    ] {
+        let output = rungc(
+            folder.path(),
+            &[&["run", "p.il", "--model", "h2u"], &option[..]].concat(),
+        );
+        let message = text(&output.stderr);
+        let expected = format!("rungc: {}: cannot open /dev/no-such-tty", option[0]);
+        assert!(message.contains(&expected), "{message}");
+    }
+}

@@ -62,7 +62,9 @@ fn servers_that_cannot_be_opened() {
     };
     let message = fails(&["--modbus-tcp", &address]);
     assert!(
-        message.contains(&format!("cannot serve Modbus TCP at {address}")),
+        message.contains(&format!(
+            "--modbus-tcp: cannot serve Modbus TCP at {address}: "
+        )) && message.contains("choose another, or 0 for a free one"),
         "{message}"
     );
     let message = fails(&["--mc", "plc:5001"]);

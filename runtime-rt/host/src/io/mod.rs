@@ -31,6 +31,7 @@ mod modbus;
 mod mqtt;
 #[cfg(not(target_os = "linux"))]
 mod no_serial;
+mod ports;
 mod rtu;
 mod settings;
 #[cfg(target_os = "linux")]
@@ -47,6 +48,7 @@ pub use host::Environment;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;
+pub use ports::cannot_open;
 pub use rtu::{Rtu, SerialLine};
 pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table, overlap, time};
 #[cfg(target_os = "linux")]

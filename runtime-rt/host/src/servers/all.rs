@@ -3,7 +3,8 @@
 use super::{Limits, Server, ServerEvent};
 use rungc_rt::Plc;
 use rungc_rt::comm::Served;
-use rungc_rt::comm::service::{Service, TABLE_HEADING};
+use rungc_rt::comm::mode::is_answering;
+use rungc_rt::comm::service::{ServerProtocol, Service, TABLE_HEADING};
 use std::collections::BTreeMap;
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -33,6 +34,15 @@ struct Counts {
     stops: u64,
 }
 
+/// How partners switch a PLC.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Switch {
+    /// RUN or STOP, if one has requested it: the host carries it out.
+    pub requested: Option<bool>,
+    /// RUN or STOP, if one switches the PLC to it, by a request or by special relays: this has been reported.
+    pub reported: Option<bool>,
+}
+
 impl Servers {
     /// None.
     pub fn new() -> Self {
@@ -55,12 +65,16 @@ impl Servers {
         Ok(address)
     }
 
-    /// Carries out and answers the requests of clients since the last call; returns RUN or STOP if one has requested
-    /// it. Reports who stops or starts the PLC, and that a connection is rejected.
-    pub fn poll(&mut self, plc: &mut dyn Plc, mut report: impl FnMut(&str)) -> Option<bool> {
-        let mut request = None;
+    /// Carries out and answers the requests of clients since the last call; returns how they switch the PLC. Reports
+    /// who stops or starts it, and that a connection is rejected.
+    pub fn poll(&mut self, plc: &mut dyn Plc, mut report: impl FnMut(&str)) -> Switch {
+        let mut switch = Switch::default();
+        let Some(first) = self.servers.first() else {
+            return switch;
+        };
+        // All servers are those of one PLC.
+        let mut map = Served::new(plc, first.server.service().type_code);
         for (n, Open { server, address }) in self.servers.iter_mut().enumerate() {
-            let mut map = Served::new(plc, server.service().type_code);
             for (client, event) in server.poll(&mut map) {
                 let ServerEvent::Exchange(exchange) = event else {
                     report(&full(*address, client, self.limits));
@@ -72,12 +86,13 @@ impl Servers {
                 counts.rejected += u64::from(exchange.rejected);
                 if let Some(running) = exchange.running {
                     counts.stops += u64::from(!running);
+                    switch.reported = Some(running);
                     report(&switched(running, client, server.service()));
                 }
             }
-            request = map.take_request().or(request);
         }
-        request
+        switch.requested = map.take_request();
+        switch
     }
 
     /// A table of what has gone over the connections, a line for each row; empty if there is no server.
@@ -109,6 +124,20 @@ impl Servers {
     }
 }
 
+/// Message that an address cannot be served: the reason and the next step.
+pub fn cannot_serve(protocol: ServerProtocol, address: SocketAddr, error: &io::Error) -> String {
+    let next = match error.kind() {
+        io::ErrorKind::AddrInUse => {
+            "; another program uses the port: choose another, or 0 for a free one"
+        }
+        io::ErrorKind::AddrNotAvailable => "; this machine has no such address",
+        io::ErrorKind::PermissionDenied => "; choose a port from 1024",
+        _ => "",
+    };
+    let name = protocol.name();
+    format!("cannot serve {name} at {address}: {error}{next}")
+}
+
 /// Message that a server rejects a client.
 pub fn full(server: SocketAddr, client: SocketAddr, limits: Limits) -> String {
     format!(
@@ -126,6 +155,20 @@ pub fn switched(running: bool, client: SocketAddr, service: Service) -> String {
         client.ip(),
         service.protocol.name()
     )
+}
+
+/// Message that a partner on one of these serial ports switches the PLC to RUN or STOP: on one that is being answered,
+/// if that is known.
+pub fn switched_by_line(running: bool, plc: &mut dyn Plc, ports: &[u8]) -> String {
+    let name = |port: &u8| format!("COM{port}");
+    let mut partners: Vec<_> = ports.to_vec();
+    partners.retain(|&port| is_answering(plc, port));
+    if partners.is_empty() {
+        partners = ports.to_vec();
+    }
+    let partners: Vec<_> = partners.iter().map(name).collect();
+    let state = if running { "RUN" } else { "STOP" };
+    format!("{} switches to {state}", partners.join(" or "))
 }
 
 /// A row of the table: a server, its client, the protocol, and how many requests, answers, rejections and stops.

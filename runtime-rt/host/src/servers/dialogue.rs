@@ -1,11 +1,7 @@
 //! Dialogue over one connection: received requests and their answers.
 
-use rungc_rt::Class;
 use rungc_rt::comm::service::{Connection, FeedResult, LONGEST_REPLY, Service};
 use rungc_rt::comm::{Frame, Map};
-
-/// Relay that switches the PLC to STOP.
-const FORCED_STOP: u32 = 8037;
 
 /// One connection to a PLC.
 #[derive(Debug)]
@@ -31,7 +27,7 @@ pub struct Exchange {
     pub reply: Vec<u8>,
     /// True if the request was rejected.
     pub rejected: bool,
-    /// RUN or STOP, if the request switches to it.
+    /// RUN or STOP, if the request switches the PLC to it, by a command or by special relays.
     pub running: Option<bool>,
 }
 
@@ -45,21 +41,19 @@ impl Dialogue {
     pub fn receive(&mut self, bytes: &[u8], map: &mut dyn Map) -> Reaction {
         let mut reaction = Reaction::default();
         let mut buffer = [0; LONGEST_REPLY];
-        let mut current = mode(map);
         for &byte in bytes {
             let mut frame = Frame::new(&mut buffer);
             let result = self.0.feed(byte, map, &mut frame);
             if result == FeedResult::More {
                 continue;
             }
-            let before = std::mem::replace(&mut current, mode(map));
             let reply = frame.as_slice().to_vec();
             reaction.reply.extend_from_slice(&reply);
             reaction.exchanges.push(Exchange {
                 request: self.0.request().to_vec(),
                 reply,
                 rejected: result != FeedResult::Request,
-                running: current.filter(|_| current != before),
+                running: self.0.switched(),
             });
             if result == FeedResult::Lost {
                 reaction.closes = true;
@@ -68,10 +62,4 @@ impl Dialogue {
         }
         reaction
     }
-}
-
-/// RUN or STOP, to which the PLC switches before its next scan.
-fn mode(map: &dyn Map) -> Option<bool> {
-    let is_stopped = map.bit(Class::M, FORCED_STOP) == Some(true);
-    map.requested_running().or(is_stopped.then_some(false))
 }

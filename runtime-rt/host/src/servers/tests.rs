@@ -284,7 +284,13 @@ fn nothing_after_a_wrong_length_is_carried_out() {
 fn who_stops_the_plc_is_known() {
     let mut dialogue = Dialogue::new(service(ServerProtocol::Mc));
     let mut plc = Registers::new();
-    let reaction = dialogue.receive(b"14FF000A01FF000A442000000064010013FF000A", &mut plc);
+    let requests = b"14FF000A01FF000A442000000064010014FF000A13FF000A13FF000A";
+    let reaction = dialogue.receive(requests, &mut plc);
     let switched: Vec<_> = reaction.exchanges.iter().map(|it| it.running).collect();
-    assert_eq!(switched, [Some(false), None, Some(true)]);
+    // STOP in STOP and RUN in RUN switch nothing.
+    assert_eq!(switched, [Some(false), None, None, Some(true), None]);
+    // Nor does what is no request.
+    let reaction = dialogue.receive(b"14FF000AG", &mut plc);
+    let switched: Vec<_> = reaction.exchanges.iter().map(|it| it.running).collect();
+    assert_eq!(switched, [Some(false), None]);
 }

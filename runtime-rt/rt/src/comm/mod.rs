@@ -38,6 +38,7 @@
 //! |---|---|
 //! | `map.rs` | [`Map`]: the PLC's devices as codecs see them |
 //! | `elements.rs` | [`Places`]: registers and coils, by the devices of a [`Map`] or where a program stores them |
+//! | `mode.rs` | RUN and STOP as partners switch them |
 //! | `memory.rs` | [`Memory`]: what a slave keeps from one frame to the next |
 //! | `frame.rs` | [`Frame`]: a buffer of fixed capacity; digits and sums |
 //! | `line.rs` | format words, character times, line errors |
@@ -75,6 +76,7 @@ mod masters;
 pub mod mc;
 mod memory;
 pub mod modbus;
+pub mod mode;
 mod parts;
 mod port;
 mod port_protocol;

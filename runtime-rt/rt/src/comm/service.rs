@@ -140,6 +140,9 @@ pub struct Connection {
     length: u16,
     /// It is a request that is over.
     over: bool,
+    /// Modes before and after the last request: the PLC is in RUN, or goes there.
+    ran: bool,
+    runs: bool,
     received: [u8; LONGEST_REQUEST],
     memory: Memory,
 }
@@ -151,6 +154,8 @@ impl Connection {
             service,
             length: 0,
             over: false,
+            ran: false,
+            runs: false,
             received: [0; LONGEST_REQUEST],
             memory: Memory::new(),
         }
@@ -160,6 +165,7 @@ impl Connection {
     pub fn feed(&mut self, byte: u8, map: &mut dyn Map, reply: &mut Frame) -> FeedResult {
         if core::mem::take(&mut self.over) {
             self.length = 0;
+            self.ran = self.runs;
         }
         let mut cut = self.push(byte);
         if cut == Cut::Restart {
@@ -168,13 +174,7 @@ impl Connection {
         }
         let result = match cut {
             Cut::More | Cut::Restart => FeedResult::More,
-            Cut::Whole => match self.answer(map, reply) {
-                Ok(()) => FeedResult::Request,
-                Err(LineFault::Length) if self.service.protocol == ServerProtocol::Mc => {
-                    FeedResult::Lost
-                }
-                Err(_) => FeedResult::Rejected,
-            },
+            Cut::Whole => self.carry_out(map, reply),
             Cut::Drop if self.service.is_lost_after_drop() => FeedResult::Lost,
             Cut::Drop => {
                 self.length = 0;
@@ -183,6 +183,25 @@ impl Connection {
         };
         self.over = result != FeedResult::More;
         result
+    }
+
+    fn carry_out(&mut self, map: &mut dyn Map, reply: &mut Frame) -> FeedResult {
+        let family = self.service.family;
+        self.ran = family.will_run(map);
+        let answered = self.answer(map, reply);
+        self.runs = family.will_run(map);
+        match answered {
+            Ok(()) => FeedResult::Request,
+            Err(LineFault::Length) if self.service.protocol == ServerProtocol::Mc => {
+                FeedResult::Lost
+            }
+            Err(_) => FeedResult::Rejected,
+        }
+    }
+
+    /// RUN or STOP, if the last request switches the PLC to it, by a command or by special relays.
+    pub fn switched(&self) -> Option<bool> {
+        (self.ran != self.runs).then_some(self.runs)
     }
 
     /// Service of its server.

@@ -12,10 +12,11 @@ use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, eprint_line};
 use frames::{Frames, Whole};
+use rungc_host::servers::switched_by_line;
 use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_project::serve;
-use rungc_rt::comm::{CAN_PORT, LineFormat, Protocol, Received};
+use rungc_rt::comm::{CAN_PORT, LineFormat, Protocol, Received, Served};
 use rungc_rt::{Plc, VirtualHal};
 use rungc_sim::serve::{Direction, LinkProtocol, Place, Seen};
 use std::io::ErrorKind;
@@ -123,6 +124,23 @@ impl Lines {
         }
     }
 
+    /// Mode of the machine as partners on lines set it ([`rungc_rt::Ports::will_run`]); `None` without lines.
+    pub fn mode(&self, machine: &mut Machine) -> Option<bool> {
+        let ports = machine.module().model.ports;
+        let has_any = !self.0.is_empty();
+        has_any.then(|| ports.will_run(&Served::<Machine>::new(machine, 0)))
+    }
+
+    /// Reports a partner that has switched the PLC to RUN or STOP: its mode was `before`.
+    pub fn report_switch(&self, before: Option<bool>, machine: &mut Machine) {
+        let Some(running) = self.mode(machine).filter(|&now| before != Some(now)) else {
+            return;
+        };
+        let ports: Vec<_> = self.0.iter().map(|line| line.number).collect();
+        let message = switched_by_line(running, machine, &ports);
+        eprint_line(&format!("rungc: {message}"));
+    }
+
     /// The run is over: what is still on the wires counts as well.
     pub fn end(&mut self, now_ms: u64, watch: &mut Watch) {
         for line in &mut self.0 {
@@ -200,6 +218,10 @@ impl Line {
                 self.wire = None;
                 self.lost = true;
             }
+            Event::Rejected(client) => eprint_line(&format!(
+                "rungc: {port}: {name} rejects {}: another client is connected",
+                client.ip()
+            )),
             Event::Chunk(chunk) => return self.receive(&chunk, hal, begin, from_ms),
         }
         Vec::new()
@@ -223,10 +245,6 @@ impl Line {
         };
         if protocol != self.protocol {
             if let Some(whole) = self.frames.take() {
-            Event::Rejected(client) => eprint_line(&format!(
-                "rungc: {port}: {name} rejects {}: another client is connected",
-                client.ip()
-            )),
                 self.seen(whole, now_ms, watch);
             }
             self.protocol = protocol;

@@ -3,7 +3,7 @@
 use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, eprint_line};
-use rungc_host::servers::{Clients, Limits, Server, ServerEvent, full, switched};
+use rungc_host::servers::{Clients, Limits, Server, ServerEvent, cannot_serve, full, switched};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_models::Model;
@@ -182,7 +182,13 @@ fn open(service: Service, address: SocketAddr, limits: Limits) -> Result<Open, F
     let name = service.protocol.name();
     let server = Server::bind(address, service, limits)
         .and_then(|server| Ok((server.address()?, server)))
-        .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));
+        .map_err(|error| {
+            let (option, why) = (
+                service.protocol.option(),
+                cannot_serve(service.protocol, address, &error),
+            );
+            Failure::Because(format!("{option}: {why}"))
+        });
     let (address, server) = server?;
     eprint_line(&format!("rungc: {name} at {address}"));
     if !address.ip().is_loopback() {

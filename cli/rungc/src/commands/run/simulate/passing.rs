@@ -78,7 +78,9 @@ impl Simulation<'_> {
         self.now_ms += 1;
         self.hal.advance_to(self.now_ms as u32);
         self.move_plant()?;
+        let before = self.lines.mode(&mut self.machine);
         self.machine.tick(&mut self.hal, self.now_ms as u32);
+        self.lines.report_switch(before, &mut self.machine);
         Ok(())
     }
 
