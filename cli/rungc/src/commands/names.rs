@@ -55,7 +55,7 @@ impl Names {
                     .iter()
                     .any(|name| !self.0.devices(name).is_empty())
         };
-        let longest = ends.chain([list.len()]).filter(is_comment).last();
+        let longest = ends.chain([list.len()]).rfind(is_comment);
         longest.unwrap_or_else(|| next(0))
     }
 

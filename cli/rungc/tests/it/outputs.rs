@@ -13,7 +13,7 @@ const OPTIONS: &str = include_str!("../outputs.txt");
 const SCOPE: &str = include_str!("../../../../examples/programs/cam.il");
 
 /// Files of kinds that people write, and files of theirs that look like results.
-const OWN: [(&str, &[u8]); 16] = [
+const OWN: [(&str, &[u8]); 24] = [
     ("a.il", b"LD X0\nOUT Y0\nEND\n"),
     ("b.il", b"LD X1\nOUT Y0\nEND\n"),
     ("other.il", b"LD X7\nOUT Y7\nEND\n"),

@@ -94,7 +94,7 @@ pub(super) fn other(name: &str, text: &str, lines: &[&str]) -> Option<Recognised
     let code: Vec<&str> = code.copied().collect();
     let is_section = |line: &&str| line.starts_with('[') && line.ends_with(']');
     let is_setting = |line: &&str| is_section(line) || line.contains('=');
-    if code.first().is_some_and(is_section) && code.iter().all(|line| is_setting(line)) {
+    if code.first().is_some_and(is_section) && code.iter().all(is_setting) {
         return is("a file of settings (INI)", "name the program");
     }
     let is_key = |line: &&str| {
@@ -106,7 +106,7 @@ pub(super) fn other(name: &str, text: &str, lines: &[&str]) -> Option<Recognised
     };
     let of_yaml = |line: &&str| is_key(line) || line.starts_with("- ");
     let has_keys = code.iter().filter(|line| is_key(line)).count() > 1;
-    if first == "---" && code.len() > 1 || has_keys && code.iter().all(|line| of_yaml(line)) {
+    if first == "---" && code.len() > 1 || has_keys && code.iter().all(of_yaml) {
         return is("a file of settings (YAML)", "name the program");
     }
     let heading = first.trim_start_matches('#');

@@ -2,8 +2,14 @@
 
 use crate::common::{folder, rungc, text};
 
-/// The findings of `--deep` in a report: code, line, and the other places.
-fn deep_findings(json: &str) -> Vec<(&'static str, u64, Vec<(String, u64)>)> {
+/// A finding in a report: code, line, and the other places.
+type Reported = (&'static str, u64, Vec<(String, u64)>);
+
+/// A finding that is expected: code, line, and the lines of what follows from it.
+type Expected = (&'static str, u64, &'static [u64]);
+
+/// The findings of `--deep` in a report.
+fn deep_findings(json: &str) -> Vec<Reported> {
     let report: serde_json::Value = serde_json::from_str(json).expect("a report");
     let found = report["diagnostics"].as_array().expect("diagnostics");
     let codes = [
@@ -24,9 +30,8 @@ fn deep_findings(json: &str) -> Vec<(&'static str, u64, Vec<(String, u64)>)> {
         .collect()
 }
 
-/// Programs in which something is dead or clear on purpose, or one cause has several effects, with their findings: the
-/// code and line of each, and the lines of what follows from it.
-const CAUSES: [(&str, &[(&str, u64, &[u64])]); 10] = [
+/// Programs in which something is dead or clear on purpose, or one cause has several effects, with their findings.
+const CAUSES: [(&str, &[Expected]); 10] = [
     // Outputs are cleared, and never set here.
     (
         "LD M8002\nZRST Y000 Y007\nLD X000\nRST Y003\nRST M5\nLD X000\nOUT Y010\nEND\n",
