@@ -9,7 +9,7 @@ use rungc_ir::layout::Wanted;
 use rungc_ir::node::Module;
 use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
-use rungc_models::{Fit, Model, ModelId, Variant};
+use rungc_models::{Fit, Model, ModelId, Plc, Variant};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, Span, codes};
 
 /// Options of a compilation.
@@ -94,12 +94,12 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
     let (id, cpu) = match (options.model, program.cpu.as_deref()) {
         (Some(id), _) => return (Model::get(id), out),
         (None, None) => return (Model::get(ModelId::Fx3u), out),
-        (None, Some(cpu)) => (ModelId::for_cpu(cpu), cpu),
+        (None, Some(cpu)) => (Plc::for_cpu(cpu), cpu),
     };
     let taken = |id| format!("it is compiled as {}", Model::get(id).name);
     let model = match id {
-        Some((id, Fit::Same)) => id,
-        Some((id, Fit::Nearest(different))) => {
+        Some((plc, Fit::Same)) => plc.model,
+        Some((Plc { model: id, .. }, Fit::Nearest(different))) => {
             let message = format!("CPU type {cpu} is not among the models; {}", taken(id));
             let note = codes::NEAREST_MODEL.at(Span::default(), message);
             out.push(note.help(different));
@@ -118,10 +118,19 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
     (Model::get(model), out)
 }
 
+/// The variant that a program is compiled for: the chosen one, or the one that the program names.
+fn variant_of(program: &Program, options: &CompileOptions) -> Option<&'static Variant> {
+    let cpu = program.cpu.as_deref().filter(|_| options.model.is_none());
+    let named = cpu.and_then(Plc::for_cpu);
+    let named = named.and_then(|(plc, _)| plc.variant);
+    options.variant.or(named)
+}
+
 /// A note that another model was chosen than the program names.
 fn other_cpu(program: &Program, options: &CompileOptions) -> Option<Diagnostic> {
     let (chosen, cpu) = (options.model?, program.cpu.as_deref()?);
-    let named = ModelId::from_cpu(cpu).filter(|id| *id != chosen)?;
+    let (plc, _) = Plc::for_cpu(cpu)?;
+    let named = Some(plc.model).filter(|id| *id != chosen)?;
     let (chosen, named) = (Model::get(chosen), Model::get(named));
     let message = format!(
         "`--model` or rungc.toml says {}, but the program names CPU type {cpu}",
@@ -141,7 +150,8 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (resolved, found) = resolve(program, model);
     diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());
-    if let Some(variant) = options.variant.filter(|variant| variant.model == model.id) {
+    let variant = variant_of(program, options).filter(|variant| variant.model == model.id);
+    if let Some(variant) = variant {
         diagnostics.extend(check::variants::check(&resolved, variant).sorted());
     }
     let eased = codes::eased().map(|code| code.id);
@@ -155,7 +165,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
         ports.extend(model.ports.of_programmer().filter(|_| options.programmer));
         let options = LowerOptions {
             name: options.name.clone(),
-            variant: options.variant.filter(|variant| variant.model == model.id),
+            variant,
             wanted: Wanted {
                 observe: options.observe.clone(),
                 observe_all: options.observe_all,

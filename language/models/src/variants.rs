@@ -3,7 +3,7 @@
 //! A model here is a family: H2U is what any H2U has. A program for a certain PLC of the family is held to what that
 //! one has.
 
-use crate::{Model, ModelId};
+use crate::{Fit, Model, ModelId};
 use rungc_rt::Register;
 use rungc_syntax::DeviceClass::{self, C, D, I, M};
 use rungc_syntax::diag::did_you_mean;
@@ -51,6 +51,22 @@ impl Plc {
         let variant = Variant::find(name);
         let model = variant.map_or_else(|| ModelId::from_name(name), |v| Some(v.model))?;
         Some(Plc { model, variant })
+    }
+
+    /// The PLC that the CPU type of a program means, as [`ModelId::for_cpu`] finds its model.
+    pub fn for_cpu(cpu: &str) -> Option<(Plc, Fit)> {
+        let variant = Variant::find(cpu.trim());
+        let variant = variant.map(|v| (v.model, Some(v), Fit::Same));
+        let found = variant.or_else(|| ModelId::for_cpu(cpu).map(|(id, fit)| (id, None, fit)));
+        found.map(|(model, variant, fit)| (Plc { model, variant }, fit))
+    }
+
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        match self.variant {
+            Some(variant) => variant.name,
+            None => Model::get(self.model).name,
+        }
     }
 
     /// The model or variant with this name.

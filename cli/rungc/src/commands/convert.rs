@@ -14,6 +14,7 @@ use rungc_analysis::resolve::resolve;
 use rungc_export::to_plcopen;
 use rungc_frontend::{Read, image, print};
 use rungc_lower::compile::{CompileOptions, model};
+use rungc_models::{Fit, Plc};
 use rungc_syntax::{Diagnostics, Program, codes};
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
@@ -37,7 +38,8 @@ fn convert(
     outputs: &mut OutputPaths,
     cx: Context,
 ) -> Result {
-    let read = read(subject, reporter)?;
+    let mut read = read(subject, reporter)?;
+    name_model(&mut read, subject);
     let mut diagnostics = read.diagnostics.clone();
     let body = args.body.unwrap_or_default();
     let bytes = written(args.to, body, &read, &subject.options(), &mut diagnostics);
@@ -67,6 +69,25 @@ fn convert(
         None => print_bytes(&bytes)?,
     }
     Ok(Outcome::Success)
+}
+
+/// Names the PLC that was chosen with `--model` or in rungc.toml as the CPU of a program that does not name it.
+fn name_model(read: &mut Read, subject: &Subject) {
+    let Some(model) = subject.model else {
+        return;
+    };
+    let chosen = Plc {
+        model,
+        variant: subject.variant,
+    };
+    let named = read.program.cpu.as_deref().and_then(Plc::for_cpu);
+    if named != Some((chosen, Fit::Same)) {
+        let cpu = chosen.name().to_uppercase();
+        if let Some(head) = &mut read.export_head {
+            head.set_cpu(&cpu);
+        }
+        read.program.cpu = Some(cpu);
+    }
 }
 
 /// A program with step numbers, as an export has them; numbers that its source has stay.

@@ -141,3 +141,51 @@ fn an_export_has_step_numbers() {
     let steps: Vec<_> = steps.filter(|step| !step.is_empty()).collect();
     assert_eq!(steps, ["0", "1", "2", "3", "4", "5", "8", "9", "14", "15"]);
 }
+
+/// A chosen PLC goes with the program, into every form that can name one, also a variant.
+#[test]
+fn a_chosen_model_is_named() {
+    let folder = folder(&[("list.il", LIST.as_bytes())]);
+    let path = folder.path();
+    let head = |file: &str| {
+        let list = text(&rungc(path, &["convert", file, "--to", "il"]).stdout);
+        list.lines()
+            .find(|line| line.starts_with(";! cpu"))
+            .map(str::to_owned)
+    };
+    convert(path, "list.il", "csv", "unnamed.csv");
+    assert_eq!(head("unnamed.csv"), None);
+    for model in ["h2u", "h2u-mtq", "fx1s"] {
+        for (to, ending) in OUTPUTS
+            .iter()
+            .filter(|(to, _)| !matches!(*to, "comments" | "image"))
+        {
+            for from in ["list.il", "unnamed.csv"] {
+                let name = format!("named.{ending}");
+                let command = [
+                    "convert", from, "--to", to, "-o", &name, "--force", "--model", model,
+                ];
+                let output = rungc(path, &command);
+                assert!(
+                    output.status.success(),
+                    "{command:?}: {}",
+                    text(&output.stderr)
+                );
+                let expected = format!(";! cpu = {}", model.to_uppercase());
+                assert_eq!(head(&name), Some(expected), "{command:?}");
+            }
+        }
+    }
+    // The named variant is the one that is checked for.
+    fs::write(
+        path.join("sin.il"),
+        ";! cpu = H2U-MTQ\nLD X0\nDSIN D0 D2\nEND\n",
+    )
+    .unwrap();
+    let found = text(&rungc(path, &["check", "sin.il"]).stderr);
+    let chosen = text(&rungc(path, &["check", "sin.il", "--model", "h2u-mtq"]).stderr);
+    assert!(
+        found.contains("H2U-MTQ") && found.contains("error[E"),
+        "{found}\n{chosen}"
+    );
+}
