@@ -3,9 +3,9 @@
 //!
 //! What a program contains becomes instructions where these do the same; all else is an error with the element and its
 //! line. `variables` finds the devices of variables, `logic` turns what leads to an output into a list, `drawing`
-//! follows the wires of ladders and diagrams, `blocks` knows the standard's functions and blocks, `list` its
-//! instruction lists, `modifiers` the attributes that change a value, `chart` its steps and transitions, `expression`
-//! their conditions.
+//! follows the wires of ladders and diagrams, `modifiers` reads the attributes that change a value on them, `blocks`
+//! knows the standard's functions and blocks, `list` its instruction lists, `chart` its steps and transitions,
+//! `expression` their conditions.
 
 mod blocks;
 mod chart;

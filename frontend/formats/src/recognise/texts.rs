@@ -1,4 +1,4 @@
-//! Texts that are no programs: what shows each, which no instruction list has.
+//! Texts that are not programs: what shows each, which an instruction list does not have.
 
 use super::Recognised;
 
