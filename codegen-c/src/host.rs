@@ -161,10 +161,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         None => "",
     };
     let (missing, print_error, report) = error_report(module, &fields);
-    let (period, overrun) = match rungc_emit::cycle::constant_scan(module, &fields) {
-        Some(_) => (CONSTANT_PERIOD, OVERRUN),
-        None => (PERIOD, ""),
-    };
+    let (period, overrun) = period(module, &fields);
     let uses_clock = rungc_emit::cycle::uses_clock(module);
     let hardware = hardware(uses_clock, module.has_ports());
     let hal = match hardware.is_empty() {
@@ -195,10 +192,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         true => PARTNER,
         false => [""; 2],
     };
-    let (advance, receive) = match module.has_ports() {
-        true => ("advance_lines", "        advance_lines(plc, now_ms);\n"),
-        false => ("PROGRAM_tick", ""),
-    };
+    let (advance, receive) = advance(module);
     environment
         .in_main(template!("main.c"))
         .replace("/* FEATURES */", features(module.has_ports()))
@@ -233,6 +227,22 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("    /* USAGE */\n", &usage(module, &host))
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
         .replace("    /* OUTPUTS */\n", &outputs(module, &fields))
+}
+
+/// The time to the next scan, and the report of a scan that took longer.
+fn period(module: &Module, fields: &Storage) -> (&'static str, &'static str) {
+    match rungc_emit::cycle::constant_scan(module, fields) {
+        Some(_) => (CONSTANT_PERIOD, OVERRUN),
+        None => (PERIOD, ""),
+    }
+}
+
+/// The function that lets time pass, and the statement that receives from lines.
+fn advance(module: &Module) -> (&'static str, &'static str) {
+    match module.has_ports() {
+        true => ("advance_lines", "        advance_lines(plc, now_ms);\n"),
+        false => ("PROGRAM_tick", ""),
+    }
 }
 
 /// Message of a missing device, function that prints an error, and the statement that has it called, if one can occur.

@@ -31,28 +31,7 @@ pub fn main() -> ExitCode {
     let matches = matches.unwrap_or_else(|error| reject(&error));
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
-    let cx = Context {
-        color: color(cli.color),
-        stdout_in_use: match &cli.command {
-            Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
-            Command::Convert(args) => args.output.is_none(),
-            Command::Read(args) => args.output.is_none(),
-            Command::Run(_)
-            | Command::Serve(_)
-            | Command::Fleet(_)
-            | Command::Stats(_)
-            | Command::Diff(_)
-            | Command::Verify(_) => true,
-            Command::Xref(args) => args.output.is_none(),
-            Command::Fmt(args) => args.check,
-            _ => false,
-        },
-        verbosity: match (cli.quiet, cli.verbose) {
-            (true, _) => Verbosity::Quiet,
-            (false, false) => Verbosity::Normal,
-            (false, true) => Verbosity::Verbose,
-        },
-    };
+    let cx = context(&cli);
     let checked = output::check_arguments(&matches);
     let result = checked.and_then(|()| match &cli.command {
         Command::Check(args) => commands::check::run(args, cx),
@@ -99,6 +78,32 @@ pub fn main() -> ExitCode {
             commands::eprint_line(&format!("rungc: {failure}"));
             ExitCode::from(2)
         }
+    }
+}
+
+/// The context of the command.
+fn context(cli: &Cli) -> Context {
+    Context {
+        color: color(cli.color),
+        stdout_in_use: match &cli.command {
+            Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
+            Command::Convert(args) => args.output.is_none(),
+            Command::Read(args) => args.output.is_none(),
+            Command::Run(_)
+            | Command::Serve(_)
+            | Command::Fleet(_)
+            | Command::Stats(_)
+            | Command::Diff(_)
+            | Command::Verify(_) => true,
+            Command::Xref(args) => args.output.is_none(),
+            Command::Fmt(args) => args.check,
+            _ => false,
+        },
+        verbosity: match (cli.quiet, cli.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (false, false) => Verbosity::Normal,
+            (false, true) => Verbosity::Verbose,
+        },
     }
 }
 

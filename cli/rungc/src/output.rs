@@ -163,12 +163,18 @@ fn is_stream(path: &Path) -> bool {
     path.starts_with("/proc") || devices.iter().any(|device| path.starts_with(device))
 }
 
-/// The file that a link leads to: it is replaced, and the link stays.
+/// The file that a link leads to, if only by its name: it is replaced, and the link stays.
 fn target(path: &Path) -> PathBuf {
-    match path.is_symlink() {
-        true => resolved(path).unwrap_or_else(|_| path.to_owned()),
-        false => path.to_owned(),
+    /// More links than systems follow.
+    const MOST: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = parent_dir(&path).join(next);
     }
+    path
 }
 
 /// Rejects files that this run reads.

@@ -671,11 +671,8 @@ fn mistakes_in_a_network_of_canlink() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
     let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
     let mut program = rungc_frontend::read_text("p.il", "END\n").program;
-    let of_fx = project.complete(
-        &folder.join("read.rs"),
-        &mut program,
-        Model::get(ModelId::Fx3u),
-    );
+    let (file, fx3u) = (folder.join("read.rs"), Model::get(ModelId::Fx3u));
+    let of_fx = project.complete(&file, &mut program, fx3u);
     let Err(Error::Invalid { diagnostics, .. }) = of_fx else {
         panic!("FX3U has no CANlink");
     };

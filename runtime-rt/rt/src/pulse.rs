@@ -226,8 +226,10 @@ impl Generator {
         let mut count: u32 = 0;
         while self.busy && self.rate > 0 {
             let gain = left.saturating_mul(self.rate.into());
-            let Some(past) = gain.checked_sub(self.full - self.phase) else {
-                self.phase += gain;
+            // At more than 1 MHz, several pulses may have ended already.
+            let progress = gain.saturating_add(self.phase);
+            let Some(past) = progress.checked_sub(self.full) else {
+                self.phase = progress;
                 break;
             };
             // A division of 64 bits takes a microcontroller hundreds of instructions, and mostly one pulse ends.
@@ -235,9 +237,9 @@ impl Generator {
                 true => 1,
                 false => (1 + past / self.full).min(self.alike().into()),
             };
-            let needed = pulses * self.full - self.phase;
-            let used = quotient_up(needed, self.rate);
-            self.phase = used * u64::from(self.rate) - needed;
+            let end = pulses * self.full;
+            let used = quotient_up(end.saturating_sub(self.phase), self.rate);
+            self.phase = used * u64::from(self.rate) + self.phase - end;
             left -= used;
             count = count.wrapping_add(pulses as u32);
             self.passed(pulses as u32);
@@ -411,7 +413,7 @@ impl Generator {
         }
         let on = u64::from(self.on).min(self.full);
         let next = if self.phase < on { on } else { self.full };
-        let wait = quotient_up(next - self.phase, self.rate);
+        let wait = quotient_up(next.saturating_sub(self.phase), self.rate);
         Some(u32::try_from(wait).unwrap_or(u32::MAX))
     }
 }
@@ -491,6 +493,32 @@ mod tests {
                 "{train:?}"
             );
             assert!(generator.is_complete() && generator.millihertz() == 0);
+        }
+    }
+
+    #[test]
+    fn speeds_of_more_than_a_pulse_in_a_microsecond_are_kept() {
+        let mut numbers = Numbers(5);
+        for speed in [FULL as u32, FULL as u32 + 1, 2_500_000_000, u32::MAX] {
+            let mut generator = Generator::new();
+            generator.start(Train::steady(speed, 0));
+            let (mut now, mut count) = (0, 0);
+            while now < 10_000 {
+                now += 1 + numbers.below(9) as u32;
+                count += u64::from(generator.advance(now));
+                assert!(generator.next_edge().is_some());
+            }
+            assert_eq!(count, u64::from(now) * u64::from(speed) / FULL, "{speed}");
+        }
+        // Ramps change the speed at each pulse.
+        for _ in 0..200 {
+            let train = Train {
+                speed: numbers.below(u64::from(u32::MAX)) as u32,
+                ..numbers.train()
+            };
+            let mut generator = Generator::new();
+            generator.start(train);
+            assert_eq!(send(&mut generator, &mut numbers, 0), train.total);
         }
     }
 

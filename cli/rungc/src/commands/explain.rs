@@ -168,8 +168,11 @@ fn variant_page(variant: &Variant) -> String {
     if !variant.lacks_devices.is_empty() {
         page += "\nIt does not have these devices:\n";
         for &(class, first, last) in variant.lacks_devices {
-            let (first, last) = (class.number(first), class.number(last));
-            let _ = writeln!(page, "    {first} to {last}");
+            let (begin, end) = (class.number(first), class.number(last));
+            let _ = match first == last {
+                true => writeln!(page, "    {begin}"),
+                false => writeln!(page, "    {begin} to {end}"),
+            };
         }
     }
     let _ = writeln!(page, "\nSource: {}", variant.source);

@@ -82,7 +82,7 @@ fn of_text(text: &str) -> Option<Kind> {
     let first = start.lines().next().unwrap_or_default();
     let kind = if start.starts_with("<!DOCTYPE html>") && is_page(start) {
         Kind::Html
-    } else if start.starts_with("<svg height=\"") && first.contains(" role=\"img\" viewBox=\"0 ") {
+    } else if start.starts_with("<svg height=\"") && is_drawing(start) {
         Kind::Svg
     } else if start.starts_with("<?xml") && start.contains("<testsuites name=\"rungc") {
         Kind::Report
@@ -113,6 +113,15 @@ fn is_page(text: &str) -> bool {
         ":root { color-scheme: light dark; }\nbody { margin: 0; font: 14px/1.4 system-ui, ",
     ];
     STYLES.iter().any(|style| text.contains(style))
+}
+
+/// Returns true for a drawing, by what a ladder or a diagram begins with.
+fn is_drawing(text: &str) -> bool {
+    let mut lines = text.lines().skip(1);
+    let second = lines.next().unwrap_or_default();
+    let third = lines.next().unwrap_or_default();
+    let is_ladder = second == "<style>" && third.starts_with("svg { font: 12px ui-monospace, ");
+    is_ladder || second.starts_with("<rect fill=\"#ffffff\" height=\"")
 }
 
 /// Returns true for the heading of samples: the time, and devices.

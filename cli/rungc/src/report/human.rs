@@ -8,7 +8,7 @@
 
 use super::Findings;
 use super::location::{Location, instr_at};
-use super::visible::visible_line;
+use super::visible::{visible, visible_line};
 use super::window::Window;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 use rungc_syntax::{Diagnostic, Severity, Span};
@@ -40,7 +40,7 @@ pub fn print(
     for (i, diagnostic) in findings.diagnostics.iter().take(shown).enumerate() {
         writeln!(out, "{}", draw(findings, name, diagnostic, color)?)?;
         if let Some(network) = findings.drawn.get(i).filter(|drawn| !drawn.is_empty()) {
-            writeln!(out, "{network}")?;
+            writeln!(out, "{}", visible(network))?;
         }
     }
     let hidden = all.saturating_sub(shown);

@@ -214,19 +214,27 @@ fn nobody_who_listens_is_needed() {
     }
 }
 
-/// A client that has gone without a word, such as one whose cable is broken, does not keep the next one out.
+/// A second client does not cut the first one off; when that has gone, the next one is served.
 #[test]
-fn the_latest_client_is_the_other_end_of_a_line() {
+fn the_present_client_keeps_the_line() {
     let folder = folder(&[
         ("p.il", PROGRAM.as_bytes()),
         ("rungc.toml", SETTINGS.as_bytes()),
     ]);
     let serving = Serving::start(folder.path(), 4, &[]);
-    let mut silent = serving.connect(3);
-    assert_eq!(ask(&mut silent, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
-    let mut line = serving.connect(3);
-    assert_eq!(ask(&mut line, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
-    drop(silent);
+    let mut present = serving.connect(3);
+    assert_eq!(ask(&mut present, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
+    let rejected = serving.connect(3).read(&mut [0]);
+    assert!(!matches!(rejected, Ok(1..)), "{rejected:?}");
+    assert_eq!(ask(&mut present, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
+    drop(present);
+    soon("the next client is served", || {
+        let mut next = serving.connect(3);
+        let mut reply = [0; 8];
+        next.write_all(&RTU_WRITE_D0).is_ok()
+            && next.read_exact(&mut reply).is_ok()
+            && reply == RTU_WRITE_D0
+    });
 }
 
 /// The command line takes precedence about a protocol, and about a port.

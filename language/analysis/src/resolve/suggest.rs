@@ -149,10 +149,11 @@ const HABITS: &[(&[&str], &str, &str)] = &[
     ),
 ];
 
+/// No mnemonic is longer than this by more than a typing error.
+const LONGEST: usize = 14;
+
 /// Suggestion for the mnemonic of an instruction, the `last` one of the program or not.
 pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant> {
-    /// No mnemonic is longer than this by more than a typing error.
-    const LONGEST: usize = 14;
     let name = instr.mnemonic.as_str();
     habit(name)
         .or_else(|| comparison(name))
@@ -264,7 +265,7 @@ fn glued(instr: &Instr, model: &Model) -> Option<Meant> {
             instead: Some((format!("{name} {}", words.join(" ")), true)),
         })
     };
-    (1..name.len()).rev().find_map(split)
+    (1..name.len().min(LONGEST + 1)).rev().find_map(split)
 }
 
 /// The operands that a text holds one after the other.

@@ -162,3 +162,14 @@ fn floats_that_messages_propose_are_accepted() {
         );
     }
 }
+
+/// The time for a word grows with its length alone.
+#[test]
+fn a_long_word_is_reported_at_once() {
+    for word in ["A".repeat(500_000), "OUTY".repeat(125_000)] {
+        let read = read_text("test", &format!("{word}\nLD X0\nOUT Y0\nEND\n"));
+        let (_, diagnostics) = resolve(&read.program, Model::get(ModelId::Fx3u));
+        let mut found = diagnostics.iter();
+        assert!(found.any(|d| d.code == "E0033" && d.message.len() < 200));
+    }
+}

@@ -289,7 +289,7 @@ fn who_stops_the_plc_is_known() {
     let switched: Vec<_> = reaction.exchanges.iter().map(|it| it.running).collect();
     // STOP in STOP and RUN in RUN switch nothing.
     assert_eq!(switched, [Some(false), None, None, Some(true), None]);
-    // Nor does what is no request.
+    // Nor does what is not a request.
     let reaction = dialogue.receive(b"14FF000AG", &mut plc);
     let switched: Vec<_> = reaction.exchanges.iter().map(|it| it.running).collect();
     assert_eq!(switched, [Some(false), None]);

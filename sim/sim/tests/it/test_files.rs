@@ -56,7 +56,7 @@ const VALUES: [&str; 10] = [
     "2026-01-02T03:04:05",
 ];
 
-/// Words of Rust, which nobody who writes test files knows.
+/// Words of Rust, which those who write test files need not know.
 const WORDS: [&str; 9] = [
     "untagged",
     "variant of",

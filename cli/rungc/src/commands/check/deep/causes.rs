@@ -129,8 +129,8 @@ impl Place<'_> {
         })
     }
 
-    /// Relays that are always on or off on purpose: only one coil writes them, and before it are only contacts of M8000,
-    /// M8001 and such relays.
+    /// Relays that are always on or off on purpose: only one coil writes them, and before it are only contacts of
+    /// M8000, M8001 and such relays.
     fn constant_relays(&self) -> BTreeSet<Device> {
         let mut constant = BTreeSet::new();
         loop {
@@ -166,8 +166,8 @@ impl Place<'_> {
         instrs.filter(|instr| writes(instr, device, model)).count()
     }
 
-    /// The findings without those that follow from another, each with these. A comparison is given with the rung that it
-    /// keeps open.
+    /// The findings without those that follow from another, each with these. A comparison is given with the rung that
+    /// it keeps open.
     pub(super) fn by_cause<'p, 'f>(
         &self,
         found: &'p [Placed<'f>],
