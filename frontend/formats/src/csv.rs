@@ -7,8 +7,8 @@ use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 use rungc_syntax::{
-    Device, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks,
-    SourceKind, Span, codes,
+    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program,
+    Remarks, SourceKind, Span, codes,
 };
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
@@ -521,12 +521,14 @@ fn comment_columns(rows: &[StringRecord]) -> [usize; 2] {
         .unwrap_or([0, 1])
 }
 
-/// Returns true for an export of device comments: rows of a device and a text.
+/// Returns true for an export of device comments: rows of a device and a text. Lists hold labels, before `;` even.
 pub(crate) fn is_comments(text: &str) -> bool {
     let (rows, columns) = comment_rows(text);
     let is_device = |row: &&StringRecord| {
         let comment = row.get(columns[1]).is_some();
-        comment && row.get(columns[0]).and_then(il::device).is_some()
+        let device = row.get(columns[0]).and_then(il::device);
+        comment
+            && device.is_some_and(|device| !matches!(device.class, DeviceClass::P | DeviceClass::I))
     };
     let devices = rows.iter().filter(is_device).count();
     // Below a head of one row or two.
