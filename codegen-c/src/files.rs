@@ -5,8 +5,8 @@ use crate::unit::{self, Unit};
 use crate::{Options, OutFile, access, board, cmake, header, lanes, retain, template, text};
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
-use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
+use rungc_ir::{Module, fnv1a};
 use rungc_rt::RtFn;
 use rungc_rt::comm::{Ports, codec, modbus};
 use std::fmt::Write;
@@ -223,17 +223,10 @@ fn header_file(module: &Module, unit: &Unit, main: bool) -> String {
     )
 }
 
-/// A number that distinguishes versions of a shared header, the same in each build (FNV-1a).
-fn stamp(text: &str) -> u32 {
-    text.bytes().fold(0x811C_9DC5, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
-    })
-}
-
 /// A shared header that says which one it is, after the line that defines its guard.
 fn stamped(text: &str, guard: &str) -> String {
     let defines = format!("#define {guard}\n");
-    let says = format!("{defines}\n#define {guard}_STAMP 0x{:08X}u\n", stamp(text));
+    let says = format!("{defines}\n#define {guard}_STAMP 0x{:08X}u\n", fnv1a(text));
     text.replacen(&defines, &says, 1)
 }
 
@@ -242,7 +235,7 @@ fn stamped(text: &str, guard: &str) -> String {
 fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
     format!(
         "#if {guard}_STAMP != 0x{:08X}u\n#error \"{own} and the {shared} that was found come from different versions of rungc: emit all programs again\"\n#endif\n",
-        stamp(text)
+        fnv1a(text)
     )
 }
 

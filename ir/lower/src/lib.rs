@@ -349,7 +349,7 @@ impl<'a> Lowerer<'a> {
             if self.heading.is_none() {
                 self.heading = instr.note().map(shortened);
             }
-        } else if self.begins_network(lower) {
+        } else if self.begins_network() {
             self.begin_network();
         } else if let Some(network) = self.module.networks.last_mut() {
             network.span = network.span.to(instr.span);
@@ -382,13 +382,8 @@ impl<'a> Lowerer<'a> {
         }
     }
 
-    fn begins_network(&self, lower: Lower) -> bool {
-        let starts = matches!(
-            lower,
-            Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
-                | Lower::Compare(Join::Ld, _)
-        );
-        starts && self.logic.starts_rung[self.at]
+    fn begins_network(&self) -> bool {
+        self.logic.starts_rung[self.at]
             || self.instr_is(Basic::For)
             || self.instr_is(Basic::Stl) && !self.steps.continues_row[self.at]
     }
