@@ -36,7 +36,7 @@ fn write(out: &mut String, program: &Covered) -> fmt::Result {
             lines.entry(line).or_default().push(reached);
         }
     }
-    writeln!(out, "TN:\nSF:{}", path.display())?;
+    writeln!(out, "TN:rungc\nSF:{}", path.display())?;
     for (line, branches) in &lines {
         for (number, taken) in branches.iter().enumerate() {
             writeln!(out, "BRDA:{line},0,{number},{}", u8::from(*taken))?;

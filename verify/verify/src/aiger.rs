@@ -64,6 +64,7 @@ pub fn binary(system: &System) -> Vec<u8> {
         delta(&mut bytes, 2 * numbers[node] - high);
         delta(&mut bytes, high - low);
     }
+    bytes.extend(b"c\nrungc\n");
     bytes
 }
 

@@ -14,7 +14,7 @@ use std::fmt::Write;
 pub fn text(system: &System, gaps: &[Gap], asked: &str) -> String {
     let mut file = File::default();
     let asked = asked.split_whitespace().collect::<Vec<_>>().join(" ");
-    let _ = writeln!(file.text, "; {asked}");
+    let _ = writeln!(file.text, "; rungc: {asked}");
     let used: FxHashSet<usize> = system
         .inputs
         .iter()

@@ -204,5 +204,5 @@ fn dimacs(formula: &Formula) -> String {
         }
     }
     all.iter().for_each(|&lit| clause(&[of(lit)]));
-    format!("p cnf {most} {clauses}\n{text}")
+    format!("c rungc\np cnf {most} {clauses}\n{text}")
 }

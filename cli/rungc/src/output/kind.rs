@@ -1,7 +1,7 @@
 //! Kinds of files, by their content.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// Kind of a file that a command writes.
@@ -19,8 +19,10 @@ pub enum Kind {
     Capture,
     /// A log of frames.
     Frames,
-    /// A model or a formula for other provers: AIGER, BTOR2, CNF, DRAT.
+    /// A model or a formula for other provers: AIGER, BTOR2, CNF.
     Proof,
+    /// A proof in DRAT. A solver writes it, so that it names no author.
+    Refutation,
     /// A table of uses of devices, or of samples.
     Table,
     /// A report, human-readable or for programs: JSON, SARIF, JUnit, LCOV.
@@ -40,7 +42,8 @@ impl Kind {
             return if own { Kind::Pdf } else { Kind::Own };
         }
         if content.starts_with(b"aig ") {
-            return Kind::Proof;
+            let own = content.ends_with(b"c\nrungc\n");
+            return if own { Kind::Proof } else { Kind::Own };
         }
         // A section header without options; other tools name themselves there.
         if content.starts_with(&[0x0A, 0x0D, 0x0D, 0x0A, 28, 0, 0, 0]) {
@@ -59,10 +62,8 @@ impl Kind {
 
     /// Returns true if the file at a path is an earlier result of this kind, or empty.
     pub fn replaces(self, path: &Path) -> bool {
-        let mut head = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-        match read {
-            Ok(length) => self != Kind::Own && (length == 0 || Kind::of(&head) == self),
+        match ends(path) {
+            Ok(content) => self != Kind::Own && (content.is_empty() || Kind::of(&content) == self),
             Err(_) => false,
         }
     }
@@ -74,6 +75,20 @@ impl Kind {
             _ => " and is not an earlier result of this kind",
         }
     }
+}
+
+/// The parts of a file that show its kind: the head, and of a longer one a piece of the end.
+fn ends(path: &Path) -> io::Result<Vec<u8>> {
+    /// Size of the piece, in bytes.
+    const END: i64 = 16;
+    let mut file = File::open(path)?;
+    let mut content = Vec::new();
+    (&mut file).take(HEAD).read_to_end(&mut content)?;
+    if file.metadata()?.len() > HEAD && content.starts_with(b"aig ") {
+        file.seek(SeekFrom::End(-END))?;
+        file.read_to_end(&mut content)?;
+    }
+    Ok(content)
 }
 
 /// Kind of a text.
@@ -88,10 +103,12 @@ fn of_text(text: &str) -> Option<Kind> {
         Kind::Report
     } else if start.starts_with("$version") && start.contains("rungc") {
         Kind::Vcd
-    } else if start.starts_with("TN:") {
+    } else if first == "TN:rungc" {
         Kind::Report
-    } else if first.starts_with("p cnf ") || is_proof(start) || is_model(start) {
+    } else if first == "c rungc" || is_model(start) {
         Kind::Proof
+    } else if is_refutation(start) {
+        Kind::Refutation
     } else if start.starts_with('{') && is_document(start) {
         Kind::Report
     } else if first.starts_with("first,last,comment,network,") || is_samples(first) {
@@ -153,7 +170,7 @@ fn is_document(text: &str) -> bool {
 }
 
 /// Returns true for a proof in DRAT: numbers that end in 0.
-fn is_proof(text: &str) -> bool {
+fn is_refutation(text: &str) -> bool {
     let mut lines = text
         .lines()
         .filter(|line| !line.is_empty())
@@ -170,8 +187,10 @@ fn is_proof(text: &str) -> bool {
 /// Returns true for a model in BTOR2, as rungc writes it.
 fn is_model(text: &str) -> bool {
     let mut code = text.lines().filter(|line| !line.starts_with(';'));
-    code.next()
-        .is_some_and(|line| line.starts_with("1 sort bitvec "))
+    text.starts_with("; rungc: ")
+        && code
+            .next()
+            .is_some_and(|line| line.starts_with("1 sort bitvec "))
 }
 
 /// Returns true for a line of a log of frames: its time, the direction, and the bytes.

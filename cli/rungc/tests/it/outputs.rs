@@ -13,7 +13,7 @@ const OPTIONS: &str = include_str!("../outputs.txt");
 const SCOPE: &str = include_str!("../../../../examples/programs/cam.il");
 
 /// Files of kinds that people write, and files of theirs that look like results.
-const OWN: [(&str, &[u8]); 24] = [
+const OWN: [(&str, &[u8]); 28] = [
     ("a.il", b"LD X0\nOUT Y0\nEND\n"),
     ("b.il", b"LD X1\nOUT Y0\nEND\n"),
     ("other.il", b"LD X7\nOUT Y7\nEND\n"),
@@ -51,6 +51,10 @@ const OWN: [(&str, &[u8]); 24] = [
         "page.html",
         b"<!DOCTYPE html>\n<style>\n:root { color-scheme: light dark; }\n</style>\n",
     ),
+    ("mine.cnf", b"p cnf 2 1\n1 2 0\n"),
+    ("mine.btor2", b"1 sort bitvec 1\n2 input 1\n"),
+    ("mine.aig", b"aig 0 0 0 0 0\n"),
+    ("mine.info", b"TN:\nSF:main.c\nend_of_record\n"),
     ("drawing.svg", b"<svg height=\"10\" width=\"10\"/>\n"),
     (
         "project.xml",

@@ -113,7 +113,7 @@ fn solver() -> std::result::Result<(), Failure> {
 /// Has the solver prove a formula, in a file beside it.
 fn prove(formula: &Path, time: Duration, force: bool) -> std::result::Result<(), Failure> {
     let proof = formula.with_extension("drat");
-    permit(&proof, Kind::Proof, force)?;
+    permit(&proof, Kind::Refutation, force)?;
     let output = Command::new(SOLVER)
         .args(["-q", "--no-binary", "-t"])
         .arg(time.as_secs().max(1).to_string())
