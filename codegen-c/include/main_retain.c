@@ -9,6 +9,7 @@
  */
 static struct {
     const char *path;
+    const char *target; /* the file that a link leads to */
     uint32_t sequence;
     uint32_t looked_ms;
     bool has_saved;
@@ -98,6 +99,11 @@ static void record_retained(const PROGRAM_plc *plc, uint32_t state)
 }
 
 #ifdef _WIN32
+static const char *behind_links(const char *path)
+{
+    return path;
+}
+
 /* Flushes a file to the disk; false with errno if that fails. */
 static bool flush_file(FILE *file)
 {
@@ -121,13 +127,21 @@ static FILE *open_rest(const char *path)
 /* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
 static bool take_name(const char *path)
 {
-    if (MoveFileExA(path, retained.path, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH)) {
+    if (MoveFileExA(path, retained.target, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH)) {
         return true;
     }
     errno = EACCES;
     return false;
 }
 #else
+/* The file that a path leads to; one that is not there is the path itself. */
+static const char *behind_links(const char *path)
+{
+    const char *const target = realpath(path, NULL);
+
+    return target != NULL ? target : path;
+}
+
 /* Flushes a file to the disk; false with errno if that fails. */
 static bool flush_file(FILE *file)
 {
@@ -138,10 +152,10 @@ static bool flush_file(FILE *file)
 static bool flush_folder(void)
 {
     char folder[1024];
-    const char *const slash = strrchr(retained.path, '/');
-    const size_t length = slash != NULL ? (size_t)(slash - retained.path) + 1u : 0u;
+    const char *const slash = strrchr(retained.target, '/');
+    const size_t length = slash != NULL ? (size_t)(slash - retained.target) + 1u : 0u;
 
-    memcpy(folder, retained.path, length);
+    memcpy(folder, retained.target, length);
     folder[length] = '\0';
     const int file = open(length != 0u ? folder : ".", O_RDONLY);
     if (file < 0) {
@@ -174,7 +188,7 @@ static FILE *open_rest(const char *path)
 /* Gives a new file the name of the present one, which it replaces; false with errno if that fails. */
 static bool take_name(const char *path)
 {
-    return rename(path, retained.path) == 0 && flush_folder();
+    return rename(path, retained.target) == 0 && flush_folder();
 }
 #endif
 
@@ -218,7 +232,7 @@ static void remove_rest(const char *path)
 static int replace_file(void)
 {
     char path[1024];
-    const int length = snprintf(path, sizeof path, "%s.new", retained.path);
+    const int length = snprintf(path, sizeof path, "%s.new", retained.target);
 
     if (length < 0 || (size_t)length >= sizeof path) {
         return ENAMETOOLONG;
@@ -258,6 +272,7 @@ static bool begin_retained(void)
     if (retained.path == NULL) {
         return true;
     }
+    retained.target = behind_links(retained.path);
     if (sem_init(&retained.to_write, 0, 0) != 0 || sem_init(&retained.written, 0, 0) != 0) {
         error = errno;
     } else {

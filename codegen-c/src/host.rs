@@ -195,7 +195,7 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let (advance, receive) = advance(module);
     environment
         .in_main(template!("main.c"))
-        .replace("/* FEATURES */", features(module.has_ports()))
+        .replace("/* FEATURES */", features(module.has_ports(), keeps))
         .replace("/* SYSTEM */\n", &system())
         .replace("/* HEADERS */\n", &headers(module, servers, keeps))
         .replace("/* INCLUDE */\n", retain.header)
@@ -340,12 +340,13 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
 }
 
 /// Feature test macros for the system's headers.
-fn features(ports: bool) -> &'static str {
-    match ports {
-        true => {
+fn features(ports: bool, retain: bool) -> &'static str {
+    match (ports, retain) {
+        (true, _) => {
             "#define _DEFAULT_SOURCE\n#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700"
         }
-        false => "#define _POSIX_C_SOURCE 200809L",
+        (false, true) => "#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700",
+        (false, false) => "#define _POSIX_C_SOURCE 200809L",
     }
 }
 

@@ -258,9 +258,10 @@ fn gone() -> io::Error {
     io::Error::other("the thread that writes it has ended")
 }
 
-/// Replaces a file: one beside it, `FILE.new`, is written and flushed, and takes its name; then the folder is flushed,
-/// too. Nothing remains of what a full disk does not take.
+/// Replaces a file, which a link may lead to: one beside it, `FILE.new`, is written and flushed, and takes its name;
+/// then the folder is flushed, too. Nothing remains of what a full disk does not take.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let mut name = OsString::from(path);
     name.push(".new");
     let new = PathBuf::from(name);

@@ -178,5 +178,15 @@ fn a_save_replaces_only_what_a_save_has_left() {
         std::fs::remove_file(&new).unwrap();
     }
     assert!(file.save(&Retaining::with_state(9)).unwrap());
+    #[cfg(unix)]
+    {
+        let link = folder.join("link");
+        std::os::unix::fs::symlink(&path, &link).unwrap();
+        let (mut file, _) = RetainFile::open(&link, &mut program).unwrap();
+        assert!(file.save(&Retaining::with_state(11)).unwrap());
+        assert!(link.is_symlink());
+        let (mut file, _) = RetainFile::open(&path, &mut program).unwrap();
+        assert!(!file.save(&Retaining::with_state(11)).unwrap());
+    }
     std::fs::remove_dir_all(&folder).unwrap();
 }
