@@ -1,7 +1,7 @@
 //! A log in a file, which a thread writes: a slow or full disk does not hold up a scan.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::thread;
@@ -12,6 +12,9 @@ const WAITING: usize = 256;
 
 /// A log of this size, in bytes, is moved to `FILE.1`, and a new one begins.
 const LARGEST: u64 = 1 << 20;
+
+/// Shape of the time that a line begins with; `0` stands for a digit.
+const PATTERN: &[u8] = b"0000-00-00T00:00:00Z ";
 
 /// Time that the end of a run allows for writing to disk.
 const GRACE: Duration = Duration::from_secs(2);
@@ -27,11 +30,17 @@ impl Log {
     /// Begins or continues a log.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// The file cannot be written, or it is not a log: it stays as it is.
     pub(super) fn begin(path: &str) -> io::Result<Self> {
-        // An error in the path is reported at once.
-        append(Path::new(path), "")?;
         let path = PathBuf::from(path);
+        for file in [path.clone(), earlier(&path)] {
+            if !may_be_log(&file)? {
+                let what = format!("{} is not a log; choose another name", file.display());
+                return Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
+            }
+        }
+        // An error in the path is reported at once.
+        append(&path, "")?;
         let (lines, waiting) = mpsc::sync_channel(WAITING);
         let (end, ended) = mpsc::channel();
         thread::Builder::new()
@@ -50,9 +59,11 @@ impl Log {
 
     /// Adds a line, with the time.
     pub(super) fn add(&mut self, line: &str) {
-        let mut text = format!("{} {line}\n", time(SystemTime::now()));
+        let now = time(SystemTime::now());
+        let mut text = format!("{now} {line}\n");
         if self.left_out > 0 {
-            text = format!("({} lines are missing here)\n{text}", self.left_out);
+            let left_out = self.left_out;
+            text = format!("{now} ({left_out} lines are missing here)\n{text}");
         }
         match self.lines.try_send(text) {
             Ok(()) => self.left_out = 0,
@@ -76,8 +87,10 @@ fn write(path: &Path, lines: &Receiver<String>) {
         text.extend(lines.try_iter());
         let count = text.matches('\n').count() as u64;
         if lost > 0 {
-            text =
-                format!("({lost} lines are missing here: the file could not be written)\n{text}");
+            let now = time(SystemTime::now());
+            text = format!(
+                "{now} ({lost} lines are missing here: the file could not be written)\n{text}"
+            );
         }
         match append(path, &text) {
             Ok(()) => lost = 0,
@@ -98,9 +111,7 @@ fn append(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::options().append(true).create(true).open(path)?;
     let size = file.metadata()?.len();
     if size > LARGEST && file.metadata()?.is_file() {
-        let mut old = path.as_os_str().to_owned();
-        old.push(".1");
-        fs::rename(path, old)?;
+        fs::rename(path, earlier(path))?;
         file = File::options().append(true).create(true).open(path)?;
         return file.write_all(text.as_bytes());
     }
@@ -108,6 +119,35 @@ fn append(path: &Path, text: &str) -> io::Result<()> {
         // As good as it can be had.
         let _ = file.set_len(size);
     })
+}
+
+/// The file that a full log becomes, `FILE.1`.
+fn earlier(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".1");
+    PathBuf::from(name)
+}
+
+/// Returns true if a file is a log, by the time in its first line, or empty, or not there, or not a regular file, such
+/// as `/dev/stderr`.
+fn may_be_log(path: &Path) -> io::Result<bool> {
+    let mut start = Vec::new();
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => {
+            let length = PATTERN.len() as u64;
+            File::open(path)?.take(length).read_to_end(&mut start)?;
+        }
+        Ok(_) => return Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        Err(error) => return Err(error),
+    }
+    let fits = |(pattern, byte): (&u8, u8)| match pattern {
+        b'0' => byte.is_ascii_digit(),
+        _ => *pattern == byte,
+    };
+    let is_time =
+        start.len() == PATTERN.len() && PATTERN.iter().zip(start.iter().copied()).all(fits);
+    Ok(start.is_empty() || is_time)
 }
 
 /// A time as `2026-11-23T22:57:01Z`.
@@ -134,6 +174,38 @@ fn date(days: u64) -> (u64, u64, u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_a_log_is_continued() {
+        let folder = std::env::temp_dir().join(format!("rungc-log-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let at = |name: &str| folder.join(name).display().to_string();
+        let contents = |name: &str| fs::read_to_string(at(name)).unwrap();
+        let line = "2026-11-23T22:57:01Z RUN\n";
+        for (name, text, is_log) in [
+            ("new", None, true),
+            ("empty", Some(""), true),
+            ("log", Some(line), true),
+            ("program.il", Some("LD X0\nOUT Y0\nEND\n"), false),
+            ("date.txt", Some("2026-11-23 a note\n"), false),
+        ] {
+            if let Some(text) = text {
+                fs::write(at(name), text).unwrap();
+            }
+            assert_eq!(
+                Log::begin(&at(name)).map(Log::end).is_ok(),
+                is_log,
+                "{name}"
+            );
+            assert_eq!(contents(name), text.unwrap_or_default(), "{name}");
+        }
+        // The name that a full log takes.
+        fs::write(at("log.1"), "mine").unwrap();
+        assert!(Log::begin(&at("log")).is_err());
+        fs::write(at("log.1"), line).unwrap();
+        assert!(Log::begin(&at("log")).is_ok());
+        fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn times_are_those_of_the_calendar() {
