@@ -58,7 +58,7 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     let path = volume.join(name).with_extension("uf2");
     let file = uf2::write(payload);
     let late = |why: String| Stop::Failed(&codes::FLASHING_FAILED, why);
-    let mut copy = File::create(&path).map_err(|e| late(format!("{}: {e}", path.display())))?;
+    let mut copy = File::create_new(&path).map_err(|e| late(format!("{}: {e}", path.display())))?;
     copy.write_all(&file)
         .map_err(|e| late(format!("{}: {e}", path.display())))?;
     // The board restarts as soon as it has the last block: then nothing is there to say that all is written.
