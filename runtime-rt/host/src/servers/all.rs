@@ -126,16 +126,20 @@ impl Servers {
 
 /// Message that an address cannot be served: the reason and the next step.
 pub fn cannot_serve(protocol: ServerProtocol, address: SocketAddr, error: &io::Error) -> String {
-    let next = match error.kind() {
+    let (name, next) = (protocol.name(), after(error));
+    format!("cannot serve {name} at {address}: {error}{next}")
+}
+
+/// The next step after an error of an address, to follow it.
+pub fn after(error: &io::Error) -> &'static str {
+    match error.kind() {
         io::ErrorKind::AddrInUse => {
             "; another program uses the port: choose another, or 0 for a free one"
         }
         io::ErrorKind::AddrNotAvailable => "; this machine has no such address",
         io::ErrorKind::PermissionDenied => "; choose a port from 1024",
         _ => "",
-    };
-    let name = protocol.name();
-    format!("cannot serve {name} at {address}: {error}{next}")
+    }
 }
 
 /// Message that a server rejects a client.

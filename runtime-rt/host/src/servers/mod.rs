@@ -14,7 +14,7 @@ mod server;
 #[cfg(test)]
 mod tests;
 
-pub use all::{Servers, Switch, cannot_serve, full, switched, switched_by_line};
+pub use all::{Servers, Switch, after, cannot_serve, full, switched, switched_by_line};
 pub use clients::{ClientFrame, Clients};
 pub use dialogue::{Dialogue, Exchange, Reaction};
 pub use server::{Limits, Server, ServerEvent};

@@ -4,6 +4,7 @@ use crate::commands::names::Names;
 use crate::commands::setting::fits;
 use crate::commands::{Failure, eprint_line};
 use rungc_analysis::resolve::resolve;
+use rungc_host::servers::after;
 use rungc_interp::Machine;
 use rungc_ladder::build;
 use rungc_live::{Command, Frame, Log, Order, Scene, Server, token};
@@ -169,7 +170,10 @@ impl Live {
         let folder = cache::folder().ok();
         let server = token(folder.as_deref())
             .and_then(|token| Server::open(address, token, html, page.read_only))
-            .map_err(|error| Failure::Because(format!("--page {address}: {error}")))?;
+            .map_err(|error| {
+                let next = after(&error);
+                Failure::Because(format!("--page {address}: {error}{next}"))
+            })?;
         eprint_line(&format!("rungc: page at {}", server.url()));
         Ok(Live {
             server,
