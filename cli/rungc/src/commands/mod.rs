@@ -229,7 +229,7 @@ fn write_bytes(bytes: &[u8]) -> io::Result<()> {
     out.flush()
 }
 
-/// Prints a report, or writes it to the requested file, with `force` or not; `summary` says what is in it.
+/// Prints a report, or writes the same to the requested file, with `force` or not; `summary` says what is in it.
 pub fn put(
     (path, force): (Option<&Path>, bool),
     text: &str,
@@ -239,7 +239,7 @@ pub fn put(
     let Some(path) = path else {
         return print_text(text).map_err(Failure::from);
     };
-    write_file(path, text.as_bytes(), force)?;
+    write_file(path, visible(text).as_bytes(), force)?;
     cx.note(&format!("       Wrote {}: {summary}", path.display()));
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! `rungc test`.
 
+mod broken;
 mod coverage;
 mod files;
 mod github;
@@ -13,6 +14,7 @@ mod watch;
 use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
 use crate::args::{EngineChoice, Reporting, TestArgs, TestFormat};
 use crate::progress;
+use files::Unread;
 use report::Results;
 use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
@@ -30,7 +32,15 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         return watch::run(args, cx);
     }
     let chosen = Chosen::of(args, cx)?;
-    let files = chosen.load(args)?;
+    let files = match chosen.load(args) {
+        Ok(files) => files,
+        Err(unread) => {
+            if let Unread::Files(errors) = &unread {
+                broken::publish(args, errors, cx)?;
+            }
+            return Err(unread.into());
+        }
+    };
     if args.coverage.is_some() || args.mutants {
         return coverage::run(args, &chosen, files, cx);
     }
@@ -73,10 +83,10 @@ impl Chosen {
     }
 
     /// The cases that are to run.
-    fn load(&self, args: &TestArgs) -> std::result::Result<Vec<TestFile>, Failure> {
+    fn load(&self, args: &TestArgs) -> std::result::Result<Vec<TestFile>, Unread> {
         let mut files = files::load(&self.paths, args.filter.as_deref())?;
         if files.is_empty() {
-            return Err(Failure::Because("no cases to run".to_string()));
+            return Err(Failure::Because("no cases to run".to_string()).into());
         }
         // All cases judge the mutants, of which a part runs.
         if let Some(shard) = args.shard.filter(|_| !args.mutants) {

@@ -2,6 +2,7 @@
 //! without instructions.
 
 use crate::common::{folder, rungc, text};
+use std::fs;
 
 /// `#include <time.h>` finds the system's header where the emitted folder is on the include path.
 #[test]
@@ -71,6 +72,33 @@ fn programs_without_instructions_are_taken_or_rejected() {
             let is_silent = errors.is_empty() && output.stdout.is_empty();
             assert!(output.status.success() || !is_silent, "{command:?}");
         }
+    }
+}
+
+/// A report in a file is shown by `cat`, and is the same as the printed one.
+#[test]
+fn reports_in_files_do_not_act_on_a_terminal() {
+    let test = "model = \"fx3u\"\ntopic = \"t\"\nprogram = { file = \"a\u{202e}.il\" }\n\
+        [[case]]\nname = \"one\"\n[[case.step]]\nscans = 1\n";
+    let program = b"LD X000\nOUT Y000\nEND\n";
+    let folder = folder(&[
+        ("a\u{202e}.il", program),
+        ("t.plctest.toml", test.as_bytes()),
+    ]);
+    for (command, file) in [
+        (&["test", ".", "--coverage", "text"][..], "coverage.txt"),
+        (&["test", ".", "--mutants"], "mutants.txt"),
+        (&["test", ".", "--coverage", "lcov"], "lcov.info"),
+        (&["xref", "a\u{202e}.il"], "xref.txt"),
+    ] {
+        let output = rungc(folder.path(), &[command, &["-o", file]].concat());
+        let read = fs::read_to_string(folder.path().join(file));
+        let read = read.unwrap_or_else(|_| panic!("{command:?}: {}", text(&output.stderr)));
+        let acts = |c: char| c != '\n' && rungc_syntax::text::acts(c);
+        assert!(
+            !read.is_empty() && !read.contains(acts),
+            "{command:?}: {read:?}"
+        );
     }
 }
 

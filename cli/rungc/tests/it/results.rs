@@ -67,6 +67,24 @@ fn results_for_tools() {
 }
 
 #[test]
+fn mistakes_in_test_files_for_tools() {
+    let broken = "model = \"fx3u\"\ntopik = \"OUT\"\n";
+    let folder = folder(&[
+        ("a.plctest.toml", file(&[("one", 1)]).as_bytes()),
+        ("b.plctest.toml", broken.as_bytes()),
+    ]);
+    for format in ["json", "junit", "sarif", "github"] {
+        let output = rungc(folder.path(), &["test", ".", "--format", format]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text(&output.stderr).contains("topik"));
+        insta::assert_snapshot!(
+            format!("mistakes_{format}"),
+            timeless(&text(&output.stdout))
+        );
+    }
+}
+
+#[test]
 fn results_in_a_file() {
     let folder = suite();
     let path = folder.path();

@@ -10,7 +10,7 @@ use crate::problem::{self, Problem};
 use crate::target::Target;
 use rungc_models::{ModelId, Plc};
 use rungc_project::Project;
-use rungc_syntax::Source;
+use rungc_syntax::{Source, text};
 use serde::de::IgnoredAny;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -120,6 +120,10 @@ impl Reader<'_> {
                 if cases.iter().any(|c| c.name == case.name) {
                     let message = format!("the case `{}` is defined twice in this file", case.name);
                     self.report(name.span().start, message);
+                }
+                if case.name.contains(text::acts) {
+                    let message = "the name of a case is one line, without control characters";
+                    self.report(name.span().start, message.to_string());
                 }
                 if case.machine.is_none() {
                     case.machine.clone_from(&machine);

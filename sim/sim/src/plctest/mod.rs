@@ -291,6 +291,18 @@ program = "END"
     }
 
     #[test]
+    fn the_name_of_a_case_is_one_line() {
+        let text = r#"model = "fx3u"
+topic = "t"
+[[case]]
+name = "a\nb"
+program = "END"
+step = [{ scans = 1 }]
+"#;
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:4:8: the name of a case is one line, without control characters");
+    }
+
+    #[test]
     fn communication_is_held_to_the_format() {
         let text = r#"model = "h2u"
 topic = "t"

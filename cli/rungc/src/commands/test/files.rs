@@ -2,6 +2,7 @@
 
 use super::super::Failure;
 use crate::args::Shard;
+use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Case, TestFile};
 use std::io;
@@ -12,22 +13,45 @@ use walkdir::{DirEntry, WalkDir};
 /// Ending of the names of test files.
 const ENDING: &str = ".plctest.toml";
 
+/// Reason why there is nothing to run.
+pub enum Unread {
+    /// Mistakes in test files, or files that cannot be read.
+    Files(Vec<LoadError>),
+    /// Anything else.
+    Because(Failure),
+}
+
+impl From<Failure> for Unread {
+    fn from(failure: Failure) -> Self {
+        Unread::Because(failure)
+    }
+}
+
+impl From<Unread> for Failure {
+    fn from(unread: Unread) -> Self {
+        match unread {
+            Unread::Files(errors) => {
+                let reports: Vec<_> = errors.iter().map(LoadError::report).collect();
+                Failure::Because(reports.join("\n"))
+            }
+            Unread::Because(failure) => failure,
+        }
+    }
+}
+
 /// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `filter`.
-pub fn load(
-    paths: &[PathBuf],
-    filter: Option<&str>,
-) -> std::result::Result<Vec<TestFile>, Failure> {
+pub fn load(paths: &[PathBuf], filter: Option<&str>) -> std::result::Result<Vec<TestFile>, Unread> {
     let names = names(paths)?;
     let mut problems = Vec::new();
     let mut files = Vec::new();
     for name in &names {
         match plctest::load(name) {
             Ok(file) => files.push(file),
-            Err(error) => problems.push(error.report()),
+            Err(error) => problems.push(error),
         }
     }
     if !problems.is_empty() {
-        return Err(Failure::Because(problems.join("\n")));
+        return Err(Unread::Files(problems));
     }
     if let Some(filter) = filter {
         for file in &mut files {

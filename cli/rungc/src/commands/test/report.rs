@@ -1,5 +1,6 @@
 //! Results of tests, human-readable and for tools.
 
+use super::broken::Mistake;
 use crate::report::to_json;
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use rungc_syntax::diag::counted;
@@ -51,6 +52,8 @@ struct Document<'a> {
     failed: usize,
     seconds: f64,
     cases: Vec<Case<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    mistakes: &'a [Mistake],
 }
 
 #[derive(Serialize)]
@@ -102,8 +105,20 @@ pub fn json(results: &Results) -> io::Result<String> {
         cases: outcomes
             .map(|outcome| case(results.suite, outcome))
             .collect(),
+        mistakes: &[],
     };
     to_json(&document)
+}
+
+/// One JSON object without cases, for test files that contain mistakes.
+pub fn to_document(mistakes: &[Mistake]) -> io::Result<String> {
+    to_json(&Document {
+        passed: 0,
+        failed: 0,
+        seconds: 0.0,
+        cases: Vec::new(),
+        mistakes,
+    })
 }
 
 /// A time to the microsecond.

@@ -1,0 +1,125 @@
+//! Mistakes in test files, for tools. People read them on standard error.
+
+use super::super::{Context, put};
+use super::report::to_document;
+use crate::args::{TestArgs, TestFormat};
+use crate::commands::Failure;
+use crate::report::junit::{Case, Problem, Suite, render};
+use crate::report::{github, sarif};
+use rungc_sim::LoadError;
+use rungc_syntax::diag::counted;
+use serde::Serialize;
+use serde_json::json;
+use std::io;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// The kind of problem, as failed cases have kinds.
+const KIND: &str = "test-file";
+
+/// A mistake, or a file that cannot be read.
+#[derive(Serialize)]
+pub struct Mistake {
+    file: PathBuf,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    column: Option<u32>,
+    message: String,
+}
+
+/// Prints or writes mistakes in the format of the results that there are none of.
+pub fn publish(args: &TestArgs, errors: &[LoadError], cx: Context) -> Result<(), Failure> {
+    let mistakes: Vec<_> = errors.iter().flat_map(mistakes).collect();
+    let text = match args.format {
+        _ if args.coverage.is_some() || args.mutants => return Ok(()),
+        TestFormat::Human => return Ok(()),
+        TestFormat::Junit => junit(&mistakes)?,
+        TestFormat::Json => to_document(mistakes.as_slice())?,
+        TestFormat::Sarif => sarif(&mistakes)?,
+        TestFormat::Github => mistakes.iter().map(annotation).collect(),
+    };
+    let summary = counted(mistakes.len(), "mistake");
+    put((args.output.as_deref(), args.force), &text, &summary, cx)
+}
+
+fn mistakes(error: &LoadError) -> Vec<Mistake> {
+    match error {
+        LoadError::Io { path, error } => vec![Mistake {
+            file: path.clone(),
+            line: None,
+            column: None,
+            message: error.to_string(),
+        }],
+        LoadError::Format { name, problems } => problems
+            .iter()
+            .map(|problem| Mistake {
+                file: PathBuf::from(name),
+                line: Some(problem.line),
+                column: Some(problem.column),
+                message: problem.message.clone(),
+            })
+            .collect(),
+    }
+}
+
+/// A suite for each file, a case for each mistake.
+fn junit(mistakes: &[Mistake]) -> io::Result<String> {
+    let of_one_file = mistakes.chunk_by(|a, b| a.file == b.file);
+    let suites: Vec<_> = of_one_file
+        .map(|mistakes| Suite {
+            name: mistakes[0].file.display().to_string(),
+            cases: mistakes.iter().map(case).collect(),
+        })
+        .collect();
+    render("rungc test", &suites)
+}
+
+fn case(mistake: &Mistake) -> Case {
+    let class = mistake.file.display().to_string();
+    let place = mistake
+        .line
+        .map_or(class.clone(), |line| format!("{class}:{line}"));
+    Case {
+        name: place.clone(),
+        class,
+        time: Duration::ZERO,
+        problem: Some(Problem {
+            is_error: true,
+            kind: KIND,
+            message: mistake.message.clone(),
+            text: format!("{place}: {}", mistake.message),
+        }),
+    }
+}
+
+fn sarif(mistakes: &[Mistake]) -> io::Result<String> {
+    let rule = json!({
+        "id": KIND,
+        "shortDescription": { "text": "A test file cannot be read, or contains a mistake." },
+    });
+    let items = mistakes.iter().map(|mistake| {
+        let mut place = json!({ "artifactLocation": { "uri": sarif::uri(&mistake.file) } });
+        if let Some(line) = mistake.line {
+            place["region"] = json!({ "startLine": line, "startColumn": mistake.column });
+        }
+        json!({
+            "ruleId": KIND,
+            "level": "error",
+            "message": { "text": mistake.message },
+            "locations": [{ "physicalLocation": place }],
+        })
+    });
+    sarif::log(vec![rule], items.collect(), Vec::new())
+}
+
+fn annotation(mistake: &Mistake) -> String {
+    let title = "mistake in a test file";
+    github::annotation(
+        "error",
+        &mistake.file,
+        mistake.line,
+        title,
+        &mistake.message,
+    )
+}
