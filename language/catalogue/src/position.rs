@@ -73,7 +73,7 @@ const SEARCH: &[Param] = &[
     bit("S1", BITS),
     bit("S2", Classes::X),
     PULSE_OUTPUT,
-    coil("D2", Classes::Y.or(Classes::M)),
+    coil("D2", Classes::Y.or(Classes::M)).directs(),
 ];
 /// The types of H1U and H2U with more than three outputs have no DSZR.
 const SEARCH_INOVANCE: &[Param] = &[

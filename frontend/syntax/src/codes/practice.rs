@@ -62,14 +62,14 @@ super::codes! {
     right: "LD X0\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
 
     NEVER_ENABLED = "W0212" "never-enabled" Warning None,
-    "interrupt routines without EI",
-    "Interrupts are disabled at the start of RUN; without EI these routines never run.",
+    "interrupt routines or pulse catch without EI",
+    "Interrupts are disabled at the start of RUN; without EI these routines never run, and the relays of pulse catch (from M8170) stay off.",
     wrong: "LD X0\nOUT Y0\nFEND\nI001\nLD M8000\nINC D0\nIRET\nEND\n",
     right: "EI\nLD X0\nOUT Y0\nFEND\nI001\nLD M8000\nINC D0\nIRET\nEND\n";
 
     TIMER_IN_ROUTINE = "W0213" "timer-in-routine" Warning None,
     "ordinary timer in a subroutine or interrupt routine",
-    "An ordinary timer is updated where its coil is executed; in a routine that does not run in every scan, it measures incorrectly. A subroutine that is called in every scan while the timer is needed is fine. T192 to T199 (100 ms) and T246 to T249 (1 ms, until RST) are intended for routines: they continue in scans that do not execute their coils.",
+    "An ordinary timer is updated where its coil is executed; in a routine that does not run in every scan, it measures incorrectly. A subroutine that is called in every scan while the timer is needed is fine. T192 to T199 (100 ms) and T246 to T249 (1 ms, until RST) are intended for routines: they continue in scans that do not execute their coils. FX1S, FX3S and HM have none of them.",
     wrong: "LD X0\nCALL P1\nLD T0\nOUT Y0\nFEND\nP1\nLD X1\nOUT T0 K10\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nLD T192\nOUT Y0\nFEND\nP1\nLD X1\nOUT T192 K10\nSRET\nEND\n";
 
@@ -86,8 +86,8 @@ super::codes! {
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
 
     MEASURED_INPUT = "W0216" "measured-input" Warning None,
-    "SPD or positioning on an input used for something else",
-    "Use each fast input for one purpose only: SPD, the signals of ZRN and DSZR, a high-speed counter, an input interrupt or pulse catch.",
+    "fast input with two purposes",
+    "Use each fast input for one purpose only: SPD, the signals of ZRN, DSZR and DVIT, a high-speed counter, an input interrupt or pulse catch.",
     wrong: "LD M8000\nOUT C235 K100\nLD X7\nSPD X0 K100 D0\nEND\n",
     right: "LD M8000\nOUT C235 K100\nLD X7\nSPD X1 K100 D0\nEND\n";
 
@@ -153,8 +153,8 @@ super::codes! {
     right: "LD X2\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n";
 
     ONE_OUTPUT = "W0229" "one-output" Warning None,
-    "two instructions that send pulses through one output at the same time",
-    "An output sends the pulses of one instruction at a time. Two instructions that are driven by the same contacts, or one of which is always driven, interfere with each other: the second does not start, or not before the first has ended.",
+    "output of pulses with two purposes at the same time",
+    "An output gives pulses or their direction, not both. It sends the pulses of one instruction at a time. Two instructions that are driven by the same contacts, or one of which is always driven, interfere with each other: the second does not start, or not before the first has ended.",
     wrong: "LD X0\nPLSY K1000 K500 Y0\nPLSY K200 K100 Y0\nEND\n",
     right: "LD X0\nPLSY K1000 K500 Y0\nLDI X0\nPLSY K200 K100 Y0\nEND\n";
 

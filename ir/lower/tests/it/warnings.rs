@@ -302,3 +302,59 @@ fn states_with_one_half() {
     judge("never-read", &[&lost], &whole);
     judge("never-written", &[&entered, &plain], &whole);
 }
+
+#[test]
+fn fast_inputs_with_two_purposes() {
+    judge(
+        "measured-input",
+        &[
+            "EI / LD M8170 / OUT Y1 / FEND / I001 / LD M8000 / INC D0 / IRET",
+            "LD M8000 / OUT C235 K10 / LD X5 / DVIT K100 K100 Y0 Y4",
+            "LD X7 / SPD X0 K100 D0 / LD X5 / DVIT K100 K100 Y0 Y4",
+        ],
+        &[
+            "EI / LD M8171 / OUT Y1 / FEND / I001 / LD M8000 / INC D0 / IRET",
+            "LD M8000 / OUT C235 K10 / LD X5 / DVIT K100 K100 Y1 Y4",
+            // The program chooses the inputs.
+            "LD M8000 / OUT M8336 / MOV HFFF3 D8336 / OUT C235 K10 / LD X5 / DVIT K100 K100 Y0 Y4",
+        ],
+    );
+    let routine = "LD X0 / OUT Y1 / FEND / I001 / LD M8000 / INC D0 / IRET";
+    judge(
+        "never-enabled",
+        &["LD M8170 / OUT Y1 / RST M8170", routine],
+        &["EI / LD M8170 / OUT Y1 / RST M8170", "LD M8168 / OUT Y1"],
+    );
+}
+
+#[test]
+fn pulses_and_their_direction_at_one_output() {
+    judge(
+        "one-output",
+        &[
+            "LD X0 / DRVI K100 K1000 Y0 Y0",
+            "LD X0 / PLSV K100 Y1 Y1",
+            "LD X0 / DSZR X1 X0 Y0 Y0",
+            "LD X0 / DVIT K100 K1000 Y0 Y0",
+        ],
+        &["LD X0 / DRVI K100 K1000 Y0 Y4"],
+    );
+}
+
+#[test]
+fn timers_in_routines_of_models_without_others() {
+    let routine = |timer: &str| {
+        format!("LD X0 / CALL P0 / FEND / P0 / LD X1 / OUT {timer} K5 / LD {timer} / OUT Y0 / SRET")
+    };
+    for model in [ModelId::Fx1s, ModelId::Fx3s, ModelId::Hm, ModelId::Fx2n] {
+        assert_eq!(
+            count(model, "timer-in-routine", &routine("T10")),
+            1,
+            "{model:?}"
+        );
+    }
+    assert_eq!(
+        count(ModelId::Fx2n, "timer-in-routine", &routine("T192")),
+        0
+    );
+}

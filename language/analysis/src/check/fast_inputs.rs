@@ -7,7 +7,7 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_models::high_speed::{self, Kind};
 use rungc_models::interrupts::Source;
-use rungc_rt::Wiring;
+use rungc_rt::{RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
 /// Checks who uses the fast inputs.
@@ -18,10 +18,11 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     one_pointer_per_source(code, &interrupts, out);
     let others = others(code, &interrupts);
     inputs_shared(code, &others, &counters, out);
+    two_purposes(code, &others, out);
     looked_at(code, &others, &counters, out);
     fast_units::check(code, &others, &counters, out);
     counters_share(code, &counters, out);
-    never_enabled(code, &interrupts, out);
+    never_enabled(code, &others, &interrupts, out);
 }
 
 /// An interrupt routine.
@@ -156,6 +157,9 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
     }
 }
 
+/// An interrupt, as messages name it.
+const INTERRUPT: &str = "an interrupt";
+
 /// Another user of an input's edges.
 pub(super) struct Other {
     input: u32,
@@ -171,7 +175,7 @@ fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
     let interrupts = interrupts.iter().filter_map(|interrupt| {
         Some(Other {
             input: interrupt.input?,
-            name: "an interrupt",
+            name: INTERRUPT,
             does: "requests an interrupt",
             at: interrupt.label,
         })
@@ -181,8 +185,7 @@ fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
 
 /// The relays of pulse catch that the program looks at, each once.
 fn caught(code: &Code) -> Vec<Other> {
-    let enables = (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
-    let Some(catch) = code.model().interrupts.pulse_catch.filter(|_| enables) else {
+    let Some(catch) = code.model().interrupts.pulse_catch else {
         return Vec::new();
     };
     let mut found: Vec<Other> = Vec::new();
@@ -204,6 +207,25 @@ fn caught(code: &Code) -> Vec<Other> {
         }
     }
     found
+}
+
+/// Interrupts and pulse catch at one input. It works, and the manuals say of both that the input has one purpose.
+fn two_purposes(code: &Code, others: &[Other], out: &mut Diagnostics) {
+    let (interrupts, caught): (Vec<_>, Vec<_>) =
+        others.iter().partition(|other| other.name == INTERRUPT);
+    for interrupt in interrupts {
+        let Some(catch) = caught.iter().find(|catch| catch.input == interrupt.input) else {
+            continue;
+        };
+        let input = DeviceClass::X.number(catch.input);
+        let message = format!("`{input}` serves both an interrupt and pulse catch");
+        let diagnostic = codes::MEASURED_INPUT
+            .at(code.span(catch.at), message)
+            .label("its pulses are caught here …")
+            .other(code.span(interrupt.at), "… and request an interrupt here")
+            .help("use a separate input, or set a relay in the interrupt routine");
+        out.push(diagnostic);
+    }
 }
 
 fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
@@ -276,12 +298,28 @@ fn positioned(code: &Code) -> Vec<(usize, u32)> {
             }
             _ => None,
         });
+        let inputs = inputs.chain(awaited(code, i, function));
         let mut inputs: Vec<u32> = inputs.filter(|&n| n < Wiring::FAST_INPUTS).collect();
         // The zero signal may be that of the DOG.
         inputs.dedup();
         found.extend(inputs.into_iter().map(|input| (i, input)));
     }
     found
+}
+
+/// The input whose interrupt DVIT awaits, unless the program chooses others by the register.
+fn awaited(code: &Code, i: usize, function: RtFn) -> Option<u32> {
+    let operand = code.params(i).iter().position(|param| param.sends_pulses)?;
+    let output = code.device(i, operand).filter(|_| function == RtFn::Dvit)?;
+    let outputs = code.model().pulses.outputs();
+    let interrupt = outputs.get(output.number as usize)?.interrupt;
+    let chooses = |i| {
+        let relay = code
+            .device(i, 0)
+            .filter(|relay| relay.class == DeviceClass::M);
+        relay.map(|relay| relay.number) == interrupt.chooses.map(|relay| relay.number())
+    };
+    (!(0..code.len).any(chooses)).then_some(interrupt.input)
 }
 
 /// The instructions SPD and their inputs.
@@ -320,17 +358,26 @@ fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
     }
 }
 
-fn never_enabled(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
-    let enabled = || (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
-    let Some(first) = interrupts.first().filter(|_| !enabled()) else {
+/// Interrupt routines and relays of pulse catch (h1u-h2u-programming §3.3) in a program without EI.
+fn never_enabled(code: &Code, others: &[Other], interrupts: &[Interrupt], out: &mut Diagnostics) {
+    if (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei)) {
         return;
-    };
-    let diagnostic = codes::NEVER_ENABLED
-        .at(
-            code.span(first.label),
-            "this interrupt routine never runs: there is no EI",
-        )
-        .label("interrupts are disabled at the start of RUN")
-        .help("put EI at the start of the program");
-    out.push(diagnostic);
+    }
+    let routine = interrupts.first().map(|interrupt| {
+        let message = "this interrupt routine never runs: there is no EI".to_string();
+        (interrupt.label, message)
+    });
+    let catch = others.iter().find(|other| other.name != INTERRUPT);
+    let catch = catch.and_then(|catch| {
+        let relay = code.device(catch.at, 0)?;
+        let message = format!("`{relay}` catches no pulse: there is no EI");
+        Some((catch.at, message))
+    });
+    for (at, message) in routine.into_iter().chain(catch) {
+        let diagnostic = codes::NEVER_ENABLED
+            .at(code.span(at), message)
+            .label("interrupts are disabled at the start of RUN")
+            .help("put EI at the start of the program");
+        out.push(diagnostic);
+    }
 }

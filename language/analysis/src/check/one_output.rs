@@ -1,9 +1,10 @@
-//! Instructions that send pulses through one output at the same time.
+//! Outputs with two purposes: pulses of two instructions at the same time, or pulses and their direction.
 
 use super::Code;
 use super::drives::{Drive, Lasts};
 use super::skips::Skips;
 use super::structure::{Nesting, Routine};
+use rungc_catalogue::Param;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -46,7 +47,11 @@ impl Senders {
 
 /// Collects them by output.
 #[derive(Default)]
-pub(super) struct Outputs(FxHashMap<Device, Senders>);
+pub(super) struct Outputs {
+    senders: FxHashMap<Device, Senders>,
+    /// Instructions whose pulses and direction share an output.
+    own_direction: Vec<(usize, Device)>,
+}
 
 impl Outputs {
     /// Takes instruction `i` and what drives it.
@@ -58,20 +63,37 @@ impl Outputs {
         nesting: &Nesting,
         skips: &Skips,
     ) {
-        let operand = code.params(i).iter().position(|param| param.sends_pulses);
-        let output = operand.and_then(|operand| code.device(i, operand));
-        let Some(output) = output.filter(|output| output.class == DeviceClass::Y) else {
+        let output = |is_meant: fn(&Param) -> bool| {
+            let operand = code.params(i).iter().position(is_meant);
+            let output = operand.and_then(|operand| code.device(i, operand));
+            output.filter(|output| output.class == DeviceClass::Y)
+        };
+        let Some(sends) = output(|param| param.sends_pulses) else {
             return;
         };
+        if output(|param| param.directs_pulses) == Some(sends) {
+            self.own_direction.push((i, sends));
+        }
         let enclosing = nesting.of(i);
         let conditions = (enclosing.routine, enclosing.state, skips.mark(i));
-        self.0.entry(output).or_default().add(i, drive, conditions);
+        self.senders
+            .entry(sends)
+            .or_default()
+            .add(i, drive, conditions);
     }
 
-    /// Warns of outputs that two instructions drive under the same condition, or one under any.
+    /// Warns of outputs that two instructions drive under the same condition, or one under any, and of those that
+    /// give pulses and their direction.
     pub(super) fn report(self, code: &Code, out: &mut Diagnostics) {
+        for (i, output) in self.own_direction {
+            let message = format!("`{output}` sends pulses and gives their direction");
+            let diagnostic = codes::ONE_OUTPUT
+                .at(code.span(i), message)
+                .help("give the direction by an output that sends no pulses");
+            out.push(diagnostic);
+        }
         let together = |(output, senders): (_, Senders)| Some((senders.together?, output));
-        let mut found: Vec<_> = self.0.into_iter().filter_map(together).collect();
+        let mut found: Vec<_> = self.senders.into_iter().filter_map(together).collect();
         found.sort();
         for ((first, second), output) in found {
             let message =

@@ -24,9 +24,6 @@ fn timer(code: &Code, i: usize) -> Option<Device> {
 /// Ordinary timers in subroutines and interrupt routines (h1u-h2u-programming §3.5, §4.3.1).
 fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnostics) {
     let model = code.model();
-    if !model.timers.iter().any(|timers| timers.kind.free_running) {
-        return;
-    }
     for i in 0..code.len {
         let routine = nesting.of(i).routine;
         let subroutine = match routine {
@@ -53,13 +50,13 @@ fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnost
         let diagnostic = codes::TIMER_IN_ROUTINE
             .at(code.span(i), message)
             .label("measures incorrectly if not every scan does")
-            .help(instead(model, kind.unit_ms));
+            .help(instead(model, kind.unit_ms, subroutine));
         out.push(diagnostic);
     }
 }
 
-/// The timers to use in a routine instead of one that counts units of this many milliseconds.
-fn instead(model: &Model, unit_ms: u16) -> String {
+/// What to do instead of driving a timer that counts units of this many milliseconds in a routine.
+fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
     let named = |timers: &Timers| {
         let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
         format!("{first} to {last}")
@@ -69,7 +66,14 @@ fn instead(model: &Model, unit_ms: u16) -> String {
         timers.find(|timers| timers.kind.accumulating == accumulating)
     };
     let (plain, fine) = (free(false), free(true));
-    let free = plain.map_or_else(String::new, named);
+    let Some(free) = plain.map(named) else {
+        let call = if subroutine {
+            ", or call the subroutine in every scan"
+        } else {
+            ""
+        };
+        return format!("drive it in the main program{call}");
+    };
     if unit_ms == 100 {
         return format!("{free} continue by themselves in scans that do not run their coils");
     }

@@ -147,7 +147,6 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
     M 8099 rw 0 scan "starts the ring counter D8099";
     M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
-    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
     D 8005 r 0 scan "voltage of the battery in 0.1 V";
     D 8006 rw 30 scan "voltage at which the battery is low";
@@ -157,15 +156,16 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
     D 8099 rw 0 scan "ring counter of 0.1 ms";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
-    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
 };
 
 /// Additional devices of FX2N and FX3U: modes of instructions that the others lack.
 pub(super) const BIG: &[Special] = specials! {
     M 8027 rw 0 by("PR") "PR sends up to 16 characters";
+    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
     M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
     D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
+    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
 };
 
 /// Their counterparts on FX1S, FX1N, FX3S and FX3G.
@@ -276,7 +276,6 @@ pub(super) const NO_ADAPTERS: &[Special] = specials! {
 pub(super) const FX3: &[Special] = specials! {
     M 8105 r 0 inert(MAKER) "the program is being changed in RUN";
     M 8151-8159 r 0 inert(INVERTERS) "inverter communication";
-    M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8178-8179 rw 0 by("serial ports") "the parallel link, the N:N link is on channel 2";
     M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
@@ -468,6 +467,7 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "a comparison of a high-speed counter is executed";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
+    M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 r 0 by("DUTY") "timing pulses of DUTY";
     M 8336 rw 0 by("DVIT") "D8336 chooses the interrupt inputs";
