@@ -94,8 +94,18 @@ const RESET: &[Param] = &[src("S1", VALUES), FAST_COUNTER, coil("D", COILS)];
 const RESET_FX: &[Param] = &[
     src("S1", VALUES),
     FAST_COUNTER,
-    mixed_out("D", COILS.or(Classes::C)),
+    mixed_out("D", COILS.or(Classes::C)).rules(&[ITSELF]),
 ];
+/// A counter resets none but itself.
+const ITSELF: Rule = Rule::Holds(
+    |operands| match operands {
+        [_, counter, reset] => {
+            Classes::of(&reset.kind) != Classes::C || reset.kind == counter.kind
+        }
+        _ => true,
+    },
+    "a counter is that of S2",
+);
 /// Returns true if a rule holds for the operands of HSZ, or HSZ names no relay that selects a table.
 fn table_holds(operands: &[Operand], rule: fn(&OperandKind, &OperandKind) -> bool) -> bool {
     match operands {
