@@ -313,7 +313,7 @@ pub enum OperandKind {
     Decimal(i64, Option<Index>),
     /// Hexadecimal constant `H1F`, with index.
     Hex(u64, Option<Index>),
-    /// Floating constant `E1.5`.
+    /// Floating constant `E1.5`, `E1.5+3`.
     Float(f32),
     /// Characters: `"ABC"`, or the bare characters of ASC.
     Text(SmolStr),
@@ -373,7 +373,7 @@ impl fmt::Display for OperandKind {
                 write!(f, "H{value:X}")?;
                 index
             }
-            OperandKind::Float(value) => return write!(f, "E{value:?}"),
+            OperandKind::Float(value) => return write_float(f, *value),
             OperandKind::Text(text) => return write!(f, "\"{text}\""),
             OperandKind::Buffer {
                 module,
@@ -388,6 +388,17 @@ impl fmt::Display for OperandKind {
         };
         index.map_or(Ok(()), |index| write!(f, "{index}"))
     }
+}
+
+/// Writes a floating constant as the editors do: `E1.5`, with an exponent `E3.4+38` (FX3 programming manual §5.2.3).
+fn write_float(f: &mut fmt::Formatter<'_>, value: f32) -> fmt::Result {
+    let shortest = format!("{value:?}");
+    let Some((mantissa, exponent)) = shortest.split_once('e') else {
+        return write!(f, "E{shortest}");
+    };
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let plus = if exponent.starts_with('-') { "" } else { "+" };
+    write!(f, "E{mantissa}{point}{plus}{exponent}")
 }
 
 impl Instr {

@@ -224,6 +224,24 @@ fn texts_keep_their_control_characters() {
     assert_eq!(back.program.instrs[2].mnemonic, "END");
 }
 
+/// Exponents are written as in the editors, and read in both forms.
+#[test]
+fn floats_are_written_as_the_editors_do() {
+    for (read, written) in [
+        ("E3.4E38", "E3.4+38"),
+        ("E1+38", "E1.0+38"),
+        ("E-1.5E-10", "E-1.5-10"),
+        ("E1e-38", "E1.0-38"),
+        ("E0.0001", "E0.0001"),
+        ("E1.5+3", "E1500.0"),
+    ] {
+        let program = read_text("a.il", &format!("LD X000\nDEMOV {read} D0\n")).program;
+        assert_eq!(program.instrs[1].to_string(), format!("DEMOV {written} D0"));
+        let again = read_text("a.il", &print::to_il(&program)).program;
+        assert_eq!(unplaced(&again), unplaced(&program));
+    }
+}
+
 #[test]
 fn an_export_keeps_the_language_of_its_head() {
     let rows = "\"测试\"\r\n\"PLC信息:\"\t\"FXCPU FX3U/FX3UC\"\r\n\
