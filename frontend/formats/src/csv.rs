@@ -1,11 +1,14 @@
 //! The editors' list export: a table of instructions with steps, statements and notes.
 
+mod layout;
+
 use crate::Read;
 use crate::gx::cpu;
 use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
-use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use csv::{StringRecord, WriterBuilder};
+use layout::{HEAD_ROWS, Layout, plain, table};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program,
     Remarks, SourceKind, Span, codes,
@@ -13,168 +16,10 @@ use rungc_syntax::{
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 
-/// The columns in the editors' order, by their English names.
-pub(crate) const HEADERS: [&str; 7] = [
-    "Step No.",
-    "Line Statement",
-    "Instruction",
-    "I/O(Device)",
-    "Blank",
-    "PI Statement",
-    "Note",
-];
-
-/// The columns' names in the editors' languages, without spaces and punctuation, in the order of [`HEADERS`].
-const NAMES: [&[&str]; 7] = [
-    &[
-        "stepno",
-        "step",
-        "ステップ番号",
-        "ステップno",
-        "步号",
-        "步序号",
-    ],
-    &["linestatement", "行間ステートメント", "行间声明"],
-    &["instruction", "命令", "指令"],
-    &["iodevice", "ioデバイス", "io软元件"],
-    &["blank", "空欄", "空白栏"],
-    &["pistatement", "piステートメント", "pi声明"],
-    &["note", "ノート", "注解", "注释"],
-];
+pub(crate) use layout::{HEADERS, detect};
 
 /// Label of the row above the list that names the CPU.
 pub(crate) const INFORMATION: &str = "PLC Information:";
-
-/// Maximum number of rows above the row of headers.
-const HEAD_ROWS: usize = 12;
-
-/// Layout of a text as a table.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Layout {
-    delimiter: u8,
-    /// For each of [`HEADERS`], where it is.
-    columns: [usize; 7],
-    /// The row of headers, from 0.
-    header: Option<usize>,
-}
-
-/// Detects a list export and its layout.
-pub(crate) fn detect(text: &str) -> Option<Layout> {
-    [b'\t', b',', b';']
-        .into_iter()
-        .find_map(|delimiter| with_header(text, delimiter))
-        .or_else(|| headless(text))
-}
-
-/// Number of rows that show the columns of an export without a head.
-const ROWS: usize = 400;
-
-/// The layout of an export that has lost its head: quoted fields, or step numbers before instructions. The instructions
-/// show their column; the one after it holds devices.
-fn headless(text: &str) -> Option<Layout> {
-    let lines = || {
-        text.lines()
-            .filter(|line| !line.trim().is_empty())
-            .take(HEAD_ROWS)
-    };
-    let quoted = |separator| lines().any(|line| line.starts_with('"') && line.contains(separator));
-    let numbered = |separator| {
-        let fields =
-            |line: &str| -> Option<u32> { line.split_once(separator)?.0.trim().parse().ok() };
-        lines().next().and_then(fields).is_some()
-    };
-    let delimiter = if quoted("\"\t\"") {
-        b'\t'
-    } else if quoted("\",\"") || numbered(',') {
-        b','
-    } else if quoted("\";\"") || numbered(';') {
-        b';'
-    } else {
-        return None;
-    };
-    let rows: Vec<StringRecord> = table(text, delimiter)
-        .into_records()
-        .flatten()
-        .take(ROWS)
-        .collect();
-    let width = rows.iter().map(StringRecord::len).max()?;
-    let basic = |column: usize| {
-        let fields = rows.iter().filter_map(|row| row.get(column));
-        fields.filter(|field| il::is_basic(field.trim())).count()
-    };
-    // The first of equals: a statement may be a word that is an instruction, too.
-    let instruction = (0..width).rev().max_by_key(|&column| basic(column))?;
-    let columns = columns(instruction, width).filter(|_| basic(instruction) > 0)?;
-    Some(Layout {
-        delimiter,
-        columns,
-        header: None,
-    })
-}
-
-/// The columns around that of the instructions: before it steps, and statements if there is room; after it devices, and
-/// either all that editors write or notes alone.
-fn columns(instruction: usize, width: usize) -> Option<[usize; 7]> {
-    const NONE: usize = usize::MAX;
-    let (step, statement) = match instruction {
-        0 => (NONE, NONE),
-        1 => (0, NONE),
-        2 => (0, 1),
-        _ => return None,
-    };
-    let device = instruction + 1;
-    let after = match width.saturating_sub(device + 1) {
-        0 => [NONE; 3],
-        1 => [NONE, NONE, device + 1],
-        2 => [device + 1, NONE, device + 2],
-        _ => [device + 1, device + 2, device + 3],
-    };
-    let [blank, pointer, note] = after;
-    Some([step, statement, instruction, device, blank, pointer, note])
-}
-
-fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
-    let mut reader = table(text, delimiter);
-    let mut record = StringRecord::new();
-    for row in 0..HEAD_ROWS {
-        if !reader.read_record(&mut record).ok()? {
-            return None;
-        }
-        let mut columns = [usize::MAX; 7];
-        for (at, field) in record.iter().enumerate() {
-            let field = plain(field);
-            if let Some(column) = NAMES
-                .iter()
-                .position(|names| names.contains(&field.as_str()))
-            {
-                columns[column] = at;
-            }
-        }
-        // The instruction and its device are what makes it a list.
-        if columns[2] != usize::MAX && columns[3] != usize::MAX {
-            return Some(Layout {
-                delimiter,
-                columns,
-                header: Some(row),
-            });
-        }
-    }
-    None
-}
-
-/// The name of a column without spaces and punctuation, in lower case.
-fn plain(name: &str) -> String {
-    let letters = name.chars().filter(|c| c.is_alphanumeric());
-    letters.flat_map(char::to_lowercase).collect()
-}
-
-fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
-    ReaderBuilder::new()
-        .delimiter(delimiter)
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text.as_bytes())
-}
 
 /// Reads a list export.
 pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
@@ -186,17 +31,12 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     while rows.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, csv::Position::line);
         reader.listing.go_to_line(line as u32);
-        match layout.header {
-            Some(header) if number < header => {
-                head.push(&record);
-                reader.head(&record, number == 0);
-            }
-            Some(header) if number == header => {
-                head.push(&record);
-                let titles = record.iter().collect::<Vec<_>>();
-                reader.listing.line(&titles.join("  "));
-            }
-            _ => reader.row(&record),
+        if number >= layout.above {
+            reader.row(&record);
+        } else {
+            head.push(&record);
+            let is_headings = layout.has_headings && number + 1 == layout.above;
+            reader.head(&record, number == 0, is_headings);
         }
         number += 1;
     }
@@ -263,7 +103,7 @@ impl ExportHead {
 
     /// Returns true if the columns below are those of [`HEADERS`], in the order in which the writer writes them.
     fn in_usual_order(&self, layout: Layout) -> bool {
-        !self.rows.is_empty() && layout.columns.iter().copied().eq(0..HEADERS.len())
+        layout.has_headings && layout.columns.iter().copied().eq(0..HEADERS.len())
     }
 }
 
@@ -305,10 +145,13 @@ impl Reader {
         }
     }
 
-    /// A row above the headers: the title in the first one, or the CPU type.
-    fn head(&mut self, record: &StringRecord, first: bool) {
+    /// A row above the list: the title in the first one, the CPU type, or headings.
+    fn head(&mut self, record: &StringRecord, first: bool, is_headings: bool) {
         self.listing
             .line(&record.iter().collect::<Vec<_>>().join("  "));
+        if is_headings {
+            return;
+        }
         if let Some(cpu) = cpu::of_head(record) {
             self.program.cpu = clean(cpu).map(Into::into);
         } else if first {

@@ -392,6 +392,85 @@ fn exports_without_headings_are_read() {
     }
 }
 
+/// Headings are known by their shape, whatever their language: a row with words for steps, instructions and devices.
+#[test]
+fn headings_in_any_language_are_known() {
+    let headings = [
+        "步號|行間聲明|指令|I/O(元件)|空白欄|PI聲明|註解",
+        "Schritt|Zeilenkommentar|Anweisung|E/A(Operand)|Leer|PI-Kommentar|Notiz",
+        "스텝 번호|행간 스테이트먼트|명령|I/O(디바이스)|공란|PI 스테이트먼트|노트",
+        "Paso|Comentario|Instrucción|E/S|Vacío|Puntero|Nota",
+        "Шаг|Комментарий|Команда|Операнд||Указатель|Примечание",
+    ];
+    let rows = [
+        "0|first part|||||",
+        "0||LD|X000|||",
+        "1||OUT|T0|||note",
+        "|||K30|||",
+        "4||END||||",
+    ];
+    for headings in headings {
+        let head = ["MAIN", "SPS-Information:|FXCPU FX3G", headings];
+        for (separator, quote) in [
+            ("\t", "\""),
+            (",", "\""),
+            (";", "\""),
+            ("\t", ""),
+            (";", ""),
+        ] {
+            let row = |row: &&str| {
+                let fields = row.split('|').map(|field| format!("{quote}{field}{quote}"));
+                fields.collect::<Vec<_>>().join(separator) + "\r\n"
+            };
+            let text: String = head.iter().chain(&rows).map(row).collect();
+            let units = std::iter::once(0xFEFF).chain(text.encode_utf16());
+            let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
+            let read = read_bytes("MAIN.csv", &bytes).unwrap();
+            assert_eq!(read.diagnostics.iter().count(), 0, "{text}");
+            let program = &read.program;
+            assert_eq!(texts(program), ["LD X000", "OUT T0 K30", "END"], "{text}");
+            let named = (program.title.as_deref(), program.cpu.as_deref());
+            assert_eq!(named, (Some("MAIN"), Some("FX3G")), "{text}");
+            assert_eq!(program.instrs[0].statement(), Some("first part"));
+            assert_eq!(program.instrs[2].step, Some(4));
+            if (separator, quote) == ("\t", "\"") {
+                let head = read.export_head.as_ref().unwrap();
+                assert_eq!(print::to_csv_with(program, head), bytes, "{text}");
+            }
+        }
+    }
+}
+
+/// A row that is only damaged is not taken for headings.
+#[test]
+fn a_damaged_first_row_is_reported() {
+    for row in ["O,,LD,X000", "a,,LDX,X000", "a,,LD,b"] {
+        let text = format!("{row},,,\n1,,OUT,Y000,,,\n2,,END,,,,\n");
+        let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+        assert!(read.diagnostics.has_errors(), "{text}");
+    }
+}
+
+/// An export without headings may begin with a statement, with or without its step number, below a title or not.
+#[test]
+fn statements_begin_exports_without_headings() {
+    for (separator, quote) in [("\t", "\""), (",", "\""), (",", ""), (";", ""), ("\t", "")] {
+        for first in ["|start motor", "0|start motor", "MAIN|\n|start motor"] {
+            let rows = format!("{first}||\n0||LD|X000\n1||OUT|Y000\n2||END|\n");
+            let row = |row: &str| {
+                let fields = row.split('|').map(|field| format!("{quote}{field}{quote}"));
+                fields.collect::<Vec<_>>().join(separator) + "\n"
+            };
+            let text: String = rows.lines().map(row).collect();
+            let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+            assert_eq!(read.diagnostics.iter().count(), 0, "{text}");
+            assert_eq!(texts(&read.program), ["LD X000", "OUT Y000", "END"]);
+            let statement = read.program.instrs[0].statement();
+            assert_eq!(statement, Some("start motor"), "{text}");
+        }
+    }
+}
+
 /// An export comes out byte for byte, whatever its rows of statements hold.
 #[test]
 fn rows_of_statements_are_kept() {

@@ -1,0 +1,210 @@
+//! Layout of a list export: its separator, its columns, and the rows above the list.
+
+use crate::il;
+use csv::{ReaderBuilder, StringRecord};
+
+/// The columns in the editors' order, by their English names.
+pub(crate) const HEADERS: [&str; 7] = [
+    "Step No.",
+    "Line Statement",
+    "Instruction",
+    "I/O(Device)",
+    "Blank",
+    "PI Statement",
+    "Note",
+];
+
+/// The columns' names in the editors' languages, without spaces and punctuation, in the order of [`HEADERS`].
+const NAMES: [&[&str]; 7] = [
+    &[
+        "stepno",
+        "step",
+        "ステップ番号",
+        "ステップno",
+        "步号",
+        "步序号",
+    ],
+    &["linestatement", "行間ステートメント", "行间声明"],
+    &["instruction", "命令", "指令"],
+    &["iodevice", "ioデバイス", "io软元件"],
+    &["blank", "空欄", "空白栏"],
+    &["pistatement", "piステートメント", "pi声明"],
+    &["note", "ノート", "注解", "注释"],
+];
+
+/// Maximum number of rows above the list.
+pub(super) const HEAD_ROWS: usize = 12;
+
+/// Number of rows that show the columns of an export whose headings are of an unknown language, or lost.
+const ROWS: usize = 400;
+
+/// Layout of a text as a table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layout {
+    pub(super) delimiter: u8,
+    /// For each of [`HEADERS`], its column.
+    pub(super) columns: [usize; 7],
+    /// Number of rows above the list.
+    pub(super) above: usize,
+    /// True if the last of them holds the headings.
+    pub(super) has_headings: bool,
+}
+
+/// Detects a list export and its layout.
+pub(crate) fn detect(text: &str) -> Option<Layout> {
+    [b'\t', b',', b';']
+        .into_iter()
+        .find_map(|delimiter| with_header(text, delimiter))
+        .or_else(|| by_shape(text))
+}
+
+/// The layout of an export without headings in a known language: quoted fields, or step numbers before instructions.
+/// The instructions show their column; the one after it holds devices.
+fn by_shape(text: &str) -> Option<Layout> {
+    let lines = || {
+        text.lines()
+            .filter(|line| !line.trim().is_empty())
+            .take(HEAD_ROWS)
+    };
+    let quoted = |separator| lines().any(|line| line.starts_with('"') && line.contains(separator));
+    // A text with comments is a list as text, unless it separates fields as others begin comments.
+    let commented = lines().any(|line| line.starts_with(';') || line.starts_with("//"));
+    let numbered = |separator| {
+        let number = |line: &str| line.split_once(separator)?.0.trim().parse::<u32>().ok();
+        let may_be_table = separator == ';' || !commented;
+        may_be_table && lines().any(|line| number(line).is_some())
+    };
+    let (delimiter, certain) = if quoted("\"\t\"") {
+        (b'\t', true)
+    } else if quoted("\",\"") || numbered(',') {
+        (b',', true)
+    } else if quoted("\";\"") || numbered(';') {
+        (b';', true)
+    } else if numbered('\t') {
+        (b'\t', false)
+    } else {
+        return None;
+    };
+    let rows: Vec<StringRecord> = table(text, delimiter)
+        .into_records()
+        .flatten()
+        .take(ROWS)
+        .collect();
+    let width = rows.iter().map(StringRecord::len).max()?;
+    let basic = |column: usize| {
+        rows.iter()
+            .filter(move |row| il::is_basic(cell(row, column)))
+    };
+    // The first of equals: a statement may be a word that is an instruction, too.
+    let instruction = (0..width)
+        .rev()
+        .max_by_key(|&column| basic(column).count())?;
+    let columns = columns(instruction, width).filter(|_| basic(instruction).next().is_some())?;
+    let (above, has_headings) = above(&rows, columns);
+    let layout = Layout {
+        delimiter,
+        columns,
+        above,
+        has_headings,
+    };
+    // Lists as text have tabs between their words, too.
+    let is_table = certain || has_headings || rows.iter().any(|row| is_statement(row, columns));
+    is_table.then_some(layout)
+}
+
+/// A cell of a row; empty if the row has no such column.
+fn cell(row: &StringRecord, column: usize) -> &str {
+    row.get(column).unwrap_or_default().trim()
+}
+
+/// Returns true for a row of a statement alone.
+fn is_statement(row: &StringRecord, [_, statement, instruction, ..]: [usize; 7]) -> bool {
+    let text = cell(row, statement);
+    let is_code = il::is_basic(text) || il::is_label(text);
+    !text.is_empty() && !is_code && cell(row, instruction).is_empty()
+}
+
+/// Number of rows above the list, known by words in place of step numbers before the first instruction; true if the last
+/// of them has headings for the instructions and their devices.
+fn above(rows: &[StringRecord], columns: [usize; 7]) -> (usize, bool) {
+    let [step, _, instruction, device, ..] = columns;
+    let is_number = |row: &StringRecord| cell(row, step).parse::<u32>().is_ok();
+    let is_instruction = |row: &StringRecord| {
+        let word = cell(row, instruction);
+        let numbered = is_number(row) && !word.is_empty();
+        numbered || il::is_basic(word) || il::device(cell(row, device)).is_some()
+    };
+    let head = rows.iter().take(HEAD_ROWS);
+    let head = head.take_while(|row| !is_instruction(row)).count();
+    let is_above = |row: &StringRecord| !cell(row, step).is_empty() && !is_number(row);
+    let Some(last) = rows[..head].iter().rposition(is_above) else {
+        return (0, false);
+    };
+    let heading = |column| !cell(&rows[last], column).is_empty();
+    (last + 1, heading(instruction) && heading(device))
+}
+
+/// The columns around that of the instructions: before it steps, and statements if there is room; after it devices, and
+/// either all that editors write or notes alone.
+fn columns(instruction: usize, width: usize) -> Option<[usize; 7]> {
+    const NONE: usize = usize::MAX;
+    let (step, statement) = match instruction {
+        0 => (NONE, NONE),
+        1 => (0, NONE),
+        2 => (0, 1),
+        _ => return None,
+    };
+    let device = instruction + 1;
+    let after = match width.saturating_sub(device + 1) {
+        0 => [NONE; 3],
+        1 => [NONE, NONE, device + 1],
+        2 => [device + 1, NONE, device + 2],
+        _ => [device + 1, device + 2, device + 3],
+    };
+    let [blank, pointer, note] = after;
+    Some([step, statement, instruction, device, blank, pointer, note])
+}
+
+fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
+    let mut reader = table(text, delimiter);
+    let mut record = StringRecord::new();
+    for row in 0..HEAD_ROWS {
+        if !reader.read_record(&mut record).ok()? {
+            return None;
+        }
+        let mut columns = [usize::MAX; 7];
+        for (at, field) in record.iter().enumerate() {
+            let field = plain(field);
+            if let Some(column) = NAMES
+                .iter()
+                .position(|names| names.contains(&field.as_str()))
+            {
+                columns[column] = at;
+            }
+        }
+        // The instruction and its device are what makes it a list.
+        if columns[2] != usize::MAX && columns[3] != usize::MAX {
+            return Some(Layout {
+                delimiter,
+                columns,
+                above: row + 1,
+                has_headings: true,
+            });
+        }
+    }
+    None
+}
+
+/// The name of a column without spaces and punctuation, in lower case.
+pub(super) fn plain(name: &str) -> String {
+    let letters = name.chars().filter(|c| c.is_alphanumeric());
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+pub(super) fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
+    ReaderBuilder::new()
+        .delimiter(delimiter)
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.as_bytes())
+}
