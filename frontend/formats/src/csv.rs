@@ -253,11 +253,19 @@ impl Reader {
 
     fn instruction(&mut self, text: &str, step: Option<u32>) {
         let span = self.listing.word(text);
-        let Some(mnemonic) =
-            il::field::mnemonic(self.listing.slice(span), span.start, &mut self.diagnostics)
-        else {
-            self.unread();
-            return;
+        // People who edit a table write its operands into the same cell.
+        let (mnemonic, mnemonic_span, operands) = match il::field::instruction(text, span.start) {
+            Some(whole) => whole,
+            None => {
+                let written = self.listing.slice(span);
+                let Some(mnemonic) =
+                    il::field::mnemonic(written, span.start, &mut self.diagnostics)
+                else {
+                    self.unread();
+                    return;
+                };
+                (mnemonic, span, Operands::new())
+            }
         };
         self.current = if il::is_label(&mnemonic) {
             Current::Label
@@ -266,8 +274,8 @@ impl Reader {
         };
         self.program.instrs.push(Instr {
             mnemonic,
-            mnemonic_span: span,
-            operands: Operands::new(),
+            mnemonic_span,
+            operands,
             span,
             step,
             remarks: Remarks::new(self.statement.take(), None),
@@ -281,14 +289,20 @@ impl Reader {
             return;
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
-        let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);
-        // A field that holds nothing but signs between operands.
-        let operand = read.unwrap_or(Operand {
-            span,
-            kind: OperandKind::Unreadable(None),
+        let several = il::field::operands(text, span.start).filter(|_| !characters);
+        let operands = several.unwrap_or_else(|| {
+            let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);
+            // A field that holds nothing but signs between operands.
+            let unreadable = Operand {
+                span,
+                kind: OperandKind::Unreadable(None),
+            };
+            std::iter::once(read.unwrap_or(unreadable)).collect()
         });
-        instr.span = instr.span.to(operand.span);
-        instr.operands.push(operand);
+        for operand in operands {
+            instr.span = instr.span.to(operand.span);
+            instr.operands.push(operand);
+        }
     }
 
     /// Remembers that an instruction cannot be read; its further operands are passed over.

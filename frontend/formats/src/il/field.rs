@@ -3,7 +3,7 @@
 use super::fault::Faults;
 use super::fold::Folded;
 use super::grammar;
-use rungc_syntax::{Diagnostics, Operand, OperandKind, Span};
+use rungc_syntax::{Diagnostics, Operand, OperandKind, Operands, Span};
 use smol_str::SmolStr;
 
 /// Reads a field that names an instruction or a label; `start` is its place in the source.
@@ -34,11 +34,52 @@ pub(crate) fn operand(
     };
     report(faults, &folded, start, diagnostics);
     operand.map(|mut operand| {
-        let (first, last) = folded.original(operand.span.start, operand.span.end);
-        keep_text(&mut operand, &field[first as usize..last as usize]);
-        operand.span = Span::new(first + start, last + start);
+        place_operand(&mut operand, field, start, &place(&folded, start));
         operand
     })
+}
+
+/// Reads a field that holds a whole instruction, `MOV K1 D0`; `None` if it holds anything else.
+pub(crate) fn instruction(field: &str, start: u32) -> Option<(SmolStr, Span, Operands)> {
+    if is_word(field) {
+        return None;
+    }
+    let mut faults = Faults::default();
+    let folded = fold(field, &mut faults);
+    let body = grammar::parse(&grammar::instruction_field(), &folded.text, &mut faults)?;
+    let place = place(&folded, start);
+    let mut operands = body.operands;
+    for operand in &mut operands {
+        place_operand(operand, field, start, &place);
+    }
+    let whole = faults.is_empty() && !operands.is_empty();
+    whole.then(|| (body.mnemonic.into(), place(body.mnemonic_span), operands))
+}
+
+/// Reads a field that holds several operands, `K1 D0`; `None` if it holds anything else.
+pub(crate) fn operands(field: &str, start: u32) -> Option<Operands> {
+    if is_word(field) {
+        return None;
+    }
+    let mut faults = Faults::default();
+    let folded = fold(field, &mut faults);
+    let mut operands = grammar::parse(&grammar::operands_field(), &folded.text, &mut faults)?;
+    for operand in &mut operands {
+        place_operand(operand, field, start, &place(&folded, start));
+    }
+    (faults.is_empty() && operands.len() > 1).then_some(operands)
+}
+
+/// Returns true if nothing separates words in a field.
+fn is_word(field: &str) -> bool {
+    !field.contains(|c: char| c.is_whitespace() || matches!(c, ',' | '，' | '\0'))
+}
+
+/// Gives an operand of a field, which begins at `start`, its place in the source, and its text as written.
+fn place_operand(operand: &mut Operand, field: &str, start: u32, place: &impl Fn(Span) -> Span) {
+    operand.span = place(operand.span);
+    let [first, last] = [operand.span.start, operand.span.end].map(|at| (at - start) as usize);
+    keep_text(operand, &field[first..last]);
 }
 
 /// Makes a text what was written: in it, full-width characters mean themselves.

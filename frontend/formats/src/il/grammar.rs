@@ -13,7 +13,9 @@ mod fields;
 mod operands;
 mod tokens;
 
-pub(super) use fields::{device_field, mnemonic_field, operand_field, text_field};
+pub(super) use fields::{
+    device_field, instruction_field, mnemonic_field, operand_field, operands_field, text_field,
+};
 
 use super::fault::{Fault, Faults, Kind};
 use chumsky::error::EmptyErr;

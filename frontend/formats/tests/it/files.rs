@@ -441,6 +441,45 @@ fn headings_in_any_language_are_known() {
     }
 }
 
+/// Cells that hold several operands, or a whole instruction, as people write who edit a table by hand.
+#[test]
+fn cells_may_hold_several_words() {
+    let program = [
+        "LD X000",
+        "MOV K1 D0",
+        "OUT T0 K30",
+        "$MOV \"a b\" D0",
+        "LDD>= D0 D2",
+        "ASC \"AB\" D0",
+        "P0",
+        "END",
+    ];
+    for rows in [
+        "0||LD X000|||||\n1||MOV K1 D0\n6||OUT T0 K30\n9||$MOV 'a b' D0\n14||LDD >= D0,D2\n23||ASC AB D0\n34||P0\n35||END\n",
+        "0||LD|X000||||\n1||MOV|K1 D0\n6||OUT T0|K30\n9||$MOV|'a b' D0\n14||LD D>=|D0, D2\n23||ASC|AB\n|||D0\n34||P0\n35||END\n",
+        "0||LD|X000||||\n1||MOV|K1\n|||D0\n6||OUT|T0 K30\n9||$MOV 'a b'|D0\n14||LDD>= D0\n|||D2\n23||ASC|AB\n|||D0\n34||P0\n35||END\n",
+    ] {
+        let cell = |cell: &str| format!("\"{}\"", cell.replace('\'', "\"\""));
+        let row = |row: &str| row.split('|').map(cell).collect::<Vec<_>>().join("\t") + "\r\n";
+        let text: String = rows.lines().map(row).collect();
+        let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+        assert_eq!(read.diagnostics.iter().count(), 0, "{text}");
+        assert_eq!(texts(&read.program), program, "{text}");
+        for operand in read.program.instrs.iter().flat_map(|instr| &instr.operands) {
+            let written = read.program.source.slice(operand.span).trim_matches('"');
+            assert!(
+                !written.is_empty() && operand.kind.to_string().contains(written),
+                "{written}"
+            );
+        }
+    }
+    for cell in ["MOV K1 D8X", "motor on", "LD X000 ; start"] {
+        let text = format!("0,,LD,X000,,,\n1,,{cell},,,,\n2,,END,,,,\n");
+        let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+        assert_eq!(read.diagnostics.iter().count(), 1, "{cell}");
+    }
+}
+
 /// A row that is only damaged is not taken for headings.
 #[test]
 fn a_damaged_first_row_is_reported() {

@@ -3,9 +3,9 @@
 use super::super::fault::Kind;
 use super::operands::{device, operand, placed, text_operand};
 use super::tokens::separators;
-use super::{Matched, Rule, label, mnemonic, report, span};
+use super::{Body, Matched, Rule, body, label, mnemonic, operands, report, span};
 use chumsky::prelude::*;
-use rungc_syntax::{Device, Operand, OperandKind};
+use rungc_syntax::{Device, Operand, OperandKind, Operands};
 use smol_str::{SmolStr, ToSmolStr};
 
 /// An operand that fills a whole field of a table.
@@ -27,6 +27,18 @@ pub(in crate::il) fn operand_field<'s>() -> impl Rule<'s, Operand> {
             .map(move |(operand, stray)| stray.map_or(operand, unreadable)),
         stray.map(unreadable),
     )))
+}
+
+/// Several operands in one field.
+pub(in crate::il) fn operands_field<'s>() -> impl Rule<'s, Operands> {
+    let whole = separators().ignore_then(operands());
+    whole.then_ignore(separators()).then_ignore(end())
+}
+
+/// A mnemonic and its operands in one field.
+pub(in crate::il) fn instruction_field<'s>() -> impl Rule<'s, Body<'s>> {
+    let whole = separators().ignore_then(body());
+    whole.then_ignore(separators()).then_ignore(end())
 }
 
 /// The characters that ASC takes, filling a whole field of a table.
