@@ -47,6 +47,8 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     reader.program.kind = SourceKind::Csv;
     reader.program.source = reader.listing.finish(name);
     head.statements = reader.statements;
+    head.notes = reader.notes;
+    reader.program.closing = reader.statement;
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
@@ -61,6 +63,18 @@ pub struct ExportHead {
     pub(crate) rows: Vec<Vec<String>>,
     /// The rows of statements, in order.
     pub(crate) statements: Vec<StatementRow>,
+    /// The cells of notes, in order.
+    pub(crate) notes: Vec<NoteRow>,
+}
+
+/// The note in a row of an instruction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct NoteRow {
+    /// Number of the instruction.
+    pub instr: usize,
+    /// Its row, from 0 at the mnemonic.
+    pub row: usize,
+    pub text: String,
 }
 
 /// A row of a statement, as the editor wrote it.
@@ -115,6 +129,9 @@ struct Reader {
     /// Statements that wait for the instruction below them.
     statement: Option<SmolStr>,
     statements: Vec<StatementRow>,
+    notes: Vec<NoteRow>,
+    /// Row of the instruction at hand, from 0 at its mnemonic.
+    row: usize,
     /// Instruction that further operands belong to.
     current: Current,
 }
@@ -141,6 +158,8 @@ impl Reader {
             listing: Listing::default(),
             statement: None,
             statements: Vec::new(),
+            notes: Vec::new(),
+            row: 0,
             current: Current::None,
         }
     }
@@ -191,11 +210,21 @@ impl Reader {
         if !mnemonic.is_empty() || !operand.is_empty() {
             self.instruction_row(step, mnemonic, operand);
         }
+        if !mnemonic.is_empty() {
+            self.row = 0;
+        } else if !operand.is_empty() || !note.is_empty() {
+            self.row += 1;
+        }
         for statement in statements {
             self.listing.comment(&statement);
         }
-        if let (Some(note), Current::Last | Current::Label) = (clean(note), self.current) {
-            self.note(note);
+        if let (Some(read), Current::Last | Current::Label) = (clean(note), self.current) {
+            self.note(read);
+            self.notes.push(NoteRow {
+                instr: self.program.instrs.len() - 1,
+                row: self.row,
+                text: note.to_owned(),
+            });
         }
     }
 

@@ -1,15 +1,15 @@
 //! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the
 //! same program, save for the source text and places.
 
-use crate::csv::{ExportHead, HEADERS, INFORMATION, StatementRow, encode};
-use crate::il::{device, is_label, windows::is_heading};
+use crate::csv::{ExportHead, HEADERS, INFORMATION, NoteRow, StatementRow, encode};
+use crate::il::{device, field, is_label, windows::is_heading};
 use crate::text::clean;
-use rungc_syntax::{Device, Instr, Operand, OperandKind, Program, Source};
+use rungc_syntax::{Device, Diagnostics, Instr, Operand, OperandKind, Program, Source, SourceKind};
 use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr as _;
 
 mod autoshop;
-pub use autoshop::to_autoshop;
+pub use autoshop::{nops_outside_windows, to_autoshop};
 
 /// Characters that an instruction takes before the comment beside it.
 const COMMENT_COLUMN: usize = 24;
@@ -22,6 +22,13 @@ pub fn to_il(program: &Program) -> String {
     for instr in &program.instrs {
         il_line(&mut out, instr, width);
     }
+    out + &closing(program)
+}
+
+/// The comment lines below the last instruction, as lines of a list.
+pub fn closing(program: &Program) -> String {
+    let mut out = String::new();
+    comment_lines(&mut out, program.closing.as_deref());
     out
 }
 
@@ -63,7 +70,11 @@ fn il_line(out: &mut String, instr: &Instr, width: usize) {
 
 /// The statements above an instruction.
 fn statements(out: &mut String, instr: &Instr) {
-    for line in instr.statement().into_iter().flat_map(str::lines) {
+    comment_lines(out, instr.statement());
+}
+
+fn comment_lines(out: &mut String, text: Option<&str>) {
+    for line in text.into_iter().flat_map(str::lines) {
         let _ = writeln!(out, "; {line}");
     }
 }
@@ -272,7 +283,7 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
     ];
     let head = ExportHead {
         rows: head,
-        statements: Vec::new(),
+        ..ExportHead::default()
     };
     to_csv_with(program, &head)
 }
@@ -282,45 +293,89 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
 pub fn to_csv_with(program: &Program, head: &ExportHead) -> Vec<u8> {
     let mut rows = head.rows.clone();
     let mut statements = head.statements.as_slice();
+    let mut notes = head.notes.as_slice();
     for (number, instr) in program.instrs.iter().enumerate() {
         let own = statements.partition_point(|row| row.instr <= number);
         let (above, below) = statements.split_at(own);
         statements = below;
-        csv_rows(&mut rows, instr, above);
+        let column = if is_label(&instr.mnemonic) { 5 } else { 1 };
+        statement_rows(&mut rows, instr.statement(), above, column);
+        let own = notes.partition_point(|note| note.instr <= number);
+        let (beside, below) = notes.split_at(own);
+        notes = below;
+        csv_rows(&mut rows, instr, program, beside);
     }
-    // Statements below the last instruction.
-    rows.extend(statements.iter().map(statement_row));
+    statement_rows(&mut rows, program.closing.as_deref(), statements, 1);
     encode(&rows)
 }
 
-/// The rows of one instruction: its statements, itself with its first operand, its further operands.
-fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr, above: &[StatementRow]) {
-    let row = |columns: &[(usize, String)]| {
-        let mut row = vec![String::new(); HEADERS.len()];
-        for (column, text) in columns {
-            row[*column].clone_from(text);
-        }
-        row
-    };
-    let lines = || instr.statement().into_iter().flat_map(str::lines);
-    let as_read = above.iter().map(|row| clean(&row.text).unwrap_or_default());
+/// The rows of a statement, as they were read unless the statement has changed.
+fn statement_rows(
+    rows: &mut Vec<Vec<String>>,
+    statement: Option<&str>,
+    read: &[StatementRow],
+    column: usize,
+) {
+    let lines = || statement.into_iter().flat_map(str::lines);
+    let as_read = read.iter().map(|row| clean(&row.text).unwrap_or_default());
     if as_read.eq(lines()) {
-        rows.extend(above.iter().map(statement_row));
+        rows.extend(read.iter().map(statement_row));
     } else {
-        let column = if is_label(&instr.mnemonic) { 5 } else { 1 };
         rows.extend(lines().map(|line| row(&[(column, line.to_owned())])));
     }
-    let mut operands = instr.operands.iter().map(|operand| spelled(&operand.kind));
+}
+
+/// A row with these cells.
+fn row(cells: &[(usize, String)]) -> Vec<String> {
+    let mut row = vec![String::new(); HEADERS.len()];
+    for (column, text) in cells {
+        row[*column].clone_from(text);
+    }
+    row
+}
+
+/// The rows of one instruction: itself with its first operand, its further operands. Notes stand in the rows that they
+/// were read from, unless they have changed.
+fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr, source: &Program, read: &[NoteRow]) {
+    let operands = instr.operands.iter().enumerate();
+    let mut operands = operands.map(|(nth, operand)| match nth {
+        0 if instr.mnemonic == "ASC" => characters(operand, source),
+        _ => spelled(&operand.kind),
+    });
+    let start = rows.len();
+    let step = instr.step.map(|step| step.to_string());
     rows.push(row(&[
-        (
-            0,
-            instr.step.map(|step| step.to_string()).unwrap_or_default(),
-        ),
+        (0, step.unwrap_or_default()),
         (2, instr.mnemonic.to_string()),
         (3, operands.next().unwrap_or_default()),
-        (6, instr.note().unwrap_or_default().to_owned()),
     ]));
     rows.extend(operands.map(|operand| row(&[(3, operand)])));
+    let note = instr.note().unwrap_or_default();
+    let as_read: Vec<_> = read.iter().filter_map(|note| clean(&note.text)).collect();
+    if as_read.join(" ") != note {
+        rows[start][6] = note.to_owned();
+        return;
+    }
+    for note in read {
+        let at = start + note.row;
+        let filled = rows.len().max(at + 1);
+        rows.resize_with(filled, || row(&[]));
+        rows[at][6].clone_from(&note.text);
+    }
+}
+
+/// The characters of ASC as the editors write them: bare, unless they would be read otherwise.
+fn characters(operand: &Operand, program: &Program) -> String {
+    let is_quoted = program.source.slice(operand.span).starts_with('"');
+    let OperandKind::Text(text) = &operand.kind else {
+        return spelled(&operand.kind);
+    };
+    let read = field::operand(text, 0, true, &mut Diagnostics::new());
+    let reads_back = !text.is_empty() && read.is_some_and(|read| read.kind == operand.kind);
+    match reads_back && !(is_quoted && program.kind == SourceKind::Csv) {
+        true => text.to_string(),
+        false => spelled(&operand.kind),
+    }
 }
 
 /// The row of a statement as it was read.

@@ -26,6 +26,8 @@ pub struct Program {
     pub instrs: Vec<Instr>,
     /// For each line that does not name an instruction, how many of `instrs` precede it; ascending.
     pub unread: Vec<u32>,
+    /// Comment lines below the last instruction.
+    pub closing: Option<SmolStr>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
     /// PLC parameters of the project, if the source has them.

@@ -39,11 +39,8 @@ impl<'s, 'a> Lines<'s, 'a> {
     pub fn write(&mut self, ladder: &Ladder) -> Result<(), Refused> {
         for network in &ladder.networks {
             let first = network.instrs.start;
-            for remark in self.words.remarks(network.instrs.clone()) {
-                // A comment ends at the first `*)`.
-                let remark = remark.replace("*)", "* )");
-                self.line(format_args!("(* {} *)", remark.trim()));
-            }
+            let remarks = self.words.remarks(network.instrs.clone());
+            self.comments(&remarks);
             for at in first..first + network.labels {
                 let name = &self.words.instr(at).mnemonic;
                 match name.starts_with('P') {
@@ -61,7 +58,17 @@ impl<'s, 'a> Lines<'s, 'a> {
                 NetworkBody::Rung(node) => self.node(node, Entry::Ld),
             }
         }
+        let closing = self.words.closing(ladder);
+        self.comments(&closing);
         Ok(())
+    }
+
+    fn comments(&mut self, lines: &[&str]) {
+        for line in lines {
+            // A comment ends at the first `*)`.
+            let line = line.replace("*)", "* )");
+            self.line(format_args!("(* {} *)", line.trim()));
+        }
     }
 
     fn line(&mut self, line: impl std::fmt::Display) {

@@ -65,6 +65,10 @@ impl<'s, 'a> Sheet<'s, 'a> {
                 }
             }
         }
+        let closing = self.words.closing(ladder);
+        if !closing.is_empty() {
+            self.comment(&closing.join("\n"));
+        }
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{ArithOp, Basic, Form, Lower};
 use rungc_frontend::iec_timer_unit;
-use rungc_ladder::{Contact, InstrIndex, Item, Node, Output, Shape};
+use rungc_ladder::{Contact, InstrIndex, Item, Ladder, Node, Output, Shape};
 use rungc_rt::CmpOp;
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 use std::collections::{BTreeMap, BTreeSet};
@@ -114,6 +114,15 @@ impl<'a> Words<'a> {
             .filter_map(|at| self.instr(at).statement())
             .flat_map(str::lines)
             .collect()
+    }
+
+    /// The comment lines below the last instruction, if the networks include it.
+    pub fn closing(&self, networks: &Ladder) -> Vec<&'a str> {
+        let program = self.resolved.program;
+        let end = networks.networks.last().map(|last| last.instrs.end);
+        let is_last = end == Some(program.instrs.len());
+        let lines = program.closing.as_deref().filter(|_| is_last);
+        lines.into_iter().flat_map(str::lines).collect()
     }
 
     /// Returns true if a network is the END of the program, which a project does not have.

@@ -62,6 +62,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
         }
     }
     reader.end_windows(&windows, text.len() as u32);
+    reader.program.closing = reader.statement.take();
     reader.program.source = source;
     reader.program.kind = SourceKind::Il;
     Read {

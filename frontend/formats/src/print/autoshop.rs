@@ -1,7 +1,7 @@
 //! A program as the windows of AutoShop (h1u-h2u-programming §4.3.1): the main program, subroutines and interrupt
 //! routines under headings, with jumps to labels `L` and calls by name.
 
-use super::{il_written, properties_without, spelled, statements};
+use super::{closing, il_written, properties_without, spelled, statements};
 use crate::il::{device, windows};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ const END: u32 = 63;
 
 /// The program as the list of each window after its heading. What the windows cannot hold is an error.
 pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
-    let windows = divide(program)?;
+    let Divided { windows, below } = divide(program)?;
     let labels = windows.iter().filter_map(|window| window.label);
     let names = names(program, &labels.collect::<Vec<_>>());
     let mut out = properties_without(program, |device| names.get(device));
@@ -19,20 +19,41 @@ pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
         if !out.is_empty() {
             out.push('\n');
         }
-        window
-            .before
-            .iter()
-            .for_each(|nop| statements(&mut out, nop));
+        window.before.iter().for_each(|nop| remarks(&mut out, nop));
         heading(&mut out, window, &names);
         for instr in window.instrs {
             write(&mut out, instr, &names)?;
         }
         if let Some(end) = window.end {
-            statements(&mut out, end);
-            out.extend(end.note().map(|note| format!("; {note}\n")));
+            remarks(&mut out, end);
         }
     }
-    Ok(out)
+    below.iter().for_each(|instr| remarks(&mut out, instr));
+    Ok(out + &closing(program))
+}
+
+/// Number of NOP that [`to_autoshop`] leaves out: they stand between routines or after END, where no window is.
+pub fn nops_outside_windows(program: &Program) -> usize {
+    let nops = |instrs: &[Instr]| instrs.iter().filter(|instr| is_nop(instr)).count();
+    let inside = |divided: Divided| -> usize {
+        let windows = divided.windows.iter();
+        windows.map(|window| nops(window.instrs)).sum()
+    };
+    let all = nops(&program.instrs);
+    divide(program).map_or(0, |divided| all - inside(divided))
+}
+
+/// The remarks of an instruction that the text leaves out.
+fn remarks(out: &mut String, instr: &Instr) {
+    statements(out, instr);
+    out.extend(instr.note().map(|note| format!("; {note}\n")));
+}
+
+/// A program as windows.
+struct Divided<'p> {
+    windows: Vec<Window<'p>>,
+    /// Instructions below the last window that the text leaves out.
+    below: Vec<&'p Instr>,
 }
 
 /// A window's instructions, without what its end implies.
@@ -61,7 +82,7 @@ fn is_nop(instr: &Instr) -> bool {
 }
 
 /// Divides a program at FEND, SRET and IRET.
-fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
+fn divide(program: &Program) -> Result<Divided<'_>, Box<Diagnostic>> {
     let instrs = program.instrs.as_slice();
     let is = |mnemonic: &'static str| move |instr: &Instr| instr.mnemonic == mnemonic;
     let end = instrs.iter().position(is("END")).unwrap_or(instrs.len());
@@ -73,9 +94,13 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
             "never executed",
         ));
     }
-    let last = instrs.get(end);
-    let instrs = &instrs[..end];
+    let (instrs, below) = instrs.split_at(end);
     let main = instrs.iter().position(is("FEND")).unwrap_or(end);
+    // END ends the main window of a program without routines.
+    let (last, below) = match main == end {
+        true => (below.first(), below.get(1..).unwrap_or_default()),
+        false => (None, below),
+    };
     let mut windows = vec![Window {
         label: None,
         before: &[],
@@ -89,7 +114,8 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
         let between = rest.iter().take_while(|instr| is_nop(instr)).count();
         let (skipped, routines) = rest.split_at(between);
         let Some((first, body)) = routines.split_first() else {
-            break;
+            let below = skipped.iter().chain(below).collect();
+            return Ok(Divided { windows, below });
         };
         let pointer = label(first).ok_or_else(|| {
             let what = format!("`{first}` is in no subroutine and no interrupt routine");
@@ -127,7 +153,6 @@ fn divide(program: &Program) -> Result<Vec<Window<'_>>, Box<Diagnostic>> {
         });
         rest = &body[length..];
     }
-    Ok(windows)
 }
 
 /// Names of the routines: the comments of their pointers, where those can be names.

@@ -510,22 +510,9 @@ fn statements_begin_exports_without_headings() {
     }
 }
 
-/// An export comes out byte for byte, whatever its rows of statements hold.
-#[test]
-fn rows_of_statements_are_kept() {
-    let row = |fields: [&str; 7]| fields.map(|field| format!("\"{field}\"")).join("\t") + "\r\n";
-    let rows = [
-        row(["0", "first part", "", "", "", "", ""]),
-        row(["", "second line", "", "", "", "", ""]),
-        row(["0", "", "LD", "X000", "", "", ""]),
-        row(["1", "", "OUT", "Y000", "", "", "a note"]),
-        row(["2", "above a label", "", "", "", "", ""]),
-        row(["2", "", "", "", "", "of the pointer", ""]),
-        row(["2", "", "P0", "", "", "", ""]),
-        row(["3", "", "END", "", "", "", ""]),
-        row(["4", "below all", "", "", "", "", ""]),
-    ];
-    let head = row([
+/// An export as the editors write it: UTF-16, tabs, quotes, English headings.
+fn export_of(rows: &[[&str; 7]]) -> Vec<u8> {
+    let head = [
         "Step No.",
         "Line Statement",
         "Instruction",
@@ -533,14 +520,22 @@ fn rows_of_statements_are_kept() {
         "Blank",
         "PI Statement",
         "Note",
-    ]);
-    let text = format!(
-        "\"MAIN\"\r\n\"PLC Information:\"\t\"FXCPU FX3U/FX3UC\"\r\n{head}{}",
-        rows.concat()
-    );
+    ];
+    let row = |fields: &[&str; 7]| {
+        let fields = fields.map(|field| format!("\"{}\"", field.replace('"', "\"\"")));
+        fields.join("\t") + "\r\n"
+    };
+    let rows: String = std::iter::once(&head).chain(rows).map(row).collect();
+    let text = format!("\"MAIN\"\r\n\"PLC Information:\"\t\"FXCPU FX3U/FX3UC\"\r\n{rows}");
     let units = std::iter::once(0xFEFF).chain(text.encode_utf16());
-    let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
+    units.flat_map(u16::to_le_bytes).collect()
+}
+
+/// Checks that an export comes out byte for byte.
+fn check_comes_out(rows: &[[&str; 7]]) {
+    let bytes = export_of(rows);
     let read = read_bytes("MAIN.csv", &bytes).unwrap();
+    assert!(!read.diagnostics.has_errors(), "{:?}", read.diagnostics);
     let written = print::to_csv_with(&read.program, read.export_head.as_ref().unwrap());
     let shown = |bytes: &[u8]| {
         Encoding::for_label(b"utf-16le")
@@ -550,6 +545,96 @@ fn rows_of_statements_are_kept() {
             .into_owned()
     };
     assert_eq!(shown(&written), shown(&bytes));
+}
+
+#[test]
+fn rows_of_statements_are_kept() {
+    check_comes_out(&[
+        ["0", "first part", "", "", "", "", ""],
+        ["", "second line", "", "", "", "", ""],
+        ["0", "", "LD", "X000", "", "", ""],
+        ["1", "", "OUT", "Y000", "", "", "a note"],
+        ["2", "above a label", "", "", "", "", ""],
+        ["2", "", "", "", "", "of the pointer", ""],
+        ["2", "", "P0", "", "", "", ""],
+        ["3", "", "END", "", "", "", ""],
+        ["4", "below all", "", "", "", "", ""],
+    ]);
+}
+
+#[test]
+fn notes_stay_in_their_rows() {
+    check_comes_out(&[
+        ["0", "", "LD", "X000", "", "", "start"],
+        ["1", "", "MOV", "K1", "", "", "from"],
+        ["", "", "", "D0", "", "", "to"],
+        ["6", "", "OUT", "T0", "", "", ""],
+        ["", "", "", "K30", "", "", "3 s"],
+        ["", "", "", "", "", "", "more"],
+        ["9", "", "END", "", "", "", ""],
+    ]);
+}
+
+/// ASC takes its characters without quotes; those that were written with them keep them.
+#[test]
+fn characters_of_asc_keep_their_form() {
+    check_comes_out(&[
+        ["0", "", "LD", "X000", "", "", ""],
+        ["1", "", "ASC", "ABCDEFGH", "", "", ""],
+        ["", "", "", "D0", "", "", ""],
+        ["12", "", "ASC", "A B  C", "", "", ""],
+        ["", "", "", "D10", "", "", ""],
+        ["23", "", "ASC", "\"quoted\"", "", "", ""],
+        ["", "", "", "D20", "", "", ""],
+        ["34", "", "ASC", "\" a\"", "", "", ""],
+        ["", "", "", "D30", "", "", ""],
+        ["45", "", "$MOV", "\"text\"", "", "", ""],
+        ["", "", "", "D40", "", "", ""],
+        ["52", "", "DEMOV", "E3.4+38", "", "", ""],
+        ["", "", "", "D50", "", "", ""],
+        ["61", "", "END", "", "", "", ""],
+    ]);
+    for text in [
+        "ABC",
+        "a b",
+        " lead",
+        "\"\"x",
+        "ＦＵＬＬ",
+        "",
+        "K1 D0",
+        "a;b",
+        "a,b",
+        "\t",
+    ] {
+        let list = format!("LD X000\nASC \"{text}\" D0\nEND\n");
+        let program = rungc_frontend::read_text("a.il", &list).program;
+        let back = read_bytes("MAIN.csv", &print::to_csv(&program)).unwrap();
+        let operands = |program: &Program| -> Vec<_> {
+            let operands = program.instrs[1].operands.iter();
+            operands.map(|operand| operand.kind.clone()).collect()
+        };
+        assert_eq!(operands(&back.program), operands(&program), "{text}");
+    }
+}
+
+/// Comments below the last instruction stay in all forms that hold statements.
+#[test]
+fn comments_below_the_program_are_kept() {
+    let text = "LD X000\nOUT Y000\nEND\n; the end\n\n; of all\n";
+    let program = rungc_frontend::read_text("a.il", text).program;
+    let written = [
+        print::to_il(&program).into_bytes(),
+        print::to_csv(&program),
+        print::to_autoshop(&program).unwrap().into_bytes(),
+    ];
+    for bytes in written {
+        let back = read_bytes("a", &bytes).unwrap();
+        assert_eq!(back.diagnostics.iter().count(), 0);
+        assert_eq!(back.program.closing.as_deref(), Some("the end\nof all"));
+        assert_eq!(texts(&back.program), texts(&program));
+    }
+    let drawn = read_bytes("a", b"|--[ X000 ]--( Y000 )--|\n; below\n").unwrap();
+    assert_eq!(drawn.program.closing.as_deref(), Some("below"));
 }
 
 /// Between routines, NOP has no window; what is written above it stays.
@@ -565,4 +650,26 @@ fn autoshop_has_no_place_for_nop_between_routines() {
     assert_eq!(words(&back.program), words(&program));
     let alone = rungc_frontend::read_text("a.il", "LD X0\nOUT Y0\nFEND\nNOP\nEND\n").program;
     assert!(print::to_autoshop(&alone).is_ok());
+    for (list, outside) in [
+        (list, 4),
+        ("LD X0\nNOP\nOUT Y0\nEND\nNOP\n", 1),
+        ("NOP\nLD X0\nOUT Y0\nFEND\nP0\nNOP\nSRET\nEND\n", 0),
+    ] {
+        let program = rungc_frontend::read_text("a.il", list).program;
+        assert_eq!(print::nops_outside_windows(&program), outside, "{list}");
+        let back = rungc_frontend::read_text("a.txt", &print::to_autoshop(&program).unwrap());
+        let nops = |program: &Program| texts(program).iter().filter(|text| *text == "NOP").count();
+        assert_eq!(nops(&program) - nops(&back.program), outside, "{list}");
+    }
+}
+
+/// Comments stay that stand on instructions which windows imply or have no place for.
+#[test]
+fn autoshop_keeps_the_comments_of_what_it_leaves_out() {
+    let list = "LD X0\nOUT Y0\n; a\nFEND ; b\n; c\nNOP ; d\nP0\nLD X1\nOUT Y1\n; e\nSRET ; f\n; g\nNOP ; h\n; i\nEND ; j\n; k\nNOP ; l\n; m\n";
+    let program = rungc_frontend::read_text("a.il", list).program;
+    let written = print::to_autoshop(&program).unwrap();
+    let comments = written.lines().filter_map(|line| line.split_once("; "));
+    let comments: String = comments.map(|(_, comment)| comment).collect();
+    assert_eq!(comments, "abcdefghijklm", "{written}");
 }

@@ -31,7 +31,7 @@ pub fn to_ladder(program: &Program, options: &CompileOptions) -> String {
             false => out.push_str(&list(instrs)),
         }
     }
-    out
+    out + &print::closing(program)
 }
 
 fn reads_back(drawn: &str, instrs: &[Instr]) -> bool {
