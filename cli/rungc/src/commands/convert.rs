@@ -60,6 +60,12 @@ fn convert(
             "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them, and `--to comments` writes them"
         ));
     }
+    let nops = print::nops_outside_windows(&read.program);
+    if let (ConvertTo::Autoshop, 1..) = (args.to, nops) {
+        eprint_line(&format!(
+            "rungc: {nops} NOP omitted, because AutoShop has no place for them between routines or after END; `--to il` keeps them"
+        ));
+    }
     let name = || format!("{}.{}", stem(subject, &read), args.to.ending());
     match outputs.place(args.output.as_deref(), reporter.many(), name, subject)? {
         Some(path) => write_file(&path, &bytes, args.force)?,

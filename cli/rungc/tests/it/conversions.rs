@@ -98,6 +98,26 @@ fn every_input_becomes_every_output() {
     }
 }
 
+/// Comments below the program stay in all forms that hold statements, and what is left out is named.
+#[test]
+fn comments_below_the_program_are_kept() {
+    let list =
+        "LD X000\nCALL P0\nFEND\nNOP\nP0\nLD X001\nOUT Y001\nSRET\nEND\nNOP\n; the end\n; of all\n";
+    let folder = folder(&[("list.il", list.as_bytes())]);
+    let path = folder.path();
+    for (to, _) in OUTPUTS
+        .iter()
+        .filter(|(to, _)| !["comments", "image"].contains(to))
+    {
+        let output = rungc(path, &["convert", "list.il", "--to", to]);
+        let omitted = text(&output.stderr).contains("2 NOP omitted");
+        assert_eq!(omitted, *to == "autoshop", "{}", text(&output.stderr));
+        fs::write(path.join("out"), &output.stdout).unwrap();
+        let back = text(&rungc(path, &["convert", "out", "--to", "il"]).stdout);
+        assert!(back.contains("; the end\n; of all\n"), "{to}: {back}");
+    }
+}
+
 /// The page has a row for each input and a column for each output.
 #[test]
 fn the_page_lists_them_all() {
