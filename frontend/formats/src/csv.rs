@@ -40,10 +40,7 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
         }
         number += 1;
     }
-    let cpu = reader.program.cpu.as_deref();
-    if let Some(cpu) = cpu.filter(|cpu| cpu::is_other_family(cpu)) {
-        return cpu::other_family(name, SourceKind::Csv, cpu);
-    }
+    reader.reject_other_family();
     reader.program.kind = SourceKind::Csv;
     reader.program.source = reader.listing.finish(name);
     head.statements = reader.statements;
@@ -166,15 +163,31 @@ impl Reader {
 
     /// A row above the list: the title in the first one, the CPU type, or headings.
     fn head(&mut self, record: &StringRecord, first: bool, is_headings: bool) {
-        self.listing
-            .line(&record.iter().collect::<Vec<_>>().join("  "));
+        let row = record.iter().collect::<Vec<_>>().join("  ");
+        let span = self.listing.line(&row);
         if is_headings {
             return;
         }
         if let Some(cpu) = cpu::of_head(record) {
+            let at = span.start + row.rfind(cpu).unwrap_or_default() as u32;
+            self.program.cpu_span = Span::new(at, at + cpu.len() as u32);
             self.program.cpu = clean(cpu).map(Into::into);
         } else if first {
             self.program.title = record.get(0).and_then(clean).map(Into::into);
+        }
+    }
+
+    /// Replaces all findings by one that names the CPU, if that is of another family.
+    fn reject_other_family(&mut self) {
+        let cpu = self.program.cpu.take_if(|cpu| cpu::is_other_family(cpu));
+        if let Some(cpu) = cpu {
+            self.diagnostics = Diagnostics::new();
+            let rejection = cpu::rejection(self.program.cpu_span, "list", &cpu);
+            self.diagnostics.push(rejection);
+            self.program = Program {
+                unread: vec![0],
+                ..Program::default()
+            };
         }
     }
 

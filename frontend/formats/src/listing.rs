@@ -34,9 +34,9 @@ impl Listing {
         self.line_start = self.text.len();
     }
 
-    /// Writes text that belongs to no instruction.
-    pub fn line(&mut self, text: &str) {
-        self.raw(text);
+    /// Writes text that belongs to no instruction; gives its place.
+    pub fn line(&mut self, text: &str) -> Span {
+        self.raw(text)
     }
 
     /// Writes the margin with the step number in it; gives the number's place.

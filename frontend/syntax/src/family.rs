@@ -1,13 +1,15 @@
 //! Families of PLCs other than FX, by the names of their CPUs.
 
 /// The first characters of the names of CPUs, and their family; after letters alone, a digit follows.
-const FAMILIES: [(&str, &str); 6] = [
+const FAMILIES: [(&str, &str); 8] = [
     ("FX5", "MELSEC iQ-F"),
     ("H3", "Inovance H3U"),
     ("H5", "Inovance H5U"),
     ("QS", "MELSEC-QS"),
     ("Q", "MELSEC-Q"),
     ("R", "MELSEC iQ-R"),
+    ("S7", "SIMATIC S7"),
+    ("XG", "LS XGT"),
 ];
 
 /// The family that a CPU such as `Q03UDV` or `FX5U` belongs to; `None` for CPUs of FX and unknown ones. Compatible PLCs

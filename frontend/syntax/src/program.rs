@@ -20,6 +20,8 @@ pub struct Program {
     pub pou: Option<String>,
     /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
     pub cpu: Option<String>,
+    /// Place of the CPU type in the source; the beginning where a project states it.
+    pub cpu_span: Span,
     /// The instructions in order. One of which an operand could not be read is among them, with
     /// [`OperandKind::Unreadable`] in its place; lines that do not even name an instruction are not here. The reader
     /// reported both.

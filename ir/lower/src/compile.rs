@@ -10,7 +10,7 @@ use rungc_ir::node::Module;
 use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
 use rungc_models::{Fit, Model, ModelId, Plc, Variant};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, codes};
 
 /// Options of a compilation.
 #[derive(Clone, Debug, Default)]
@@ -101,7 +101,7 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
         Some((plc, Fit::Same)) => plc.model,
         Some((Plc { model: id, .. }, Fit::Nearest(different))) => {
             let message = format!("CPU type {cpu} is not among the models; {}", taken(id));
-            let note = codes::NEAREST_MODEL.at(Span::default(), message);
+            let note = codes::NEAREST_MODEL.at(program.cpu_span, message);
             out.push(note.help(different));
             id
         }
@@ -110,7 +110,7 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
         None => {
             let id = ModelId::Fx3u;
             let message = format!("CPU type {cpu} is not known; {}", taken(id));
-            let warning = codes::UNKNOWN_CPU.at(Span::default(), message);
+            let warning = codes::UNKNOWN_CPU.at(program.cpu_span, message);
             out.push(warning.help(format!("`--model` takes {}", ModelId::names())));
             id
         }
@@ -136,7 +136,7 @@ fn other_cpu(program: &Program, options: &CompileOptions) -> Option<Diagnostic> 
         "`--model` or rungc.toml says {}, but the program names CPU type {cpu}",
         chosen.name
     );
-    let note = codes::OTHER_CPU.at(Span::default(), message);
+    let note = codes::OTHER_CPU.at(program.cpu_span, message);
     Some(note.help(format!(
         "without the setting it is compiled as {}",
         named.name

@@ -97,10 +97,20 @@ impl ModelId {
         })
     }
 
-    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`, and how well it fits. Projects for the makers' own
-    /// models are made for the Mitsubishi model they descend from.
+    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`, or a base unit, e.g. `FX1S-30MR`, and how well it
+    /// fits. Projects for the makers' own models are made for the Mitsubishi model they descend from.
     pub fn for_cpu(cpu: &str) -> Option<(Self, Fit)> {
-        let names = || cpu.split('/').map(str::trim);
+        // The number of terminals follows the name of a base unit.
+        let family = |name: &str| {
+            let (family, unit) = name.split_once('-')?;
+            unit.starts_with(|c: char| c.is_ascii_digit())
+                .then_some(family.len())
+        };
+        let names = || {
+            let names = cpu.split('/').map(str::trim);
+            names.flat_map(|name| [Some(name), family(name).map(|end| &name[..end])])
+        };
+        let names = || names().flatten();
         let nearest = |name: &str| {
             Self::ALL.into_iter().find_map(|id| {
                 let mut like = Model::get(id).nearest.iter();
@@ -407,6 +417,19 @@ mod tests {
         assert_eq!(nearest("FX0/FX0S"), Some(ModelId::Fx1s));
         assert_eq!(nearest("FX2/FX2C"), Some(ModelId::Fx2n));
         assert_eq!(ModelId::from_cpu("Q02"), None);
+        for (unit, model) in [
+            ("FX1S-30MR-001", ModelId::Fx1s),
+            ("FX2N-48MR", ModelId::Fx2n),
+            ("FX2NC-32MT", ModelId::Fx2n),
+            ("FX3G-40MT/ESS", ModelId::Fx3g),
+            ("FX3U-64MR/ES", ModelId::Fx3u),
+            ("fx3uc-32mt-lt", ModelId::Fx3u),
+            ("H2U-3232MT", ModelId::H2u),
+        ] {
+            assert_eq!(cpu(unit), Some((model, Fit::Same)), "{unit}");
+        }
+        assert_eq!(nearest("FX0N-24MR"), Some(ModelId::Fx1s));
+        assert_eq!(ModelId::from_cpu("FX3U-X"), None);
     }
 
     #[test]

@@ -55,7 +55,7 @@ impl Plc {
 
     /// The PLC that the CPU type of a program means, as [`ModelId::for_cpu`] finds its model.
     pub fn for_cpu(cpu: &str) -> Option<(Plc, Fit)> {
-        let variant = Variant::find(cpu.trim());
+        let variant = Variant::of_unit(cpu.trim());
         let variant = variant.map(|v| (v.model, Some(v), Fit::Same));
         let found = variant.or_else(|| ModelId::for_cpu(cpu).map(|(id, fit)| (id, None, fit)));
         found.map(|(model, variant, fit)| (Plc { model, variant }, fit))
@@ -306,6 +306,16 @@ impl Variant {
         variants.find(|variant| variant.name.eq_ignore_ascii_case(name))
     }
 
+    /// The variant that a base unit is, whose name may also say whether it has relays or transistors: `H2U-3232MT`.
+    fn of_unit(name: &str) -> Option<&'static Variant> {
+        Variant::find(name).or_else(|| {
+            let end = name.len().checked_sub(2)?;
+            let outputs = name.get(end..)?;
+            let is_known = ["MR", "MT"].iter().any(|o| o.eq_ignore_ascii_case(outputs));
+            Variant::find(&name[..end]).filter(|_| is_known)
+        })
+    }
+
     /// The names of all of them: `h1u-xp, h1u-0806, …`.
     pub fn names() -> String {
         VARIANTS.each_ref().map(|variant| variant.name).join(", ")
@@ -325,8 +335,20 @@ impl Variant {
 
 #[cfg(test)]
 mod tests {
-    use super::{VARIANTS, Variant};
+    use super::{Plc, VARIANTS, Variant};
     use crate::{Model, ModelId};
+
+    #[test]
+    fn base_units_are_their_variants() {
+        for (cpu, name) in [
+            ("H2U-3232MT", "h2u-3232"),
+            ("h1u-1614mr", "h1u-1614"),
+            ("L01S-16MT", "l01s-16mt"),
+        ] {
+            let found = Plc::for_cpu(cpu).and_then(|(plc, _)| plc.variant);
+            assert_eq!(found.map(|variant| variant.name), Some(name), "{cpu}");
+        }
+    }
 
     #[test]
     fn variants_lack_what_their_families_have() {

@@ -1,5 +1,6 @@
 //! Layout of a list export: its separator, its columns, and the rows above the list.
 
+use crate::gx::cpu;
 use crate::il;
 use csv::{ReaderBuilder, StringRecord};
 
@@ -136,12 +137,15 @@ fn above(rows: &[StringRecord], columns: [usize; 7]) -> (usize, bool) {
     };
     let head = rows.iter().take(HEAD_ROWS);
     let head = head.take_while(|row| !is_instruction(row)).count();
-    let is_above = |row: &StringRecord| !cell(row, step).is_empty() && !is_number(row);
+    let names_cpu = |row: &StringRecord| cpu::is_label(cell(row, 0)) && cpu::of_head(row).is_some();
+    let is_above =
+        |row: &StringRecord| !cell(row, step).is_empty() && !is_number(row) || names_cpu(row);
     let Some(last) = rows[..head].iter().rposition(is_above) else {
         return (0, false);
     };
     let heading = |column| !cell(&rows[last], column).is_empty();
-    (last + 1, heading(instruction) && heading(device))
+    let has_headings = heading(instruction) && heading(device) && !names_cpu(&rows[last]);
+    (last + 1, has_headings)
 }
 
 /// The columns around that of the instructions: before it steps, and statements if there is room; after it devices, and

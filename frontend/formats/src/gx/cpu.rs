@@ -98,35 +98,71 @@ fn is_fx(cpu: &str) -> bool {
 }
 
 /// The CPU that a row above a list names, as `FXCPU FX3U/FX3UC` or `QCPU (Q mode) Q03UDV` do, without the word for
-/// its family if that is FX. After the label of this row, any text is a CPU.
+/// its family if that is FX. After the label of this row, in a field or in the same one, any text is a CPU.
 pub(crate) fn of_head<'r>(row: impl IntoIterator<Item = &'r str>) -> Option<&'r str> {
     let mut row = row.into_iter().map(str::trim);
-    let label = row.next()?;
-    let labelled = label.contains("PLC") || label.ends_with([':', '：']);
-    let is_name = |word: &str| word.starts_with("FX") || word.ends_with("CPU") || is_other(word);
-    let names_cpu = |field: &str| {
-        let mut words = field.split(|c: char| !c.is_ascii_alphanumeric());
-        words.any(is_name)
-    };
-    let cpu = row.find(|field| !field.is_empty() && (labelled || names_cpu(field)))?;
-    let own = cpu.strip_prefix("FXCPU").unwrap_or(cpu).trim();
+    let first = row.next()?;
+    let labelled = is_label(first);
+    let of_field = |field: &&str| !field.is_empty() && (labelled || names_cpu(field));
+    let cpu = row.find(of_field).or_else(|| in_first(first))?;
+    let family = cpu.get(..FAMILY.len());
+    let is_family = family.is_some_and(|family| family.eq_ignore_ascii_case(FAMILY));
+    let own = cpu[if is_family { FAMILY.len() } else { 0 }..].trim();
     Some(own).filter(|own| !own.is_empty())
 }
 
-/// Returns true for the name of a CPU of another family of MELSEC. Compatible PLCs have names that begin with L, too.
+/// Word for the FX family before the names of its CPUs.
+const FAMILY: &str = "FXCPU";
+
+/// Returns true for the label of the row that names the CPU.
+pub(crate) fn is_label(field: &str) -> bool {
+    field.contains("PLC") || field.trim_end().ends_with([':', '：'])
+}
+
+/// Returns true if words of a field name a CPU.
+fn names_cpu(field: &str) -> bool {
+    let is_name = |word: &str| {
+        let word = word.to_ascii_uppercase();
+        word.starts_with("FX") || word.ends_with("CPU") || is_other(&word)
+    };
+    let mut words = field.split(|c: char| !c.is_ascii_alphanumeric());
+    words.any(is_name)
+}
+
+/// The CPU in the first field of a row: after a label in the same field, or alone with the word for its family.
+fn in_first(field: &str) -> Option<&str> {
+    let labelled = field.split_once([':', '：']);
+    if let Some((label, cpu)) = labelled {
+        let is_usual = label.to_ascii_uppercase().starts_with("PLC INF");
+        return (is_usual || names_cpu(cpu)).then_some(cpu.trim());
+    }
+    let family = field.split(|c: char| !c.is_ascii_alphanumeric()).next()?;
+    let is_family = family.len() > 3 && family.to_ascii_uppercase().ends_with("CPU");
+    is_family.then_some(field)
+}
+
+/// CPUs of MELSEC-L whose names compatible PLCs have, too.
+const AMBIGUOUS: [&str; 2] = ["L02", "L02S"];
+
+/// Returns true for the name of a CPU of another family.
 fn is_other(word: &str) -> bool {
     let word = word.to_ascii_uppercase();
     let known = CPUS
         .iter()
-        .any(|&(code, name)| code >> 8 != FX && name == word && !name.starts_with('L'));
+        .any(|&(code, name)| code >> 8 != FX && name == word && !AMBIGUOUS.contains(&name));
     let special = ["NZ2GACP", "LJ72MS"];
     known || other_family_of(&word).is_some() || special.iter().any(|name| word.starts_with(name))
 }
 
-/// Returns true for the CPU of a list that is not for the FX family: one of another family of MELSEC.
+/// Returns true for the CPU of a list that is not for the FX family, nor of an unknown one.
 pub(crate) fn is_other_family(cpu: &str) -> bool {
-    let mut words = cpu.split(|c: char| !c.is_ascii_alphanumeric());
-    !is_fx(cpu) && words.any(|word| is_other(word) || word.ends_with("CPU"))
+    let cpu = cpu.to_ascii_uppercase();
+    let words = cpu.split(|c: char| !c.is_ascii_alphanumeric());
+    // A hyphen parts some names, and is a part of others.
+    let mut words = words.chain(cpu.split_whitespace());
+    let series = ["IQ-F", "IQ-L", "IQ-R"];
+    !is_fx(&cpu)
+        && words.any(|word| is_other(word) || series.contains(&word) || word.ends_with("CPU"))
 }
 
 /// Result of reading a project for a CPU of another family: only an error that names the CPU.
@@ -150,13 +186,12 @@ pub(crate) fn rejection_message(what: &str, cpu: &str) -> String {
     format!("the {what} is for the CPU {cpu}, which is not one of the FX family")
 }
 
-pub(crate) fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
-    let what = if kind.is_project() { "project" } else { "list" };
+fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
     let mut listing = Listing::default();
     listing.next_line();
     let span = listing.word(&format!("?? CPU {cpu}"));
     let mut diagnostics = Diagnostics::new();
-    diagnostics.push(rejection(span, what, cpu));
+    diagnostics.push(rejection(span, "project", cpu));
     Read {
         program: Program {
             source: listing.finish(file),

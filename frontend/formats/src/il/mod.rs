@@ -196,11 +196,12 @@ impl Reader {
         };
         let (key, value) = (key.trim(), clean(written).map(String::from));
         if key.eq_ignore_ascii_case("cpu") {
+            let start = end - written.trim_start().len() as u32;
+            let span = Span::new(start, start + written.trim().len() as u32);
             if let Some(cpu) = value.as_deref().filter(|cpu| cpu::is_other_family(cpu)) {
-                let start = end - written.trim_start().len() as u32;
-                let span = Span::new(start, start + written.trim().len() as u32);
                 self.diagnostics.push(cpu::rejection(span, "list", cpu));
             } else {
+                self.program.cpu_span = span;
                 self.program.cpu = value;
             }
         } else if key.eq_ignore_ascii_case("title") {

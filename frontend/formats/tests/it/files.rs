@@ -290,6 +290,13 @@ fn an_export_for_another_family_is_refused() {
         "Q06UDV",
         "NCCPU",
         "MOTION CPU",
+        "L26-BT",
+        "A2USH-S1",
+        "iQ-F",
+        "MELSEC iQ-L L04H",
+        "SIMATIC S7-200",
+        "S7-200",
+        "XG5000",
     ] {
         let read = read_bytes("MAIN.csv", &export(cpu)).unwrap();
         let codes: Vec<_> = read.diagnostics.iter().map(|d| d.code).collect();
@@ -312,17 +319,20 @@ fn an_export_for_another_family_is_refused() {
         "F1",
         "AM600",
         "Remote I/O",
-        "SIMATIC S7-200",
+        "FX1S-30MR",
+        "fxcpu fx1s",
         "FXCPU FX0/FX0S",
     ] {
         let read = read_bytes("MAIN.csv", &export(cpu)).unwrap();
         assert!(!read.diagnostics.has_errors(), "{cpu}");
         assert_eq!(texts(&read.program), ["LD X010", "END"], "{cpu}");
         // What the row names is the CPU, so that the compiler finds its model or says that it has none.
-        let named = cpu.strip_prefix("FXCPU ").unwrap_or(cpu);
+        let named = cpu
+            .trim_start_matches("FXCPU ")
+            .trim_start_matches("fxcpu ");
         assert_eq!(read.program.cpu.as_deref().unwrap_or_default(), named);
     }
-    for cpu in ["Q03UDV", "FX5U", "RCPU R04"] {
+    for cpu in ["Q03UDV", "FX5U", "RCPU R04", "L26-BT", "S7-200"] {
         let list = format!(";! cpu = {cpu}\nLD X0\nOUT Y0\nEND\n");
         let project = format!(
             "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"><fileHeader contentDescription=\"CPU type {cpu}\"/>\
@@ -332,6 +342,44 @@ fn an_export_for_another_family_is_refused() {
             let read = read_bytes("a", text.as_bytes()).unwrap();
             let codes: Vec<_> = read.diagnostics.iter().map(|d| d.code).collect();
             assert_eq!(codes, ["E0018"], "{text}");
+        }
+    }
+}
+
+/// The row of the CPU is known with and without a row of headings, in any columns, and with its label in one field.
+#[test]
+fn a_cpu_is_known_without_headings() {
+    let lists = [
+        "\"0\",\"\",\"LD\",\"X10\",\"\",\"\",\"\"\n\"1\",\"\",\"END\",\"\",\"\",\"\",\"\"\n",
+        "\"LD\",\"X10\"\n\"END\",\"\"\n",
+        "\"0\",\"LD\",\"X10\"\n\"1\",\"END\",\"\"\n",
+    ];
+    let rows = [
+        "\"PLC Information:\",\"CPU\"",
+        "\"PLC Information: CPU\"",
+        "\"PLC Information: CPU\",\"\"",
+    ];
+    let heads = lists.iter().flat_map(|list| rows.map(|row| (row, list)));
+    for (row, list) in heads {
+        for title in ["\"MAIN\"\n", ""] {
+            let text = |cpu: &str| format!("{title}{row}\n{list}").replace("CPU", cpu);
+            for (cpu, name) in [("FXCPU FX1S", "FX1S"), ("FX3G", "FX3G")] {
+                let read = read_bytes("MAIN.csv", text(cpu).as_bytes()).unwrap();
+                assert_eq!(texts(&read.program), ["LD X010", "END"], "{}", text(cpu));
+                assert_eq!(read.program.cpu.as_deref(), Some(name), "{}", text(cpu));
+                assert_eq!(read.program.source.slice(read.program.cpu_span), name);
+            }
+            for cpu in ["QCPU (Q mode) Q03UDV", "Q03UDV", "L26-BT"] {
+                let read = read_bytes("MAIN.csv", text(cpu).as_bytes()).unwrap();
+                let found: Vec<_> = read.diagnostics.iter().collect();
+                assert_eq!(found.len(), 1, "{}", text(cpu));
+                assert_eq!(found[0].code, "E0018");
+                // The text that the file has, in its row.
+                let source = &read.program.source;
+                assert_eq!(source.slice(found[0].span), cpu);
+                let line = 1 + title.lines().count() as u32;
+                assert_eq!(source.line_col(found[0].span.start).0, line);
+            }
         }
     }
 }
