@@ -41,6 +41,9 @@ const CLOCK: &str = "\
 /* Seconds by which the program's clock is ahead of this computer's, since the program has set it. */
 static time_t ahead;
 
+/* Days by which its weekday is ahead of the date's, likewise. */
+static int weekday_ahead;
+
 /* The real-time clock: the local time. */
 static bool read_clock(void *context, rungc_clock *clock)
 {
@@ -57,11 +60,11 @@ static bool read_clock(void *context, rungc_clock *clock)
     clock->hour = (uint8_t)local.tm_hour;
     clock->minute = (uint8_t)local.tm_min;
     clock->second = (uint8_t)(local.tm_sec < 60 ? local.tm_sec : 59);
-    clock->weekday = (uint8_t)local.tm_wday;
+    clock->weekday = (uint8_t)((local.tm_wday + weekday_ahead) % 7);
     return true;
 }
 
-/* Sets the program's clock; this computer's stays as it is. The weekday follows the date. */
+/* Sets the program's clock; this computer's stays as it is. The weekday need not agree with the date. */
 static bool set_clock(void *context, const rungc_clock *clock)
 {
     struct tm local = {.tm_year = clock->year - 1900,
@@ -78,6 +81,7 @@ static bool set_clock(void *context, const rungc_clock *clock)
         return false;
     }
     ahead = then - time(NULL);
+    weekday_ahead = (clock->weekday - local.tm_wday + 7) % 7;
     return true;
 }
 

@@ -1,6 +1,7 @@
 //! Serial ports of executables: `NAME --serial COM1=pty`, in C, and `--serial COM1=/dev/pts/1`, in Rust, with mbpoll as
 //! their master; and their servers over TCP.
 
+use crate::common::running::keeps_the_weekday_of_a_client;
 use crate::common::{HANG, built_in_rust, folder, rungc, soon, text};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -271,6 +272,12 @@ fn serves(program: &Path) {
     assert_eq!(host.child.wait().unwrap().code(), Some(0));
 }
 
+/// A client sets the program's clock.
+fn has_a_clock(program: &Path) {
+    let host = Host::start(Command::new(program).args(["--mc", "0"]));
+    keeps_the_weekday_of_a_client(&host.says("MC protocol at "));
+}
+
 /// The programming port answers on a separate line, and Ctrl-C ends the run with the table of connections.
 fn answers_a_programmer_until_interrupted(program: &Path, line: &str, client: Option<&Path>) {
     // A caller in the background ignores SIGINT, and a program that it started would, too.
@@ -337,6 +344,7 @@ fn an_executable_in_c_serves_over_tcp_and_reconnects() {
     let program = folder.path().join("slave");
     insta::assert_snapshot!(help(&program));
     serves(&program);
+    has_a_clock(&program);
     let output = Command::new(&program)
         .args(["--mc", "127.0.0.1:70000"])
         .output()
@@ -355,6 +363,7 @@ fn an_executable_in_rust_serves_over_tcp_and_reconnects() {
     let program = rust_program(folder.path(), &["--servers"]);
     insta::assert_snapshot!(help(&program));
     serves(&program);
+    has_a_clock(&program);
     if has(&["mbpoll", "socat"]) {
         reconnects(&program, folder.path());
         let [ours, theirs] = ["port", "programmer"].map(|name| folder.path().join(name));

@@ -1,6 +1,6 @@
 //! `rungc run --modbus-tcp` and similar options, with clients of our own.
 
-use crate::common::running::Run;
+use crate::common::running::{Run, keeps_the_weekday_of_a_client};
 use crate::common::{HANG, folder, rungc, text};
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -30,6 +30,13 @@ fn every_server_sees_what_another_has_written() {
     ];
     assert_eq!(ask(mc, &read_d100, 13)[11..], [7, 0]);
     assert_eq!(ask(fx, b"\x05", 1), b"\x06");
+}
+
+#[test]
+fn a_client_sets_the_clock() {
+    let folder = folder(&[("p.il", PROGRAM.as_bytes())]);
+    let run = Run::new(folder.path(), "h2u", &["--mc"], &[]);
+    keeps_the_weekday_of_a_client(&format!("127.0.0.1:{}", run.port("MC protocol")));
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! A program that runs with servers and serial lines open.
 
-use super::HANG;
+use super::{HANG, soon};
 use std::cell::RefCell;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver};
@@ -118,6 +119,39 @@ impl Run {
         self.received.borrow_mut().extend(self.messages.try_iter());
         self.received.borrow().clone()
     }
+}
+
+/// The clock of a server of MC protocol, set by its client with a weekday that is not the date's: the weekday is taken
+/// as it is, and the next day has the next one.
+pub fn keeps_the_weekday_of_a_client(address: &str) {
+    // Each request comes by a separate connection, and so after another scan.
+    let ask = |request: &str, length: usize| {
+        let mut stream = TcpStream::connect(address).unwrap();
+        stream.set_read_timeout(Some(HANG)).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut answer = vec![0; length];
+        stream.read_exact(&mut answer).unwrap();
+        String::from_utf8(answer).unwrap()
+    };
+    // M8015 holds D8013 to D8019: 23:59:58 on Wednesday, 28 February 2024, said to be a Sunday.
+    assert_eq!(ask("04FF000A01004D2000001F4F01", 4), "8400");
+    let moment = "003A003B0017001C000207E80000";
+    assert_eq!(ask(&format!("03FF000A442000001F4D0700{moment}"), 4), "8300");
+    assert_eq!(ask("04FF000A01004D2000001F4F00", 4), "8400");
+    let day_and_weekday = || {
+        let answer = ask("01FF000A442000001F4D0700", 32);
+        (answer[16..20].to_owned(), answer[28..].to_owned())
+    };
+    let mut last = day_and_weekday();
+    let is = |day: &str, weekday: &str| (day.to_owned(), weekday.to_owned());
+    soon("midnight comes", || {
+        assert!(
+            last == is("001C", "0000") || last == is("001D", "0001"),
+            "{last:?}"
+        );
+        last = day_and_weekday();
+        last == is("001D", "0001")
+    });
 }
 
 /// Lines as they come, whether or not anybody listens.
