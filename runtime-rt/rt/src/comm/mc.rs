@@ -120,12 +120,20 @@ enum Refusal {
     Command,
     /// Too few or too many points.
     Points,
-    /// A device that the PLC does not have, or that the command does not take.
+    /// A code or a name of no device.
     Device,
+    /// A first device that the PLC does not have.
+    Head,
+    /// A last device that the PLC does not have.
+    End,
+    /// A word device in a command of bits.
+    Kind,
+    /// Words of bit devices that do not begin at a multiple of 16.
+    Group,
     /// The data has not the length that the command says.
     Length,
-    /// A value that is not allowed.
-    Data,
+    /// The state of a bit that is neither 0 nor 1.
+    Bit,
     /// Another PLC, which cannot be reached through this one.
     Station,
     /// A character that is not a digit of a number in ASCII.
@@ -136,8 +144,10 @@ impl Refusal {
     fn fault(self) -> LineFault {
         match self {
             Refusal::Command => LineFault::Command,
-            Refusal::Points | Refusal::Data => LineFault::Data,
-            Refusal::Device => LineFault::Address,
+            Refusal::Points | Refusal::Bit => LineFault::Data,
+            Refusal::Device | Refusal::Head | Refusal::End | Refusal::Kind | Refusal::Group => {
+                LineFault::Address
+            }
             Refusal::Length => LineFault::Length,
             Refusal::Station => LineFault::Station,
             Refusal::Digit => LineFault::Unknown,

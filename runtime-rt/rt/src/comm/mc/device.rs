@@ -56,7 +56,7 @@ impl Row {
     /// Device of the row. No PLC has as many devices as numbers may say, so sums of numbers and counts do not overflow.
     fn device(&self, first: u32) -> Result<Device, Refusal> {
         if first > 0xff_ffff {
-            return Err(Refusal::Device);
+            return Err(Refusal::Head);
         }
         Ok(Device {
             class: self.class,
@@ -126,15 +126,36 @@ impl Device {
         self.class == Class::C && !self.is_bit && self.first >= FIRST_COUNTER32
     }
 
-    /// Returns true if `count` words from here on exist.
-    fn has_words(self, count: u32, map: &dyn Map) -> bool {
-        if self.is_bit {
-            map.has_bits(self.class, self.first, 16 * count)
-        } else {
-            let ends_before_32_bits =
-                self.class != Class::C || self.first + count <= FIRST_COUNTER32;
+    /// Checks that `count` words from here on exist.
+    ///
+    /// # Errors
+    /// [`Refusal::Head`] or [`Refusal::End`].
+    fn check_words(self, count: u32, map: &dyn Map) -> Result<(), Refusal> {
+        let exist = |count: u32| {
+            if self.is_bit {
+                return map.has_bits(self.class, self.first, 16 * count);
+            }
+            let end = self.first + count;
+            let ends_before_32_bits = self.class != Class::C || end <= FIRST_COUNTER32;
             ends_before_32_bits && map.has_words(self.class, self.first, count)
+        };
+        let has_head = match self.is_bit {
+            true => map.bit(self.class, self.first).is_some(),
+            false => exist(1),
+        };
+        reach(has_head, exist(count))
+    }
+
+    /// Checks that these are bit devices, and that `count` of them exist.
+    ///
+    /// # Errors
+    /// [`Refusal::Kind`], [`Refusal::Head`] or [`Refusal::End`].
+    fn check_bits(self, count: u32, map: &dyn Map) -> Result<(), Refusal> {
+        if !self.is_bit {
+            return Err(Refusal::Kind);
         }
+        let has_head = map.bit(self.class, self.first).is_some();
+        reach(has_head, map.has_bits(self.class, self.first, count))
     }
 
     /// Word `index` from here on.
@@ -147,7 +168,7 @@ impl Device {
         } else {
             map.word(self.class, self.first + index).map(|w| w as u16)
         };
-        word.ok_or(Refusal::Device)
+        word.ok_or(Refusal::Head)
     }
 
     /// Writes word `index` from here on, which is there.
@@ -168,17 +189,21 @@ impl Device {
             return map
                 .counter32(self.first)
                 .map(|value| value as u32)
-                .ok_or(Refusal::Device);
+                .ok_or(Refusal::Head);
         }
         Ok(u32::from(self.word(0, map)?) | u32::from(self.word(1, map)?) << 16)
     }
 
-    /// Returns true if [`Device::double_word`] finds a value.
-    pub(super) fn has_double_word(self, map: &dyn Map) -> bool {
+    /// Checks that [`Device::double_word`] finds a value.
+    ///
+    /// # Errors
+    /// [`Refusal::Head`] or [`Refusal::End`].
+    pub(super) fn check_double_word(self, map: &dyn Map) -> Result<(), Refusal> {
         if self.is_counter32() {
-            map.counter32(self.first).is_some()
+            let exists = map.counter32(self.first).is_some();
+            reach(exists, exists)
         } else {
-            self.has_words(2, map)
+            self.check_words(2, map)
         }
     }
 
@@ -199,9 +224,7 @@ impl Device {
         map: &dyn Map,
         reply: &mut Reply,
     ) -> Result<(), Refusal> {
-        if !self.has_words(count, map) {
-            return Err(Refusal::Device);
-        }
+        self.check_words(count, map)?;
         for index in 0..count {
             reply.number(u32::from(self.word(index, map)?), 2);
         }
@@ -218,9 +241,7 @@ impl Device {
         if data.left.len() != 2 * count as usize * data.code.width() {
             return Err(Refusal::Length);
         }
-        if !self.has_words(count, map) {
-            return Err(Refusal::Device);
-        }
+        self.check_words(count, map)?;
         data.check_numbers(count, 2)?;
         for index in 0..count {
             self.set_word(index, data.number(2)? as u16, map);
@@ -235,9 +256,7 @@ impl Device {
         map: &dyn Map,
         reply: &mut Reply,
     ) -> Result<(), Refusal> {
-        if !self.is_bit || !map.has_bits(self.class, self.first, count) {
-            return Err(Refusal::Device);
-        }
+        self.check_bits(count, map)?;
         reply.bits(count, |index| {
             map.bit(self.class, self.first + index) == Some(true)
         });
@@ -258,11 +277,9 @@ impl Device {
         if data.left.len() != expected as usize {
             return Err(Refusal::Length);
         }
-        if !self.is_bit || !map.has_bits(self.class, self.first, count) {
-            return Err(Refusal::Device);
-        }
+        self.check_bits(count, map)?;
         if data.code == Code::Ascii && !data.left.iter().all(|digit| matches!(digit, b'0' | b'1')) {
-            return Err(Refusal::Data);
+            return Err(Refusal::Bit);
         }
         for (index, number) in (self.first..self.first + count).enumerate() {
             let on = match (data.code, data.left.get(index), data.left.get(index / 2)) {
@@ -276,12 +293,15 @@ impl Device {
         Ok(())
     }
 
-    /// Returns true if a single bit (`bit`) or word exists.
-    pub(super) fn exists(self, bit: bool, map: &dyn Map) -> bool {
+    /// Checks that a single bit (`bit`) or word exists.
+    ///
+    /// # Errors
+    /// [`Refusal::Kind`], [`Refusal::Head`] or [`Refusal::End`].
+    pub(super) fn check(self, bit: bool, map: &dyn Map) -> Result<(), Refusal> {
         if bit {
-            self.is_bit && map.bit(self.class, self.first).is_some()
+            self.check_bits(1, map)
         } else {
-            self.has_words(1, map)
+            self.check_words(1, map)
         }
     }
 
@@ -292,5 +312,14 @@ impl Device {
         } else {
             self.set_word(0, value as u16, map);
         }
+    }
+}
+
+/// Outcome of a check of devices, of which the first exists, or all.
+fn reach(has_head: bool, has_all: bool) -> Result<(), Refusal> {
+    match (has_head, has_all) {
+        (_, true) => Ok(()),
+        (true, false) => Err(Refusal::End),
+        (false, false) => Err(Refusal::Head),
     }
 }

@@ -1,5 +1,6 @@
 //! Frame 1E: `command PC timer(2) …`, answered by `command + 80h, end code, data`. In ASCII each byte is two digits;
-//! bits of batches are a digit each, and a zero makes their number even.
+//! bits of batches are a digit each, and a zero makes their number even. The end codes are those of the FX3U-ENET-ADP
+//! user's manual, 9.3.2.
 
 use super::device::Device;
 use super::{Code, Fields, Refusal, Reply, points};
@@ -118,10 +119,11 @@ pub(super) fn answer(
         }
         Refused::By(refusal) => {
             let code = match refusal {
-                Refusal::Command | Refusal::Length => 0x50,
+                Refusal::Command => 0x50,
                 Refusal::Device => 0x56,
-                Refusal::Points => 0x57,
-                Refusal::Data | Refusal::Digit => 0x54,
+                Refusal::Points | Refusal::End | Refusal::Length => 0x57,
+                Refusal::Kind | Refusal::Head | Refusal::Group => 0x58,
+                Refusal::Bit | Refusal::Digit => 0x54,
                 Refusal::Station => 0x5b,
             };
             reply.number(code, 1);
@@ -187,6 +189,7 @@ fn batch(
             reply,
         );
     }
+    check_group(device)?;
     let most = match (device.is_bit, command) {
         (true, READ_WORDS) => MOST_WORDS_OF_BITS.0,
         (true, _) => MOST_WORDS_OF_BITS.1,
@@ -198,6 +201,14 @@ fn batch(
     } else {
         device.write_words(count, fields, map)
     }
+}
+
+/// Checks that words of bit devices begin at a multiple of 16.
+fn check_group(device: Device) -> Result<(), Refusal> {
+    if device.is_bit && !device.first.is_multiple_of(16) {
+        return Err(Refusal::Group);
+    }
+    Ok(())
 }
 
 /// In ASCII, an odd number of bits has a zero after it (FX3U-ENET-ADP user's manual 7.5).
@@ -234,8 +245,10 @@ fn counters32(
     reply: &mut Reply,
 ) -> Result<(), Refusal> {
     let all = (device.first..device.first + count).map(|first| Device { first, ..device });
-    if !all.clone().all(|counter| counter.has_double_word(map)) {
-        return Err(Refusal::Device);
+    for counter in all.clone() {
+        let checked = counter.check_double_word(map);
+        let is_head = counter.first == device.first;
+        checked.map_err(|refusal| if is_head { refusal } else { Refusal::End })?;
     }
     if command != READ_WORDS {
         fields.check_numbers(count, 4)?;
@@ -259,8 +272,9 @@ fn test(bit: bool, most: u32, mut fields: Fields, map: &mut dyn Map) -> Result<(
     for _ in 0..count {
         let device = Device::of_1e(&mut checked)?;
         checked.number(bytes)?;
-        if !device.exists(bit, map) {
-            return Err(Refusal::Device);
+        device.check(bit, map)?;
+        if !bit {
+            check_group(device)?;
         }
     }
     checked.end()?;

@@ -1,6 +1,7 @@
 //! Frame 3E: `50 00 network PC module(2) station length(2) timer(2) command(2) subcommand(2) …`, answered by
 //! `D0 00 network PC module(2) station length(2) end code(2) data`. Length counts the characters that follow it. In
-//! ASCII each byte is two digits, bits are a digit each, and devices are written with their names.
+//! ASCII each byte is two digits, bits are a digit each, and devices are written with their names. The end codes are
+//! those of the MELSEC-L CPU module user's manual (built-in Ethernet function), 5.4.
 
 use super::device::Device;
 use super::{Code, Fields, Refusal, Reply, points};
@@ -74,9 +75,11 @@ pub(super) fn answer(
             Refusal::Digit => 0xc050,
             Refusal::Command => 0xc059,
             Refusal::Points => 0xc051,
-            Refusal::Device => 0xc056,
+            Refusal::Head | Refusal::End => 0xc056,
+            Refusal::Device => 0xc05b,
+            Refusal::Kind | Refusal::Group => 0xc05c,
+            Refusal::Bit => 0xc060,
             Refusal::Length => 0xc061,
-            Refusal::Data => 0xc05c,
             Refusal::Station => 0x4a00,
         };
         reply.replace(end_code, code, 2);
@@ -175,14 +178,12 @@ fn random_write(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
     for index in 0..words + doubles {
         let device = Device::of_3e(&mut checked)?;
         let (exists, bytes) = if index < words {
-            (device.exists(false, map), 2)
+            (device.check(false, map), 2)
         } else {
-            (device.has_double_word(map), 4)
+            (device.check_double_word(map), 4)
         };
         checked.number(bytes)?;
-        if !exists {
-            return Err(Refusal::Device);
-        }
+        exists?;
     }
     checked.end()?;
     for index in 0..words + doubles {
@@ -202,11 +203,9 @@ fn random_write_bits(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusa
     for _ in 0..count {
         let device = Device::of_3e(&mut checked)?;
         if checked.number(1)? > 1 {
-            return Err(Refusal::Data);
+            return Err(Refusal::Bit);
         }
-        if !device.exists(true, map) {
-            return Err(Refusal::Device);
-        }
+        device.check(true, map)?;
     }
     checked.end()?;
     for _ in 0..count {

@@ -144,7 +144,7 @@ fn refusals_of_3e() {
         ),
         (
             "50 00 00 FF FF 03 00 0C 00 04 00 01 04 01 00 00 00 00 A8 01 00",
-            0xc056,
+            0xc05c,
         ),
         (
             "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 C8 00 00 C5 01 00",
@@ -152,7 +152,7 @@ fn refusals_of_3e() {
         ),
         (
             "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 00 00 00 92 01 00",
-            0xc056,
+            0xc05b,
         ),
         (
             "50 00 00 FF FF 03 00 0D 00 04 00 01 04 00 00 00 00 00 A8 01 00 00",
@@ -160,7 +160,7 @@ fn refusals_of_3e() {
         ),
         (
             "50 00 00 FF FF 03 00 0C 00 04 00 02 14 01 00 01 32 00 00 90 02",
-            0xc05c,
+            0xc060,
         ),
     ] {
         let (reply, outcome) = exchange(&mut map, &bytes(request));
@@ -185,8 +185,8 @@ fn frames_of_1e() {
         "80 00 00 01 10"
     );
     assert_eq!(
-        ask(&mut map, "01 FF 0A 00 64 00 00 00 20 4D 01 00"),
-        "81 00 18 00"
+        ask(&mut map, "01 FF 0A 00 60 00 00 00 20 4D 01 00"),
+        "81 00 80 01"
     );
     assert_eq!(
         ask(&mut map, "02 FF 0A 00 08 00 00 00 20 59 03 00 11 00"),
@@ -243,7 +243,7 @@ fn refusals_of_1e() {
     );
     assert_eq!(
         ask(&mut map, "01 FF 0A 00 64 00 00 01 20 44 02 00"),
-        "81 56"
+        "81 58"
     );
     assert_eq!(
         ask(&mut map, "01 FF 0A 00 64 00 00 00 20 44 41 00"),
@@ -251,12 +251,12 @@ fn refusals_of_1e() {
     );
     assert_eq!(
         ask(&mut map, "00 FF 0A 00 64 00 00 00 20 44 01 00"),
-        "80 56"
+        "80 58"
     );
     assert_eq!(
         ask(
             &mut map,
-            "03 FF 0A 00 64 00 00 00 20 4D 0B 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00"
+            "03 FF 0A 00 60 00 00 00 20 4D 0B 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00"
         ),
         "83 57"
     );
@@ -265,6 +265,45 @@ fn refusals_of_1e() {
     assert_eq!(cut(b"\x50\x01"), Cut::Drop);
     assert_eq!(cut(b"\x50\x00\x00\xff\xff\x03\x00\xff\xff"), Cut::Drop);
     assert_eq!(map.writes, 0);
+}
+
+/// Devices and counts of each kind that no command takes, by the table of end codes (FX3U-ENET-ADP user's manual 9.3.2).
+#[test]
+fn reasons_of_1e() {
+    let mut map = Watched::new();
+    for (request, code) in [
+        // A device that is none; W.
+        ("01FF000A2042000000000100", "56"),
+        ("00FF000A5720000000000100", "56"),
+        // Beyond the end: D8511 is the last register, M8511 the last relay, Y377, C199, C255.
+        ("01FF000A44200000213F0200", "57"),
+        ("00FF000A4D200000213F0200", "57"),
+        ("00FF000A5920000000FF0200", "57"),
+        ("01FF000A4D20000021300200", "57"),
+        ("01FF000A434E000000C70200", "57"),
+        // The first device is not there.
+        ("01FF000A4420000021400100", "58"),
+        ("00FF000A4D20000021400100", "58"),
+        ("01FF000A4D20000021400100", "58"),
+        ("01FF000A434E000001000200", "58"),
+        ("05FF000A01004420000021400001", "58"),
+        ("04FF000A01004D200000214001", "58"),
+        // 32-bit counters have no part in tests.
+        ("05FF000A0100434E000000C80001", "58"),
+        // Words in a command of bits.
+        ("00FF000A4420000000000100", "58"),
+        ("02FF000A434E00000000010010", "58"),
+        ("04FF000A010044200000000001", "58"),
+        // Words of bits that do not begin at a multiple of 16.
+        ("01FF000A4D20000000050100", "58"),
+        ("03FF000A59200000000801000001", "58"),
+        ("05FF000A01004D20000000410001", "58"),
+        ("01FF000A5453000000010100", "58"),
+    ] {
+        let reply = ask_in_ascii(&mut map, request);
+        assert_eq!(reply[2..], *code, "{request}");
+    }
+    assert_eq!((map.writes, map.strays), (0, 0));
 }
 
 fn ask_in_ascii(map: &mut Watched, request: &str) -> String {
@@ -344,8 +383,8 @@ fn frames_of_3e_in_ascii() {
         ("000404010000D*000100000", "C06100FF03FF0004010000"),
         ("0004", "C06100FF03FF0000000000"),
         ("000404010001M*0001000E01", "C05100FF03FF0004010001"),
-        ("000404010000W*0001000001", "C05600FF03FF0004010000"),
-        ("000414010001M*00010000012", "C05C00FF03FF0014010001"),
+        ("000404010000W*0001000001", "C05B00FF03FF0004010000"),
+        ("000414010001M*00010000012", "C06000FF03FF0014010001"),
         ("000410030000", "C05900FF03FF0010030000"),
     ] {
         let answer = ask_in_ascii(&mut map, &in_3e("5000", request));
