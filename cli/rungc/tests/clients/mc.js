@@ -1,8 +1,8 @@
 // Talks to `rungc run --mc` with mcprotocol, in binary: node mc.js PORT FRAME, where FRAME is 1E or 3E.
 //
 // The program adds D0 and D1 to D2 and shows M0 at Y000. The model is H2U. Version 0.1.1 knows 1E alone; 0.1.2 knows 3E, but takes the
-// answer to each write for an error (in 1E for one that ends it), and writes bits with the subcommand of another frame. Both ask for two points
-// of a 32-bit counter and expect one (FX3U-ENET-ADP User's Manual, 7.4: a point is a counter), so none is asked for.
+// answer to each write for an error (in 1E for one that ends it), and writes bits with the subcommand of another frame. A batch of 32-bit counters
+// is part of 1E alone.
 "use strict";
 const assert = require("node:assert");
 
@@ -20,6 +20,7 @@ const items = {
   FAR: "D7999",
 };
 const [port, frame] = [Number(process.argv[2]), process.argv[3]];
+if (frame === "1E") items.WIDE = "CN200";
 const Mc = require(frame === "1E" ? "mcprotocol" : "mcprotocol-3e");
 const plc = new Mc();
 
@@ -46,10 +47,12 @@ const bits = async () => {
   await write("RELAYS", pattern);
   await write("STATES", [true, false, true]);
   await write("COUNTER", 1234);
+  await write("WIDE", 12345678);
   const values = await read();
   assert.deepStrictEqual(values.RELAYS, pattern);
   assert.deepStrictEqual(values.STATES, [true, false, true]);
   assert.strictEqual(values.COUNTER, 1234);
+  assert.strictEqual(values.WIDE, 12345678);
 };
 
 (async () => {

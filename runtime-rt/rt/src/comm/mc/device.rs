@@ -90,15 +90,10 @@ impl Device {
         }
     }
 
-    /// The device with a number and a code of frame 1E.
-    pub(super) fn with_code_1e(first: u32, code: u32) -> Result<Device, Refusal> {
-        Row::find(|row| u32::from(row.code_1e) == code)?.device(first)
-    }
-
     /// A device of frame 1E.
     pub(super) fn of_1e(fields: &mut Fields) -> Result<Device, Refusal> {
         let (first, code) = Device::number_of_1e(fields)?;
-        Device::with_code_1e(first, code)
+        Row::find(|row| u32::from(row.code_1e) == code)?.device(first)
     }
 
     /// A device of frame 3E: number in three bytes, code in one; in ASCII a name of two characters and six digits, of

@@ -26,10 +26,8 @@ const BATCH: usize = 8;
 const MOST_BITS: (u32, u32) = (256, 160);
 /// Words of 16 bit devices, read and written.
 const MOST_WORDS_OF_BITS: (u32, u32) = (32, 10);
-/// Words.
+/// Words, of which 32-bit counters have two each.
 const MOST_WORDS: u32 = 64;
-/// 32-bit counters.
-const MOST_COUNTERS32: u32 = 32;
 /// Points and words of the test commands.
 const MOST_TESTED: (u32, u32) = (80, 10);
 
@@ -64,11 +62,8 @@ pub(super) fn length(received: &[u8], code: Code) -> Result<usize, Refusal> {
             (BATCH + bits(fields.number(1)?).div_ceil(2) as usize, 0)
         }
         WRITE_WORDS => {
-            let (first, device_code) = Device::number_of_1e(&mut fields)?;
-            let is_double =
-                Device::with_code_1e(first, device_code).is_ok_and(Device::is_counter32);
-            let count = fields.number(1)? as usize;
-            (BATCH + count * if is_double { 4 } else { 2 }, 0)
+            Device::number_of_1e(&mut fields)?;
+            (BATCH + 2 * fields.number(1)? as usize, 0)
         }
         TEST_BITS => (2 + 7 * fields.number(1)? as usize, 0),
         TEST_WORDS => (2 + 8 * fields.number(1)? as usize, 0),
@@ -180,14 +175,8 @@ fn batch(
         return batch_of_bits(device, bits(count), command, fields, map, reply);
     }
     if device.is_counter32() {
-        return counters32(
-            device,
-            points(count, MOST_COUNTERS32)?,
-            command,
-            fields,
-            map,
-            reply,
-        );
+        let words = points(count, MOST_WORDS)?;
+        return counters32(device, words, command, fields, map, reply);
     }
     check_group(device)?;
     let most = match (device.is_bit, command) {
@@ -235,15 +224,19 @@ fn batch_of_bits(
     device.write_bits(count, fields, map)
 }
 
-/// Values of 32-bit counters take four bytes each.
+/// 32-bit counters, with two points and four bytes each (FX3U-ENET user's manual 9.3.4 and 9.3.6).
 fn counters32(
     device: Device,
-    count: u32,
+    words: u32,
     command: u8,
     mut fields: Fields,
     map: &mut dyn Map,
     reply: &mut Reply,
 ) -> Result<(), Refusal> {
+    if !words.is_multiple_of(2) {
+        return Err(Refusal::Points);
+    }
+    let count = words / 2;
     let all = (device.first..device.first + count).map(|first| Device { first, ..device });
     for counter in all.clone() {
         let checked = counter.check_double_word(map);

@@ -199,11 +199,11 @@ fn frames_of_1e() {
     );
     assert_eq!(map.plc.d(500, 1), [0x1234]);
     assert_eq!(
-        ask(&mut map, "03 FF 0A 00 C8 00 00 00 4E 43 01 00 70 11 01 00"),
+        ask(&mut map, "03 FF 0A 00 C8 00 00 00 4E 43 02 00 70 11 01 00"),
         "83 00"
     );
     assert_eq!(
-        ask(&mut map, "01 FF 0A 00 C8 00 00 00 4E 43 01 00"),
+        ask(&mut map, "01 FF 0A 00 C8 00 00 00 4E 43 02 00"),
         "81 00 70 11 01 00"
     );
     assert_eq!(
@@ -281,6 +281,11 @@ fn reasons_of_1e() {
         ("00FF000A5920000000FF0200", "57"),
         ("01FF000A4D20000021300200", "57"),
         ("01FF000A434E000000C70200", "57"),
+        ("01FF000A434E000000FF0400", "57"),
+        // Half of a 32-bit counter, and more than 32 of them.
+        ("01FF000A434E000000C80100", "57"),
+        ("03FF000A434E000000C8030000BC614E0000", "57"),
+        ("01FF000A434E000000C84200", "57"),
         // The first device is not there.
         ("01FF000A4420000021400100", "58"),
         ("00FF000A4D20000021400100", "58"),
@@ -306,6 +311,21 @@ fn reasons_of_1e() {
     assert_eq!((map.writes, map.strays), (0, 0));
 }
 
+/// C200 to C231 at once, as the example of the manual has C220 to C251 (FX3U-ENET user's manual 9.3.4).
+#[test]
+fn counters_of_32_bits_have_two_points_each() {
+    let mut map = Watched::new();
+    for counter in 200..232 {
+        map.set_counter32(counter, 0x00bc_614e);
+    }
+    let reply = ask(&mut map, "01 FF 0A 00 C8 00 00 00 4E 43 40 00");
+    assert_eq!(reply, format!("81 00{}", " 4E 61 BC 00".repeat(32)));
+    let data = " 40 01 B9 02".repeat(32);
+    let write = format!("03 FF 0A 00 C8 00 00 00 4E 43 40 00{data}");
+    assert_eq!(ask(&mut map, &write), "83 00");
+    assert_eq!(map.counter32(231), Some(0x02b9_0140));
+}
+
 fn ask_in_ascii(map: &mut Watched, request: &str) -> String {
     let request = request.as_bytes();
     assert_eq!(cut(request), Cut::Whole);
@@ -329,8 +349,8 @@ fn frames_of_1e_in_ascii() {
         ("02FF000A4D200000003203001110", "8200"),
         ("03FF000A4420000001F402001234ABCD", "8300"),
         // 32-bit counters, the high word first.
-        ("03FF000A434E000000C8010000BC614E", "8300"),
-        ("01FF000A434E000000C80100", "810000BC614E"),
+        ("03FF000A434E000000C8020000BC614E", "8300"),
+        ("01FF000A434E000000C80200", "810000BC614E"),
         ("05FF000A020044200000000A12344D20000000400003", "8500"),
         ("04FF000A01004D200000000A01", "8400"),
         ("14FF000A", "9400"),
@@ -419,7 +439,7 @@ fn a_bad_digit_anywhere_writes_nothing() {
         three("00101402000102M*00010001M*00010101"),
         "02FF000A4D2000000064020011".into(),
         "03FF000A4420000000640300111122223333".into(),
-        "03FF000A434E000000C802000000111100002222".into(),
+        "03FF000A434E000000C804000000111100002222".into(),
         "04FF000A02004D2000000064014D200000006501".into(),
         "05FF000A020044200000006411114420000000652222".into(),
     ];
