@@ -196,6 +196,19 @@ impl<'a> Fields<'a> {
         (0..count).try_for_each(|_| self.number(bytes).map(drop))
     }
 
+    /// Checks that all that follows are bits of a batch: two to a byte, or a digit each.
+    fn check_bits(self) -> Result<(), Refusal> {
+        let are_bits = |&character: &u8| match self.code {
+            Code::Binary => character & !0x11 == 0,
+            Code::Ascii => matches!(character, b'0' | b'1'),
+        };
+        if self.left.iter().all(are_bits) {
+            Ok(())
+        } else {
+            Err(Refusal::Bit)
+        }
+    }
+
     fn end(self) -> Result<(), Refusal> {
         if self.left.is_empty() {
             Ok(())

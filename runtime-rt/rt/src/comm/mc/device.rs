@@ -273,14 +273,12 @@ impl Device {
             return Err(Refusal::Length);
         }
         self.check_bits(count, map)?;
-        if data.code == Code::Ascii && !data.left.iter().all(|digit| matches!(digit, b'0' | b'1')) {
-            return Err(Refusal::Bit);
-        }
+        data.check_bits()?;
         for (index, number) in (self.first..self.first + count).enumerate() {
             let on = match (data.code, data.left.get(index), data.left.get(index / 2)) {
                 (Code::Ascii, Some(digit), _) => *digit == b'1',
-                (Code::Binary, _, Some(pair)) if index % 2 == 0 => pair >> 4 != 0,
-                (Code::Binary, _, Some(pair)) => pair & 15 != 0,
+                (Code::Binary, _, Some(pair)) if index % 2 == 0 => pair >> 4 == 1,
+                (Code::Binary, _, Some(pair)) => pair & 15 == 1,
                 _ => false,
             };
             let _ = map.set_bit(self.class, number, on);

@@ -219,6 +219,7 @@ fn batch_of_bits(
     }
     let count = points(count, MOST_BITS.1)?;
     if is_filled {
+        fields.check_bits()?;
         fields.left = fields.left.get(..count as usize).ok_or(Refusal::Length)?;
     }
     device.write_bits(count, fields, map)
@@ -264,10 +265,12 @@ fn test(bit: bool, most: u32, mut fields: Fields, map: &mut dyn Map) -> Result<(
     let mut checked = fields;
     for _ in 0..count {
         let device = Device::of_1e(&mut checked)?;
-        checked.number(bytes)?;
+        let value = checked.number(bytes)?;
         device.check(bit, map)?;
         if !bit {
             check_group(device)?;
+        } else if value > 1 {
+            return Err(Refusal::Bit);
         }
     }
     checked.end()?;

@@ -326,6 +326,39 @@ fn counters_of_32_bits_have_two_points_each() {
     assert_eq!(map.counter32(231), Some(0x02b9_0140));
 }
 
+/// Every command that writes bits, with each value that is none in each place.
+#[test]
+fn bits_are_0_or_1() {
+    let three = "50 00 00 FF FF 03 00";
+    let right = [
+        "02 FF 0A 00 32 00 00 00 20 4D 03 00 11 10".to_owned(),
+        "04 FF 0A 00 01 00 32 00 00 00 20 4D 01".to_owned(),
+        format!("{three} 0E 00 04 00 01 14 01 00 32 00 00 90 03 00 11 10"),
+        format!("{three} 0C 00 04 00 02 14 01 00 01 32 00 00 90 01"),
+    ];
+    for request in right {
+        let request = bytes(&request);
+        let mut map = Watched::new();
+        assert_eq!(exchange(&mut map, &request).1, Ok(()));
+        for wrong in [0x02, 0x20, 0x12, 0x21, 0x80, 0xff] {
+            let mut request = request.clone();
+            *request.last_mut().unwrap() = wrong;
+            let mut map = Watched::new();
+            let (reply, outcome) = exchange(&mut map, &request);
+            let is_1e = request[0] != 0x50;
+            let code: &[u8] = if is_1e { &[0x54] } else { &[0x60, 0xc0] };
+            assert!(reply[if is_1e { 1 } else { 9 }..].starts_with(code));
+            assert_eq!((outcome, map.writes), (Err(LineFault::Data), 0));
+        }
+    }
+    let mut map = Watched::new();
+    // The zero after an odd number of bits.
+    let filled = "02FF000A4D20000000320300111";
+    assert_eq!(ask_in_ascii(&mut map, &format!("{filled}0")), "8200");
+    assert_eq!(ask_in_ascii(&mut map, &format!("{filled}2")), "8254");
+    assert_eq!(ask_in_ascii(&mut map, "04FF000A01004D200000003202"), "8454");
+}
+
 fn ask_in_ascii(map: &mut Watched, request: &str) -> String {
     let request = request.as_bytes();
     assert_eq!(cut(request), Cut::Whole);
