@@ -130,6 +130,8 @@ enum Refusal {
     Kind,
     /// Words of bit devices that do not begin at a multiple of 16.
     Group,
+    /// A mode that is not supported.
+    Mode,
     /// The data has not the length that the command says.
     Length,
     /// The state of a bit that is neither 0 nor 1.
@@ -144,7 +146,7 @@ impl Refusal {
     fn fault(self) -> LineFault {
         match self {
             Refusal::Command => LineFault::Command,
-            Refusal::Points | Refusal::Bit => LineFault::Data,
+            Refusal::Points | Refusal::Bit | Refusal::Mode => LineFault::Data,
             Refusal::Device | Refusal::Head | Refusal::End | Refusal::Kind | Refusal::Group => {
                 LineFault::Address
             }

@@ -118,7 +118,7 @@ pub(super) fn answer(
                 Refusal::Device => 0x56,
                 Refusal::Points | Refusal::End | Refusal::Length => 0x57,
                 Refusal::Kind | Refusal::Head | Refusal::Group => 0x58,
-                Refusal::Bit | Refusal::Digit => 0x54,
+                Refusal::Bit | Refusal::Mode | Refusal::Digit => 0x54,
                 Refusal::Station => 0x5b,
             };
             reply.number(code, 1);

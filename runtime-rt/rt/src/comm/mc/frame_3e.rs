@@ -25,6 +25,13 @@ const REMOTE_STOP: u32 = 0x1002;
 const CPU_TYPE: u32 = 0x0101;
 const ECHO: u32 = 0x0619;
 
+/// Modes of remote RUN: also where another station has requested STOP, and not.
+const MODES: [u32; 2] = [1, 3];
+/// Mode of remote STOP.
+const STOP_MODE: u32 = 1;
+/// Clear mode of remote RUN that clears nothing.
+const CLEAR_NOTHING: u32 = 0;
+
 const MOST_WORDS: u32 = 960;
 const MOST_BITS: u32 = 7168;
 const MOST_BITS_ASCII: u32 = 3584;
@@ -77,7 +84,7 @@ pub(super) fn answer(
             Refusal::Points => 0xc051,
             Refusal::Head | Refusal::End => 0xc056,
             Refusal::Device => 0xc05b,
-            Refusal::Kind | Refusal::Group => 0xc05c,
+            Refusal::Kind | Refusal::Group | Refusal::Mode => 0xc05c,
             Refusal::Bit => 0xc060,
             Refusal::Length => 0xc061,
             Refusal::Station => 0x4a00,
@@ -133,12 +140,7 @@ fn execute(request: Fields, map: &mut dyn Map, reply: &mut Reply) -> Result<(), 
         (RANDOM_READ, 0) => random_read(fields, map, reply),
         (RANDOM_WRITE, 0) => random_write(fields, map),
         (RANDOM_WRITE, 1) => random_write_bits(fields, map),
-        (REMOTE_RUN | REMOTE_STOP, 0) => {
-            fields.skip(if command == REMOTE_RUN { 4 } else { 2 })?;
-            fields.end()?;
-            map.request_running(command == REMOTE_RUN);
-            Ok(())
-        }
+        (REMOTE_RUN | REMOTE_STOP, 0) => remote(command == REMOTE_RUN, fields, map),
         (CPU_TYPE, 0) => {
             fields.end()?;
             reply.frame.extend(NAME);
@@ -155,6 +157,24 @@ fn execute(request: Fields, map: &mut dyn Map, reply: &mut Reply) -> Result<(), 
         }
         _ => Err(Refusal::Command),
     }
+}
+
+/// Remote RUN, with its mode, clear mode and a zero, or remote STOP, with its mode (MELSEC-Q/L and iQ-R MC protocol
+/// reference manual, 11.2). No device is cleared.
+fn remote(run: bool, mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
+    let mode = fields.number(2)?;
+    let is_valid = if run {
+        let (clear, zero) = (fields.number(1)?, fields.number(1)?);
+        MODES.contains(&mode) && clear == CLEAR_NOTHING && zero == 0
+    } else {
+        mode == STOP_MODE
+    };
+    fields.end()?;
+    if !is_valid {
+        return Err(Refusal::Mode);
+    }
+    map.request_running(run);
+    Ok(())
 }
 
 /// Words and double words, each with its device.

@@ -107,6 +107,31 @@ fn control_of_pymcprotocol() {
     );
 }
 
+/// Modes of remote RUN and STOP: those of the manual that clear nothing.
+#[test]
+fn modes_of_remote_run_and_stop() {
+    let ask = |body: &str| {
+        let mut map = Watched::new();
+        let answer = ask_in_ascii(&mut map, &in_3e("5000", body));
+        (answer[18..22].to_owned(), map.request)
+    };
+    for (body, request) in [
+        ("00041001000000010000", Some(true)),
+        ("00041001000000030000", Some(true)),
+        ("0004100200000001", Some(false)),
+        ("00041001000000000000", None),
+        ("00041001000000050000", None),
+        ("00041001000000010100", None),
+        ("00041001000000010200", None),
+        ("00041001000000010001", None),
+        ("0004100200000000", None),
+        ("0004100200000003", None),
+    ] {
+        let code = if request.is_some() { "0000" } else { "C05C" };
+        assert_eq!(ask(body), (code.to_owned(), request), "{body}");
+    }
+}
+
 #[test]
 fn refusals_of_3e() {
     let mut map = Watched::new();
