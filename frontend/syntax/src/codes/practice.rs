@@ -135,8 +135,8 @@ super::codes! {
     right: "LD X0\nINCP D0\nEND\n";
 
     NEVER_RESET = "W0226" "never-reset" Warning None,
-    "counter that nothing resets",
-    "A 16-bit counter that has reached its preset stops counting, and its contact stays closed until RST clears it. Nothing in the program does.",
+    "counter or accumulating timer that nothing resets",
+    "A 16-bit counter that has reached its preset stops counting, and its contact stays closed until RST clears it. An accumulating (retentive) timer (T246 to T255 on most models, T128 to T137 on FX3S) keeps its value when its coil turns off, so its contact stays closed likewise. Nothing in the program resets them.",
     wrong: "LD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n",
     right: "LD X1\nRST C0\nLD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n";
 

@@ -176,7 +176,11 @@ fn changes_in_every_scan() {
 fn counters_and_outputs_that_stay_on() {
     judge(
         "never-reset",
-        &["LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / OUT C1 K10 / LD C1 / OUT Y1"],
+        &[
+            "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / OUT C1 K10 / LD C1 / OUT Y1",
+            "LD X0 / OUT T246 K10 / LD T246 / OUT Y0 / LD X1 / OUT T255 D0 / LDI T255 / OUT Y1",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / LD X1 / RST T249 / MOV K5 D0",
+        ],
         &[
             "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / RST C0",
             "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / ZRST C0 C5",
@@ -185,8 +189,20 @@ fn counters_and_outputs_that_stay_on() {
             "LD X0 / OUT C0 K32767 / LD> C0 K5 / OUT Y0",
             "LD X0 / OUT C200 K10 / LD C200 / OUT Y0",
             "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / OUT M8031",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / RST T250",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / LD X1 / ZRST T246 T255",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / LD X1 / MOV K0 T250",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / LD X1 / FMOV K0 T0Z0 K5",
+            "LD X0 / OUT T250 K10 / LD T250 / OUT Y0 / LD X1 / OUT M8032",
+            // Only the time is looked at, or the timer is an ordinary one.
+            "LD X0 / OUT T250 K32767 / LD> T250 K5 / OUT Y0",
+            "LD X0 / OUT T245 K10 / LD T245 / OUT Y0 / LD X1 / OUT T256 K10 / LD T256 / OUT Y1",
         ],
     );
+    let [plain, accumulating] =
+        ["T127", "T128"].map(|timer| format!("LD X0 / OUT {timer} K10 / LD {timer} / OUT Y0"));
+    let on_fx3s = [plain, accumulating].map(|text| count(ModelId::Fx3s, "never-reset", &text));
+    assert_eq!(on_fx3s, [0, 1]);
     judge(
         "never-switched-off",
         &["LD X0 / SET Y0 / SET Y1"],

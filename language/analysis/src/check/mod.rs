@@ -131,7 +131,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     pairs.report(out);
     overlaps.report(code, out);
     if code.is_understood() {
-        resets.report(out);
+        resets.report(code.model(), out);
     }
     inert.report(out);
     doubtful.report(code, out);

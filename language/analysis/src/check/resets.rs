@@ -1,9 +1,10 @@
-//! Counters that count once, and outputs that stay on, because nothing resets them.
+//! Counters and accumulating timers that act once, and outputs that stay on, because nothing resets them.
 
 use super::Code;
 use super::unused::fine_if;
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Drive};
+use rungc_models::Model;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
@@ -13,13 +14,16 @@ const CLEAR_ALL: [u32; 2] = [8031, 8032];
 /// The first counter that counts both ways, and so may come back without a reset.
 const FIRST_BOTH_WAYS: u32 = 200;
 
-/// No model has more counters or outputs.
+/// Classes of devices that stay on until something resets them.
+const CLASSES: [DeviceClass; 3] = [DeviceClass::C, DeviceClass::T, DeviceClass::Y];
+
+/// No model has more counters, timers or outputs.
 const MAX_DEVICES: u32 = 512;
 
-/// Uses of a counter or an output.
+/// Uses of a counter, a timer or an output.
 #[derive(Default)]
 struct Known {
-    /// Position at which it is first switched on or counts.
+    /// Position at which it is first switched on, counts or measures.
     driven: Option<Span>,
     /// True if its contact is used.
     looked_at: bool,
@@ -27,7 +31,7 @@ struct Known {
     cleared: bool,
 }
 
-/// Collects accesses to counters and outputs.
+/// Collects accesses to counters, timers and outputs.
 #[derive(Default)]
 pub(super) struct Resets {
     known: FxHashMap<Device, Known>,
@@ -58,9 +62,9 @@ impl Resets {
     pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
         let class = access.first.class;
         if class == DeviceClass::M && access.writes() && CLEAR_ALL.contains(&access.first.number) {
-            self.any.extend([DeviceClass::C, DeviceClass::Y]);
+            self.any.extend(CLASSES);
         }
-        if !matches!(class, DeviceClass::C | DeviceClass::Y) {
+        if !CLASSES.contains(&class) {
             return;
         }
         let Some(count) = access.count else {
@@ -70,7 +74,7 @@ impl Resets {
             return;
         };
         let drives = match code.basic(i) {
-            Some(Basic::Out) => class == DeviceClass::C,
+            Some(Basic::Out) => class != DeviceClass::Y,
             Some(Basic::Set) => class == DeviceClass::Y,
             _ => false,
         };
@@ -90,7 +94,7 @@ impl Resets {
     }
 
     /// Warns of those that nothing resets.
-    pub(super) fn report(self, out: &mut Diagnostics) {
+    pub(super) fn report(self, model: &Model, out: &mut Diagnostics) {
         let (any, known) = (&self.any, &self.known);
         let never = |class: DeviceClass| {
             let stuck = known.iter().filter(move |(device, known)| {
@@ -106,6 +110,15 @@ impl Resets {
             .filter(|(_, device, known)| known.looked_at && device.number < FIRST_BOTH_WAYS);
         let words = ["reaches its preset once and is never reset", "counts here"];
         summary(&codes::NEVER_RESET, words, counters, out);
+        let accumulates = |timer| model.timer(timer).is_some_and(|kind| kind.accumulating);
+        let timers = never(DeviceClass::T)
+            .into_iter()
+            .filter(|(_, device, known)| known.looked_at && accumulates(device.number));
+        let words = [
+            "reaches its preset once and is never reset",
+            "measures here",
+        ];
+        summary(&codes::NEVER_RESET, words, timers, out);
         let words = ["is set and never reset", "set here"];
         summary(
             &codes::NEVER_SWITCHED_OFF,
