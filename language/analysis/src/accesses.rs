@@ -58,17 +58,19 @@ impl Access {
 /// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that
 /// could not be understood has none.
 pub(crate) fn of(resolved: &Resolved, i: usize) -> impl Iterator<Item = Access> {
+    let count = resolved.program.instrs[i].operands.len();
+    (0..count).filter_map(move |n| at(resolved, i, n))
+}
+
+/// The access of instruction `i` by operand `n`, if it belongs there.
+pub(crate) fn at(resolved: &Resolved, i: usize, n: usize) -> Option<Access> {
     let operands = &resolved.program.instrs[i].operands;
     let resolution = resolved.instrs[i];
-    operands
-        .iter()
-        .zip(resolution.params)
-        .filter(move |(operand, param)| {
-            !resolution.meant
-                && param.shape != Shape::Pointer
-                && param.classes.meets(Classes::of(&operand.kind))
-        })
-        .filter_map(move |(operand, param)| access(operands, operand, param, resolution.form.wide))
+    let (operand, param) = (operands.get(n)?, resolution.params.get(n)?);
+    let fits = !resolution.meant
+        && param.shape != Shape::Pointer
+        && param.classes.meets(Classes::of(&operand.kind));
+    fits.then(|| access(operands, operand, param, resolution.form.wide))?
 }
 
 fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) -> Option<Access> {

@@ -1,7 +1,7 @@
 //! Integer arithmetic and logic, FNC 20–29.
 
 use super::row::*;
-use super::{ArithOp, Inst, Lower, Param, Rule, Spelling};
+use super::{ArithOp, Inst, Lower, Param, Repeat, Rule, Spelling};
 
 const TWO_VALUES: &[Param] = &[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS)];
 const DOUBLE_RESULT: &[Param] = &[
@@ -33,11 +33,15 @@ const fn arith(name: &'static str, fnc: u16, title: &'static str, op: ArithOp) -
 }
 
 const fn one_value(name: &'static str, fnc: u16, title: &'static str, op: ArithOp) -> Inst {
-    arith(name, fnc, title, op).steps(3, 5).takes(ONE_VALUE)
+    arith(name, fnc, title, op)
+        .steps(3, 5)
+        .takes(ONE_VALUE)
+        .repeat(Repeat::Changes(0))
 }
 
 pub(super) const ROWS: &[Inst] = &[
     arith("ADD", 20, "Addition", ArithOp::Add)
+        .neutral(0)
         .flags(&["M8020", "M8021", "M8022"])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Add))])
         .text(
@@ -45,6 +49,7 @@ pub(super) const ROWS: &[Inst] = &[
              (borrow); the value wraps. On HM the value stays at the end of the range.",
         ),
     arith("SUB", 21, "Subtraction", ArithOp::Sub)
+        .neutral_second(0)
         .flags(&["M8020", "M8021", "M8022"])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Sub))])
         .text(
@@ -52,6 +57,7 @@ pub(super) const ROWS: &[Inst] = &[
              HM the value stays at the end of the range.",
         ),
     arith("MUL", 22, "Multiplication", ArithOp::Mul)
+        .neutral(1)
         .takes(DOUBLE_RESULT)
         .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
         .text(
@@ -59,6 +65,7 @@ pub(super) const ROWS: &[Inst] = &[
              registers from D on. A group of bits takes as many low bits as it has.",
         ),
     arith("DIV", 23, "Division", ArithOp::Div)
+        .neutral_second(1)
         .takes(DOUBLE_RESULT)
         .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
         .errors(&[6706])
@@ -74,12 +81,15 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Dec))])
         .text("Subtracts 1 from D at each execution, wrapping; no flags. On HM it stays at the smallest value."),
     arith("WAND", 26, "Word AND", ArithOp::And)
+        .repeat(Repeat::Same)
         .spelling(Spelling::Wide("DAND"))
         .text("D = S1 AND S2, bit by bit. The 32-bit form is written DAND."),
     arith("WOR", 27, "Word OR", ArithOp::Or)
+        .repeat(Repeat::Same)
         .spelling(Spelling::Wide("DOR"))
         .text("D = S1 OR S2, bit by bit. The 32-bit form is written DOR."),
     arith("WXOR", 28, "Word exclusive OR", ArithOp::Xor)
+        .neutral(0)
         .spelling(Spelling::Wide("DXOR"))
         .text("D = S1 XOR S2, bit by bit. The 32-bit form is written DXOR."),
     one_value("NEG", 29, "Negation", ArithOp::Neg)

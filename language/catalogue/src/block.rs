@@ -1,7 +1,7 @@
 //! Blocks, limits, scaling and tables of FX3U, FNC 182–214 and 256–269.
 
 use super::row::*;
-use super::{Inst, Param, Rule};
+use super::{Inst, Param, Repeat, Rule};
 use rungc_rt::RtFn;
 
 const BLOCK: &[Param] = &[
@@ -58,6 +58,7 @@ const fn compare(name: &'static str, fnc: u16, function: RtFn) -> Inst {
 
 pub(super) const ROWS: &[Inst] = &[
     block("CRC", 188, "CRC-16")
+        .repeat(Repeat::Replacing)
         .forms(W16_P)
         .steps(7, 7)
         .on(FX3U)
@@ -70,8 +71,12 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Crc)
         .text("D = the CRC-16 of Modbus over n bytes from S on, two to a word, low byte first; with M8161 on one to a word."),
     block("BK+", 192, "Add blocks")
+        .repeat(Repeat::Replacing)
+        .neutral(0)
         .call(RtFn::BkAdd).takes(BLOCK).text("Adds the n values from S2 on, or the constant S2, to those from S1 on into D on."),
     block("BK-", 193, "Subtract blocks")
+        .repeat(Repeat::Replacing)
+        .neutral_second(0)
         .takes(BLOCK)
         .call(RtFn::BkSub)
         .text("Subtracts the n values from S2 on, or the constant S2, from those from S1 on into D on."),
@@ -82,12 +87,14 @@ pub(super) const ROWS: &[Inst] = &[
     compare("BKCMP<=", 198, RtFn::BkcmpLe),
     compare("BKCMP>=", 199, RtFn::BkcmpGe),
     block("FDEL", 210, "Delete from a table")
+        .repeat(Repeat::Changes(1))
         .forms(W16_P)
         .steps(7, 7)
         .takes(TABLE)
         .call(RtFn::Fdel)
         .text("Removes entry n from the table at D, whose first word is its length, and writes it to S; the entries after it move up."),
     block("FINS", 211, "Insert into a table")
+        .repeat(Repeat::Changes(1))
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[
@@ -98,6 +105,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Fins)
         .text("Inserts S into the table at D, whose first word is its length, as entry n; the entries after it move down."),
     block("LIMIT", 256, "Limit")
+        .repeat(Repeat::Same)
         .takes(RANGE)
         .call(RtFn::Limit)
         .text("D = S3, held between S1 and S2. S1 above S2 is an error."),

@@ -1,7 +1,7 @@
 //! Clock instructions, FNC 160–169.
 
 use super::row::*;
-use super::{Inst, Lower, Param};
+use super::{Inst, Lower, Param, Repeat};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
@@ -63,6 +63,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Tsub)
         .text("Subtracts the time S2 from S1. Below 0:00:00 a day is added and M8021 is on; M8020 is on at 0:00:00."),
     clock("HTOS", 164, "Hours to seconds")
+        .repeat(Repeat::Same)
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
         .steps(5, 9)

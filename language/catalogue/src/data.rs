@@ -1,7 +1,7 @@
 //! Data processing, FNC 40–49 and 140–144.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule};
 use rungc_models::ModelSet;
 use rungc_models::runs::is_counter32;
 use rungc_rt::RtFn;
@@ -112,6 +112,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Zrst)
         .text("Switches D1 … D2 off, or sets them to 0; timers and counters also open their contacts. Both are of one class."),
     data("DECO", 41, "Decode")
+        .repeat(Repeat::Replacing)
         .forms(W16_P)
         .steps(7, 7)
         .on(NOT_HM)
@@ -133,6 +134,7 @@ pub(super) const ROWS: &[Inst] = &[
              from D (of a word: in D), and the other bits of the 2^n off. n is 1 to 8, with a word as D to 4; 0 does nothing.",
         ),
     data("ENCO", 42, "Encode")
+        .repeat(Repeat::Replacing)
         .forms(W16_P)
         .steps(7, 7)
         .on(NOT_HM)
@@ -161,6 +163,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Sum)
         .text("D = how many bits of S are on. M8020 is on if none is."),
     data("BON", 44, "Test a bit")
+        .repeat(Repeat::Same)
         .on(NOT_HM_FX1)
         .steps(7, 13)
         .takes(&[
@@ -258,6 +261,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Btow)
         .text("Packs the low bytes of n words from S on two to a word from D on, low byte first."),
     data("UNI", 143, "Unite nibbles")
+        .repeat(Repeat::Same)
         .forms(W16_P)
         .steps(7, 7)
         .on(FX3U_L01S)

@@ -1,7 +1,7 @@
 //! Keys, displays and modules, FNC 70–79, 176, 177, 278 and 279.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::OperandKind;
@@ -213,6 +213,7 @@ pub(super) const ROWS: &[Inst] = &[
              and a busy signal on D+11.",
         ),
     io("FROM", 78, "Read from a module")
+        .repeat(Repeat::Same)
         .on(WITH_MODULES)
         .forms(ALL_FORMS)
         .steps(9, 17)
@@ -243,6 +244,7 @@ pub(super) const ROWS: &[Inst] = &[
         ])
         .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n (FX2N, H1U, H2U, L01S). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("RD3A", 176, "Read an analog module")
+        .repeat(Repeat::Same)
         .on(WITH_MODULES)
         .forms(W16_P)
         .steps(7, 7)
@@ -276,6 +278,7 @@ pub(super) const ROWS: &[Inst] = &[
              registers by Modbus.",
         ),
     io("VRRD", 85, "Read a potentiometer")
+        .repeat(Repeat::Same)
         .on(FX)
         .forms(W16_P)
         .steps(5, 5)
@@ -283,6 +286,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Vrrd)
         .text("D = the position of potentiometer S, 0 to 255."),
     io("VRSC", 86, "Read a potentiometer as a switch")
+        .repeat(Repeat::Same)
         .on(FX)
         .forms(W16_P)
         .steps(5, 5)

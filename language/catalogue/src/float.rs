@@ -1,7 +1,7 @@
 //! Floating point, FNC 110–137 and 438–440. All but INT have only the 32-bit form, written with D: `DEADD`.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
@@ -79,6 +79,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", RESULT_BITS).len(3)])
         .text("Compares the float S with the zone S1 to S2: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
     float("EMOV", 112, "Move a float", RtFn::Emov)
+        .repeat(Repeat::Shifting)
         .on(NOT_HM_FX1.without(ModelSet::FX2N))
         .takes(ONE)
         .variants(&[on(L01S).takes(ONE_L01S)])
@@ -97,6 +98,7 @@ pub(super) const ROWS: &[Inst] = &[
              characters, S2+2 that of decimals.",
         ),
     float("EVAL", 117, "Text to float", RtFn::Eval)
+        .repeat(Repeat::Same)
         .on(FX3U_L01S)
         .takes(&[text("S", GROUPS.or(PLACES)).len(13), real_out("D", REAL_RESULTS)])
         .flags(&["M8020", "M8021", "M8022"])
@@ -111,15 +113,19 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_SMALL_FX)
         .text("D = S × 10^(S+1): the mantissa S and the power of ten S+1 as a float."),
     operator("EADD", 120, "Add floats", RtFn::Eadd)
+        .neutral(0)
         .lower_on(&[(HM, Lower::Call(RtFn::EaddPlain))])
         .text("D = S1 + S2. M8020 is on if the result is 0, M8022 if it is too large, M8021 if too small for a float. HM has no flags for it."),
     operator("ESUB", 121, "Subtract floats", RtFn::Esub)
+        .neutral_second(0)
         .lower_on(&[(HM, Lower::Call(RtFn::EsubPlain))])
         .text("D = S1 - S2. Flags as EADD."),
     operator("EMUL", 122, "Multiply floats", RtFn::Emul)
+        .neutral(1)
         .lower_on(&[(HM, Lower::Call(RtFn::EmulPlain))])
         .text("D = S1 × S2. Flags as EADD."),
     operator("EDIV", 123, "Divide floats", RtFn::Ediv)
+        .neutral_second(1)
         .lower_on(&[(HM, Lower::Call(RtFn::EdivClamped))])
         .text("D = S1 / S2. Flags as EADD. A divisor of 0 is an error; on HM it gives the largest float with the sign of S1."),
     function("EXP", 124, "Power of e", RtFn::Exp)
@@ -140,11 +146,13 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
         .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM, a value that is not a finite number gives 0."),
     float("ENEG", 128, "Negate a float", RtFn::Eneg)
+        .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)
         .takes(&[real_out("D", REAL_RESULTS).changed()])
         .text("D = -D at each execution."),
     float("INT", 129, "Float to integer", RtFn::Int)
+        .repeat(Repeat::OverlappingWide)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[real("S", REAL_RESULTS), dst("D", DATA_PLACES)])

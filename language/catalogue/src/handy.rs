@@ -1,7 +1,7 @@
 //! Handy instructions, FNC 60–69 and 149, and those that save the index registers.
 
 use super::row::*;
-use super::{Classes, Inst, Param, Rule};
+use super::{Classes, Inst, Param, Repeat, Rule};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
@@ -127,6 +127,7 @@ pub(super) const ROWS: &[Inst] = &[
              long from its beginning, D+3 turns on and off that long after it.",
         ),
     handy("ALT", 66, "Alternate")
+        .repeat(Repeat::Changes(0))
         .forms(W16_P)
         .on(ModelSet::ALL)
         .variants(&[on(HM).forms(W16).takes(&[coil("D", COILS).changed().plain()])])
@@ -195,6 +196,7 @@ pub(super) const ROWS: &[Inst] = &[
              descending with M8165 on. It takes m1 scans; M8029 is on at the end.",
         ),
     handy("ZPUSH", 102, "Save the index registers")
+        .repeat(Repeat::Changes(0))
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)
@@ -202,6 +204,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Zpush)
         .text("Saves V0–V7 and Z0–Z7 in the stack at D: D counts its levels, 16 words each."),
     handy("ZPOP", 103, "Restore the index registers")
+        .repeat(Repeat::Changes(0))
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)

@@ -24,6 +24,7 @@ mod lookup;
 mod motion_hm;
 mod move_;
 mod position;
+mod repeat;
 mod rotate;
 mod row;
 mod serial;
@@ -35,6 +36,7 @@ pub use explain::{explain, special_table, support_table};
 pub use form::Form;
 pub use limits::Limits;
 pub use lookup::{Family, Found, all, families, find};
+pub use repeat::{Neutral, Repeat};
 
 use rungc_models::{Model, ModelId, ModelSet};
 use rungc_rt::{CmpOp, RtFn};
@@ -519,6 +521,10 @@ pub struct Inst {
     /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more
     /// operand.
     pub twin: Option<DeviceClass>,
+    /// Effect of running again.
+    pub repeat: Repeat,
+    /// Constants without effect.
+    pub neutral: Neutral,
     /// Implementation; see [`Inst::lower_on_model`].
     lower: Lower,
     /// Models on which something else implements it.

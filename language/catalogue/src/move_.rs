@@ -1,7 +1,7 @@
 //! Moving values.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule};
 use rungc_rt::RtFn;
 
 /// Block moves from M8024's side: either end is read or written.
@@ -46,6 +46,7 @@ const GRAY: &[Param] = &[src("S", VALUES).rules(NOT_NEGATIVE), dst("D", RESULTS)
 
 pub(super) const ROWS: &[Inst] = &[
     row("MOV", "Move", "h1u-h2u-programming §4.3.2")
+        .repeat(Repeat::Shifting)
         .fnc(12)
         .forms(ALL_FORMS)
         .steps(5, 9)
@@ -66,6 +67,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower(Lower::MoveNot)
         .text("Copies every bit of S inverted to D. A short group of bits as D takes the low bits."),
     row("SMOV", "Move digits", "h1u-h2u-programming §4.3.2")
+        .repeat(Repeat::Digits)
         .fnc(13)
         .forms(W16_P)
         .steps(11, 11)
@@ -85,6 +87,7 @@ pub(super) const ROWS: &[Inst] = &[
              of D stay. With M8168 on the digits are the hexadecimal ones. Digit 1 is the lowest.",
         ),
     row("BMOV", "Move a block", "h1u-h2u-programming §4.3.2")
+        .repeat(Repeat::Shifting)
         .fnc(15)
         .forms(W16_P)
         .steps(7, 7)
@@ -99,6 +102,7 @@ pub(super) const ROWS: &[Inst] = &[
              bits count as words of their length; both have the same number of digits.",
         ),
     row("FMOV", "Fill a block", "h1u-h2u-programming §4.3.2")
+        .repeat(Repeat::Same)
         .fnc(16)
         .on(NOT_FX1)
         .forms(ALL_FORMS)
@@ -113,6 +117,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Fmov)
         .text("Writes the value S to n words (32-bit: pairs) from D on."),
     row("XCH", "Exchange", "h1u-h2u-programming §4.3.2")
+        .repeat(Repeat::Changes(0))
         .fnc(17)
         .on(NOT_SMALL_FX)
         .forms(ALL_FORMS)
@@ -140,6 +145,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::BinUnchecked))])
         .text("Reads the four-bit digits of S as a decimal number. A digit above 9 is an error; HM does not check."),
     row("SWAP", "Exchange bytes", "h1u-h2u-programming §4.3.10")
+        .repeat(Repeat::Changes(0))
         .fnc(147)
         .on(NOT_SMALL_FX)
         .forms(ALL_FORMS)

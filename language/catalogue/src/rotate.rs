@@ -1,7 +1,7 @@
 //! Rotating, shifting and queues, FNC 30–39 and 212–214.
 
 use super::row::*;
-use super::{Inst, Lower, Param, Rule};
+use super::{Inst, Lower, Param, Repeat, Rule};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
@@ -133,28 +133,35 @@ const fn queue(name: &'static str, fnc: u16, title: &'static str, function: RtFn
 
 pub(super) const ROWS: &[Inst] = &[
     rotate("ROR", 30, "Rotate right", RtFn::Ror)
+        .repeat(Repeat::Changes(0))
         .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D right by n bits. The bit that left last is also in M8022."),
     rotate("ROL", 31, "Rotate left", RtFn::Rol)
+        .repeat(Repeat::Changes(0))
         .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
     rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
+        .repeat(Repeat::Changes(0))
         .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 right by n bits: bit 0 goes to M8022, M8022 to the top."),
     rotate("RCL", 33, "Rotate left with carry", RtFn::Rcl)
+        .repeat(Repeat::Changes(0))
         .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 left by n bits: the top bit goes to M8022, M8022 to bit 0."),
     shift("SFTR", 34, "Shift bits right", RtFn::Sftr)
+        .repeat(Repeat::Changes(1))
         .takes(SHIFT_BITS)
         .variants(&[on(H1U).takes(SHIFT_BITS_H1U), on(HM).takes(SHIFT_BITS_HM)])
         .text("Moves the n1 bits from D on by n2 places to lower numbers; the n2 bits from S on enter at the top."),
     shift("SFTL", 35, "Shift bits left", RtFn::Sftl)
+        .repeat(Repeat::Changes(1))
         .takes(SHIFT_BITS)
         .variants(&[on(H1U).takes(SHIFT_BITS_H1U), on(HM).takes(SHIFT_BITS_HM)])
         .text("Moves the n1 bits from D on by n2 places to higher numbers; the n2 bits from S on enter at D."),
     shift("WSFR", 36, "Shift words right", RtFn::Wsfr)
+        .repeat(Repeat::Changes(1))
         .on(NOT_FX1)
         .takes(SHIFT_WORDS)
         .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
@@ -163,6 +170,7 @@ pub(super) const ROWS: &[Inst] = &[
              words of their length.",
         ),
     shift("WSFL", 37, "Shift words left", RtFn::Wsfl)
+        .repeat(Repeat::Changes(1))
         .on(NOT_FX1)
         .takes(SHIFT_WORDS)
         .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
@@ -171,6 +179,7 @@ pub(super) const ROWS: &[Inst] = &[
              of their length.",
         ),
     queue("SFWR", 38, "Append to a queue", RtFn::Sfwr)
+        .repeat(Repeat::Changes(1))
         .takes(ENQUEUE)
         .variants(&[on(HM).takes(ENQUEUE_HM), on(LIKE_FX).takes(ENQUEUE_FX)])
         .flags(&["M8022"])
@@ -180,23 +189,27 @@ pub(super) const ROWS: &[Inst] = &[
              enters at the front.",
         ),
     queue("SFRD", 39, "Take from a queue", RtFn::Sfrd)
+        .repeat(Repeat::Changes(0))
         .takes(DEQUEUE)
         .variants(&[on(HM).takes(DEQUEUE_HM), on(LIKE_FX).takes(DEQUEUE_FX)])
         .flags(&["M8020"])
         .lower_on(&[(HM, Lower::Call(RtFn::SfrdHm))])
         .text("Copies S+1, the oldest entry of the queue that S counts, to D and moves the others down. If it is empty, M8020 turns on."),
     queue("POP", 212, "Take the newest entry", RtFn::Pop)
+        .repeat(Repeat::Changes(0))
         .on(FX3U_L01S)
         .takes(DEQUEUE_FX)
         .flags(&["M8020"])
         .text("Copies the entry that SFWR wrote last to D and takes it off the queue that S counts."),
     queue("SFR", 213, "Shift a word right", RtFn::Sfr)
+        .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)
         .takes(&[both("D", RESULTS), count("n", 0, 15).also(WORDS)])
         .flags(&["M8022"])
         .text("Shifts D right by n bits, filling with zeros. The bit that left last is in M8022."),
     queue("SFL", 214, "Shift a word left", RtFn::Sfl)
+        .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)
         .takes(&[both("D", RESULTS), count("n", 0, 15).also(WORDS)])

@@ -120,6 +120,8 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         errors: &[],
         models: ModelSet::ALL,
         twin: None,
+        repeat: super::repeat::USUAL.0,
+        neutral: super::repeat::USUAL.1,
         lower: Lower::Todo(NO_LOWERING),
         lower_on: &[],
     }

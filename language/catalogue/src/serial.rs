@@ -1,7 +1,7 @@
 //! Serial instructions, FNC 80–93, inverters, FNC 270–276, and the memory cassette, FNC 290–305.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule, When};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule, When};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
@@ -189,6 +189,7 @@ const fn modbus_hm(name: &'static str, title: &'static str, function: RtFn) -> I
     row(name, title, "hm-motion-controller §7")
         .forms(W16_P)
         .on(HM)
+        .repeat(Repeat::Same)
         .call(function)
         .text("Sends one Modbus request to station S1 on port D2, 0 RS232 or 1 RS485. S2 is the address, S3 how many.")
 }
@@ -229,6 +230,7 @@ pub(super) const ROWS: &[Inst] = &[
              data register.",
         ),
     serial("ASCI", 82, "Hexadecimal digits to text")
+        .repeat(Repeat::Replacing)
         .aliases(&["ASCII"])
         .forms(W16_P)
         .steps(7, 7)
@@ -251,6 +253,7 @@ pub(super) const ROWS: &[Inst] = &[
              first. With M8161 on, and on HM, one to a word.",
         ),
     serial("HEX", 83, "Text to hexadecimal digits")
+        .repeat(Repeat::Same)
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("S", VALUES).per(2), dst("D", RESULTS).len_of(words_of_digits), N])
@@ -272,6 +275,7 @@ pub(super) const ROWS: &[Inst] = &[
              M8161 on, and on HM, one to a word.",
         ),
     serial("CCD", 84, "Check code")
+        .repeat(Repeat::Replacing)
         .forms(W16_P)
         .steps(7, 7)
         .on(NOT_HM)

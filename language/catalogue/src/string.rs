@@ -1,7 +1,7 @@
 //! Text instructions, FNC 182 and 200–209, and decimal text, FNC 260 and 261.
 
 use super::row::*;
-use super::{Classes, Inst, Lower};
+use super::{Classes, Inst, Lower, Repeat};
 use rungc_rt::RtFn;
 
 const TEXTS: Classes = GROUPS.or(PLACES).or(Classes::TEXT);
@@ -18,6 +18,7 @@ const fn string(name: &'static str, fnc: u16, title: &'static str) -> Inst {
 
 pub(super) const ROWS: &[Inst] = &[
     string("COMRD", 182, "Read a device's comment")
+        .repeat(Repeat::Same)
         .steps(5, 5)
         .on(FX3U)
         .takes(&[
@@ -38,6 +39,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Str)
         .text("Writes S2 as decimal text to D: S1 characters in all, S1+1 of them decimals. A zero byte ends it."),
     string("VAL", 201, "Text to integer")
+        .repeat(Repeat::Same)
         .forms(ALL_FORMS)
         .steps(7, 13)
         .takes(&[
@@ -61,6 +63,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Len)
         .text("D = how many bytes the text at S has before its zero byte."),
     string("RIGHT", 204, "End of a text")
+        .repeat(Repeat::Same)
         .takes(&[
             text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
@@ -69,6 +72,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Right)
         .text("Writes the last n characters of the text at S to D."),
     string("LEFT", 205, "Beginning of a text")
+        .repeat(Repeat::Same)
         .takes(&[
             text("S", GROUPS.or(PLACES)).open_ended(),
             text_out("D", TEXT_RESULTS).open_ended(),
@@ -93,6 +97,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Midw)
         .text("Overwrites S2+1 characters of the text at D from character S2 on, counted from 1, with the start of the text at S1."),
     string("INSTR", 208, "Search in a text")
+        .repeat(Repeat::Same)
         .steps(9, 9)
         .takes(&[
             text("S1", REGISTERS.or(Classes::TEXT)).open_ended(),
@@ -103,11 +108,13 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Instr)
         .text("D = the position of the text S1 in the text at S2, searched from character n, counted from 1; 0 if not found."),
     string("$MOV", 209, "Move a text")
+        .repeat(Repeat::Shifting)
         .steps(5, 5)
         .takes(&[text("S", TEXTS).open_ended(), text_out("D", TEXT_RESULTS).open_ended()])
         .call(RtFn::StrMov)
         .text("Copies the text S with its zero byte to D."),
     string("DABIN", 260, "Decimal text to integer")
+        .repeat(Repeat::Same)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[text("S", REGISTERS).len(6), dst("D", RESULT_GROUPS.or(PLACES).or(INDEX))])

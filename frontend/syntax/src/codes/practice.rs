@@ -130,7 +130,7 @@ super::codes! {
 
     EVERY_SCAN = "W0225" "every-scan" Warning None,
     "instruction that changes its own operand in every scan",
-    "An instruction without the suffix P runs in each scan in which its contacts are closed: INC counts scans, ALT flickers, a shift empties its register. An input or a one-second clock stays on for many scans. Use the pulse form or LDP. Only instructions driven by inputs and clocks alone are reported, outside loops, routines, states and code that jumps skip.",
+    "An instruction without the suffix P runs in each scan in which its contacts are closed: INC counts scans, ALT flickers, a shift empties its register, and a result that replaces one of its sources (ADD D0 K5 D0) is computed again. An input or a one-second clock stays on for many scans. Use the pulse form or LDP. Only instructions driven by inputs and clocks alone are reported, outside loops, routines, states and code that jumps skip.",
     wrong: "LD X0\nINC D0\nEND\n",
     right: "LD X0\nINCP D0\nEND\n";
 

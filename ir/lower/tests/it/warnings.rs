@@ -152,6 +152,17 @@ fn changes_in_every_scan() {
             "LD X0 / LD X1 / ORB / AND M8000 / ROL D0 K4",
             "LD X1 / MOV K0 D0 / LD X0 / INC D0",
             "LD X0 / CML D0 D0",
+            "LD X0 / DEADD D0 E1.5 D0",
+            "LD X0 / DESUB D10 D0 D0 / DENEGP D20",
+            "LD X0 / DENEG D20",
+            "LD X0 / BK+ D0 D10 D0 K5",
+            "LD X0 / TADD D0 D10 D0",
+            "LD X0 / SMOV D0 K3 K3 D0 K4",
+            "LD X0 / $+ D0 D10 D0",
+            "LD X0 / FDEL D0 D10 K1",
+            "LD X0 / FINS D0 D10 K1",
+            "LD X0 / BMOV D0 D1 K9",
+            "LD X0 / DADD D0 D2 D2",
         ],
         &[
             "LD X0 / INCP D0",
@@ -161,6 +172,10 @@ fn changes_in_every_scan() {
             "LD X0 / AND< D0 K10 / INC D0",
             "LD X0 / MEP / INC D0",
             "LD M8013 / ANDP X0 / INC D0",
+            // The same each time, or another result.
+            "LD X0 / ADD D0 K0 D0 / MUL K1 D2 D2 / DEDIV D4 E1 D4 / WOR D6 K5 D6 / LIMIT K0 K9 D8 D8",
+            "LD X0 / SMOV D0 K1 K1 D0 K4 / BMOV D10 D15 K5 / MOV D20 D20 / DEADD D22 D24 D26 / $+ D30 D40 D50",
+            "LD X0 / DEADDP D0 E1.5 D0 / $+P D30 D40 D30",
             // A value that is written anew before each change is a computation.
             "LD X0 / MOV D5 D0 / NEG D0",
             "LD X0 / WXOR D1 D2 D3 / CML D3 D3",

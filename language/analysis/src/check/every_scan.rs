@@ -5,15 +5,9 @@ use super::drives::{Drive, Drives, Lasts};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
-use rungc_catalogue::{ArithOp, Form, Forms, Lower};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
+use rungc_catalogue::{Form, Forms, Neutral, Repeat, Shape};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, OperandKind, codes};
 use std::collections::BTreeMap;
-
-/// Instructions whose result depends on what they have done before, whatever their operands are.
-const STEPPING: &[&str] = &[
-    "ALT", "NEG", "SWAP", "XCH", "ROR", "ROL", "RCR", "RCL", "SFTR", "SFTL", "WSFR", "WSFL",
-    "SFWR", "SFRD", "SFR", "SFL", "POP",
-];
 
 /// Collects such instructions.
 #[derive(Default)]
@@ -48,14 +42,10 @@ impl EveryScan {
         if drive.lasts != Lasts::Long || !each_scan || pulse_form(code, i).is_none() {
             return;
         }
-        let Some(operand) = changed(code, i) else {
-            return;
-        };
-        let access = accesses::of(code.resolved, i).find(|access| access.span == operand.span);
-        if let Some((access, count)) = access.and_then(|access| Some((access, access.count?))) {
+        if let Some(access) = changed(code, i).filter(|access| !access.indexed) {
             let change = Change {
                 at: i,
-                count: count.max(1),
+                count: access.count.unwrap_or(1).max(1),
                 drive,
             };
             self.found.entry(access.first).or_default().push(change);
@@ -123,30 +113,74 @@ impl EveryScan {
     }
 }
 
-/// The operand that an instruction changes on from what it is.
-fn changed<'a>(code: &Code<'a>, i: usize) -> Option<&'a Operand> {
+/// The operand that an instruction changes again each time it runs.
+fn changed(code: &Code, i: usize) -> Option<Access> {
     let inst = code.inst(i)?;
+    let access = |n: usize| accesses::at(code.resolved, i, n);
+    if let Repeat::Changes(n) = inst.repeat {
+        return access(n);
+    }
+    if has_neutral(code, i, inst.neutral) {
+        return None;
+    }
+    let count = code.instr(i).operands.len();
+    let results = (0..count).rev().filter_map(|n| Some((n, access(n)?)));
+    let mut results = results.filter(|(_, access)| access.writes());
+    let (_, result) = results.find(|(at, result)| {
+        let sources = (0..count)
+            .filter(|n| n != at)
+            .filter_map(|n| Some((n, access(n)?)));
+        let mut sources = sources.filter(|(_, access)| access.reads());
+        sources.any(|(n, source)| feeds(code, i, (n, &source), (*at, result)))
+    })?;
+    Some(result)
+}
+
+/// Returns true if a constant of the instruction leaves the other source as it is.
+fn has_neutral(code: &Code, i: usize, neutral: Neutral) -> bool {
     let operands = &code.instr(i).operands;
-    let own = |at: usize| {
-        let sources = operands.get(..at)?;
-        let own = operands.get(at)?;
-        sources
-            .iter()
-            .any(|source| source.kind == own.kind)
-            .then_some(own)
+    let is_neutral = |operand: &Operand| match operand.kind {
+        OperandKind::Float(value) => f64::from(value) == neutral.value as f64,
+        ref kind => kind.constant() == Some(neutral.value),
     };
-    match code.lower(i)? {
-        Lower::Arith(op) | Lower::ArithSaturating(op) => match op {
-            ArithOp::Inc | ArithOp::Dec | ArithOp::Neg => operands.first(),
-            ArithOp::Add | ArithOp::Sub | ArithOp::Mul | ArithOp::Div | ArithOp::Xor => own(2),
-            ArithOp::And | ArithOp::Or => None,
-        },
-        Lower::MoveNot => own(1),
-        _ if STEPPING.contains(&inst.name) => {
-            let shifted = matches!(inst.name, "SFTR" | "SFTL" | "WSFR" | "WSFL" | "SFWR");
-            operands.get(usize::from(shifted))
-        }
-        _ => None,
+    let mut constants = neutral.operands.iter().filter_map(|&n| operands.get(n));
+    constants.any(is_neutral)
+}
+
+/// Returns true if the result of an instruction, each with its position, differs the next time because it has changed a
+/// source.
+fn feeds(code: &Code, i: usize, source: (usize, &Access), result: (usize, &Access)) -> bool {
+    let ((n, source), (at, result)) = (source, result);
+    if source.first.class != result.first.class || source.indexed || result.indexed {
+        return false;
+    }
+    let same = source.first == result.first;
+    let is_text = [n, at].map(|n| code.params(i)[n].shape == Shape::Text) != [false; 2];
+    let reaches = |one: &Access, other: &Access| {
+        let from = one.first.number;
+        let until = one.count.map(|count| from.saturating_add(count));
+        let known = until.filter(|_| !is_text);
+        from == other.first.number
+            || known.is_some_and(|until| (from..until).contains(&other.first.number))
+    };
+    let overlap = reaches(source, result) || reaches(result, source);
+    match code.inst(i).map(|inst| inst.repeat) {
+        Some(Repeat::Overlapping) => overlap,
+        Some(Repeat::OverlappingWide) => overlap && code.wide(i),
+        Some(Repeat::Replacing) => same,
+        Some(Repeat::Shifting) => overlap && !same,
+        Some(Repeat::Digits) => same && shifts_digits(code, i),
+        Some(Repeat::Same | Repeat::Changes(_)) | None => false,
+    }
+}
+
+/// Returns true if SMOV writes digits of a word to other digits of it that it takes too.
+fn shifts_digits(code: &Code, i: usize) -> bool {
+    let operands = &code.instr(i).operands;
+    let constant = |n: usize| operands.get(n)?.kind.constant();
+    match (constant(1), constant(2), constant(4)) {
+        (Some(from), Some(count), Some(to)) => from != to && (from - to).abs() < count,
+        _ => false,
     }
 }
 
