@@ -3,13 +3,13 @@
 super::codes! {
     NEVER_READ = "W0201" "never-read" Warning None,
     "relays that are driven and never read",
-    "Nothing in the program reads these relays. That is fine if an operator panel does; otherwise they are leftovers or misspelt.",
+    "Nothing in the program reads these relays, states, timers or counters. That is fine if an operator panel does; otherwise they are leftovers or misspelt.",
     wrong: "LD X0\nOUT M10\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 
     NEVER_WRITTEN = "W0202" "never-written" Warning None,
-    "contacts of relays that nothing drives",
-    "Nothing in the program drives these relays, timers or counters, so their contacts never change, unless an operator panel writes them. Name what a panel writes in rungc.toml: `[hmi] writes = \"M100-M115\"`.",
+    "contacts of relays, or values of registers, that nothing writes",
+    "Nothing in the program drives these relays, states, timers or counters, so their contacts never change; nothing writes these registers, so what compares them or takes them as a preset finds 0. An operator panel may write them: name what it writes in rungc.toml, `[hmi] writes = [\"M100-M115\", \"D0-D9\"]`. Latched registers, which keep what was once written, are not reported, nor are registers of a program whose ports let others write.",
     wrong: "LD M10\nOUT Y0\nEND\n",
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 

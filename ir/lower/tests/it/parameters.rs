@@ -124,3 +124,35 @@ fn what_a_panel_writes_may_be_reset_there() {
     assert_eq!(some, ["`C1` reaches its preset once and is never reset"]);
     assert_eq!(findings(&[c0, c1, y3]), [""; 0]);
 }
+
+#[test]
+fn what_a_panel_writes_may_be_a_preset() {
+    let findings = |parameters: Parameters| {
+        let text = "LD X0\nOUT T0 D10\nLD> D12 K5\nOR T0\nOUT Y0\nEND\n";
+        let mut program = read_text("press.il", text).program;
+        program.parameters = Some(parameters);
+        let found = compile(&program, &CompileOptions::default()).diagnostics;
+        found.iter().map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let run = |first, count| DeviceRun {
+        class: DeviceClass::D,
+        first,
+        count,
+    };
+    let written = |runs: &[DeviceRun]| Parameters {
+        written_externally: runs.to_vec(),
+        ..Parameters::default()
+    };
+    let latched = |runs: &[DeviceRun]| Parameters {
+        latched: Some(runs.to_vec()),
+        ..Parameters::default()
+    };
+    let both = "`D10` and 1 more are read, but nothing writes them";
+    assert_eq!(findings(Parameters::default()), [both]);
+    assert_eq!(findings(written(&[run(11, 1)])), [both]);
+    let one = ["`D12` is read, but nothing writes it"];
+    assert_eq!(findings(written(&[run(0, 11)])), one);
+    assert_eq!(findings(latched(&[run(0, 11)])), one);
+    assert_eq!(findings(written(&[run(10, 3)])), [""; 0]);
+    assert_eq!(findings(latched(&[run(10, 3)])), [""; 0]);
+}

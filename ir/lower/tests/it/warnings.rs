@@ -335,6 +335,36 @@ fn states_with_one_half() {
 }
 
 #[test]
+fn registers_that_nothing_writes() {
+    judge(
+        "never-written",
+        &[
+            "LD= D101 K3 / OUT Y0",
+            "LD X0 / OUT T0 D100 / LD T0 / OUT Y0",
+            "LD X0 / OUT C0 D100 / RST C0 / LD C0 / OUT Y0 / LD X1 / RST D100",
+            "LDD> D10 K3 / OUT Y0 / LD X1 / MOV K1 D12",
+            "LD D0.3 / OUT Y0",
+        ],
+        &[
+            "LD= D101 K3 / OUT Y0 / LD X0 / MOV K1 D101",
+            "LDD> D10 K3 / OUT Y0 / LD X1 / MOV K1 D11",
+            "LD= D101 K3 / OUT Y0 / LD X0 / DMOV K1 D100",
+            "LD= D101 K3 / OUT Y0 / LD X0 / MOV K1 D0Z0",
+            "LD= D101 K3 / OUT Y0 / LD X0 / FMOV K1 D100 D0",
+            "LD X0 / OUT T0 D101 / LD T0 / OUT Y0 / LD X1 / INCP D101",
+            // Latched, special, or only moved.
+            "LD= D512 K3 / OUT Y0 / LD> R5 K0 / OUT Y1 / LD> D8013 K3 / OUT Y2",
+            "LD X0 / MOV D101 D102",
+            "LD> D0Z0 K3 / OUT Y0",
+            // Others write at the ports.
+            "LD M8002 / MOV H6080 D8120 / LD= D101 K3 / OUT Y0",
+            "LD M8038 / MOV K0 D8176 / MOV K2 D8177 / MOV K2 D8178 / LD= D10 K3 / OUT Y0",
+            "LD X0 / RS D200 K1 D100 K5 / LD= D101 K3 / OUT Y0",
+        ],
+    );
+}
+
+#[test]
 fn fast_inputs_with_two_purposes() {
     judge(
         "measured-input",

@@ -66,6 +66,12 @@ impl Setup {
         );
         slave || self.protocol.is_none()
     }
+
+    /// Returns true if partners, links or tables of requests may write devices that no instruction names.
+    pub(super) fn exchanges(&self) -> bool {
+        use Protocol::{Free, MasterAscii, MasterRtu, Off};
+        !matches!(self.protocol, Some(Off | Free | MasterRtu | MasterAscii))
+    }
 }
 
 /// The serial ports that a program uses or sets up, in the order of their numbers.

@@ -1,19 +1,25 @@
-//! Relays, states, timers and counters that are driven and never read, or read and never driven.
+//! Relays, states, timers and counters that are driven and never read, or read and never driven, and registers that are
+//! compared or used as presets and never written.
 
-use super::Code;
+use super::{Code, ports};
 use crate::accesses::Access;
+use crate::latches;
 use rungc_catalogue::{Basic, Lower};
+use rungc_models::Range;
 use rungc_models::runs::is_special;
 use rungc_rt::RtFn;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use std::borrow::Cow;
 
 /// The classes that are looked at. STL reads its state.
-const CLASSES: [DeviceClass; 4] = [
+const CLASSES: [DeviceClass; 6] = [
     DeviceClass::M,
     DeviceClass::S,
     DeviceClass::T,
     DeviceClass::C,
+    DeviceClass::D,
+    DeviceClass::R,
 ];
 /// The first annunciator: D8049 and M8048 show that one is on.
 const ANNUNCIATORS: u32 = 900;
@@ -41,16 +47,20 @@ struct Class {
 /// Collects accesses to find devices of which one half is missing.
 pub(super) struct Unused<'a, 'p> {
     code: &'a Code<'p>,
-    classes: [Class; 4],
+    classes: [Class; 6],
+    /// The model's devices; a latched register keeps what was written at any time.
+    ranges: Cow<'static, [Range]>,
     /// Coils, each once, in the order of the program.
     coils: Vec<(Device, Span)>,
     /// Contacts, each once, in the order of the program.
     contacts: Vec<(Device, Span)>,
+    /// Registers that are compared or presets, each once, in the order of the program, with the number of the last word.
+    registers: Vec<(Device, Span, u32)>,
 }
 
 impl<'a, 'p> Unused<'a, 'p> {
     pub(super) fn new(code: &'a Code<'p>) -> Self {
-        let mut classes: [Class; 4] = Default::default();
+        let mut classes: [Class; 6] = Default::default();
         for (class, known) in CLASSES.iter().zip(&mut classes) {
             let last = code.model().ranges_of(*class).map(|range| range.last).max();
             let len = last.map_or(0, |last| last as usize + 2);
@@ -77,11 +87,18 @@ impl<'a, 'p> Unused<'a, 'p> {
                 }
             }
         }
+        if may_be_written(code) {
+            let registers = CLASSES.iter().zip(&mut classes);
+            let registers = registers.filter(|(class, _)| is_register(**class));
+            registers.for_each(|(_, known)| known.any_written = true);
+        }
         Unused {
             code,
             classes,
+            ranges: latches::ranges(code.resolved.program, code.model()),
             coils: Vec::new(),
             contacts: Vec::new(),
+            registers: Vec::new(),
         }
     }
 
@@ -112,6 +129,10 @@ impl<'a, 'p> Unused<'a, 'p> {
             self.note_special(access);
             return;
         }
+        if is_register(access.first.class) {
+            self.note_register(i, access, at);
+            return;
+        }
         let (list, what) = match basic {
             // The target of an index is unknown.
             Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
@@ -126,6 +147,26 @@ impl<'a, 'p> Unused<'a, 'p> {
         }
         if self.classes[at].meets(access, what) {
             list.push((access.first, access.span));
+        }
+    }
+
+    /// Takes an access to a register, whose class is at `at`: as a preset or in a comparison, or to a bit of it.
+    fn note_register(&mut self, i: usize, access: &Access, at: usize) {
+        let decides =
+            matches!(self.code.lower(i), Some(Lower::Compare(..))) || self.code.basic(i).is_some();
+        let one = access.reads() && access.count == Some(access.each);
+        if !decides || !one || !self.classes[at].meets(access, CONTACT) {
+            return;
+        }
+        let Device { class, number } = access.first;
+        let mut ranges = self.ranges.iter();
+        let kept = ranges.any(|range| {
+            range.class == class && range.latched && (range.first..=range.last).contains(&number)
+        });
+        if !kept && self.code.model().special(class, number).is_none() && !is_special(class, number)
+        {
+            let last = access.devices().end().number;
+            self.registers.push((access.first, access.span, last));
         }
     }
 
@@ -190,7 +231,31 @@ impl<'a, 'p> Unused<'a, 'p> {
             undriven,
             out,
         );
+        let unwritten = self.registers.iter().filter(|(first, _, last)| {
+            let mut words = (first.number..=*last).map(|number| Device { number, ..*first });
+            words.all(|word| lacks(&word, true))
+        });
+        let unwritten: Vec<_> = unwritten.map(|&(first, span, _)| (first, span)).collect();
+        summary(
+            &codes::NEVER_WRITTEN,
+            ["read, but nothing writes them", "read here", "writes"],
+            unwritten.iter(),
+            out,
+        );
     }
+}
+
+fn is_register(class: DeviceClass) -> bool {
+    matches!(class, DeviceClass::D | DeviceClass::R)
+}
+
+/// Returns true if something at a port, or a server that the PLC asks, may write any register.
+fn may_be_written(code: &Code) -> bool {
+    let parameters = code.resolved.program.parameters.as_ref();
+    parameters.is_some_and(|parameters| !parameters.requests.is_empty())
+        || ports::setups(code.resolved)
+            .iter()
+            .any(ports::Setup::exchanges)
 }
 
 impl Class {
