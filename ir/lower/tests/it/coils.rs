@@ -85,6 +85,38 @@ fn coils_that_a_later_one_replaces() {
 }
 
 #[test]
+fn results_of_relays_between_their_coils() {
+    let last = "LD M6 / OUT Y0 / LD X2 / OUT M6";
+    let routine = format!("LD X0 / OUT M6 / {last} / SRET");
+    let wrong = [
+        // Read before the first coil: the relay is carried from scan to scan.
+        format!("LD X0 / OR M6 / ANI X1 / OUT M6 / {last}"),
+        format!("LD M6 / OUT Y1 / LD X0 / OUT M6 / {last}"),
+        format!("LD M6 / SET Y1 / LD M8002 / ZRST M0 M9 / LD X0 / OUT M6 / {last}"),
+        "LD M3 / OUT Y1 / LD M8000 / MOV D0 K4M0 / LD M3 / OUT Y0 / LD X1 / OUT M3".to_owned(),
+        format!("LD M8000 / CALL P1 / FEND / P1 / LDI M6 / OUT Y1 / {routine}"),
+    ];
+    let right = [
+        // Written before it is read: intermediate results.
+        format!("LD X0 / OUT M6 / {last}"),
+        format!("LD X0 / OUT M6 / {last} / LD M6 / OUT Y1"),
+        format!("LD M8002 / SET M6 / LD M6 / OUT Y1 / LD X0 / OUT M6 / {last}"),
+        format!("LD M8000 / MOV D1 K2M0 / LD M6 / OUT Y1 / LD X0 / OUT M6 / {last}"),
+        "LD X0 / OUT M6 / LD M6 / OUT Y0 / LD X2 / OR M6 / OUT M6".to_owned(),
+        format!("LD M8000 / CALL P1 / LD M6 / OUT Y1 / FEND / P1 / {routine}"),
+        // Another bit of the register.
+        "LD D0.3 / OUT Y1 / LD X0 / OUT D0.1 / LD D0.1 / OUT Y0 / LD X1 / OUT D0.1".to_owned(),
+    ];
+    judge("double-coil", &lines(&wrong), &lines(&right));
+    let set = "LD X0 / SET M6 / LD M6 / OUT Y0 / LD X2 / OUT M6";
+    judge(
+        "out-and-set",
+        &[&format!("LD M6 / OUT Y1 / {set}")],
+        &[set, &format!("{set} / LD M6 / OUT Y1")],
+    );
+}
+
+#[test]
 fn timers_of_routines_that_every_scan_runs() {
     let timer = "FEND / P0 / LD X1 / OUT T0 K10 / LD T0 / OUT Y0 / SRET";
     let calls = |calls: &str| format!("{calls} / {timer}");

@@ -8,12 +8,12 @@ use super::parallel::Ladders;
 use super::set_and_out::{Condition, begins_of_rungs, condition};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
-use crate::accesses;
+use crate::accesses::{self, Access};
 use rungc_catalogue::{Basic, Lower, Role};
 use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, OperandKind, codes};
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A coil: a device, or a bit of a word.
 pub(super) type Coil = (Device, Option<u8>);
@@ -27,7 +27,8 @@ pub(super) struct Where<'a> {
 }
 
 /// Warns of coils that the last of several places decides. The result of a coil of a relay that is read before the next
-/// one counts, too: such a relay holds an intermediate result, as in code that GX Works2 makes of labels.
+/// one counts, too, unless the relay is read before its first coil: only a relay that is written before it is read in a
+/// scan holds intermediate results, as in code that GX Works2 makes of labels.
 pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
     let mut driven: BTreeMap<Coil, Vec<Place>> = BTreeMap::new();
     for i in 0..code.len {
@@ -257,6 +258,8 @@ pub(super) struct Reads {
     places: BTreeMap<Device, Vec<usize>>,
     /// Devices that a routine reads.
     in_routines: Vec<Device>,
+    /// Devices whose state the program carries from scan to scan.
+    carried: BTreeSet<Device>,
     /// The calls, in order.
     calls: Vec<usize>,
     /// Where the rung of each instruction begins.
@@ -271,23 +274,39 @@ impl Reads {
         let mut reads = Reads {
             places: devices.map(|device| (device, Vec::new())).collect(),
             in_routines: Vec::new(),
+            carried: BTreeSet::new(),
             calls: Vec::new(),
             rungs: begins_of_rungs(code),
         };
+        let mut uses: BTreeMap<Device, FirstUse> = BTreeMap::new();
         for i in 0..code.len {
-            let in_main = nesting.of(i).routine == Routine::Main;
+            let routine = nesting.of(i).routine;
             if code.basic(i) == Some(Basic::Call) {
                 reads.calls.push(i);
             }
-            for access in accesses::of(code.resolved, i).filter(accesses::Access::reads) {
+            for access in accesses::of(code.resolved, i).filter(Access::reads) {
+                let is_contact = access.count == Some(1);
                 for (device, places) in reads.places.range_mut(access.devices()) {
                     places.push(i);
-                    if !in_main {
+                    if is_contact {
+                        uses.entry(*device).or_default().read(routine);
+                    }
+                    if routine != Routine::Main {
                         reads.in_routines.push(*device);
                     }
                 }
             }
+            if clears(code, i) {
+                continue;
+            }
+            for access in accesses::of(code.resolved, i).filter(Access::writes) {
+                for (device, _) in reads.places.range(access.devices()) {
+                    uses.entry(*device).or_default().written(routine);
+                }
+            }
         }
+        uses.retain(|device, uses| device.class == DeviceClass::M && uses.is_carried());
+        reads.carried = uses.into_keys().collect();
         reads.in_routines.sort_unstable();
         reads
     }
@@ -307,8 +326,8 @@ impl Reads {
         {
             return true;
         }
-        // Outputs leave the PLC at the end of the scan.
-        if device.class == DeviceClass::Y {
+        // Outputs leave the PLC at the end of the scan, and the next scan sees only the last result.
+        if device.class == DeviceClass::Y || self.carried.contains(&device) {
             return false;
         }
         let in_routines = self.in_routines.binary_search(&device).is_ok();
@@ -321,6 +340,35 @@ impl Reads {
             return true;
         };
         in_routines || between(places, after, before)
+    }
+}
+
+/// The first uses of a relay, in the order of the program.
+#[derive(Default)]
+struct FirstUse {
+    /// Routine of the last contact before anything writes the relay.
+    read: Option<Routine>,
+    /// Routine of the first instruction that writes it, otherwise than by switching it off.
+    written: Option<Routine>,
+    /// True if another routine writes it, too.
+    is_shared: bool,
+}
+
+impl FirstUse {
+    fn read(&mut self, routine: Routine) {
+        if self.written.is_none() {
+            self.read = Some(routine);
+        }
+    }
+
+    fn written(&mut self, routine: Routine) {
+        let first = *self.written.get_or_insert(routine);
+        self.is_shared |= first != routine;
+    }
+
+    /// Returns true if contacts see what an earlier scan has written.
+    fn is_carried(&self) -> bool {
+        self.read.is_some() && self.read == self.written && !self.is_shared
     }
 }
 

@@ -92,11 +92,17 @@ fn in_vain(
         outs.map(Vec::as_slice).collect::<Vec<_>>()
     };
     // A relay that contacts follow until the next OUT holds an intermediate result, as in code that GX Works2 makes of
-    // labels.
+    // labels, unless contacts see it before anything switches it on.
+    let first_on = uses.set.iter().chain(&uses.out).min();
+    let routine = |i: usize| condition(i).0;
+    let carried = first_on.is_some_and(|&first| {
+        let mut before = uses.contacts.iter().take_while(|&&i| i < first);
+        before.any(|&i| routine(i) == routine(first))
+    });
     let counts = |set: usize, outs: &[usize]| {
         let next = outs.get(outs.partition_point(|&out| out < set));
         match next {
-            Some(&next) => read_between(set, next),
+            Some(&next) => !carried && read_between(set, next),
             None => read_between(set, usize::MAX) || read_between(0, outs[0]),
         }
     };
