@@ -1,6 +1,7 @@
 //! Coils that are driven at several places: only a result that a later place of the same scan replaces is lost.
 
-use crate::warnings::judge;
+use crate::warnings::{judge, judge_on};
+use rungc_models::ModelId;
 
 fn lines(programs: &[String]) -> Vec<&str> {
     programs.iter().map(String::as_str).collect()
@@ -82,6 +83,65 @@ fn coils_that_a_later_one_replaces() {
     ];
     judge("double-coil", &lines(&wrong), &lines(&right));
     judge("timer-twice", &[&state("LD X2 / OUT T0 K20")], &[]);
+}
+
+#[test]
+fn coils_that_jumps_choose_between() {
+    let halves = |first: &str, second: &str| {
+        [
+            // Behind FEND.
+            format!("LD X0 / CJ P1 / {first} / FEND / P1 / {second} / FEND"),
+            // In a routine.
+            format!(
+                "LD M8000 / CALL P0 / FEND / P0 / LD X0 / CJ P1 / {first} / SRET / P1 / {second} / SRET"
+            ),
+            // With a jump back to the main program, and to its end.
+            format!(
+                "LD X0 / CJ P1 / {first} / P2 / LD X6 / OUT Y6 / FEND / P1 / {second} / LD X7 / CJ P2 / FEND"
+            ),
+            format!("LD X0 / CJ P1 / {first} / LD X7 / CJ P63 / FEND / P1 / {second}"),
+        ]
+    };
+    for (warning, first, second) in [
+        ("double-coil", "LD X1 / OUT Y0", "LD X2 / OUT Y0"),
+        ("timer-twice", "LD X1 / OUT T0 K10", "LD X2 / OUT T0 K20"),
+        ("double-coil", "LD M8000 / MOV D0 K2Y0", "LD X2 / OUT Y0"),
+        ("double-coil", "LD X1 / PLSY K100 K10 Y0", "LD X2 / OUT Y0"),
+        (
+            "out-and-set",
+            "LD X1 / SET Y0 / LD X3 / RST Y0",
+            "LD X2 / OUT Y0",
+        ),
+    ] {
+        judge(warning, &[], &lines(&halves(first, second)));
+        // In one half, and in one half and after both.
+        let both = format!("{first} / {second}");
+        judge(warning, &lines(&halves(&both, "LD X4 / OUT Y4")), &[]);
+        let [.., after] = halves("LD X4 / OUT Y4", &both);
+        let joined = format!(
+            "LD X0 / CJ P1 / {first} / P2 / {second} / FEND / P1 / LD X4 / OUT Y4 / LD X7 / CJ P2 / FEND"
+        );
+        judge(warning, &[&after], &[&joined]);
+    }
+    // HM has jumps with an index register.
+    let table = "LD M8000 / CJ P0V0 / P0 / LD X0 / OUT Y0 / FEND / P1 / LD X1 / OUT Y0";
+    judge_on(
+        ModelId::Hm,
+        "double-coil",
+        &[&format!("{table} / LD X2 / OUT Y0")],
+        &[table],
+    );
+    let timer = "P0 / LD X1 / OUT T0 K10 / LD T0 / OUT Y0 / SRET";
+    let call = "LD M8000 / CALL P0";
+    judge(
+        "timer-in-routine",
+        &[&format!(
+            "LD X0 / CJ P1 / {call} / FEND / P1 / LD X5 / OUT Y5 / FEND / {timer}"
+        )],
+        &[&format!(
+            "LD X0 / CJ P1 / {call} / FEND / P1 / {call} / FEND / {timer}"
+        )],
+    );
 }
 
 #[test]

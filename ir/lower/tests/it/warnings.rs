@@ -32,12 +32,17 @@ fn count(model: ModelId, warning: &str, lines: &str) -> usize {
 
 /// Programs on FX3U with a warning each, and programs without it.
 pub fn judge(warning: &str, wrong: &[&str], right: &[&str]) {
+    judge_on(ModelId::Fx3u, warning, wrong, right);
+}
+
+/// The same on another model.
+pub fn judge_on(model: ModelId, warning: &str, wrong: &[&str], right: &[&str]) {
     for (lines, expected) in wrong
         .iter()
         .map(|w| (w, 1))
         .chain(right.iter().map(|r| (r, 0)))
     {
-        let found = count(ModelId::Fx3u, warning, lines);
+        let found = count(model, warning, lines);
         assert_eq!(found, expected, "{warning}: {lines}");
     }
 }

@@ -3,7 +3,7 @@
 use super::Code;
 use super::drives::{Drive, Drives, Lasts};
 use super::pointers::Pointers;
-use super::skips::Skips;
+use super::skips::{ALL, Skips, plus};
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::Basic;
@@ -25,6 +25,8 @@ struct Site {
     label: u32,
     routine: Routine,
     when: When,
+    /// Share of the runs of the routine that execute it, if nothing but jumps decides on that.
+    share: Option<u64>,
 }
 
 /// Condition of a call.
@@ -59,14 +61,16 @@ impl Calls {
             elsewhere: FxHashSet::default(),
             any: pointers.any_may_be_called(),
         };
-        let complements = complements(code, nesting, &sites);
+        let complements = complements(code, nesting, &sites).into_iter();
+        // The first of two, as it is the one that may be executed.
+        let mut chosen: Vec<_> = complements.map(|[first, _]| first).collect();
+        chosen.extend(branches(&sites));
         for _ in 0..MAX_DEPTH {
             let mut changed = false;
             for site in &sites {
                 changed |= calls.take(site);
             }
-            // The first of two, as it is the one that may be executed.
-            for &[first, _] in &complements {
+            for &first in &chosen {
                 let Site {
                     at, label, routine, ..
                 } = sites[first];
@@ -177,6 +181,7 @@ fn sites(code: &Code, pointers: &Pointers, nesting: &Nesting, skips: &Skips) -> 
             (Lasts::Always, _, Some((device, closed))) => When::While(device, !closed),
             _ => When::Other,
         };
+        let share = Some(skips.share(i)).filter(|_| once && drive.lasts == Lasts::Always);
         let called = code.device(i, 0).and_then(|device| pointers.get(device));
         let labels = called.iter().flat_map(|pointer| &pointer.labels);
         sites.extend(labels.map(|&label| Site {
@@ -184,6 +189,7 @@ fn sites(code: &Code, pointers: &Pointers, nesting: &Nesting, skips: &Skips) -> 
             label: label as u32,
             routine: place.routine,
             when,
+            share,
         }));
     }
     sites
@@ -212,6 +218,19 @@ impl Jumps {
         let first = open.next().copied().flatten();
         first.filter(|_| open.next().is_none())
     }
+}
+
+/// The first of the calls of each routine, if jumps choose between them so that each run executes one.
+fn branches(sites: &[Site]) -> Vec<usize> {
+    let mut sums: BTreeMap<(u32, Routine), (usize, u64)> = BTreeMap::new();
+    for (n, site) in sites.iter().enumerate() {
+        if let Some(share) = site.share {
+            let (_, sum) = sums.entry((site.label, site.routine)).or_insert((n, 0));
+            *sum = plus(*sum, share);
+        }
+    }
+    let complete = sums.into_values().filter(|&(_, sum)| sum == ALL);
+    complete.map(|(first, _)| first).collect()
 }
 
 /// Pairs of calls of one routine of which every scan executes one: under a contact and under its inverse, which keeps

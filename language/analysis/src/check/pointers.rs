@@ -38,6 +38,8 @@ pub(super) struct Pointers {
     order: Vec<Device>,
     /// True if a jump or call names its label with an index register, so that any label may be meant.
     indexed: bool,
+    /// True if a jump does so.
+    indexed_jump: bool,
     /// True if a call does so.
     indexed_call: bool,
 }
@@ -48,6 +50,7 @@ impl Pointers {
             map: FxHashMap::default(),
             order: Vec::new(),
             indexed: false,
+            indexed_jump: false,
             indexed_call: false,
         };
         for i in 0..code.len {
@@ -59,8 +62,7 @@ impl Pointers {
             let jumps = matches!(code.basic(i), Some(Basic::Cj | Basic::Call));
             let lost = code.is_meant(i) && code.instr(i).operands.is_empty();
             if jumps && (lost || code.lacks_a_device(i)) {
-                pointers.indexed = true;
-                pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
+                pointers.note_index(code.basic(i));
             }
             for (at, operand) in code.instr(i).operands.iter().enumerate() {
                 let (device, index) = match operand.kind {
@@ -75,8 +77,7 @@ impl Pointers {
                     continue;
                 }
                 if index.is_some() {
-                    pointers.indexed = true;
-                    pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
+                    pointers.note_index(code.basic(i));
                     continue;
                 }
                 let pointer = pointers.entry(device);
@@ -88,6 +89,13 @@ impl Pointers {
             }
         }
         pointers
+    }
+
+    /// Takes an instruction that may name any label.
+    fn note_index(&mut self, basic: Option<Basic>) {
+        self.indexed = true;
+        self.indexed_jump |= basic == Some(Basic::Cj);
+        self.indexed_call |= basic == Some(Basic::Call);
     }
 
     fn entry(&mut self, device: Device) -> &mut Pointer {
@@ -118,6 +126,17 @@ impl Pointers {
     /// Returns true if a call with an index register may mean this label, if it follows FEND: any that no jump names.
     pub(super) fn may_be_called(&self, label: Device) -> bool {
         self.indexed_call && !self.is_jumped_to(label)
+    }
+
+    /// Returns true if a routine begins at this label.
+    pub(super) fn begins_routine(&self, label: Device, after_fend: bool) -> bool {
+        let called = self.is_called(label) && (after_fend || !self.is_jumped_to(label));
+        label.class == DeviceClass::I || called || after_fend && self.may_be_called(label)
+    }
+
+    /// Returns true if a jump with an index register may lead to any label.
+    pub(super) fn any_may_be_jumped_to(&self) -> bool {
+        self.indexed_jump
     }
 
     /// Returns true if a call with an index register may call any label.

@@ -311,12 +311,7 @@ impl Walk<'_, '_> {
         };
         match label.class {
             DeviceClass::I => self.begin_routine(i, Kind::Interrupt),
-            _ if self.pointers.is_called(label)
-                && (self.after_fend || !self.pointers.is_jumped_to(label)) =>
-            {
-                self.begin_routine(i, Kind::Sub);
-            }
-            _ if self.after_fend && self.pointers.may_be_called(label) => {
+            _ if self.pointers.begins_routine(label, self.after_fend) => {
                 self.begin_routine(i, Kind::Sub);
             }
             _ => self.jump_label(i, label),
