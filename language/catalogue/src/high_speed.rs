@@ -99,9 +99,7 @@ const RESET_FX: &[Param] = &[
 /// A counter resets none but itself.
 const ITSELF: Rule = Rule::Holds(
     |operands| match operands {
-        [_, counter, reset] => {
-            Classes::of(&reset.kind) != Classes::C || reset.kind == counter.kind
-        }
+        [_, counter, reset] => Classes::of(&reset.kind) != Classes::C || reset.kind == counter.kind,
         _ => true,
     },
     "a counter is that of S2",

@@ -340,6 +340,45 @@ fn states_with_one_half() {
 }
 
 #[test]
+fn relays_of_links() {
+    let driven = |number: u32| format!("LD X0 / OUT M{number}");
+    let read = |number: u32| format!("LD M{number} / OUT Y0");
+    let (master, slave) = ("LD M8002 / SET M8070", "LD M8002 / SET M8071");
+    let either = "LD X7 / SET M8070 / LDI X7 / SET M8071";
+    let station = |n: u8| format!("LD M8038 / MOV K{n} D8176 / MOV K2 D8177 / MOV K2 D8178");
+    let [first, second] = [0, 1].map(station);
+    // The relay that each sends, and the one that it receives.
+    let links = [
+        (master, 800, 900),
+        (slave, 999, 899),
+        (&*first, 1000, 1064),
+        (&*second, 1064, 1063),
+        (either, 800, 800),
+        (either, 900, 900),
+    ];
+    for model in [ModelId::Fx1n, ModelId::Fx3u, ModelId::H2u] {
+        for (set_up, sent, received) in links {
+            let number = set_up.contains("M8038") && model == ModelId::H2u;
+            let protocol = if set_up == first { "H40" } else { "H4" };
+            let set_up = match number {
+                true => format!("{set_up} / LD M8002 / MOV {protocol} D8126"),
+                false => set_up.to_owned(),
+            };
+            let with = |rest: String| format!("{set_up} / {rest}");
+            let quiet = [with(driven(sent)), with(read(received))];
+            let quiet = quiet.each_ref().map(String::as_str);
+            judge_on(model, "never-read", &[], &quiet);
+            judge_on(model, "never-written", &[], &quiet);
+        }
+        // Against the direction of the link, and without one.
+        let wrong = [format!("{master} / {}", driven(900)), driven(800)];
+        judge_on(model, "never-read", &wrong.each_ref().map(|w| &**w), &[]);
+        let wrong = [format!("{master} / {}", read(800)), read(900)];
+        judge_on(model, "never-written", &wrong.each_ref().map(|w| &**w), &[]);
+    }
+}
+
+#[test]
 fn registers_that_nothing_writes() {
     judge(
         "never-written",

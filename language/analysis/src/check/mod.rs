@@ -103,10 +103,11 @@ fn driven(
 
 /// Checks of the devices and the buffer memory that instructions read and write.
 fn accessed(code: &Code, out: &mut Diagnostics) {
-    let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
+    let roles = ports::Roles::new(code);
+    let mut unused = unused::Unused::new(code, &roles);
+    let mut pairs = pairs::Pairs::default();
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::new(code));
     let modules = modules::Modules::new(code);
-    let roles = ports::Roles::new(code);
     let mut inert = inert::Inert::new(code, &modules, &roles);
     let mut doubtful = doubtful::Doubtful::default();
     let mut undefined = undefined::Undefined::default();

@@ -3,6 +3,7 @@
 //! Which registers choose what is data of the runtime ([`PortWiring`]), and so is what they choose: the state machine
 //! of a port and this analysis ask the same functions.
 
+mod areas;
 mod choices;
 mod facts;
 mod findings;

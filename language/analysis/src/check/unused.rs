@@ -1,7 +1,8 @@
 //! Relays, states, timers and counters that are driven and never read, or read and never driven, and registers that are
 //! compared or used as presets and never written.
 
-use super::{Code, ports};
+use super::Code;
+use super::ports::{self, Roles};
 use crate::accesses::Access;
 use crate::latches;
 use rungc_catalogue::{Basic, Lower};
@@ -12,7 +13,7 @@ use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use std::borrow::Cow;
 
-/// The classes that are looked at. STL reads its state.
+/// The classes that are looked at, relays first. STL reads its state.
 const CLASSES: [DeviceClass; 6] = [
     DeviceClass::M,
     DeviceClass::S,
@@ -59,7 +60,7 @@ pub(super) struct Unused<'a, 'p> {
 }
 
 impl<'a, 'p> Unused<'a, 'p> {
-    pub(super) fn new(code: &'a Code<'p>) -> Self {
+    pub(super) fn new(code: &'a Code<'p>, roles: &Roles) -> Self {
         let mut classes: [Class; 6] = Default::default();
         for (class, known) in CLASSES.iter().zip(&mut classes) {
             let last = code.model().ranges_of(*class).map(|range| range.last).max();
@@ -91,6 +92,14 @@ impl<'a, 'p> Unused<'a, 'p> {
             let registers = CLASSES.iter().zip(&mut classes);
             let registers = registers.filter(|(class, _)| is_register(**class));
             registers.for_each(|(_, known)| known.any_written = true);
+        }
+        let [relays, ..] = &mut classes;
+        for area in roles.areas() {
+            for (is_used, write) in [(area.is_sent, false), (area.is_received, true)] {
+                if is_used {
+                    relays.add_run(area.first, area.count, write);
+                }
+            }
         }
         Unused {
             code,

@@ -1,6 +1,7 @@
 //! Roles of serial ports, which decide on the meaning of special devices.
 
 use super::super::Code;
+use super::areas::{Area, areas};
 use super::facts::{Facts, RegisterValue, d};
 use rungc_models::special::PortRole;
 use rungc_rt::comm::{PortWiring, Protocol};
@@ -20,13 +21,22 @@ impl<'a> Roles<'a> {
         }
     }
 
+    fn facts(&self) -> &Facts {
+        self.facts.get_or_init(|| Facts::new(self.code))
+    }
+
+    /// Relays of the links between PLCs that the program may set up.
+    pub(in super::super) fn areas(&self) -> Vec<Area> {
+        areas(self.code.model(), self.facts())
+    }
+
     /// Returns true or false if a port is certainly in a role, or certainly not; `None` if that depends on what
     /// happens, or on parameters of the PLC.
     pub(in super::super) fn contain(&self, role: &PortRole) -> Option<bool> {
         let Some(wiring) = self.code.model().ports.get(role.port) else {
             return Some(false);
         };
-        let facts = self.facts.get_or_init(|| Facts::new(self.code));
+        let facts = self.facts();
         if role.by_parameters && !wiring.sets().any(|set| facts.touch(set)) {
             return None;
         }
@@ -38,7 +48,7 @@ impl<'a> Roles<'a> {
 }
 
 /// The sets of special devices that a port may have.
-fn chosen<'f>(
+pub(super) fn chosen<'f>(
     facts: &'f Facts,
     wiring: &'static PortWiring,
 ) -> impl Iterator<Item = &'static PortWiring> + use<'f> {
