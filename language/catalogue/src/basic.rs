@@ -31,6 +31,10 @@ const DIRECT: &[(DeviceClass, u32, u32)] = &[
     (DeviceClass::Z, 0, ANY),
 ];
 
+/// An index register takes the long operand, as bits of words and relays from M3584 on do. Coils of timers and counters
+/// have a preset, too.
+const INDEXED: Variant = indexed(FX3U).steps(3, 3);
+
 const CONTACT: &[Param] = &[bit("S", CONTACTS).plain()];
 /// FX3U: contacts of bits of words, and index registers.
 const CONTACT_3U: &[Param] = &[bit("S", CONTACTS.or(BIT_OF_WORD)).unindexed(DIRECT)];
@@ -42,6 +46,7 @@ const fn basic(name: &'static str, title: &'static str, basic: Basic) -> Inst {
 const fn contact(name: &'static str, title: &'static str, which: Basic) -> Inst {
     const VARIANTS: &[Variant] = &[
         on(FX3U).takes(CONTACT_3U),
+        INDEXED,
         first(FX3U, BIT_OF_WORD).steps(3, 3),
         first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
         first_in(NOT_HM, M, 1536, 3583).steps(2, 2),
@@ -58,6 +63,7 @@ const fn contact(name: &'static str, title: &'static str, which: Basic) -> Inst 
 const fn edge(name: &'static str, title: &'static str, which: Basic) -> Inst {
     const VARIANTS: &[Variant] = &[
         on(FX3U).takes(CONTACT_3U),
+        INDEXED,
         first(FX3U, BIT_OF_WORD).steps(3, 3),
         first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
     ];
@@ -78,6 +84,7 @@ const PULSED_3U: &[Param] = &[coil("D", Classes::Y.or(M)).numbers(ORDINARY_M)];
 const fn pulse(name: &'static str, title: &'static str, which: Basic) -> Inst {
     const VARIANTS: &[Variant] = &[
         on(FX3U).takes(PULSED_3U),
+        INDEXED,
         first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
     ];
     basic(name, title, which)
@@ -87,7 +94,8 @@ const fn pulse(name: &'static str, title: &'static str, which: Basic) -> Inst {
 }
 
 /// Steps of coils and of SET and RST on bits.
-const BIT_STEPS: [Variant; 6] = [
+const BIT_STEPS: [Variant; 7] = [
+    INDEXED,
     first(FX3U, BIT_OF_WORD).steps(3, 3),
     first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
     first_in(NOT_HM, M, 1536, 7999).steps(2, 2),
@@ -155,6 +163,7 @@ const OUT: &[Variant] = &[
     BIT_STEPS[3],
     BIT_STEPS[4],
     BIT_STEPS[5],
+    BIT_STEPS[6],
 ];
 
 const SET: &[Variant] = &[
@@ -165,6 +174,7 @@ const SET: &[Variant] = &[
     BIT_STEPS[3],
     BIT_STEPS[4],
     BIT_STEPS[5],
+    BIT_STEPS[6],
 ];
 
 const RESETTABLE: Classes = COILS.or(REGISTERS).or(INDEX);
@@ -178,6 +188,7 @@ const fn reset(classes: Classes) -> Param {
 
 const RST: &[Variant] = &[
     on(FX3U).takes(&[reset(RESETTABLE.or(BIT_OF_WORD)).unindexed(DIRECT)]),
+    INDEXED,
     first(NOT_HM, T.or(C)).steps(2, 2),
     first(HM, REGISTERS).steps(3, 3),
     first(ModelSet::ALL, DATA.or(INDEX)).steps(3, 3),
@@ -187,6 +198,7 @@ const RST: &[Variant] = &[
     BIT_STEPS[3],
     BIT_STEPS[4],
     BIT_STEPS[5],
+    BIT_STEPS[6],
 ];
 
 pub(super) const ROWS: &[Inst] = &[

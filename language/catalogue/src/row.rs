@@ -466,6 +466,11 @@ pub(super) const fn first_in(models: ModelSet, classes: Classes, from: u32, to: 
     variant(models, When::First(classes, from, to))
 }
 
+/// A variant for operands with an index register.
+pub(super) const fn indexed(models: ModelSet) -> Variant {
+    variant(models, When::Indexed)
+}
+
 impl Variant {
     pub(super) const fn steps(self, narrow: u8, wide: u8) -> Self {
         let steps = Some((narrow, wide));

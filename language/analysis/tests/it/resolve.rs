@@ -22,6 +22,31 @@ fn steps_are_counted_by_form_and_device() {
     assert_eq!(steps(ModelId::Fx3u, text), (expected, 30));
 }
 
+/// An index takes a long operand in each basic instruction that can have one; what has it without an index keeps it.
+#[test]
+fn an_index_takes_steps() {
+    let contacts = ["LD", "LDI", "AND", "ANI", "OR", "ORI"];
+    let edges = ["LDP", "LDF", "ANDP", "ANDF", "ORP", "ORF"];
+    let coils = ["OUT", "SET", "RST"];
+    let pulses = ["PLS", "PLF"];
+    let all = contacts.map(|name| (name, "X000", 1)).into_iter();
+    let all = all.chain(contacts.map(|name| (name, "T5", 1)));
+    let all = all.chain(contacts.map(|name| (name, "M1600", 2)));
+    let all = all.chain(edges.map(|name| (name, "M0", 2)));
+    let all = all.chain(coils.map(|name| (name, "Y000", 1)));
+    let all = all.chain(coils.map(|name| (name, "M4000", 3)));
+    let all = all.chain(pulses.map(|name| (name, "M0", 2)));
+    for (name, device, plain) in all.chain([("RST", "T0", 2), ("RST", "C0", 2)]) {
+        for (index, length) in [("", plain), ("Z1", 3), ("V7", 3)] {
+            let text = format!("LD X000\n{name} {device}{index}\nNOP\n");
+            let read = read_text("test", &text);
+            let (resolved, _) = resolve(&read.program, Model::get(ModelId::Fx3u));
+            let steps = resolved.instrs[2].step - resolved.instrs[1].step;
+            assert_eq!(steps, length, "{name} {device}{index}");
+        }
+    }
+}
+
 #[test]
 fn numbers_of_the_source_are_kept() {
     let read = read_text("test", "0 LD X0\n1 OUT Y0\n9 LD X1\n10 OUT Y1\n11 END\n");
