@@ -31,7 +31,7 @@ pub use gx::table::has_code;
 pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
-pub use plcopen::{Names, PLCOPEN_CPU, iec_timer_unit};
+pub use plcopen::{MOST_CONTACTS, Names, PLCOPEN_CPU, iec_timer_unit, read as read_plcopen};
 pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
 pub use search::{is_project, programs};
 

@@ -16,14 +16,15 @@ mod xml;
 
 use lines::Lines;
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::{Names, ReadOptions, read_bytes, read_bytes_with};
-use rungc_ladder::{InstrIndex, Ladder, build};
+use rungc_frontend::{MOST_CONTACTS, Names, read_plcopen};
+use rungc_ladder::{InstrIndex, Item, Ladder, Network, NetworkBody, Node, Part, build};
 use rungc_models::Model;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::diag::counted;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
 use sheet::Sheet;
 use std::collections::BTreeMap;
+use std::mem;
 use words::Words;
 use xml::Xml;
 
@@ -52,11 +53,11 @@ pub fn to_plcopen(
     let (resolved, _) = resolve(program, model);
     let mut words = Words::new(&resolved);
     let ladder = build::ladder(&resolved);
-    let written = match body {
+    let written = check_ways(&ladder).and_then(|()| match body {
         Body::Ladder => as_ladder("main", &ladder, &mut words).map(|pou| vec![pou]),
         Body::List => as_list(&ladder, &mut words).map(|pou| vec![pou]),
         Body::Chart => as_chart(&ladder, &mut words),
-    };
+    });
     let pous = match written {
         Ok(pous) => pous,
         Err(refused) => {
@@ -81,7 +82,8 @@ pub fn to_plcopen(
         );
         diagnostics.push(codes::PLCOPEN_INSTRUCTIONS.at(Default::default(), what));
     }
-    let text = document(program, &pous, &words);
+    drop(ladder);
+    let text = document(program, pous, &words);
     match body {
         Body::Ladder | Body::List => check_list(program, &text, diagnostics),
         Body::Chart => check_chart(&text, diagnostics),
@@ -89,14 +91,52 @@ pub fn to_plcopen(
     text
 }
 
+/// Finds the first network with more contacts on a way than rungc reads back; no PLC holds as many.
+fn check_ways(ladder: &Ladder) -> Result<(), Refused> {
+    let too_long = |network: &&Network| match &network.body {
+        NetworkBody::Rung(node) => longest_way(node) > MOST_CONTACTS,
+        NetworkBody::List { .. } => false,
+    };
+    match ladder.networks.iter().find(too_long) {
+        Some(network) => {
+            let why = format!("more than {MOST_CONTACTS} contacts lead to an output");
+            Err(Refused::network(network.instrs.start, &why))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The most contacts on all ways to one output.
+fn longest_way(node: &Node) -> usize {
+    let items = node.items.iter().map(|item| match item {
+        Item::Output(_) => 0,
+        Item::Continue(next) => longest_way(next),
+        Item::Stack(branches) => branches.iter().map(longest_way).max().unwrap_or(0),
+    });
+    contacts(&node.series) + items.max().unwrap_or(0)
+}
+
+fn contacts(series: &[Part]) -> usize {
+    let count = |part: &Part| match part {
+        Part::Contact(_) | Part::Result(_) => 1,
+        Part::Parallel(branches) => branches.iter().map(|branch| contacts(&branch.series)).sum(),
+        Part::Group(parts) => contacts(parts),
+    };
+    series.iter().map(count).sum()
+}
+
 /// Maximum number of differences in the list read back that are shown one by one.
 const SHOWN: usize = 5;
 
 /// Says where a project reads back as another list, and as which.
 fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
-    let Ok(back) = read_bytes("plcopen", text.as_bytes()) else {
+    let back = read_plcopen("plcopen", text, &Names::default());
+    let mut found = back.diagnostics.iter();
+    if let Some(error) = found.find(|found| found.severity == Severity::Error) {
+        let what = format!("rungc cannot read the project back: {}", error.message);
+        diagnostics.push(codes::PLCOPEN_UNDRAWN.at(Span::default(), what));
         return;
-    };
+    }
     let texts = |instrs: &[Instr]| instrs.iter().map(ToString::to_string).collect::<Vec<_>>();
     let (old, new) = (texts(&program.instrs), texts(&back.program.instrs));
     let quoted = |texts: &[String]| {
@@ -149,26 +189,19 @@ fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
 /// Says that a chart does not switch as a step ladder does; what rungc itself cannot read back is an error.
 fn check_chart(text: &str, diagnostics: &mut Diagnostics) {
     // Its transitions need relays, whichever they are.
-    let free = Names {
+    let names = Names {
         free: vec![(DeviceClass::M, 0, 7679)],
         ..Names::default()
-    };
-    let options = ReadOptions {
-        names: free,
-        ..ReadOptions::default()
     };
     let what = "the steps switch as IEC 61131-3 says: a step ends before the next one begins, and of several \
                 transitions the first one fires";
     diagnostics.push(codes::PLCOPEN_EVOLUTION.at(Default::default(), what));
-    if let Ok(read) = read_bytes_with("plcopen", text.as_bytes(), &options) {
-        let errors = read
-            .diagnostics
-            .iter()
-            .filter(|found| found.severity == Severity::Error);
-        diagnostics.extend(
-            errors.map(|found| codes::PLCOPEN_CHART.at(Default::default(), found.message.clone())),
-        );
-    }
+    let read = read_plcopen("plcopen", text, &names);
+    let found = read.diagnostics.iter();
+    let errors = found.filter(|found| found.severity == Severity::Error);
+    diagnostics.extend(
+        errors.map(|found| codes::PLCOPEN_CHART.at(Default::default(), found.message.clone())),
+    );
 }
 
 /// A program organization unit.
@@ -248,7 +281,7 @@ fn as_list(ladder: &Ladder, words: &mut Words) -> Result<Pou, Refused> {
     })
 }
 
-fn document(program: &Program, pous: &[Pou], words: &Words) -> String {
+fn document(program: &Program, mut pous: Vec<Pou>, words: &Words) -> String {
     let title = program
         .title
         .as_deref()
@@ -289,20 +322,23 @@ fn document(program: &Program, pous: &[Pou], words: &Words) -> String {
         xml.node("types", &[], |xml| {
             xml.leaf("dataTypes", &[]);
             xml.node("pous", &[], |xml| {
-                for pou in pous {
+                for at in 0..pous.len() {
+                    // Contents may be large: they are there once.
+                    let content = mem::take(&mut pous[at].content);
+                    let pou = &pous[at];
                     let attributes = [("name", pou.name), ("pouType", "program")];
                     xml.node("pou", &attributes, |xml| {
                         xml.node("interface", &[], |xml| {
-                            interface(xml, program, pous, pou, words)
+                            interface(xml, program, &pous, pou, words)
                         });
                         xml.node("body", &[], |xml| {
-                            xml.node(pou.language, &[], |xml| xml.append(&pou.content));
+                            xml.node(pou.language, &[], |xml| xml.append(content));
                         });
                     });
                 }
             });
         });
-        instances(xml, program, pous, words);
+        instances(xml, program, &pous, words);
     });
     xml.text
 }

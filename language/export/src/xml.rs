@@ -56,8 +56,11 @@ impl Xml {
     }
 
     /// Appends what another document holds.
-    pub fn append(&mut self, other: &Xml) {
-        for line in other.text.lines() {
+    pub fn append(&mut self, other: Xml) {
+        let lines = other.text.lines();
+        self.text
+            .reserve(other.text.len() + lines.clone().count() * self.open.len() * 2);
+        for line in lines {
             self.text.extend(std::iter::repeat_n("  ", self.open.len()));
             self.text.push_str(line);
             self.text.push('\n');

@@ -41,10 +41,13 @@ fn large_programs_take_little_time_and_memory() {
     let (old, new) = (program("Y200"), program("Y201"));
     // One network without an end.
     let coils = format!("LD X000\n{}END\n", "OUT Y000\n".repeat(25_000));
+    // One that no form but a list holds.
+    let contacts = format!("LD X000\n{}OUT Y000\nEND\n", "AND M0\n".repeat(200_000));
     let folder = folder(&[
         ("old.il", old.as_bytes()),
         ("new.il", new.as_bytes()),
         ("coils.il", coils.as_bytes()),
+        ("contacts.il", contacts.as_bytes()),
     ]);
     for (args, end) in [
         ("view old.il", 0),
@@ -59,6 +62,8 @@ fn large_programs_take_little_time_and_memory() {
         ("stats old.il", 0),
         ("fmt old.il", 0),
         ("convert old.il --to ladder -o old.txt", 0),
+        ("convert old.il --to plcopen -o old.xml", 0),
+        ("convert contacts.il --to plcopen -o contacts.xml", 1),
         ("diff old.il new.il", 1),
         ("diff old.il new.il --semantic", 1),
         ("diff old.il new.il --format html -o diff.html", 1),

@@ -125,8 +125,8 @@ fn is_statement(row: &StringRecord, [_, statement, instruction, ..]: [usize; 7])
     !text.is_empty() && !is_code && cell(row, instruction).is_empty()
 }
 
-/// Number of rows above the list, known by words in place of step numbers before the first instruction; true if the last
-/// of them has headings for the instructions and their devices.
+/// Number of rows above the list, which have words in place of step numbers; true if the last of them has headings for
+/// the instructions and their devices.
 fn above(rows: &[StringRecord], columns: [usize; 7]) -> (usize, bool) {
     let [step, _, instruction, device, ..] = columns;
     let is_number = |row: &StringRecord| cell(row, step).parse::<u32>().is_ok();

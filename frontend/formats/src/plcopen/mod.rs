@@ -39,8 +39,8 @@ pub const PLCOPEN_CPU: &str = "CPU type ";
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
 /// Largest distance of the namespace from the start of a text.
 const HEAD: usize = 4096;
-/// The most contacts that lead to an output: drawings that share ways grow when they become a list.
-const MOST_CONTACTS: usize = 2000;
+/// The most contacts that lead to an output in PLCopen XML: drawings that share ways grow when they become a list.
+pub const MOST_CONTACTS: usize = 2000;
 
 /// The most contacts on all ways of a project: a program of a PLC has far fewer.
 const MOST_IN_ALL: usize = 4_000_000;
@@ -60,8 +60,8 @@ pub(crate) fn is_project(text: &str) -> bool {
     head.starts_with('<') && head[..end].contains(NAMESPACE)
 }
 
-/// Reads a project; `names` are the devices of its variables.
-pub(crate) fn read(name: &str, text: &str, names: &Names) -> Read {
+/// Reads a project of PLCopen XML; `names` are the devices of its variables.
+pub fn read(name: &str, text: &str, names: &Names) -> Read {
     let options = ParsingOptions {
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()

@@ -1,7 +1,7 @@
 //! Written projects conform to the schema, and read back to the same list; a chart behaves like the step ladder.
 
 use rungc_export::{Body, to_plcopen};
-use rungc_frontend::{Names, ReadOptions, read_bytes_with};
+use rungc_frontend::{MOST_CONTACTS, Names, ReadOptions, read_bytes_with};
 use rungc_interp::Machine;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::{Model, ModelId};
@@ -86,6 +86,44 @@ fn programs_read_back_to_the_same_lists() {
             );
         }
     }
+}
+
+/// What is written can be read back; a network of more contacts than that is named, and nothing is drawn of it.
+#[test]
+fn a_network_has_as_many_contacts_as_can_be_read_back() {
+    let network = |operator: &str, contacts: usize| {
+        let more = format!("{operator} M1\n").repeat(contacts - 1);
+        format!("LD X000\nOUT Y001\nLD M0\n{more}OUT Y000\nEND\n")
+    };
+    for (body, operator) in [
+        (Body::Ladder, "OR"),
+        (Body::List, "AND"),
+        (Body::List, "OR"),
+    ] {
+        let program = read("most", &network(operator, MOST_CONTACTS));
+        let (project, found) = written(&program, ModelId::Fx3u, body);
+        assert!(found.is_empty(), "{found:?}");
+        let back = read("back", &project);
+        assert_eq!(instructions(&back), instructions(&program));
+        let program = read("more", &network(operator, MOST_CONTACTS + 1));
+        let mut found = Diagnostics::new();
+        let model = Model::get(ModelId::Fx3u);
+        assert!(to_plcopen(&program, model, body, &mut found).is_empty());
+        let spans: Vec<_> = found.iter().map(|error| (error.code, error.span)).collect();
+        let expected = (codes::PLCOPEN_UNDRAWN.id, program.instrs[2].span);
+        assert_eq!(spans, [expected]);
+    }
+    // Of elements in series, fewer are followed.
+    let program = read("long", &network("AND", MOST_CONTACTS));
+    let mut found = Diagnostics::new();
+    to_plcopen(
+        &program,
+        Model::get(ModelId::Fx3u),
+        Body::Ladder,
+        &mut found,
+    );
+    let found: Vec<_> = found.iter().map(|error| error.code).collect();
+    assert_eq!(found, [codes::PLCOPEN_UNDRAWN.id]);
 }
 
 #[test]
