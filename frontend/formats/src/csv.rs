@@ -1,6 +1,8 @@
 //! The editors' list export: a table of instructions with steps, statements and notes.
 
+mod comments;
 mod layout;
+mod rows;
 
 use crate::Read;
 use crate::gx::cpu;
@@ -8,14 +10,14 @@ use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{StringRecord, WriterBuilder};
-use layout::{HEAD_ROWS, Layout, plain, table};
+use layout::Layout;
+use rows::Rows;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program,
-    Remarks, SourceKind, Span, codes,
+    Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, Span, codes,
 };
 use smol_str::SmolStr;
-use std::collections::BTreeMap;
 
+pub(crate) use comments::{comments, is_comments, not_comments};
 pub(crate) use layout::{HEADERS, detect};
 
 /// Label of the row above the list that names the CPU.
@@ -24,21 +26,21 @@ pub(crate) const INFORMATION: &str = "PLC Information:";
 /// Reads a list export.
 pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     let mut reader = Reader::new(layout);
-    let mut rows = table(text, layout.delimiter);
-    let mut record = StringRecord::new();
-    let mut number = 0;
     let mut head = ExportHead::default();
-    while rows.read_record(&mut record).unwrap_or(false) {
-        let line = record.position().map_or(0, csv::Position::line);
-        reader.listing.go_to_line(line as u32);
+    let rows = Rows::new(text, layout.delimiter, |line| layout.is_row(line));
+    for (number, row) in rows.enumerate() {
+        let record = &row.record;
+        reader.listing.go_to_line(row.line);
         if number >= layout.above {
-            reader.row(&record);
+            reader.row(record);
         } else {
-            head.push(&record);
+            head.push(record);
             let is_headings = layout.has_headings && number + 1 == layout.above;
-            reader.head(&record, number == 0, is_headings);
+            reader.head(record, number == 0, is_headings);
         }
-        number += 1;
+        if row.is_unclosed {
+            reader.unclosed();
+        }
     }
     reader.reject_other_family();
     reader.program.kind = SourceKind::Csv;
@@ -189,6 +191,19 @@ impl Reader {
                 ..Program::default()
             };
         }
+    }
+
+    /// Reports a quote in the row of the current line that takes in the rows below.
+    fn unclosed(&mut self) {
+        self.diagnostics.push(
+            codes::BAD_ROW
+                .at(
+                    self.listing.current_line(),
+                    "a text of this row begins with a quote and takes in the next rows",
+                )
+                .label("the quote is not closed in this row")
+                .help(rows::HELP),
+        );
     }
 
     fn row(&mut self, record: &StringRecord) {
@@ -363,102 +378,6 @@ impl Reader {
             };
         }
     }
-}
-
-/// Names of the columns of devices, with `false`, and of comments, with `true`, spelled as in [`NAMES`].
-const COMMENT_NAMES: [(&str, bool); 13] = [
-    ("devicename", false),
-    ("device", false),
-    ("デバイス名", false),
-    ("デバイス", false),
-    ("软元件名", false),
-    ("软元件", false),
-    ("軟元件名", false),
-    ("comment", true),
-    ("devicecomment", true),
-    ("コメント", true),
-    ("注释", true),
-    ("註解", true),
-    ("注解", true),
-];
-
-/// Separators of fields.
-const DELIMITERS: [u8; 3] = [b'\t', b',', b';'];
-
-/// The rows of an export of device comments, by the separator that gives the most devices, and the columns of devices
-/// and comments.
-fn comment_rows(text: &str) -> (Vec<StringRecord>, [usize; 2]) {
-    let of = |delimiter| {
-        let rows: Vec<StringRecord> = table(text, delimiter).into_records().flatten().collect();
-        let columns = comment_columns(&rows);
-        let devices = rows.iter().filter(|row| {
-            let comment = row.get(columns[1]);
-            row.get(columns[0]).and_then(il::device).is_some() && comment.is_some()
-        });
-        (devices.count(), rows, columns)
-    };
-    let tables = DELIMITERS.map(of).into_iter();
-    // The first of equals.
-    let best = tables.rev().max_by_key(|(devices, ..)| *devices);
-    best.map_or_else(Default::default, |(_, rows, columns)| (rows, columns))
-}
-
-/// The columns of devices and comments: those that a row of names shows, or the first two.
-fn comment_columns(rows: &[StringRecord]) -> [usize; 2] {
-    let named = |row: &StringRecord| {
-        let find = |comment| {
-            row.iter().position(|field| {
-                let name = plain(field);
-                COMMENT_NAMES.contains(&(name.as_str(), comment))
-            })
-        };
-        Some([find(false)?, find(true)?])
-    };
-    rows.iter()
-        .take(HEAD_ROWS)
-        .find_map(named)
-        .unwrap_or([0, 1])
-}
-
-/// Returns true for an export of device comments: rows of a device and a text. Lists hold labels, before `;` even.
-pub(crate) fn is_comments(text: &str) -> bool {
-    let (rows, columns) = comment_rows(text);
-    let is_device = |row: &&StringRecord| {
-        let comment = row.get(columns[1]).is_some();
-        let device = row.get(columns[0]).and_then(il::device);
-        comment
-            && device.is_some_and(|device| !matches!(device.class, DeviceClass::P | DeviceClass::I))
-    };
-    let devices = rows.iter().filter(is_device).count();
-    // Below a head of one row or two.
-    devices > 0 && devices + 2 >= rows.len()
-}
-
-/// Reads an export of device comments, and warns of comments on what is not a device. Rows without a comment, and those
-/// above the first device, are headings.
-pub(crate) fn comments(text: &str) -> (BTreeMap<Device, String>, Vec<Diagnostic>) {
-    let (rows, [device_column, comment_column]) = comment_rows(text);
-    let mut comments = BTreeMap::new();
-    let mut unread = Vec::new();
-    for row in rows {
-        let device = row.get(device_column).unwrap_or_default().trim();
-        let Some(comment) = row.get(comment_column).and_then(clean) else {
-            continue;
-        };
-        match il::device(device) {
-            Some(device) => _ = comments.insert(device, comment.into()),
-            None if device.contains(|c: char| c.is_ascii_digit()) => {
-                let what = format!("the comment on `{device}` is left out, which is not a device");
-                unread.push(
-                    codes::DAMAGED_PART
-                        .at(Span::default(), what)
-                        .help("correct it in the table of comments; X and Y count in octal"),
-                );
-            }
-            None => {}
-        }
-    }
-    (comments, unread)
 }
 
 /// Rows as the editors write them: UTF-16LE with BOM, tabs, every field quoted, CR LF.

@@ -21,6 +21,7 @@ mod search;
 mod text;
 
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes, inputs};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -171,11 +172,12 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     let takes_comments = matches!(read.program.kind, SourceKind::Csv | SourceKind::Image);
     if let (true, Some(comments)) = (takes_comments, &comments) {
         let text = encoding::decode(comments, options.encoding);
-        if let Some((text, _)) = text {
-            let (comments, unread) = csv::comments(&text);
-            read.program.comments = comments;
-            read.diagnostics.extend(unread);
-        }
+        let (comments, unread) = match &text {
+            Some((text, _)) => csv::comments(text),
+            None => (BTreeMap::new(), vec![csv::not_comments()]),
+        };
+        read.program.comments = comments;
+        read.diagnostics.extend(unread);
     }
     Ok(read)
 }

@@ -74,6 +74,11 @@ impl Listing {
         self.raw(text);
     }
 
+    /// Place of the current line.
+    pub(crate) fn current_line(&self) -> Span {
+        Span::new(self.line_start as u32, self.text.len() as u32)
+    }
+
     /// The text at a place.
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.range()).unwrap_or("")

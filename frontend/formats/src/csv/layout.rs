@@ -1,5 +1,6 @@
 //! Layout of a list export: its separator, its columns, and the rows above the list.
 
+use super::rows;
 use crate::gx::cpu;
 use crate::il;
 use csv::{ReaderBuilder, StringRecord};
@@ -39,6 +40,9 @@ pub(super) const HEAD_ROWS: usize = 12;
 /// Number of rows that show the columns of an export whose headings are of an unknown language, or lost.
 const ROWS: usize = 400;
 
+/// A column that a table does not have.
+const NONE: usize = usize::MAX;
+
 /// Layout of a text as a table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
@@ -49,6 +53,23 @@ pub(crate) struct Layout {
     pub(super) above: usize,
     /// True if the last of them holds the headings.
     pub(super) has_headings: bool,
+}
+
+impl Layout {
+    /// Returns true for a line that is a row of the list by itself.
+    pub(super) fn is_row(&self, line: &str) -> bool {
+        let [step, _, instruction, ..] = self.columns;
+        let Some(row) = rows::alone(line, self.delimiter) else {
+            return false;
+        };
+        let used = self.columns.iter().filter(|column| **column != NONE);
+        let is_whole = used.max().is_some_and(|last| row.len() > *last);
+        let (step, word) = (cell(&row, step), cell(&row, instruction));
+        // Any other text may be a line of a note.
+        let is_mnemonic = !word.contains(|c: char| c.is_ascii_lowercase() || c.is_whitespace());
+        let is_numbered = step.is_empty() || step.parse::<u32>().is_ok();
+        is_numbered && (il::is_basic(word) || is_whole && is_mnemonic)
+    }
 }
 
 /// Detects a list export and its layout.
@@ -151,7 +172,6 @@ fn above(rows: &[StringRecord], columns: [usize; 7]) -> (usize, bool) {
 /// The columns around that of the instructions: before it steps, and statements if there is room; after it devices, and
 /// either all that editors write or notes alone.
 fn columns(instruction: usize, width: usize) -> Option<[usize; 7]> {
-    const NONE: usize = usize::MAX;
     let (step, statement) = match instruction {
         0 => (NONE, NONE),
         1 => (0, NONE),
@@ -176,7 +196,7 @@ fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
         if !reader.read_record(&mut record).ok()? {
             return None;
         }
-        let mut columns = [usize::MAX; 7];
+        let mut columns = [NONE; 7];
         for (at, field) in record.iter().enumerate() {
             let field = plain(field);
             if let Some(column) = NAMES
@@ -187,7 +207,7 @@ fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
             }
         }
         // The instruction and its device are what makes it a list.
-        if columns[2] != usize::MAX && columns[3] != usize::MAX {
+        if columns[2] != NONE && columns[3] != NONE {
             return Some(Layout {
                 delimiter,
                 columns,

@@ -115,19 +115,52 @@ fn device_comments_are_found_by_their_columns() {
         let found: Vec<_> = read
             .diagnostics
             .iter()
-            .map(|d| (d.code, d.message.as_str()))
+            .map(|d| (d.code, d.message.clone()))
             .collect();
+        let row = if table.starts_with('X') { "2" } else { "3" };
         assert_eq!(
             found,
             [(
                 "W0525",
-                "the comment on `X8` is left out, which is not a device"
+                "row 3 of `COMMENT.csv`: `X8` is not a device, so its comment is left out"
             )]
+            .map(|(code, message)| (code, message.replace('3', row)))
         );
     }
     let list = read_bytes("a.il", b";! X8 = bad\nLD X0\nOUT Y0\nEND\n").unwrap();
     let codes: Vec<_> = list.diagnostics.iter().map(|d| d.code).collect();
     assert_eq!((codes, list.program.comments.len()), (vec!["E0003"], 0));
+}
+
+/// Rows of a table of comments that cannot be used as they are, with the row of each.
+#[test]
+fn doubtful_rows_of_comments_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("MAIN.csv"), export("FXCPU FX3S")).unwrap();
+    let found = |table: &[u8]| {
+        std::fs::write(folder.path().join("COMMENT.csv"), table).unwrap();
+        let read = read(&folder.path().join("MAIN.csv")).unwrap();
+        let comments = read.program.comments.iter();
+        let comments: Vec<_> = comments.map(|(d, text)| format!("{d} {text}")).collect();
+        let messages = read.diagnostics.iter().map(|d| {
+            assert_eq!(d.code, "W0525");
+            format!("\n{}\n  / {}", d.message, d.help.as_deref().unwrap())
+        });
+        format!("{}{}", comments.join(", "), messages.collect::<String>())
+    };
+    let tables = [
+        "X0,\"5 inch\nX1,6\" pipe\nY0,motor\n",
+        "Device,Comment\nX0,\"5 inch\nX1,pipe\nY0,motor\n",
+        "Device,Comment\nX0,start\nX1,stop\nX0,start\nX1,halt\n",
+        "Device,Comment\nB0,a\nD0.1,b\nX0-X7,c\nX18,d\nM0,e\n",
+        "<html><body>X0 start</body></html>\n",
+        "The comments are in the other file.\n",
+        "\0\u{1}\u{2}\u{3}\u{4}\u{5}\u{6}",
+        "Device,Comment\nX0,\n",
+        "",
+    ];
+    let found: Vec<_> = tables.iter().map(|table| found(table.as_bytes())).collect();
+    insta::assert_snapshot!(found.join("\n---\n"));
 }
 
 /// Lists stay lists, whatever their comments and ends look like.
@@ -438,6 +471,47 @@ fn exports_without_headings_are_read() {
             assert_eq!(read.program.instrs[3].step, Some(11), "{name}: {text}");
         }
     }
+}
+
+/// A text that begins with a quote takes in no rows, whether another quote follows or none; line ends in texts are fine.
+#[test]
+fn unclosed_quotes_take_in_no_rows() {
+    let headings = "Step No.,Line Statement,Instruction,I/O(Device),Blank,PI Statement,Note\n";
+    let lists = [
+        ",,LD,X0,,,\n,,OUT,Y0,,,\"5 inch\n,,LD,X1,,,\n,,OUT,Y1,,,6\" pipe\n,,END,,,,\n",
+        "0,,LD,X0,,,\n1,,OUT,Y0,,,\"5 inch\n2,,LD,X1,,,\n3,,OUT,Y1,,,6\" pipe\n4,,END,,,,\n",
+        "0,,LD,X0,,,\n1,,OUT,Y0,,,\"5 inch\n2,,LD,X1,,,\n3,,OUT,Y1,,,\n4,,END,,,,\n",
+        "\"0\",\"\",\"LD\",\"X0\",\"\",\"\",\"\"\n\"1\",\"\",\"OUT\",\"Y0\",\"\",\"\",\"5 inch\n\"2\",\"\",\"LD\",\"X1\",\"\",\"\",\"\"\n\"3\",\"\",\"OUT\",\"Y1\",\"\",\"\",\"\"\n\"4\",\"\",\"END\",\"\",\"\",\"\",\"\"\n",
+        "0,,LD,X0\n1,,OUT,Y0,,,\"5 inch\n2,,LD,X1\n3,,OUT,Y1\n4,,END\n",
+        "0,,LD,X0,,,\n,\"5 inch,,,,,\n1,,OUT,Y0,,,\n2,,LD,X1,,,\n3,,OUT,Y1,,,\n4,,END,,,,\n",
+        "0,,LD,X0,,,\n1,,OUT,\"Y0,,,\n2,,LD,X1,,,\n3,,OUT,Y1,,,\n4,,END,,,,\n",
+    ];
+    let program = ["LD X000", "OUT Y000", "LD X001", "OUT Y001", "END"];
+    for (list, end) in lists.iter().flat_map(|list| [(list, "\n"), (list, "\r\n")]) {
+        for (separator, head) in [(",", headings), ("\t", headings), (",", ""), (";", "")] {
+            // Without headings and step numbers, nothing shows a table.
+            if head.is_empty() && list.starts_with(',') {
+                continue;
+            }
+            let text = format!("{head}{list}").replace(',', separator);
+            let bytes = text.replace('\n', end);
+            let read = read_bytes("MAIN.csv", bytes.as_bytes()).unwrap();
+            if !text.contains("\"Y0") {
+                assert_eq!(texts(&read.program), program, "{text}");
+            }
+            let found = read.diagnostics.iter().find(|d| d.code == "E0014");
+            let source = &read.program.source;
+            let row = found.map(|found| source.line_col(found.span.start).0);
+            let quote = text.find("\"5").or(text.find("\"Y0")).unwrap();
+            let expected = 1 + text[..quote].matches('\n').count() as u32;
+            assert_eq!(row, Some(expected), "{text}");
+        }
+    }
+    let notes = "0,\"two\nlines, of text\",LD,X0,,,\"note\n, in ,,\nlines\"\n1,,OUT,Y0,,,\"\n\"\n2,,END,,,,\n";
+    let text = format!("{headings}{notes}");
+    let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+    assert_eq!(texts(&read.program), ["LD X000", "OUT Y000", "END"]);
+    assert_eq!(read.diagnostics.iter().count(), 0, "{text}");
 }
 
 /// Headings are known by their shape, whatever their language: a row with words for steps, instructions and devices.

@@ -81,7 +81,7 @@ super::codes! {
 
     BAD_ROW = "E0014" "bad-row" Error None,
     "row of a list export that does not fit its columns",
-    "A row of the export lacks a column, or has an operand that belongs to no instruction.",
+    "A row of the export lacks a column, has an operand that belongs to no instruction, or begins a text with a quote that it does not close.",
     wrong: "",
     right: "";
 
