@@ -22,8 +22,9 @@ pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<
     let controls = text
         .chars()
         .filter(|c| {
-            c.is_control() && !c.is_whitespace()
-                || *c == char::REPLACEMENT_CHARACTER && chosen.is_none()
+            let is_replaced = *c == char::REPLACEMENT_CHARACTER;
+            let counts = chosen.is_none() && encoding != UTF_8;
+            c.is_control() && !c.is_whitespace() || is_replaced && counts
         })
         .count();
     // Text holds a stray control character at most; a binary file is full of them.
@@ -92,13 +93,26 @@ fn reads(encoding: &'static Encoding, bytes: &[u8]) -> bool {
 /// The code page that these bytes seem to be in.
 fn code_page(bytes: &[u8]) -> &'static Encoding {
     let utf8 = std::str::from_utf8(bytes).ok();
-    if utf8.is_some_and(is_plausible) {
+    if utf8.is_some_and(is_plausible) || is_damaged_utf8(bytes) {
         return UTF_8;
     }
     let sample = sample(bytes);
-    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
-    detector.feed(&sample, true);
-    let found = detector.guess(None, Utf8Detection::Deny);
+    let guess = |sample: &[u8]| {
+        let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
+        detector.feed(sample, true);
+        detector.guess(None, Utf8Detection::Deny)
+    };
+    let found = guess(&sample);
+    // A text that is cut off in a character of two bytes seems to have single ones.
+    if let [whole @ .., last] = bytes
+        && !last.is_ascii()
+        && found.is_single_byte()
+    {
+        let encoding = guess(&self::sample(whole));
+        if !encoding.is_single_byte() && reads(encoding, whole) {
+            return encoding;
+        }
+    }
     match found {
         // Editors run on Windows, which knows no EUC-JP: short Chinese words look like it.
         _ if found == EUC_JP && reads(GBK, bytes) => GBK,
@@ -110,6 +124,44 @@ fn code_page(bytes: &[u8]) -> &'static Encoding {
         _ if found != WINDOWS_1251 && is_paired(&sample) && reads(GBK, bytes) => GBK,
         _ => found,
     }
+}
+
+/// Returns true for UTF-8 of which some bytes are lost, or lines are in another encoding. Bytes of a code page make few
+/// characters of UTF-8 by chance, and hardly ever three of three bytes with nothing else beside them.
+pub(crate) fn is_damaged_utf8(bytes: &[u8]) -> bool {
+    #[derive(Default)]
+    struct Count {
+        /// Number of characters of two bytes that comments hold.
+        two: usize,
+        /// Number of those of more bytes.
+        three: usize,
+        /// Number of places that are not UTF-8, and of other characters.
+        others: usize,
+    }
+    let count = |line: &[u8]| {
+        let mut count = Count::default();
+        for chunk in line.utf8_chunks() {
+            for c in chunk.valid().chars().filter(|c| !c.is_ascii()) {
+                match c.len_utf8() {
+                    2 if is_readable(c) => count.two += 1,
+                    3 if is_readable(c) => count.three += 1,
+                    _ => count.others += 1,
+                }
+            }
+            count.others += usize::from(!chunk.invalid().is_empty());
+        }
+        count
+    };
+    let lines = bytes.split(|&b| b == b'\n').filter(|line| !line.is_ascii());
+    let counts: Vec<Count> = lines.map(count).collect();
+    let sum = |of: fn(&Count) -> usize| counts.iter().map(of).sum::<usize>();
+    let others = sum(|count| count.others);
+    let most = sum(|count| count.two + 2 * count.three) >= 3 * others;
+    let whole = counts.iter().filter(|count| count.others == 0);
+    let is_certain = counts
+        .iter()
+        .any(|count| count.others == 0 && count.three > 2);
+    others > 0 && (most || is_certain && 2 * whole.count() >= counts.len())
 }
 
 /// The lines that are not ASCII, up to the size of a sample.
@@ -287,6 +339,51 @@ mod tests {
             let bytes = encoding.encode(text).0;
             let found = of_texts(&[&bytes], None);
             assert_eq!(decode_text(&bytes, found), text, "{}", found.name());
+        }
+    }
+
+    /// A byte is lost, a line is in another code page, or the end is missing: what is left is read, and the damage marked.
+    #[test]
+    fn damaged_text_stays_in_its_encoding() {
+        let damaged = |bytes: &[u8]| decode(bytes, None).unwrap_or_default();
+        let chinese = "LD X0 ; 启动按钮\nOUT Y0 ; 电机正转\nEND ; 结束";
+        for (text, missing) in [
+            (chinese, "转"),
+            (
+                "LD X0 ; Überwachung\nOUT Y0 ; Förderband\nAND X1 ; Störung\nEND ; Weiß",
+                "ß",
+            ),
+            ("LD X0 ; Пуск\nOUT Y0 ; Насос\nEND ; Конец", "ц"),
+            ("LD X0 ; 起動ボタン\nOUT Y0 ; モータ\nEND ; 終わり", "り"),
+        ] {
+            let at = text.find(missing).unwrap();
+            for cut in [at, at + missing.len() - 1] {
+                let mut bytes = text.as_bytes().to_vec();
+                bytes.remove(cut);
+                let (read, is_damaged) = damaged(&bytes);
+                assert!(is_damaged && read.starts_with(&text[..at]), "{read}");
+            }
+            let (read, is_damaged) = damaged(&text.as_bytes()[..text.len() - 1]);
+            assert!(is_damaged && read.starts_with(&text[..at]), "{read}");
+        }
+        let lines: Vec<&str> = chinese.split('\n').collect();
+        let mut mixed = lines[0].as_bytes().to_vec();
+        mixed.push(b'\n');
+        mixed.extend_from_slice(&GBK.encode(lines[1]).0);
+        let (read, is_damaged) = damaged(&mixed);
+        assert!(is_damaged && read.starts_with(lines[0]), "{read}");
+        for (text, encoding) in [
+            (chinese, GBK),
+            (
+                "LD X0 ; 起動ボタン\nOUT Y0 ; モータ\nEND ; 終わり",
+                SHIFT_JIS,
+            ),
+            ("LD X0 ; 시작 버튼\nOUT Y0 ; 모터\nEND ; 정지", EUC_KR),
+        ] {
+            let bytes = encoding.encode(text).0;
+            let (read, is_damaged) = damaged(&bytes[..bytes.len() - 1]);
+            let end = text.char_indices().last().unwrap().0;
+            assert!(is_damaged && read.starts_with(&text[..end]), "{read}");
         }
     }
 

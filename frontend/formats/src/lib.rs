@@ -274,7 +274,8 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         None => read_text(name, &text),
     };
     if replaced {
-        read.diagnostics.push(undecoded(&read.program));
+        let is_utf8 = options.encoding.is_none() && encoding::is_damaged_utf8(bytes);
+        read.diagnostics.push(undecoded(&read.program, is_utf8));
     }
     Ok(read)
 }
@@ -292,16 +293,32 @@ fn check_kind(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<(), Rea
 }
 
 /// Some characters of a text were bytes without a meaning in its encoding.
-fn undecoded(program: &Program) -> Diagnostic {
-    let at = program.source.text.find(char::REPLACEMENT_CHARACTER);
+fn undecoded(program: &Program, is_utf8: bool) -> Diagnostic {
+    let text = &program.source.text;
+    let at = text.find(char::REPLACEMENT_CHARACTER);
     let span = at.map_or(Span::default(), |at| Span::new(at as u32, at as u32 + 3));
-    codes::UNREADABLE_TEXT
-        .at(
-            span,
-            "this text has bytes that no known encoding can represent",
+    let is_cut_off = at.is_some_and(|at| at + 3 == text.trim_end().len());
+    let (what, label, help) = if is_cut_off {
+        (
+            "this text is cut off in a character",
+            "its end is missing from here on",
+            "copy the whole file again from where it comes",
         )
-        .label("the first of them")
-        .help("save the file as UTF-8, or name its encoding with `--encoding`")
+    } else if is_utf8 {
+        (
+            "this text is UTF-8, but some of its bytes are not",
+            "the first of them",
+            "type the damaged text again, and save the file as UTF-8",
+        )
+    } else {
+        (
+            "this text has bytes that no known encoding can represent",
+            "the first of them",
+            "save the file as UTF-8, or name its encoding with `--encoding`",
+        )
+    };
+    let error = codes::UNREADABLE_TEXT.at(span, what);
+    error.label(label).help(help)
 }
 
 fn load(path: &Path) -> Result<Vec<u8>, ReadError> {

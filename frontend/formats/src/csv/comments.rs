@@ -88,6 +88,7 @@ pub(crate) fn comments(text: &str) -> (BTreeMap<Device, String>, Vec<Diagnostic>
     let mut comments: BTreeMap<Device, String> = BTreeMap::new();
     let is_empty = rows.iter().all(|row| row.record.iter().all(str::is_empty));
     let mut is_table = is_empty;
+    let mut is_damaged = false;
     let mut unread = Vec::new();
     for row in rows {
         let mut warn = |what: String, help: &'static str| {
@@ -100,6 +101,12 @@ pub(crate) fn comments(text: &str) -> (BTreeMap<Device, String>, Vec<Diagnostic>
             warn(what.to_owned(), rows::HELP);
         }
         let device = row.record.get(device_column).unwrap_or_default().trim();
+        if !is_damaged && row.record.iter().any(|field| field.contains('\u{FFFD}')) {
+            is_damaged = true;
+            let what = "some bytes of this text cannot be read";
+            let help = "type the comment again, and save the table as UTF-8";
+            warn(what.to_owned(), help);
+        }
         let read = il::device(device);
         is_table |= read.is_some();
         let Some(comment) = row.record.get(comment_column).and_then(clean) else {

@@ -32,6 +32,25 @@ fn findings(read: &Read) -> String {
     format!("{all}---\n{}\nunread: {unread:?}", instrs.join("\n"))
 }
 
+/// Bytes that do not fit the encoding of the rest, and texts that end in a character.
+#[test]
+fn damaged_texts_are_marked() {
+    let mut found = Vec::new();
+    let list = "LD X0 ; 启动按钮\nOUT Y0 ; 电机正转\nEND ; 结束";
+    let mut lost = list.as_bytes().to_vec();
+    lost.remove(list.find('转').unwrap() + 2);
+    let wide = list.encode_utf16().flat_map(u16::to_le_bytes);
+    let wide: Vec<u8> = [0xFF, 0xFE].into_iter().chain(wide).collect();
+    for bytes in [
+        &lost[..],
+        &list.as_bytes()[..list.len() - 1],
+        &wide[..wide.len() - 1],
+    ] {
+        found.push(findings(&read_bytes("a.il", bytes).unwrap()));
+    }
+    insta::assert_snapshot!(found.join("\n"));
+}
+
 #[test]
 fn lines_that_are_no_instructions() {
     let text = "LD X0\n= Y0\n电机 LD X0\n0LD X0\n12 ; step alone\n99999999999 AND X1\nLD% X0\n(X0)\nOUT Y0\nEND\n";

@@ -137,7 +137,7 @@ fn device_comments_are_found_by_their_columns() {
 fn doubtful_rows_of_comments_are_named() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("MAIN.csv"), export("FXCPU FX3S")).unwrap();
-    let found = |table: &[u8]| {
+    let of_table = |table: &[u8]| {
         std::fs::write(folder.path().join("COMMENT.csv"), table).unwrap();
         let read = read(&folder.path().join("MAIN.csv")).unwrap();
         let comments = read.program.comments.iter();
@@ -159,7 +159,16 @@ fn doubtful_rows_of_comments_are_named() {
         "Device,Comment\nX0,\n",
         "",
     ];
-    let found: Vec<_> = tables.iter().map(|table| found(table.as_bytes())).collect();
+    let mut found: Vec<_> = tables
+        .iter()
+        .map(|table| of_table(table.as_bytes()))
+        .collect();
+    let damaged = "Device,Comment\nX0,启动按钮\nX1,停止\n".replace('动', "\0");
+    let bytes: Vec<u8> = damaged
+        .bytes()
+        .map(|b| if b == 0 { 0xE5 } else { b })
+        .collect();
+    found.push(of_table(&bytes));
     insta::assert_snapshot!(found.join("\n---\n"));
 }
 
