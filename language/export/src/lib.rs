@@ -16,14 +16,17 @@ mod xml;
 
 use lines::Lines;
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::{MOST_CONTACTS, Names, read_plcopen};
+use rungc_catalogue::{Basic, Lower};
+use rungc_frontend::{MOST_CONTACTS, Names, Read, read_plcopen};
 use rungc_ladder::{InstrIndex, Item, Ladder, Network, NetworkBody, Node, Part, build};
-use rungc_models::Model;
+use rungc_models::{Model, ModelId};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::diag::counted;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Instr, Program, Severity, Span, align};
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Program, Severity, Span, align,
+};
 use sheet::Sheet;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem;
 use words::Words;
 use xml::Xml;
@@ -84,11 +87,14 @@ pub fn to_plcopen(
     }
     drop(ladder);
     let text = document(program, pous, &words);
-    match body {
+    let is_same = match body {
         Body::Ladder | Body::List => check_list(program, &text, diagnostics),
-        Body::Chart => check_chart(&text, diagnostics),
-    }
-    text
+        Body::Chart => {
+            check_chart(&text, diagnostics);
+            true
+        }
+    };
+    if is_same { text } else { String::new() }
 }
 
 /// Finds the first network with more contacts on a way than rungc reads back; no PLC holds as many.
@@ -128,14 +134,13 @@ fn contacts(series: &[Part]) -> usize {
 /// Maximum number of differences in the list read back that are shown one by one.
 const SHOWN: usize = 5;
 
-/// Says where a project reads back as another list, and as which.
-fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
+/// Says where a project reads back as another list, and as which. Returns false, with an error, if that does something
+/// else.
+fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) -> bool {
     let back = read_plcopen("plcopen", text, &Names::default());
-    let mut found = back.diagnostics.iter();
-    if let Some(error) = found.find(|found| found.severity == Severity::Error) {
-        let what = format!("rungc cannot read the project back: {}", error.message);
-        diagnostics.push(codes::PLCOPEN_UNDRAWN.at(Span::default(), what));
-        return;
+    if let Some(error) = changed(program, &back) {
+        diagnostics.push(error);
+        return false;
     }
     let texts = |instrs: &[Instr]| instrs.iter().map(ToString::to_string).collect::<Vec<_>>();
     let (old, new) = (texts(&program.instrs), texts(&back.program.instrs));
@@ -184,6 +189,80 @@ fn check_list(program: &Program, text: &str, diagnostics: &mut Diagnostics) {
         }
         diagnostics.push(note);
     }
+    true
+}
+
+/// The first difference between a program and what it reads back as that is more than another list of the same
+/// networks: an output, an instruction of words, a label or an operand.
+fn changed(program: &Program, back: &Read) -> Option<Diagnostic> {
+    let help = "`--to il` and `--to csv` write it as it is";
+    let error = |instr: Option<&Instr>, what: String| {
+        let span = instr.map_or_else(Span::default, |instr| instr.span);
+        codes::PLCOPEN_UNDRAWN.at(span, what).help(help)
+    };
+    let mut errors = back.diagnostics.iter();
+    if let Some(found) = errors.find(|found| found.severity == Severity::Error) {
+        let what = format!("the project cannot be read back: {}", found.message);
+        return Some(error(None, what));
+    }
+    let outputs = |program: &'_ Program| -> Vec<(usize, String)> {
+        let instrs = program.instrs.iter().enumerate();
+        let effects = instrs.filter(|(_, instr)| effect(instr) == Effect::Output);
+        effects.map(|(at, instr)| (at, instr.to_string())).collect()
+    };
+    let (old, new) = (outputs(program), outputs(&back.program));
+    let different = (0..old.len().max(new.len()))
+        .find(|&at| old.get(at).map(|o| &o.1) != new.get(at).map(|n| &n.1));
+    if let Some(at) = different {
+        let what = match (old.get(at), new.get(at)) {
+            (Some((_, old)), Some((_, new))) => format!("`{old}` would read back as `{new}`"),
+            (Some((_, old)), None) => format!("`{old}` would not come back"),
+            (None, new) => {
+                let new = new.map_or("", |(_, new)| new);
+                format!("`{new}` would be added when this is read back")
+            }
+        };
+        let instr = old.get(at).map(|(at, _)| &program.instrs[*at]);
+        return Some(error(instr, what));
+    }
+    let read: BTreeSet<_> = back.program.instrs.iter().filter_map(contact).collect();
+    let mut contacts = program.instrs.iter();
+    let lost = contacts.find(|instr| contact(instr).is_some_and(|c| !read.contains(&c)))?;
+    Some(error(Some(lost), format!("`{lost}` would not come back")))
+}
+
+/// Part of an instruction in a network.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Effect {
+    /// A contact.
+    Contact,
+    /// What joins contacts and branches, or does nothing.
+    Structure,
+    /// Everything else.
+    Output,
+}
+
+fn effect(instr: &Instr) -> Effect {
+    let found = rungc_catalogue::find(&instr.mnemonic);
+    match found.map(|found| found.inst.lower_on_model(ModelId::Fx3u)) {
+        Some(Lower::Compare(..)) => Effect::Contact,
+        Some(Lower::Basic(basic)) => match basic {
+            Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf => Effect::Contact,
+            Basic::And | Basic::Ani | Basic::Andp | Basic::Andf => Effect::Contact,
+            Basic::Or | Basic::Ori | Basic::Orp | Basic::Orf => Effect::Contact,
+            Basic::Anb | Basic::Orb | Basic::Mps | Basic::Mrd | Basic::Mpp => Effect::Structure,
+            Basic::Inv | Basic::Nop | Basic::End => Effect::Structure,
+            _ => Effect::Output,
+        },
+        _ => Effect::Output,
+    }
+}
+
+/// Operands of a contact, without the one that is always on, which stands for the power rail.
+fn contact(instr: &Instr) -> Option<String> {
+    let text = instr.to_string();
+    let (_, operands) = text.split_once(' ')?;
+    (effect(instr) == Effect::Contact && operands != "M8000").then(|| operands.to_owned())
 }
 
 /// Says that a chart does not switch as a step ladder does; what rungc itself cannot read back is an error.

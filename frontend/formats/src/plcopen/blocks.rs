@@ -652,7 +652,9 @@ fn instruction<'a, 'i>(
         }
     }
     let in_order = operands.keys().copied().eq(1..=operands.len() as u32);
-    let plain = |word: &String| !word.trim().is_empty() && !word.trim().contains(char::is_control);
+    // A text may hold a tab.
+    let breaks = |c: char| c.is_control() && c != '\t';
+    let plain = |word: &String| !word.trim().is_empty() && !word.trim().contains(breaks);
     if !in_order || !operands.values().all(plain) {
         let what = format!("an operand of {} is missing", called(node));
         return Err(Some(Fault::at(node, what, "connect p1, p2 and so on")));

@@ -220,7 +220,7 @@ super::codes! {
 
     PLCOPEN_UNDRAWN = "E0740" "plcopen-undrawn" Error None,
     "network that cannot be drawn as PLCopen XML",
-    "`rungc convert --to plcopen` writes a program as its networks of contacts and outputs. This network is a list without such a structure, for example because a block is joined that was never started, or more contacts lead to one output than rungc reads back, 2,000, so nothing is written. `--to il` and `--to csv` write such programs.",
+    "`rungc convert --to plcopen` writes a program as its networks of contacts and outputs. This network is a list without such a structure, for example because a block is joined that was never started, more contacts lead to one output than rungc reads back, 2,000, or one of its instructions would read back as another one, so nothing is written. `--to il` and `--to csv` write such programs.",
     wrong: "",
     right: "";
 

@@ -46,6 +46,49 @@ fn instructions(program: &Program) -> Vec<String> {
     program.instrs.iter().map(ToString::to_string).collect()
 }
 
+/// Signs of the standard in texts of instructions mean themselves.
+#[test]
+fn texts_come_back_whole() {
+    let texts = [
+        "(*c*)", "a(*b", "c*)d", "a\tb", "(a", "a)", "a(b,c)", "p := q", "L:", "a  b", "; a", "//",
+    ];
+    let rung = |text: &&str| format!("LD X0\n$MOV \"{text}\" D0\nOUT Y0\n");
+    let all: String = texts.iter().map(rung).collect();
+    let lists = texts.iter().map(|text| rung(text) + "END\n");
+    for list in lists.chain([all + "END\n"]) {
+        let program = read("list.il", &list);
+        for body in [Body::List, Body::Ladder] {
+            let (project, messages) = written(&program, ModelId::Fx3u, body);
+            assert!(
+                messages.iter().all(|m| m.code != codes::PLCOPEN_FORM.id),
+                "{list}\n{messages:?}"
+            );
+            let back = read("plc.xml", &project);
+            assert_eq!(instructions(&back), instructions(&program), "{body:?}");
+        }
+    }
+}
+
+/// What would come back as another operand is an error, and nothing is written.
+#[test]
+fn a_changed_operand_is_an_error() {
+    let program = read("list.il", "LD X0\n$MOV \"a\u{1}b\" D0\nOUT Y0\nEND\n");
+    for body in [Body::List, Body::Ladder] {
+        let mut diagnostics = Diagnostics::new();
+        let model = Model::get(ModelId::Fx3u);
+        let project = to_plcopen(&program, model, body, &mut diagnostics);
+        assert_eq!(project, "");
+        let error = diagnostics
+            .iter()
+            .find(|d| d.code == codes::PLCOPEN_UNDRAWN.id);
+        let message = &error.unwrap().message;
+        assert_eq!(
+            message,
+            "`$MOV \"a\u{1}b\" D0` would read back as `$MOV \"ab\" D0`"
+        );
+    }
+}
+
 /// The programs of the documentation, with the models that they are for.
 fn examples() -> Vec<(String, ModelId)> {
     let folder = Path::new(env!("RUNGC_ROOT")).join("examples/programs");

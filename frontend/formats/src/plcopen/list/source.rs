@@ -14,7 +14,7 @@ pub(super) fn lines(text: &str) -> Vec<Line> {
     let mut out = Vec::new();
     let mut code = String::new();
     let mut rest = text;
-    while let Some(start) = rest.find("(*") {
+    while let Some(start) = comment(rest) {
         let end = rest[start..].find("*)");
         let end = end.map_or(rest.len(), |end| start + end + 2);
         code.push_str(&rest[..start]);
@@ -23,7 +23,7 @@ pub(super) fn lines(text: &str) -> Vec<Line> {
             .next()
             .is_some_and(|before| before.trim().is_empty());
         let after = rest[end..].split('\n').next().unwrap_or_default();
-        if is_alone && after.trim().is_empty() && open_call(&code).is_none() {
+        if is_alone && after.trim().is_empty() && !is_open_call(&code) {
             add(&mut out, &code);
             code.clear();
             let inside = rest[start + 2..end].trim_end_matches("*)");
@@ -42,15 +42,51 @@ pub(super) fn lines(text: &str) -> Vec<Line> {
     out
 }
 
-/// The last line of a text, if it calls something and its parameters are not complete.
-fn open_call(text: &str) -> Option<&str> {
-    let start = text.rfind('(')?;
-    let line = text[..start].rsplit('\n').next()?.trim_start();
+/// Start of the first comment. Texts hold none.
+fn comment(text: &str) -> Option<usize> {
+    let mut at = 0;
+    loop {
+        let found = at + text[at..].find(['"', '('])?;
+        at = found + 1;
+        if text[found..].starts_with("(*") {
+            return Some(found);
+        }
+        if text[found..].starts_with('"') {
+            let end = text[at..].find(['"', '\n']).map(|end| at + end);
+            at = end
+                .filter(|end| text[*end..].starts_with('"'))
+                .map_or(at, |end| end + 1);
+        }
+    }
+}
+
+/// A list in which texts hold no parentheses, with everything at its place.
+fn without_texts(list: &str) -> String {
+    let mut in_text = false;
+    let letter = |c: char| {
+        in_text = c != '\n' && in_text != (c == '"');
+        if in_text && matches!(c, '(' | ')') {
+            ' '
+        } else {
+            c
+        }
+    };
+    list.chars().map(letter).collect()
+}
+
+/// Returns true if the last line of a list calls something and its parameters are not complete.
+fn is_open_call(list: &str) -> bool {
+    let text = without_texts(list);
+    let Some(start) = text.rfind('(') else {
+        return false;
+    };
+    let line = text[..start].rsplit('\n').next().unwrap_or_default();
+    let line = line.trim_start();
     let calls = line
         .get(..4)
         .is_some_and(|word| word.eq_ignore_ascii_case("CAL "))
         || line.starts_with(super::blocks::INSTRUCTION);
-    (calls && !text[start..].contains(')')).then_some(line)
+    calls && !text[start..].contains(')')
 }
 
 /// Adds lines of code; what is between the parentheses of a call becomes one line.
@@ -61,7 +97,7 @@ fn add(out: &mut Vec<Line>, text: &str) {
             whole.push(' ');
         }
         whole.push_str(line.trim());
-        if open_call(&whole).is_none() {
+        if !is_open_call(&whole) {
             out.push(Line::Code(std::mem::take(&mut whole)));
         }
     }
