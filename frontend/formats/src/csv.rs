@@ -292,7 +292,7 @@ impl Reader {
             self.listing.margin("");
             return None;
         }
-        let step = text.parse().ok();
+        let step = il::number(text);
         let span = self.listing.margin(text);
         if step.is_none() {
             self.diagnostics.push(

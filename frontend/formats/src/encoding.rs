@@ -13,6 +13,7 @@ const SAMPLE: usize = 256 << 10;
 /// if some bytes had to be replaced. Where lines end with a carriage return alone, they end with a line feed
 /// afterwards.
 pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<(String, bool)> {
+    let bytes = without_padding(bytes);
     let marked = || Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
     let encoding = chosen
         .or_else(marked)
@@ -45,6 +46,19 @@ pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<
             Some((marked, replaced))
         }
         false => Some((text, replaced)),
+    }
+}
+
+/// A text without the zeros that fill the rest of a block behind it.
+fn without_padding(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|&b| b != 0).map_or(0, |at| at + 1);
+    // The last character of UTF-16 may end with a zero.
+    match bytes.len() - end {
+        0 | 1 => bytes,
+        _ if wide(&bytes[..end]).is_some() || bytes.starts_with(b"\xFF\xFE") => {
+            &bytes[..end.next_multiple_of(2)]
+        }
+        _ => &bytes[..end],
     }
 }
 

@@ -117,7 +117,9 @@ pub enum ReadError {
         help: &'static str,
     },
     /// The content is in no known encoding or format.
-    #[error("`{name}` is neither text nor a known project file")]
+    #[error(
+        "`{name}` is neither text nor a known project file: name a project, or the instruction list as CSV or text"
+    )]
     Undecodable {
         /// The file's name.
         name: String,

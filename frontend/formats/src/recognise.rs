@@ -21,10 +21,11 @@ const UNPACK: &str = "unpack it, and name the project or list in it";
 const PROJECT: &str =
     "name the folder of the project: the program in it is read with its comments and parameters";
 const SOURCE: &str = "rungc compiles programs of PLCs; for the code that it emits, name the program that it was made of";
+const UNICODE: &str = "save it as UTF-8";
 const RESULT: &str = "name the program that it was made of";
 
 /// Beginnings of binary files.
-const MAGIC: [(&[u8], Recognised); 22] = {
+const MAGIC: [(&[u8], Recognised); 24] = {
     const fn is(what: &'static str, help: &'static str) -> Recognised {
         Recognised { what, help }
     }
@@ -61,6 +62,8 @@ const MAGIC: [(&[u8], Recognised); 22] = {
                 "`rungc run --retain` reads it",
             ),
         ),
+        (b"\xFF\xFE\0\0", is("a text in UTF-32", UNICODE)),
+        (b"\0\0\xFE\xFF", is("a text in UTF-32", UNICODE)),
         (b"aig ", is("a model for a model checker (AIGER)", RESULT)),
         (
             b"\x0A\x0D\x0D\x0A",
@@ -437,7 +440,10 @@ pub fn is_program(bytes: &[u8]) -> bool {
 /// Returns true for a line that begins with an instruction that every program has some of, after its step number.
 fn is_instruction(line: &str) -> bool {
     let mut words = line.split_whitespace();
-    words
-        .find(|word| word.parse::<u32>().is_err())
-        .is_some_and(il::is_basic)
+    // As the grammar reads steps: `12`, `12:`, `12.`, `12)`.
+    let is_step = |word: &str| {
+        let digits = word.strip_suffix([':', '.', ')']).unwrap_or(word);
+        digits.parse::<u32>().is_ok()
+    };
+    words.find(|word| !is_step(word)).is_some_and(il::is_basic)
 }

@@ -67,7 +67,7 @@ impl Layout {
         let (step, word) = (cell(&row, step), cell(&row, instruction));
         // Any other text may be a line of a note.
         let is_mnemonic = !word.contains(|c: char| c.is_ascii_lowercase() || c.is_whitespace());
-        let is_numbered = step.is_empty() || step.parse::<u32>().is_ok();
+        let is_numbered = step.is_empty() || il::number(step).is_some();
         is_numbered && (il::is_basic(word) || is_whole && is_mnemonic)
     }
 }
@@ -150,7 +150,7 @@ fn is_statement(row: &StringRecord, [_, statement, instruction, ..]: [usize; 7])
 /// the instructions and their devices.
 fn above(rows: &[StringRecord], columns: [usize; 7]) -> (usize, bool) {
     let [step, _, instruction, device, ..] = columns;
-    let is_number = |row: &StringRecord| cell(row, step).parse::<u32>().is_ok();
+    let is_number = |row: &StringRecord| il::number(cell(row, step)).is_some();
     let is_instruction = |row: &StringRecord| {
         let word = cell(row, instruction);
         let numbered = is_number(row) && !word.is_empty();

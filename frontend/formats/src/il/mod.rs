@@ -222,6 +222,14 @@ impl Reader {
     }
 }
 
+/// The number that a text is, in half-width or full-width digits.
+pub(crate) fn number(text: &str) -> Option<u32> {
+    match text.is_ascii() {
+        true => text.parse().ok(),
+        false => Folded::of(text).text.parse().ok(),
+    }
+}
+
 /// The device that a text names by itself, e.g. `X010`.
 pub(crate) fn device(text: &str) -> Option<Device> {
     let (device, faults) = named(text)?;

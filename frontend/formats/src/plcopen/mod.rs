@@ -23,7 +23,7 @@ use crate::il;
 use crate::listing::Listing;
 use logic::{Logic, Output, Part};
 use roxmltree::{Document, Node, ParsingOptions};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, SourceKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Program, Source, SourceKind, Span, codes};
 use smol_str::{SmolStr, ToSmolStr};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use variables::{Found, Kind, Missing, Variables};
@@ -75,15 +75,39 @@ pub fn read(name: &str, text: &str, names: &Names) -> Read {
             reader.project(&document);
             reader.finish(name)
         }
-        Err(error) => {
-            let mut reader = Reader::default();
-            reader.faults.push(Fault {
-                code: &codes::PLCOPEN_SYNTAX,
-                what: format!("the project is not well-formed XML: {error}"),
-                help: "export the project again",
-            });
-            reader.finish(name)
-        }
+        Err(error) => damaged(name, text, &error),
+    }
+}
+
+/// Result of reading a document that is not well-formed.
+fn damaged(name: &str, text: &str, error: &roxmltree::Error) -> Read {
+    let place = error.pos();
+    let above = text
+        .split_inclusive('\n')
+        .take(place.row.saturating_sub(1) as usize);
+    let start = above.map(str::len).sum::<usize>();
+    let line = text[start..].lines().next().unwrap_or_default();
+    let mut letters = line
+        .char_indices()
+        .skip(place.col.saturating_sub(1) as usize);
+    let at = start + letters.next().map_or(line.len(), |(at, _)| at);
+    let what = format!("the project is not well-formed XML: {error}");
+    let found = codes::PLCOPEN_SYNTAX.at(Span::new(at as u32, at as u32), what);
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(
+        found
+            .label("the XML is damaged here")
+            .help("export the project again"),
+    );
+    Read {
+        program: Program {
+            source: Source::new(name, text),
+            kind: SourceKind::Il,
+            unread: vec![0],
+            ..Program::default()
+        },
+        diagnostics,
+        ..Read::default()
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Recognised;
 
 const RECORDS: &str = "name the program that the memory was made of";
+const BYTES: &str = "name the file that the bytes are of; `xxd -r` and `base64 -d` make it again";
 const WRITING: &str = "copy the instruction list in it into a text file";
 const BUILT: &str = "rungc compiles programs of PLCs: name the program";
 
@@ -34,6 +35,12 @@ pub(super) fn spoilt(lines: &[&str]) -> Option<Recognised> {
     }
     if lines.iter().all(|line| is_s_record(line)) {
         return is("an image (Motorola S-record)", RECORDS);
+    }
+    if lines.iter().all(|line| is_dump(line)) {
+        return is("a dump of bytes, written as text", BYTES);
+    }
+    if is_base64(lines) {
+        return is("bytes written as text (base64)", BYTES);
     }
     if any("```") {
         return is("a text in Markdown", WRITING);
@@ -120,6 +127,30 @@ pub(super) fn other(name: &str, text: &str, lines: &[&str]) -> Option<Recognised
 fn is_intel_hex(line: &str) -> bool {
     let digits = line.strip_prefix(':').unwrap_or_default();
     digits.len() >= 10 && digits.bytes().all(|b| b.is_ascii_hexdigit())
+}
+
+/// Returns true for a line of bytes in hexadecimal after their address, as `xxd`, `hexdump -C` and `od -t x1` write it.
+fn is_dump(line: &str) -> bool {
+    let is_hex = |word: &str| word.bytes().all(|b| b.is_ascii_hexdigit());
+    let mut words = line.split_whitespace();
+    let address = words.next().unwrap_or_default();
+    let address = address.strip_suffix(':').unwrap_or(address);
+    let is_address = (6..=16).contains(&address.len()) && is_hex(address);
+    // The last line may hold the size alone.
+    let are_bytes = |word: &str| matches!(word.len(), 2 | 4 | 8) && is_hex(word);
+    is_address && words.next().is_none_or(are_bytes)
+}
+
+/// Returns true for lines of base64, or of hexadecimal digits alone: long ones, of one length but for the last.
+fn is_base64(lines: &[&str]) -> bool {
+    let [first, rest @ ..] = lines else {
+        return false;
+    };
+    let is_digit = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'/' | b'=');
+    let fits = |line: &&str| line.len() <= first.len() && line.bytes().all(is_digit);
+    let whole = rest.split_last().map_or(&[][..], |(_, whole)| whole);
+    let is_even = whole.iter().all(|line| line.len() == first.len());
+    first.len() >= 40 && first.len() % 4 == 0 && is_even && lines.iter().all(fits)
 }
 
 /// Returns true for a Motorola S-record.

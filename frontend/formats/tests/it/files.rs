@@ -2,7 +2,7 @@
 
 use crate::fixture::{self, Stream, gxw, wpg};
 use encoding_rs::Encoding;
-use rungc_frontend::{print, read, read_bytes};
+use rungc_frontend::{print, read, read_bytes, recognise};
 use rungc_syntax::Program;
 
 fn texts(program: &Program) -> Vec<String> {
@@ -170,6 +170,49 @@ fn doubtful_rows_of_comments_are_named() {
         .collect();
     found.push(of_table(&bytes));
     insta::assert_snapshot!(found.join("\n---\n"));
+}
+
+/// Steps may end with a sign; dumps are not lists. Zeros behind a text fill its block, and steps may be full-width.
+#[test]
+fn lists_are_told_from_dumps() {
+    let program = ["LD X000", "OUT Y000", "END"];
+    for sign in ["", ":", ".", ")"] {
+        let list = format!("0000{sign} LD X000\n0001{sign} OUT Y000\n0002{sign} END\n");
+        assert_eq!(recognise("a.txt", list.as_bytes()), None, "{list}");
+        let read = read_bytes("a.txt", list.as_bytes()).unwrap();
+        assert_eq!(texts(&read.program), program, "{list}");
+        assert!(read.diagnostics.is_empty(), "{list}");
+    }
+    for dump in [
+        "00000000: 0200 0800 1c20 0000 0000 0000 0000 0000  .... ..........\n00000010: 4c44 0a  LD.\n",
+        "00000000  02 00 08 00 1c 20 00 00  00 00 00 00 00 00 00 00  |..... ..........|\n00000010\n",
+        "0000000 02 00 08 00\n0000004\n",
+        "AgAIABwgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\nAgAIABwgAA==\n",
+        "02000800022000000000000000000000000000000000000000000000\n0200\n",
+        "\u{FEFF}",
+    ] {
+        let bytes = match dump {
+            "\u{FEFF}" => &b"\xFF\xFE\0\0L\0\0\0D\0\0\0"[..],
+            dump => dump.as_bytes(),
+        };
+        assert!(recognise("a.txt", bytes).is_some(), "{dump}");
+    }
+    let list = "LD X000\nOUT Y000\nEND\n";
+    for padding in [2, 3, 500] {
+        let zeros = vec![0; padding];
+        let wide = [0xFEFF].into_iter().chain(list.encode_utf16());
+        let wide: Vec<u8> = wide.flat_map(u16::to_le_bytes).collect();
+        for bytes in [list.as_bytes(), &wide, &wide[2..]] {
+            let read = read_bytes("a.txt", &[bytes, &zeros].concat()).unwrap();
+            assert_eq!(texts(&read.program), program, "{padding}");
+            assert!(read.diagnostics.is_empty(), "{padding}");
+        }
+    }
+    let table = export("FX3U");
+    let (table, _, _) = encoding_rs::UTF_16LE.decode(&table);
+    let read = read_bytes("a.csv", table.replace("\"0\"", "\"０\"").as_bytes()).unwrap();
+    assert!(read.diagnostics.is_empty(), "{:?}", read.diagnostics);
+    assert_eq!(read.program.instrs[0].step, Some(0));
 }
 
 /// Lists stay lists, whatever their comments and ends look like.
