@@ -4,6 +4,8 @@ use super::*;
 use crate::comm::watched::{Watched, bytes, hex, reply_of};
 use crate::plc::Class;
 use proptest::prelude::*;
+use std::borrow::ToOwned;
+use std::format;
 use std::string::String;
 use std::vec::Vec;
 
@@ -431,7 +433,7 @@ fn frames_of_1e_in_ascii() {
 
 /// Frame 3E in ASCII around a body, the timer first.
 fn in_3e(head: &str, body: &str) -> String {
-    std::format!("{head}00FF03FF00{:04X}{body}", body.len())
+    format!("{head}00FF03FF00{:04X}{body}", body.len())
 }
 
 /// Requests of pymcprotocol 0.3 in ASCII.
