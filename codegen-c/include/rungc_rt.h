@@ -497,8 +497,8 @@ enum rungc_feed_result
      */
     RUNGC_FEED_RESULT_REJECTED = 2,
     /**
-     * Not part of a request, or the last of one with a wrong length. Where the next request begins is unknown, so the
-     * connection is to be closed after the answer.
+     * Not part of a request, or the last of one that is unknown or has a wrong length. Where the next request begins
+     * is not known, so the connection is to be closed after the answer.
      */
     RUNGC_FEED_RESULT_LOST = 3,
 };

@@ -105,7 +105,14 @@ fn what_is_no_request_ends_the_dialogue_after_what_was_asked_before() {
     assert!(reaction.closes);
     assert_eq!(reaction.reply[..9], [0, 2, 0, 0, 0, 5, 1, 3, 2]);
     let mut mc = Dialogue::new(service(ServerProtocol::Mc));
-    assert!(mc.receive(b"GET / HTTP/1.1\r\n", &mut plc).closes);
+    let reaction = mc.receive(b"GET / HTTP/1.1\r\n", &mut plc);
+    assert_eq!(
+        (&reaction.reply[..], reaction.closes),
+        (&b"\xc7\x50"[..], true)
+    );
+    let mut mc = Dialogue::new(service(ServerProtocol::Mc));
+    let reaction = mc.receive(b"06FF000A", &mut plc);
+    assert_eq!((&reaction.reply[..], reaction.closes), (&b"8650"[..], true));
 }
 
 #[test]

@@ -41,13 +41,19 @@ impl Code {
 enum Form {
     Frame1e(Code),
     Frame3e(Code),
+    /// A command of neither frame, which frame 1E rejects.
+    Unknown(Code),
 }
+
+/// Set in the first byte of an answer.
+const ANSWER: u32 = 0x80;
 
 impl Form {
     /// Frame and code of a request.
     ///
     /// # Errors
-    /// [`Refusal::Length`] if too few characters are there, and [`Refusal::Command`] if no request begins like this.
+    /// [`Refusal::Length`] if too few characters are there, [`Refusal::Digit`] and [`Refusal::Command`] if no request
+    /// begins like this.
     fn of(received: &[u8]) -> Result<Form, Refusal> {
         const REQUEST_3E: &[u8] = &[0x50, 0];
         const REQUEST_3E_ASCII: &[u8] = b"5000";
@@ -55,7 +61,7 @@ impl Form {
             [] => Err(Refusal::Length),
             [b'0' | b'1', ..] => {
                 let command = Fields::new(received, Code::Ascii).number(1)?;
-                frame_1e::check_command(command).map(|()| Form::Frame1e(Code::Ascii))
+                Ok(Form::of_command(command, Code::Ascii))
             }
             [0x50 | b'5', ..] => {
                 let (head, code) = if received.starts_with(b"5") {
@@ -71,9 +77,18 @@ impl Form {
                     Err(Refusal::Command)
                 }
             }
-            [command, ..] => {
-                frame_1e::check_command(u32::from(*command)).map(|()| Form::Frame1e(Code::Binary))
-            }
+            // An answer.
+            [0x80..=0xff, ..] => Err(Refusal::Command),
+            [command, ..] => Ok(Form::of_command(u32::from(*command), Code::Binary)),
+        }
+    }
+
+    /// Frame of a request that begins with a command.
+    fn of_command(command: u32, code: Code) -> Form {
+        if frame_1e::is_command(command) {
+            Form::Frame1e(code)
+        } else {
+            Form::Unknown(code)
         }
     }
 }
@@ -83,6 +98,7 @@ pub fn cut(received: &[u8]) -> Cut {
     let length = Form::of(received).and_then(|form| match form {
         Form::Frame1e(code) => frame_1e::length(received, code),
         Form::Frame3e(code) => frame_3e::length(received, code),
+        Form::Unknown(code) => Ok(code.width()),
     });
     match length {
         Ok(length) if length > LONGEST => Cut::Drop,
@@ -95,8 +111,8 @@ pub fn cut(received: &[u8]) -> Cut {
 /// Answers a request of either frame; silence if it is neither.
 ///
 /// # Errors
-/// What is wrong with the request. The answer says so as well. After [`LineFault::Length`] the beginning of the next
-/// request is unknown.
+/// What is wrong with the request. The answer says so as well. After [`LineFault::Length`] and [`LineFault::Form`] the
+/// beginning of the next request is unknown.
 pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault> {
     match Form::of(request) {
         Ok(Form::Frame1e(code)) => frame_1e::answer(
@@ -109,6 +125,13 @@ pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<()
             map,
             &mut Reply { frame: reply, code },
         ),
+        Ok(Form::Unknown(code)) => {
+            let command = Fields::new(request, code).number(1);
+            let mut reply = Reply { frame: reply, code };
+            reply.number(command.map_err(Refusal::fault)? | ANSWER, 1);
+            reply.number(frame_1e::UNKNOWN, 1);
+            Err(LineFault::Form)
+        }
         Err(_) => Err(LineFault::Form),
     }
 }

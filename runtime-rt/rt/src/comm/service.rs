@@ -126,8 +126,8 @@ pub enum FeedResult {
     Request = 1,
     /// The last of a request, which has been rejected.
     Rejected = 2,
-    /// Not part of a request, or the last of one with a wrong length. Where the next request begins is unknown, so the
-    /// connection is to be closed after the answer.
+    /// Not part of a request, or the last of one that is unknown or has a wrong length. Where the next request begins
+    /// is not known, so the connection is to be closed after the answer.
     Lost = 3,
 }
 
@@ -192,11 +192,13 @@ impl Connection {
         self.runs = family.will_run(map);
         match answered {
             Ok(()) => FeedResult::Request,
-            Err(LineFault::Length) if self.service.protocol == ServerProtocol::Mc => {
-                FeedResult::Lost
-            }
+            Err(LineFault::Length | LineFault::Form) if self.is_mc() => FeedResult::Lost,
             Err(_) => FeedResult::Rejected,
         }
+    }
+
+    fn is_mc(&self) -> bool {
+        self.service.protocol == ServerProtocol::Mc
     }
 
     /// RUN or STOP, if the last request switches the PLC to it, by a command or by special relays.

@@ -3,7 +3,7 @@
 //! user's manual, 9.3.2.
 
 use super::device::Device;
-use super::{Code, Fields, Refusal, Reply, points};
+use super::{ANSWER, Code, Fields, Refusal, Reply, points};
 use crate::comm::{LineFault, Map};
 
 const READ_BITS: u8 = 0x00;
@@ -36,15 +36,15 @@ const THIS_PC: u8 = 0xff;
 /// PC type of FX3U and FX3UC.
 const TYPE_FX3U: u8 = 0xf3;
 
-/// Checks the first byte of a request.
-///
-/// # Errors
-/// [`Refusal::Command`] if it is not a command of this frame.
-pub(super) fn check_command(command: u32) -> Result<(), Refusal> {
-    match u8::try_from(command) {
-        Ok(READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK) => Ok(()),
-        _ => Err(Refusal::Command),
-    }
+/// End code of a command that is none.
+pub(super) const UNKNOWN: u32 = 0x50;
+
+/// Returns true if the first byte of a request is a command of this frame.
+pub(super) fn is_command(command: u32) -> bool {
+    matches!(
+        u8::try_from(command),
+        Ok(READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK)
+    )
 }
 
 /// The length of a request.
@@ -98,7 +98,7 @@ pub(super) fn answer(
 ) -> Result<(), LineFault> {
     let mut fields = request;
     let command = fields.number(1).map_err(Refusal::fault)?;
-    reply.number(command | 0x80, 1);
+    reply.number(command | ANSWER, 1);
     let end_code = reply.frame.len();
     reply.number(0, 1);
     let Err(refused) = execute(command as u8, request, map, reply) else {
@@ -114,7 +114,7 @@ pub(super) fn answer(
         }
         Refused::By(refusal) => {
             let code = match refusal {
-                Refusal::Command => 0x50,
+                Refusal::Command => UNKNOWN,
                 Refusal::Device => 0x56,
                 Refusal::Points | Refusal::End | Refusal::Length => 0x57,
                 Refusal::Kind | Refusal::Head | Refusal::Group => 0x58,

@@ -287,7 +287,7 @@ fn refusals_of_1e() {
         ),
         "83 57"
     );
-    assert_eq!(cut(b"\x06\xff"), Cut::Drop);
+    assert_eq!(cut(b"\x86\xff"), Cut::Drop);
     assert_eq!(cut(b"\x50"), Cut::More);
     assert_eq!(cut(b"\x50\x01"), Cut::Drop);
     assert_eq!(cut(b"\x50\x00\x00\xff\xff\x03\x00\xff\xff"), Cut::Drop);
@@ -386,6 +386,27 @@ fn bits_are_0_or_1() {
     assert_eq!(ask_in_ascii(&mut map, "04FF000A01004D200000003202"), "8454");
 }
 
+/// Commands of no frame, 4E among them: 50, and where the next request begins is unknown.
+#[test]
+fn unknown_commands() {
+    let mut map = Watched::new();
+    let known = |command| (0..=5).chain(0x13..=0x16).any(|known| known == command);
+    let begins_another = |command| [0x30, 0x31, 0x35, 0x50].contains(&command);
+    for command in (0..0x80).filter(|&command| !known(command) && !begins_another(command)) {
+        assert_eq!(cut(&[command, 0xff, 10, 0]), Cut::Whole);
+        let (reply, outcome) = exchange(&mut map, &[command]);
+        assert_eq!(reply, [command | 0x80, 0x50]);
+        assert_eq!(outcome, Err(LineFault::Form));
+    }
+    for command in (0..0x20).filter(|&command| !known(command)) {
+        let request = format!("{command:02X}");
+        let (reply, outcome) = exchange(&mut map, request.as_bytes());
+        assert_eq!(reply, format!("{:02X}50", command | 0x80).into_bytes());
+        assert_eq!(outcome, Err(LineFault::Form));
+    }
+    assert_eq!((map.writes, map.request), (0, None));
+}
+
 fn ask_in_ascii(map: &mut Watched, request: &str) -> String {
     let request = request.as_bytes();
     assert_eq!(cut(request), Cut::Whole);
@@ -476,13 +497,7 @@ fn frames_of_3e_in_ascii() {
     assert_eq!(map.plc.m(50, 3), "101");
     assert_eq!(map.counter32(200), Some(12_345_678));
     assert_eq!(map.request, Some(false));
-    for no_request in [
-        "5001",
-        "06",
-        "0G",
-        "500000FF03FF00FFFF",
-        "500000FF03FF000X18",
-    ] {
+    for no_request in ["5001", "0G", "500000FF03FF00FFFF", "500000FF03FF000X18"] {
         assert_eq!(cut(no_request.as_bytes()), Cut::Drop, "{no_request}");
     }
 }
