@@ -3,6 +3,7 @@
 //! What a request reads and writes is not decoded a second time: the codec that answers it carries it out on a
 //! [`Probe`].
 
+mod mc;
 mod modbus;
 #[cfg(test)]
 mod tests;
@@ -12,7 +13,7 @@ use rungc_rt::Ports;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
 use rungc_rt::comm::modbus::Framing;
 use rungc_rt::comm::service::ServerProtocol;
-use rungc_rt::comm::{CanFrame, Frame, LineFault, Memory, Protocol, fx_port, mc};
+use rungc_rt::comm::{CanFrame, Frame, LineFault, Memory, Protocol, fx_port};
 use std::fmt::Write;
 
 /// Control characters of protocols in text, with their names.
@@ -92,7 +93,7 @@ impl Decoder {
             }
             LinkProtocol::Client => modbus::over_tcp(!is_request, bytes, before),
             LinkProtocol::Tcp(ServerProtocol::Mc) if is_request => self.mc_request(bytes),
-            LinkProtocol::Tcp(ServerProtocol::Mc) => mc_reply(bytes),
+            LinkProtocol::Tcp(ServerProtocol::Mc) => mc::reply(bytes),
             LinkProtocol::Tcp(ServerProtocol::ProgrammingPort) => {
                 self.programming_port(is_request, bytes)
             }
@@ -149,15 +150,10 @@ impl Decoder {
     }
 
     fn mc_request(&self, bytes: &[u8]) -> Decoded {
-        let what = match bytes {
-            [0x50, 0, .., _] if bytes.len() >= 15 => {
-                let word = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
-                format!("3E command {:04X}, subcommand {:04X}", word(11), word(13))
-            }
-            [command, ..] => format!("1E command {command:02X}"),
-            [] => String::new(),
-        };
-        let done = self.carried_out(bytes, |map, reply| mc::answer(bytes, map, reply));
+        let what = mc::command(bytes);
+        let done = self.carried_out(bytes, |map, reply| {
+            rungc_rt::comm::mc::answer(bytes, map, reply)
+        });
         let text = match done.text.split_once(": ") {
             Some((_, devices)) => format!("{what}: {devices}"),
             None => what,
@@ -202,24 +198,6 @@ fn about(probe: &Probe) -> String {
         parts.push(if running { "RUN" } else { "STOP" }.to_string());
     }
     parts.join(", ")
-}
-
-/// An answer of MC protocol.
-fn mc_reply(bytes: &[u8]) -> Decoded {
-    let code = match bytes {
-        [0xd0, 0, ..] => bytes
-            .get(9..11)
-            .map(|code| u16::from_le_bytes([code[0], code[1]])),
-        [_, code, ..] => Some(u16::from(*code)),
-        _ => None,
-    };
-    let error = code.filter(|&code| code != 0);
-    let error = error.map(|code| format!("rejected with code {code:02X}H"));
-    Decoded {
-        text: error.clone().unwrap_or_else(|| "done".to_string()),
-        error,
-        ..Decoded::default()
-    }
 }
 
 /// A frame of a protocol in text.

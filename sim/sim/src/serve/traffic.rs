@@ -34,6 +34,8 @@ struct Connection {
     sent: u64,
     errors: u64,
     last_error: Option<String>,
+    /// The last request is among the errors: its answer is not a second one.
+    is_counted: bool,
     written: Devices,
     /// The last frame, and which way it went.
     last: Option<(Direction, Vec<u8>)>,
@@ -69,6 +71,7 @@ impl Traffic {
             sent: 0,
             errors: 0,
             last_error: None,
+            is_counted: false,
             written: Devices::new(),
             last: None,
             pending: Devices::new(),
@@ -93,15 +96,15 @@ impl Traffic {
             Direction::Out => connection.sent += 1,
         }
         let unanswered = is_request && seen.link.is_request() && last.is_some() && before.is_none();
-        let silence = || "no answer".to_string();
-        for error in decoded
-            .error
-            .iter()
-            .cloned()
-            .chain(unanswered.then(silence))
-        {
+        if unanswered {
             connection.errors += 1;
-            connection.last_error = Some(error);
+            connection.last_error = Some("no answer".to_string());
+        }
+        let is_counted = std::mem::take(&mut connection.is_counted) && !is_request;
+        if let Some(error) = &decoded.error {
+            connection.errors += u64::from(!is_counted);
+            connection.last_error = Some(error.clone());
+            connection.is_counted = is_request;
         }
         if is_request {
             connection.pending = decoded.written.clone();

@@ -102,6 +102,35 @@ fn frames_as_they_are_shown() {
 }
 
 #[test]
+fn frames_of_mc_protocol_in_ascii() {
+    use Direction::{In, Out};
+    let frames: [(Direction, &[u8]); 6] = [
+        (In, b"01FF000A4420000000640200"),
+        (Out, b"81001234FFFE"),
+        (Out, b"8157"),
+        (In, b"500000FF03FF000018000404010000D*0001000003"),
+        (Out, b"D00000FF03FF0000100000000112340002"),
+        (Out, b"D00000FF03FF000016C05600FF03FF0004010000"),
+    ];
+    let shown = frames.map(|(direction, bytes)| {
+        line(
+            LinkProtocol::Tcp(ServerProtocol::Mc),
+            direction,
+            bytes,
+            None,
+        )
+    });
+    insta::assert_snapshot!(shown.join("\n"), @r"
+    MC protocol In: 1E command 01: reads D100-D101
+    MC protocol Out: done
+    MC protocol Out: rejected with code 57H !! rejected with code 57H
+    MC protocol In: 3E command 0401, subcommand 0000: reads D100-D102
+    MC protocol Out: done
+    MC protocol Out: rejected with code C056H !! rejected with code C056H
+    ");
+}
+
+#[test]
 fn what_is_not_carried_out_is_not_written() {
     let place = Place {
         port: "COM1".to_string(),
@@ -133,6 +162,44 @@ fn what_is_not_carried_out_is_not_written() {
         frame(Direction::Out, &write(5), Protocol::MasterRtu);
     }
     insta::assert_snapshot!("table", traffic.table().join("\n"));
+}
+
+/// A rejected request is one error, with the code of its answer, whether or not the request shows what is wrong.
+#[test]
+fn a_rejected_request_is_one_error() {
+    let mut traffic = Traffic::new(Decoder::new(Ports::Inovance, 24120));
+    let mut exchange = |server: ServerProtocol, request: &[u8], answer: &[u8]| {
+        let place = Place {
+            port: server.name().to_string(),
+            peer: "127.0.0.1".to_string(),
+        };
+        let frames = [(Direction::In, request), (Direction::Out, answer)];
+        for (direction, bytes) in frames.into_iter().filter(|(_, bytes)| !bytes.is_empty()) {
+            traffic.frame(Seen {
+                place: &place,
+                link: LinkProtocol::Tcp(server),
+                direction,
+                bytes,
+            });
+        }
+    };
+    let read = |code: u8, count: u8| [1, 0xff, 10, 0, 0, 0, 0, 0, 0x20, code, count, 0];
+    let server = ServerProtocol::Mc;
+    // A device that is none, too many points, D0, a device that this PLC lacks; a command that is none.
+    exchange(server, &read(0x41, 1), &[0x81, 0x56]);
+    exchange(server, &read(0x44, 99), &[0x81, 0x57]);
+    exchange(server, &read(0x44, 1), &[0x81, 0, 0, 0]);
+    exchange(server, &read(0x52, 1), &[0x81, 0x58]);
+    exchange(server, &[6], &[0x86, 0x50]);
+    let server = ServerProtocol::ModbusTcp;
+    let no_register = [0, 1, 0, 0, 0, 6, 1, 3, 0xea, 0x60, 0, 1];
+    exchange(server, &no_register, &[0, 1, 0, 0, 0, 3, 1, 0x83, 2]);
+    // Without an answer, and with one.
+    exchange(server, b"GET / HTTP/1.1", b"");
+    let server = ServerProtocol::ProgrammingPort;
+    exchange(server, b"\x0239\x0333", b"\x15");
+    exchange(server, b"\x020\x0399", b"\x15");
+    insta::assert_snapshot!("rejected", traffic.table().join("\n"));
 }
 
 #[test]
