@@ -6,6 +6,9 @@
 /* Milliseconds after which a silent connection gives way to a new one if a server has no more room. */
 #define IDLE_MS (IDLE_LIMIT * 1000u)
 
+/* Milliseconds for which input of a lost connection is dropped: closed with unread input, it would be reset, and its last answer lost. */
+#define LINGER_MS 1000u
+
 /* Bytes that one connection may have carried out between two scans. */
 #define AT_ONCE 4096
 
@@ -29,6 +32,8 @@ typedef struct {
 /* A connection to a server. */
 typedef struct {
     int file; /* -1: none */
+    bool is_lost; /* where the next request begins is unknown: it ends with the answers */
+    bool is_shut; /* nothing more is sent */
     tcp_client *client;
     uint32_t last_ms; /* time of the last reception */
     rungc_connection parser;
@@ -198,7 +203,7 @@ static tcp_connection *free_connection(size_t server)
         } else if (connection->client->server == server) {
             const uint32_t silent_ms = poll_ms - connection->last_ms;
             count++;
-            if (silent_ms >= IDLE_MS && (idle == NULL || silent_ms > poll_ms - idle->last_ms)) {
+            if ((connection->is_lost || silent_ms >= IDLE_MS) && (idle == NULL || silent_ms > poll_ms - idle->last_ms)) {
                 idle = connection;
             }
         }
@@ -242,6 +247,8 @@ static void accept_clients(size_t at)
         }
         server->is_full = false;
         connection->file = file;
+        connection->is_lost = false;
+        connection->is_shut = false;
         connection->client = client_of(at, host);
         connection->last_ms = poll_ms;
         connection->waiting = 0;
@@ -297,12 +304,27 @@ static bool send_answers(tcp_connection *connection)
     return true;
 }
 
+/* Ends a connection: sends the answers, and drops what still comes until the client closes it; false when it is over. */
+static bool drain(tcp_connection *connection)
+{
+    uint8_t bytes[AT_ONCE];
+
+    if (!send_answers(connection)) {
+        return false;
+    }
+    if (connection->waiting == 0u && !connection->is_shut) {
+        connection->is_shut = shutdown(connection->file, SHUT_WR) == 0;
+    }
+    const ssize_t count = recv(connection->file, bytes, sizeof bytes, 0);
+    return (count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR))) && poll_ms - connection->last_ms < LINGER_MS;
+}
+
 /* Takes what has come over a connection; false when it is over. */
 static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
 {
     bool open = true;
 
-    for (size_t left = AT_ONCE; open && left > 0;) {
+    for (size_t left = AT_ONCE; open && !connection->is_lost && left > 0;) {
         uint8_t bytes[512];
         const ssize_t count = recv(connection->file, bytes, sizeof bytes, MSG_PEEK);
         if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
@@ -310,8 +332,8 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
         }
         size_t taken = 0;
         open = count > 0;
-        while (open && taken < (size_t)count && has_room(connection)) {
-            open = feed(plc, connection, bytes[taken]);
+        while (open && !connection->is_lost && taken < (size_t)count && has_room(connection)) {
+            connection->is_lost = !feed(plc, connection, bytes[taken]);
             taken++;
         }
         if (taken == 0u) {
@@ -323,7 +345,7 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
             open = false;
         }
     }
-    return send_answers(connection) && open;
+    return connection->is_lost ? drain(connection) : send_answers(connection) && open;
 }
 
 /* Carries out and answers the requests of clients since the last scan. */
@@ -332,7 +354,7 @@ static void poll_servers(PROGRAM_plc *plc, uint32_t now_ms)
     poll_ms = now_ms;
     for (size_t i = 0; i < CONNECTIONS; i++) {
         tcp_connection *const connection = &tcp_connections[i];
-        if (is_open(connection) && !serve(plc, connection)) {
+        if (is_open(connection) && !(connection->is_lost ? drain(connection) : serve(plc, connection))) {
             close_connection(connection);
         }
     }

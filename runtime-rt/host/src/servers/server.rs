@@ -4,7 +4,7 @@ use super::{Dialogue, Exchange};
 use rungc_rt::comm::Map;
 use rungc_rt::comm::service::{IDLE_S, Service, USUAL_CLIENTS};
 use std::io::{self, ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::time::{Duration, Instant};
 
 /// Limits of a server's connections.
@@ -30,6 +30,10 @@ const AT_ONCE: usize = 4096;
 
 /// Bytes that wait for a client that does not read; then its connection is closed.
 const UNREAD: usize = 1 << 16;
+
+/// Time for which input of a lost connection is dropped: closed with unread input, it would be reset, and its last
+/// answer lost.
+const LINGER: Duration = Duration::from_secs(1);
 
 /// A server that is polled between scans, and never waits.
 #[derive(Debug)]
@@ -59,6 +63,10 @@ struct Connection {
     to_send: Vec<u8>,
     /// True if the connection closes after the pending output.
     closes: bool,
+    /// Where the next request begins is unknown: the connection ends with the pending output.
+    is_lost: bool,
+    /// Nothing more is sent.
+    is_shut: bool,
     /// Time of the last input.
     last_received: Instant,
 }
@@ -123,7 +131,7 @@ impl Server {
         }
         let connections = self.connections.iter().enumerate();
         let idle = connections
-            .filter(|(_, connection)| connection.last_received.elapsed() >= self.limits.idle)
+            .filter(|(_, connection)| connection.is_idle(self.limits.idle))
             .min_by_key(|(_, connection)| connection.last_received);
         match idle {
             Some((index, _)) => {
@@ -146,6 +154,8 @@ impl Server {
             dialogue: Dialogue::new(self.service),
             to_send: Vec::new(),
             closes: false,
+            is_lost: false,
+            is_shut: false,
             last_received: Instant::now(),
         });
     }
@@ -155,7 +165,7 @@ impl Connection {
     /// Does what there is to do; false when the connection is over.
     fn poll(&mut self, map: &mut dyn Map, events: &mut Vec<(SocketAddr, ServerEvent)>) -> bool {
         let mut left = AT_ONCE;
-        while left > 0 && !self.closes && self.to_send.len() < UNREAD {
+        while left > 0 && !self.closes && !self.is_lost && self.to_send.len() < UNREAD {
             let mut bytes = [0; 512];
             let most = bytes.len().min(left);
             match self.stream.read(&mut bytes[..most]) {
@@ -167,14 +177,31 @@ impl Connection {
                     self.to_send.extend(reaction.reply);
                     let of_peer = reaction.exchanges.into_iter();
                     events.extend(of_peer.map(|it| (self.peer, ServerEvent::Exchange(it))));
-                    self.closes |= reaction.closes;
+                    self.is_lost = reaction.closes;
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(_) => return false,
             }
         }
-        self.send()
+        self.send() && (!self.is_lost || self.drain())
+    }
+
+    /// Drops what still comes over a lost connection until its client closes it; false when it is over.
+    fn drain(&mut self) -> bool {
+        if self.to_send.is_empty() && !self.is_shut {
+            self.is_shut = self.stream.shutdown(Shutdown::Write).is_ok();
+        }
+        let goes_on = match self.stream.read(&mut [0; AT_ONCE]) {
+            Ok(count) => count > 0,
+            Err(error) => [ErrorKind::WouldBlock, ErrorKind::Interrupted].contains(&error.kind()),
+        };
+        goes_on && self.last_received.elapsed() < LINGER
+    }
+
+    /// Returns true if it gives way to a new connection.
+    fn is_idle(&self, idle: Duration) -> bool {
+        self.is_lost || self.last_received.elapsed() >= idle
     }
 
     /// Sends what the client takes; false when the connection is over.

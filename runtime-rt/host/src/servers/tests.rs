@@ -263,6 +263,22 @@ fn a_client_that_does_not_read_is_cut_off() {
     });
 }
 
+/// The last answer arrives, and the connection is not reset, however much follows the request.
+#[test]
+fn a_lost_connection_ends_in_order() {
+    let (mut server, address) = server(Limits::default());
+    let mut plc = Registers::new();
+    plc.words[100] = 7;
+    while_served(&mut server, &mut plc, || {
+        let mut stream = connect(address);
+        let requests = [&READ_D100[..], &[b'G'; 6000]].concat();
+        stream.write_all(&requests).unwrap();
+        let mut received = Vec::new();
+        stream.read_to_end(&mut received).unwrap();
+        assert_eq!(received, D100_IS_7);
+    });
+}
+
 /// A request whose length is wrong must not hide commands (remote STOP, `14 FF 0A 00`) in what follows it.
 #[test]
 fn nothing_after_a_wrong_length_is_carried_out() {
