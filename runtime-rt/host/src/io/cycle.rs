@@ -1,6 +1,6 @@
 //! Threads that exchange values with the other ends, and what they share with the scan.
 
-use super::settings::{Connection, Loss, Row};
+use super::settings::{Connection, Kind, Loss, Row};
 use rungc_rt::{Class, Hal, NoHal, Plc, Program};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
@@ -48,6 +48,11 @@ pub trait Driver: Send {
         inputs: &mut [i16],
         outputs: &[i16],
     ) -> Result<(), ExchangeError>;
+
+    /// Reports of input since the last call that is left out; each is made once.
+    fn reports(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// The run is over, and the outputs are off.
     fn end(&mut self) {}
@@ -280,7 +285,9 @@ impl Io {
                 .wait_timeout_while(state, left, |state| !state.over);
             let (mut state, _) = ended.unwrap_or_else(PoisonError::into_inner);
             messages.append(&mut state.messages);
-            let is_off = state.over && state.is_up;
+            // Nothing is switched by standard output.
+            let is_console = running.connection.kind == Kind::Console;
+            let is_off = is_console || state.over && state.is_up;
             if !is_off && !running.outputs.is_empty() {
                 let name = &running.connection.name;
                 messages.push(format!(
@@ -370,6 +377,7 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
                 Err(why) => Err(ExchangeError::Lost(why)),
             },
         };
+        let reports = driver.as_mut().map(|driver| driver.reports());
         let is_up = result.is_ok();
         let is_lost = matches!(result, Err(ExchangeError::Lost(_)));
         if is_lost {
@@ -379,6 +387,9 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         let news = result.err().map(ExchangeError::why);
         let mut state = shared.lock();
         state.is_up = is_up;
+        let reports = reports.unwrap_or_default().into_iter();
+        let reports = reports.map(|report| format!("io {}: {report}", connection.name));
+        state.messages.extend(reports);
         if is_up {
             state.inputs.copy_from_slice(&inputs);
         }
@@ -386,8 +397,9 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         if !ends && reported.as_ref().map(Option::is_none) != Some(is_up) {
             let name = &connection.name;
             state.messages.push(match &news {
-                None => format!("io {name}: connected to {}", connection.end),
-                Some(why) => format!("io {name}: {}: {why}", connection.end),
+                None => format!("io {name}: connected to {}", connection.place()),
+                Some(why) if connection.kind == Kind::Console => format!("io {name}: {why}"),
+                Some(why) => format!("io {name}: {}: {why}", connection.place()),
             });
             reported = Some(news);
         }

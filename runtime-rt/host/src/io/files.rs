@@ -2,7 +2,7 @@
 
 use super::cycle::{Driver, ExchangeError};
 use super::settings::{Connection, End, Row, devices};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
@@ -16,14 +16,41 @@ const LARGEST: u64 = 1 << 20;
 /// Lines of standard input that wait for a cycle.
 const LINES: usize = 64;
 
+/// Maximum number of reports of input that is left out.
+const MAX_REPORTS: usize = 32;
+
+/// Characters of a line in a report.
+const SHOWN: usize = 40;
+
 /// The longest line of standard input, in bytes.
 const LONGEST_LINE: u64 = 1024;
+
+/// Reports of input that is left out, each made once.
+#[derive(Default)]
+struct LeftOut {
+    known: BTreeSet<String>,
+    reports: Vec<String>,
+}
+
+impl LeftOut {
+    fn add(&mut self, report: String) {
+        if self.known.len() == MAX_REPORTS || !self.known.insert(report.clone()) {
+            return;
+        }
+        self.reports.push(report);
+        if self.known.len() == MAX_REPORTS {
+            let last = "other input that is left out is not reported";
+            self.reports.push(last.to_string());
+        }
+    }
+}
 
 /// Files of a folder.
 struct Folder {
     path: PathBuf,
     /// Values last written.
     written: BTreeMap<PathBuf, Vec<i16>>,
+    left_out: LeftOut,
 }
 
 /// Files by the names of the rows, in the folder that a connection names.
@@ -33,6 +60,7 @@ pub(super) fn open_folder(connection: &Connection) -> Result<Box<dyn Driver>, St
         true => Ok(Box::new(Folder {
             path,
             written: BTreeMap::new(),
+            left_out: LeftOut::default(),
         })),
         false => Err("there is no such folder".to_string()),
     }
@@ -50,7 +78,12 @@ impl Driver for Folder {
             let path = self.path.join(name);
             let failed = |error: io::Error| ExchangeError::Refused(format!("{name}: {error}"));
             if row.reads {
-                read(&path, &mut inputs[row.place.clone()]).map_err(failed)?;
+                let rest = read(&path, &mut inputs[row.place.clone()]).map_err(failed)?;
+                if let Some(word) = rest {
+                    let (word, count) = (shown(&word), row.count);
+                    let report = format!("{name}: `{word}` after {count} numbers is left out");
+                    self.left_out.add(report);
+                }
                 continue;
             }
             let values = &outputs[row.place.clone()];
@@ -68,11 +101,15 @@ impl Driver for Folder {
         }
         Ok(())
     }
+
+    fn reports(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.left_out.reports)
+    }
 }
 
 /// Reads numbers, one for each value, with white space between them. A number beyond 16 bits is one of 65535 at most,
-/// as registers show it.
-fn read(path: &Path, values: &mut [i16]) -> io::Result<()> {
+/// as registers show it. Returns the word after them, if there is one.
+fn read(path: &Path, values: &mut [i16]) -> io::Result<Option<String>> {
     let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
     let mut text = String::new();
     File::open(path)?.take(LARGEST).read_to_string(&mut text)?;
@@ -87,7 +124,19 @@ fn read(path: &Path, values: &mut [i16]) -> io::Result<()> {
         );
     }
     values.copy_from_slice(&read);
-    Ok(())
+    Ok(words.next().map(str::to_string))
+}
+
+/// Input in a report: its beginning, without control characters.
+fn shown(text: &str) -> String {
+    let mut shown = text.chars();
+    let begin: String = shown
+        .by_ref()
+        .take(SHOWN)
+        .flat_map(char::escape_debug)
+        .collect();
+    let end = if shown.next().is_some() { "…" } else { "" };
+    format!("{begin}{end}")
 }
 
 /// Returns true if a file holds numbers alone, as rows write them, or is not a regular file.
@@ -136,6 +185,7 @@ fn write(path: &Path, values: &[i16]) -> io::Result<()> {
 struct Console {
     /// Values last printed.
     printed: Vec<Option<i16>>,
+    left_out: LeftOut,
 }
 
 /// The lines of standard input. There is one for the process, and one thread that reads it.
@@ -176,6 +226,7 @@ pub(super) fn open_console(connection: &Connection) -> Result<Box<dyn Driver>, S
     }
     Ok(Box::new(Console {
         printed: Vec::new(),
+        left_out: LeftOut::default(),
     }))
 }
 
@@ -211,7 +262,10 @@ impl Driver for Console {
         let Some(lines) = &*input else { return Ok(()) };
         for _ in 0..LINES {
             match lines.try_recv() {
-                Ok(line) => take(connection, line.trim(), inputs),
+                Ok(line) => {
+                    let taken = take(connection, line.trim(), inputs);
+                    taken.unwrap_or_else(|why| self.left_out.add(why));
+                }
                 Err(TryRecvError::Empty) => break,
                 Err(TryRecvError::Disconnected) => {
                     return Err(ExchangeError::Refused(
@@ -224,20 +278,39 @@ impl Driver for Console {
     }
 }
 
-/// Does what `X000=1` says; a line that names no device of the connection, or no value that fits, is left out.
-fn take(connection: &Connection, line: &str, inputs: &mut [i16]) {
-    let Some((device, value)) = line.split_once('=') else {
-        return;
-    };
-    let device = devices(&device.trim().to_ascii_uppercase());
-    let (Some((class, number, 1)), Some(value)) = (device, number(value.trim())) else {
-        return;
+/// Does what `X000=1` says.
+///
+/// # Errors
+/// Why a line is left out: it names no device that the connection reads, or no value that fits.
+pub(super) fn take(connection: &Connection, line: &str, inputs: &mut [i16]) -> Result<(), String> {
+    if line.is_empty() {
+        return Ok(());
+    }
+    let wrong = |why: String| format!("`{}` is left out: {why}", shown(line));
+    let (name, text) = line
+        .split_once('=')
+        .ok_or_else(|| wrong("a line is written `X000=1`".to_string()))?;
+    let (name, text) = (name.trim(), text.trim());
+    let Some((class, number, 1)) = devices(&name.to_ascii_uppercase()) else {
+        return Err(wrong(format!("`{}` is not a device", shown(name))));
     };
     let holds =
         |row: &&Row| row.class == class && (row.first..row.first + row.count).contains(&number);
-    if let Some(row) = connection.directed(true).find(holds)
-        && (!row.is_bits() || matches!(value, 0 | 1))
-    {
-        inputs[row.place.start + (number - row.first) as usize] = value;
-    }
+    let Some(row) = connection.directed(true).find(holds) else {
+        return Err(wrong(format!(
+            "this connection does not read {}",
+            shown(name)
+        )));
+    };
+    let value = self::number(text).filter(|value| !row.is_bits() || matches!(value, 0 | 1));
+    let Some(value) = value else {
+        let range = if row.is_bits() {
+            "0 or 1"
+        } else {
+            "-32768 to 65535"
+        };
+        return Err(wrong(format!("the value is {range}")));
+    };
+    inputs[row.place.start + (number - row.first) as usize] = value;
+    Ok(())
 }

@@ -212,6 +212,18 @@ pub struct SettingError {
 }
 
 impl Connection {
+    /// Place of the remote end in messages.
+    pub(super) fn place(&self) -> &str {
+        if self.kind != Kind::Console {
+            return &self.end;
+        }
+        match (self.values(true), self.values(false)) {
+            (_, 0) => "standard input",
+            (0, _) => "standard output",
+            _ => "standard input and output",
+        }
+    }
+
     /// Reads the keys and values of a connection; numbers and truth values as they are written.
     ///
     /// # Errors

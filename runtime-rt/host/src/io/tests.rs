@@ -185,12 +185,60 @@ fn files_are_read_and_written() {
     });
     assert_eq!(exchange(&mut inputs, [0, 7]), Ok(()));
     assert_eq!(state(), "0 7\n");
+    // What follows the numbers is reported once.
+    assert_eq!(
+        driver.reports(),
+        ["switches: `rest` after 3 numbers is left out"]
+    );
+    assert_eq!(driver.reports(), [""; 0]);
+    let mut exchange =
+        |inputs: &mut [i16], outputs: [i16; 2]| driver.exchange(&connection, inputs, &outputs);
     for text in [&b"70000"[..], b"", b"x", b"\xff\xfe"] {
         put("speed", text);
         assert!(exchange(&mut inputs, [0; 2]).is_err(), "{text:?}");
     }
     assert_eq!(inputs[3], -1);
     fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn lines_of_standard_input_are_taken_or_left_out_with_a_reason() {
+    let pairs = [
+        ("console", "true"),
+        ("X000-X007", "read"),
+        ("D10", "read"),
+        ("Y000", "write"),
+    ];
+    let connection = Connection::read("panel", &pairs).unwrap();
+    assert_eq!(connection.place(), "standard input and output");
+    let mut inputs = [0; 9];
+    for line in ["X007=1", " x001 = 1 ", "D10=65535", "", "d10=-32768"] {
+        assert_eq!(
+            files::take(&connection, line, &mut inputs),
+            Ok(()),
+            "{line}"
+        );
+    }
+    assert_eq!(inputs, [0, 1, 0, 0, 0, 0, 0, 1, -32768]);
+    for (line, why) in [
+        ("help", "a line is written `X000=1`"),
+        ("X008=1", "`X008` is not a device"),
+        ("X0-X3=1", "`X0-X3` is not a device"),
+        ("Y000=1", "this connection does not read Y000"),
+        ("D0=1", "this connection does not read D0"),
+        ("X000=2", "the value is 0 or 1"),
+        ("D10=65536", "the value is -32768 to 65535"),
+        ("D10=1.5", "the value is -32768 to 65535"),
+    ] {
+        let left_out = files::take(&connection, line, &mut inputs);
+        assert_eq!(left_out, Err(format!("`{line}` is left out: {why}")));
+    }
+    let long = files::take(&connection, &"\u{1b}".repeat(99), &mut inputs).unwrap_err();
+    assert!(
+        long.contains("\\u{1b}…`") && !long.contains('\u{1b}'),
+        "{long}"
+    );
+    assert_eq!(inputs, [0, 1, 0, 0, 0, 0, 0, 1, -32768]);
 }
 
 #[cfg(target_os = "linux")]
