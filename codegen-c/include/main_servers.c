@@ -144,7 +144,7 @@ static bool open_server(rungc_server_protocol protocol, const char *option, cons
     const bool listens = listen_at(server, found);
     freeaddrinfo(found);
     if (!listens) {
-        const char *const next = errno == EADDRINUSE ? "; another program uses the port: choose another, or 0 for a free one" : "";
+        const char *const next = errno == EADDRINUSE ? "; the port is in use: choose another, or 0 for a free one" : "";
         print(stderr, "PROGRAM: %s %s: cannot serve %s: %s%s\n", option, text, name, strerror(errno), next);
         return false;
     }

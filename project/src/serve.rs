@@ -18,6 +18,10 @@ pub struct Serve {
     pub mc: Vec<SocketAddr>,
     /// Addresses at which all devices are served by the programming port's protocol.
     pub fx: Vec<FxEnd>,
+    /// Position of the last of them.
+    pub(crate) fx_span: Span,
+    /// Address of the page.
+    pub page: Option<SocketAddr>,
     /// Connections that each server has at once.
     pub clients: Option<u16>,
     /// Connections of the serial ports.
@@ -96,6 +100,15 @@ impl fmt::Display for CanRate {
 }
 
 impl LineEnd {
+    /// Address of this machine that the end occupies.
+    pub(crate) fn address(&self) -> Option<SocketAddr> {
+        match self {
+            LineEnd::TcpListen(address) => Some(*address),
+            LineEnd::CanAdapter(end, _) => end.address(),
+            _ => None,
+        }
+    }
+
     /// Reads `/dev/ttyUSB0`, `pty`, `tcp:HOST:PORT` or `tcp-listen:ADDRESS`.
     ///
     /// # Errors
@@ -262,6 +275,16 @@ impl FromStr for FxEnd {
     }
 }
 
+impl FxEnd {
+    /// Address of this machine that it occupies.
+    pub(crate) fn address(&self) -> Option<SocketAddr> {
+        match self {
+            FxEnd::Address(address) => Some(*address),
+            FxEnd::Line(end) => end.address(),
+        }
+    }
+}
+
 impl Serve {
     /// The lines of the programming port of a model that `fx` names.
     pub fn fx_lines(fx: &[FxEnd], model: &Model) -> Vec<Line> {
@@ -279,6 +302,13 @@ impl Serve {
 pub(crate) fn port(name: &str) -> Option<u8> {
     let number = name.strip_prefix("COM")?.parse().ok();
     number.filter(|&number| number != CAN_PORT)
+}
+
+/// Returns true if two servers cannot have these addresses at once. Port 0 is any free one.
+pub(crate) fn collide(one: SocketAddr, other: SocketAddr) -> bool {
+    let is_any = one.ip().is_unspecified() || other.ip().is_unspecified();
+    let same_ip = one.ip() == other.ip() || is_any && one.is_ipv4() == other.is_ipv4();
+    one.port() != 0 && one.port() == other.port() && same_ip
 }
 
 /// Reads the address of a server: `127.0.0.1:5020`, or `5020`, a port of this machine alone.
@@ -315,8 +345,30 @@ impl Project {
                 return Err(self.error(why.help(help)));
             }
         }
+        self.check_programming_port(model)?;
         let mut ranges = self.serve.devices.iter();
         ranges.try_for_each(|range| self.exists(range, model))
+    }
+
+    /// Checks that `fx` and `serial` do not both connect the programming port.
+    fn check_programming_port(&self, model: &Model) -> Result<(), Error> {
+        let of_fx = Serve::fx_lines(&self.serve.fx, model);
+        let Some(line) = of_fx.first() else {
+            return Ok(());
+        };
+        let of_serial = self.serve.serial.iter();
+        let also = of_serial.filter(|serial| serial.line.port == line.port);
+        if of_fx.len() + also.count() == 1 {
+            return Ok(());
+        }
+        let name = line.name();
+        let message = format!("{name} is connected to two lines");
+        let why = codes::PROJECT_VALUE.at(self.serve.fx_span, message);
+        let help = format!(
+            "`fx` connects the programming port of {}, {name}",
+            model.title
+        );
+        Err(self.error(why.help(help)))
     }
 
     /// Checks that a model has these devices.

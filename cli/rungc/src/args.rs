@@ -24,7 +24,7 @@ pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, NamesFile, PlcopenBody, ReadArgs, ReadFrom};
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use properties::Properties;
-pub use serve::ServeArgs;
+pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 

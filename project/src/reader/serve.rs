@@ -1,9 +1,11 @@
 //! `[serve]`.
 
 use super::{Reader, SERVED, Value, span};
+use crate::Project;
 use crate::serve::{self, FxEnd, Line, LineEnd, SerialLine};
-use crate::{Named, Project};
 use rungc_rt::comm::service::MAX_CLIENTS;
+use rungc_syntax::Span;
+use std::net::SocketAddr;
 use toml::de::DeTable;
 
 /// Keys of addresses.
@@ -11,6 +13,9 @@ pub(super) const ADDRESSES: [&str; 3] = ["modbus-tcp", "mc", "fx"];
 
 /// Key of the table of serial lines.
 pub(super) const SERIAL: &str = "serial";
+
+/// Key of the page's address.
+const PAGE: &str = "page";
 
 /// Key of the limit of connections.
 const CLIENTS: &str = "clients";
@@ -23,14 +28,32 @@ impl Reader {
         let classes = SERVED.iter().map(|class| class.prefix());
         let keys: Vec<_> = ADDRESSES
             .into_iter()
-            .chain([CLIENTS, SERIAL, CAN])
+            .chain([PAGE, CLIENTS, SERIAL, CAN])
             .chain(classes)
             .collect();
         self.known("serve", table, &keys);
         let [modbus_tcp, mc, fx] = ADDRESSES;
-        project.serve.modbus_tcp = self.ends(table, modbus_tcp, serve::address);
-        project.serve.mc = self.ends(table, mc, serve::address);
-        project.serve.fx = self.ends(table, fx, str::parse::<FxEnd>);
+        let mut occupied = Occupied::default();
+        for (key, addresses) in [
+            (modbus_tcp, &mut project.serve.modbus_tcp),
+            (mc, &mut project.serve.mc),
+        ] {
+            for (address, at) in self.ends(table, key, serve::address) {
+                occupied.add(key, Some(address), at);
+                addresses.push(address);
+            }
+        }
+        for (end, at) in self.ends(table, fx, str::parse::<FxEnd>) {
+            occupied.add(fx, end.address(), at);
+            project.serve.fx.push(end);
+            project.serve.fx_span = at;
+        }
+        if let Some(value) = table.get(PAGE)
+            && let Some((address, at)) = self.end(PAGE, value, &serve::address)
+        {
+            occupied.add(PAGE, Some(address), at);
+            project.serve.page = Some(address);
+        }
         if let Some(value) = table.get(CLIENTS) {
             let range = 1..=MAX_CLIENTS as u32;
             let clients = self.number(table, span(value.span()), CLIENTS, range, None);
@@ -51,18 +74,22 @@ impl Reader {
                 }
             }
         }
+        for SerialLine { line, span } in &project.serve.serial {
+            occupied.add(SERIAL, line.end.address(), *span);
+        }
+        self.check_addresses(occupied);
         for class in SERVED {
             project.serve.devices.extend(self.ranges(table, class));
         }
     }
 
-    /// Addresses at which a protocol is served: one, or those of a list.
+    /// Addresses at which a protocol is served, with their places: one, or those of a list.
     fn ends<T>(
         &mut self,
         table: &DeTable<'_>,
         key: &str,
         read: impl Fn(&str) -> Result<T, String>,
-    ) -> Vec<T> {
+    ) -> Vec<(T, Span)> {
         let Some(value) = table.get(key) else {
             return Vec::new();
         };
@@ -70,27 +97,53 @@ impl Reader {
             Some(values) => values.iter().collect(),
             None => vec![value],
         };
-        let mut named = Vec::new();
-        for value in values {
-            let number = value.get_ref().as_integer();
-            let port = number.filter(|number| number.radix() == 10);
-            let port = port.map(|number| Named {
-                text: number.as_str().to_string(),
-                span: span(value.span()),
-            });
-            named.extend(port.or_else(|| self.text(key, value)));
-        }
-        let mut addresses = Vec::new();
-        for named in named {
-            match read(&named.text) {
-                Ok(address) => addresses.push(address),
-                Err(why) => {
-                    let message = format!("`{}` is not an address", named.text);
-                    self.wrong(named.span, message, &why);
-                }
+        let ends = values.into_iter();
+        ends.filter_map(|value| self.end(key, value, &read))
+            .collect()
+    }
+
+    /// An address, with its place: a port, or a text.
+    fn end<T>(
+        &mut self,
+        key: &str,
+        value: &Value<'_>,
+        read: &impl Fn(&str) -> Result<T, String>,
+    ) -> Option<(T, Span)> {
+        let at = span(value.span());
+        let port = value.get_ref().as_integer();
+        let port = port.filter(|number| number.radix() == 10);
+        let text = match (port, value.get_ref().as_str()) {
+            (Some(port), _) => port.as_str(),
+            (None, Some(text)) => text,
+            (None, None) => {
+                let message = format!("`{key}` is a port or an address");
+                self.wrong(
+                    at,
+                    message,
+                    "write for example `5020` or `\"127.0.0.1:5020\"`",
+                );
+                return None;
+            }
+        };
+        match read(text) {
+            Ok(end) => Some((end, at)),
+            Err(why) => {
+                self.wrong(at, format!("`{text}` is not an address"), &why);
+                None
             }
         }
-        addresses
+    }
+
+    /// Reports addresses that are given twice.
+    fn check_addresses(&mut self, Occupied(mut occupied): Occupied) {
+        occupied.sort_by_key(|(_, _, at)| at.start);
+        for (n, &(_, address, at)) in occupied.iter().enumerate() {
+            let mut earlier = occupied[..n].iter();
+            if let Some((key, ..)) = earlier.find(|earlier| serve::collide(earlier.1, address)) {
+                let message = format!("`{key}` has port {} already", address.port());
+                self.wrong(at, message, "choose another, or 0 for a free one");
+            }
+        }
     }
 
     fn lines(&mut self, value: &Value<'_>, project: &mut Project) {
@@ -119,5 +172,15 @@ impl Reader {
                 }
             }
         }
+    }
+}
+
+/// Addresses of this machine that the settings occupy, each with its key and place.
+#[derive(Default)]
+struct Occupied(Vec<(&'static str, SocketAddr, Span)>);
+
+impl Occupied {
+    fn add(&mut self, key: &'static str, address: Option<SocketAddr>, at: Span) {
+        self.0.extend(address.map(|address| (key, address, at)));
     }
 }

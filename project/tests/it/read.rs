@@ -46,6 +46,7 @@ M = ["M500-M600", "M700"]
 modbus-tcp = 5020
 mc = ["127.0.0.1:5001", "[::1]:5001"]
 fx = "5556"
+page = 8080
 serial = { COM1 = "/dev/ttyUSB0", COM2 = "tcp:gateway:4001" }
 D = "D0-D511"
 Y = ["Y000-Y017"]
@@ -114,6 +115,7 @@ fn settings_of_servers_are_read() {
     let serve = &project.serve;
     assert_eq!(serve.modbus_tcp, ["127.0.0.1:5020".parse().unwrap()]);
     assert_eq!((serve.mc.len(), serve.fx.len()), (2, 1));
+    assert_eq!(serve.page, "127.0.0.1:8080".parse().ok());
     let lines: Vec<_> = serve.serial.iter().map(|s| s.line.clone()).collect();
     let expected = ["COM1=/dev/ttyUSB0", "COM2=tcp:gateway:4001"];
     assert_eq!(lines, expected.map(|line| line.parse().unwrap()));
@@ -173,6 +175,21 @@ K = "K0"
 "#
         )
     );
+    // Neither a port nor an address; addresses that are given twice.
+    insta::assert_snapshot!(
+        "serve_addresses",
+        mistakes(
+            r#"
+[serve]
+page = 5556
+mc = [22.5, true, 5077, "0.0.0.0:6000"]
+modbus-tcp = [5077, 6000, 0, 0, "[::1]:5077"]
+fx = "tcp-listen:5556"
+serial = { COM1 = "tcp-listen:5077" }
+can = "slcan:tcp-listen:6000"
+"#
+        )
+    );
     insta::assert_snapshot!("serve_lines", mistakes("[serve]\nserial = 'COM1=pty'\n"));
     let why = |text: &str, model| {
         let project = parse(text).unwrap();
@@ -194,6 +211,8 @@ K = "K0"
         "serve_model",
         [
             why("[serve]\nserial = { COM3 = 'pty' }\n", fx1s),
+            why("[serve]\nfx = 'pty'\nserial = { COM0 = 'pty' }\n", fx1s),
+            why("[serve]\nfx = ['pty', '/dev/ttyS0']\n", fx1s),
             why("[serve]\nD = ['D0', 'D200-D300']\n", fx1s),
         ]
         .join("\n")

@@ -6,6 +6,7 @@ use clap::Args;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::Model;
 use rungc_project::serve::{FxEnd, Line, Serve, address};
+use rungc_rt::comm::CAN_PORT;
 use rungc_rt::comm::service::MAX_CLIENTS;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -59,11 +60,53 @@ pub struct ServeArgs {
     /// Connect them as the project's settings say.
     #[arg(skip)]
     pub of_project: bool,
+    /// Values that settings give.
+    #[arg(skip)]
+    pub settings: ServeSettings,
     /// The program asks servers over TCP, which its settings name.
     #[arg(skip)]
     pub sends_requests: bool,
     #[command(flatten)]
     pub page: PageArgs,
+}
+
+/// Values of a rungc.toml in place of options.
+#[derive(Clone, Default, Debug)]
+pub struct ServeSettings {
+    /// The file.
+    pub path: PathBuf,
+    /// Names of the options.
+    pub options: Vec<&'static str>,
+    /// The lines of serial ports.
+    pub lines: Vec<Line>,
+}
+
+impl ServeSettings {
+    /// Place of a value in messages: the key of the file, or the option.
+    pub fn place(&self, option: &str) -> String {
+        match self.options.contains(&option) {
+            true => self.key(option),
+            false => option.to_string(),
+        }
+    }
+
+    /// Place of a line in messages, which is not one of `--fx`.
+    pub fn place_of_line(&self, line: &Line) -> String {
+        let option = if line.port == CAN_PORT {
+            "--can"
+        } else {
+            "--serial"
+        };
+        match self.lines.contains(line) {
+            true => self.key(option),
+            false => option.to_string(),
+        }
+    }
+
+    fn key(&self, option: &str) -> String {
+        let key = option.trim_start_matches('-');
+        format!("{}: `{key}` of `[serve]`", self.path.display())
+    }
 }
 
 /// The page of `run` and `serve`.
@@ -74,7 +117,7 @@ pub struct PageArgs {
     #[arg(long, value_parser = address, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "0")]
     pub page: Option<SocketAddr>,
     /// Make the page read-only: it shows the run, and accepts no commands.
-    #[arg(long, requires = "page")]
+    #[arg(long)]
     pub read_only: bool,
 }
 

@@ -256,11 +256,17 @@ fn page(
     watched: &[Target],
 ) -> std::result::Result<Option<Live>, Failure> {
     let Some(address) = args.serve.page.page else {
+        if args.serve.page.read_only {
+            return Err(Failure::Because(
+                "--read-only: there is no page; add --page".to_string(),
+            ));
+        }
         return Ok(None);
     };
     let page = live::Page {
         title: &title(subject, read),
         address,
+        place: &args.serve.settings.place("--page"),
         read_only: args.serve.page.read_only,
         watched: watched.to_vec(),
     };

@@ -252,6 +252,50 @@ fn options_override_settings() {
     assert_eq!(serving.interrupt().status.code(), Some(130));
 }
 
+/// A value that cannot be had is named by its key and file, or by its option.
+#[test]
+fn messages_name_where_an_address_comes_from() {
+    let says = |settings: &str, args: &[&str]| {
+        let settings = format!("[serve]\n{settings}\n");
+        let folder = folder(&[
+            ("p.il", PROGRAM.as_bytes()),
+            ("rungc.toml", settings.as_bytes()),
+        ]);
+        let output = rungc(folder.path(), &[&["serve", "p.il"], args].concat());
+        assert_ne!(output.status.code(), Some(0));
+        text(&output.stderr).to_string()
+    };
+    let key = |key: &str| format!("rungc.toml: `{key}` of `[serve]`");
+    for (settings, args, message) in [
+        (
+            "mc = '203.0.113.1:5001'",
+            &[][..],
+            key("mc") + ": cannot serve MC protocol at 203.0.113.1:5001: ",
+        ),
+        (
+            "mc = 0",
+            &["--modbus-tcp", "203.0.113.1:502"],
+            "rungc: --modbus-tcp: cannot serve Modbus TCP".to_string(),
+        ),
+        (
+            "serial = { COM1 = '/no/such/tty' }",
+            &[],
+            key("serial") + ": cannot open /no/such/tty",
+        ),
+        ("fx = '/no/such/tty'", &[], key("fx") + ": cannot open"),
+        ("page = '0.0.0.0:0'", &[], key("page") + " 0.0.0.0:0: "),
+        (
+            "mc = 5077\nmodbus-tcp = 5077",
+            &[],
+            "`mc` has port 5077 already".to_string(),
+        ),
+        ("mc = 0", &["--read-only"], "add --page".to_string()),
+    ] {
+        let reported = says(settings, args);
+        assert!(reported.contains(&message), "{settings}: {reported}");
+    }
+}
+
 #[test]
 fn nothing_to_serve() {
     let alone = folder(&[("p.il", PROGRAM.as_bytes())]);

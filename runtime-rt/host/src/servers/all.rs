@@ -133,9 +133,7 @@ pub fn cannot_serve(protocol: ServerProtocol, address: SocketAddr, error: &io::E
 /// The next step after an error of an address, to follow it.
 pub fn after(error: &io::Error) -> &'static str {
     match error.kind() {
-        io::ErrorKind::AddrInUse => {
-            "; another program uses the port: choose another, or 0 for a free one"
-        }
+        io::ErrorKind::AddrInUse => "; the port is in use: choose another, or 0 for a free one",
         io::ErrorKind::AddrNotAvailable => "; this machine has no such address",
         io::ErrorKind::PermissionDenied => "; choose a port from 1024",
         _ => "",

@@ -16,7 +16,7 @@ use rungc_host::servers::switched_by_line;
 use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_project::serve;
-use rungc_rt::comm::{CAN_PORT, LineFormat, Protocol, Received, Served};
+use rungc_rt::comm::{LineFormat, Protocol, Received, Served};
 use rungc_rt::{Plc, VirtualHal};
 use rungc_sim::serve::{Direction, LinkProtocol, Place, Seen};
 use std::io::ErrorKind;
@@ -75,14 +75,11 @@ impl Lines {
             }
         }
         let lines = lines.iter().map(|line| {
-            let option = if line.port == CAN_PORT {
-                "--can"
-            } else if serve.serial.contains(line) {
-                "--serial"
-            } else {
-                "--fx"
+            let place = match serve.named_lines().any(|named| named == line) {
+                true => serve.settings.place_of_line(line),
+                false => serve.settings.place("--fx"),
             };
-            let line = Line::open(line, option, model)?;
+            let line = Line::open(line, &place, model)?;
             watch.open(&line.place, LinkProtocol::Serial(line.protocol));
             Ok(line)
         });
@@ -152,15 +149,15 @@ impl Lines {
 }
 
 impl Line {
-    /// Opens the line that an option names.
-    fn open(line: &serve::Line, option: &str, model: &Model) -> Result<Line, Failure> {
+    /// Opens a line, which `place` names in messages.
+    fn open(line: &serve::Line, place: &str, model: &Model) -> Result<Line, Failure> {
         let port = line.name();
         if let Some((message, help)) = line.missing(model) {
-            return Err(Failure::Because(format!("{option}: {message}; {help}")));
+            return Err(Failure::Because(format!("{place}: {message}; {help}")));
         }
         let (name, events) = wire::keep(&line.end).map_err(|error| {
             let why = wire::cannot_open(&line.end, &error);
-            Failure::Because(format!("{option}: {why}"))
+            Failure::Because(format!("{place}: {why}"))
         })?;
         eprint_line(&format!("rungc: {port} at {name}"));
         let place = Place {

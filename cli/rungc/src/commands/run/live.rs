@@ -33,6 +33,8 @@ pub struct Page<'a> {
     pub title: &'a str,
     /// Address at which it is served.
     pub address: SocketAddr,
+    /// Place of the address in messages.
+    pub place: &'a str,
     /// True if it accepts no commands.
     pub read_only: bool,
     /// Initial contents of the watch list.
@@ -166,13 +168,13 @@ impl Live {
         let (resolved, _) = resolve(program, model);
         let ladder = build::ladder(&resolved);
         let (html, scene) = rungc_live::page(page.title, &resolved, &ladder, page.read_only);
-        let address = page.address;
+        let (address, place) = (page.address, page.place);
         let folder = cache::folder().ok();
         let server = token(folder.as_deref())
             .and_then(|token| Server::open(address, token, html, page.read_only))
             .map_err(|error| {
                 let next = after(&error);
-                Failure::Because(format!("--page {address}: {error}{next}"))
+                Failure::Because(format!("{place} {address}: {error}{next}"))
             })?;
         eprint_line(&format!("rungc: page at {}", server.url()));
         Ok(Live {

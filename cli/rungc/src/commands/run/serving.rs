@@ -113,7 +113,8 @@ impl Servers {
         for protocol in ServerProtocol::all() {
             let service = Service::new(protocol, model.ports, type_code);
             for &address in addresses(protocol) {
-                let open = open(service, address, limits)?;
+                let place = args.settings.place(protocol.option());
+                let open = open(service, address, limits, &place)?;
                 watch.open(&open.place(None), LinkProtocol::Tcp(protocol));
                 servers.push(open);
             }
@@ -178,16 +179,19 @@ impl Open {
     }
 }
 
-fn open(service: Service, address: SocketAddr, limits: Limits) -> Result<Open, Failure> {
+/// Opens a server, which `place` names in messages.
+fn open(
+    service: Service,
+    address: SocketAddr,
+    limits: Limits,
+    place: &str,
+) -> Result<Open, Failure> {
     let name = service.protocol.name();
     let server = Server::bind(address, service, limits)
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| {
-            let (option, why) = (
-                service.protocol.option(),
-                cannot_serve(service.protocol, address, &error),
-            );
-            Failure::Because(format!("{option}: {why}"))
+            let why = cannot_serve(service.protocol, address, &error);
+            Failure::Because(format!("{place}: {why}"))
         });
     let (address, server) = server?;
     eprint_line(&format!("rungc: {name} at {address}"));
