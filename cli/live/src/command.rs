@@ -109,12 +109,16 @@ impl Command {
         if json.trim_ascii_start().first() != Some(&b'{') {
             return Err(r#"a command is an object, such as {"do": "run"}"#.to_string());
         }
-        serde_json::from_slice(json).map_err(|error| in_words_of_json(&error.to_string()))
+        serde_json::from_slice(json).map_err(|error: serde_json::Error| match error.is_eof() {
+            true => "the end of the command is missing".to_string(),
+            false => in_words_of_json(&error.to_string()),
+        })
     }
 }
 
 /// Names of Serde, and what a client calls them.
-const WORDS: [(&str, &str); 7] = [
+const WORDS: [(&str, &str); 8] = [
+    (", there are no fields", "; this command has no other"),
     (
         "expected variant identifier",
         "expected the name of a command",
@@ -150,6 +154,11 @@ mod tests {
             ("1", object),
             ("", object),
             ("{}", "missing field `do`"),
+            (r#"{"do": "run""#, "the end of the command is missing"),
+            (
+                r#"{"do": "run", "x": 1}"#,
+                "unknown field `x`; this command has no other",
+            ),
             (r#"{"do": ["run"]}"#, "expected the name of a command"),
             (r#"{"do": "fly"}"#, "unknown command `fly`"),
             (r#"{"do": "set", "device": "M0"}"#, "missing field `value`"),

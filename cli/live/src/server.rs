@@ -317,7 +317,8 @@ impl Shared {
     ) -> Result<(), Rejection> {
         // No form of another page can send this type.
         let kind = request.content_type.as_deref().unwrap_or("");
-        if kind.split(';').next().map(str::trim) != Some("application/json") {
+        let kind = kind.split(';').next().unwrap_or_default().trim();
+        if !kind.eq_ignore_ascii_case("application/json") {
             return Err(Rejection::UnsupportedType);
         }
         let answer = Command::read(&request.body).and_then(|command| {

@@ -5,6 +5,7 @@ use super::{Failure, eprint_line};
 use rungc_emit::events;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::runs::is_special;
+use rungc_project::device;
 use rungc_sim::Target;
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::{DeviceClass, Program};
@@ -26,6 +27,9 @@ const MOST_SIGNAL: f64 = 2000.0;
 /// Reads what is watched or set.
 pub fn target(name: &str) -> std::result::Result<Target, String> {
     let upper = upper(name);
+    if device::range(&name.trim().to_uppercase()).is_some_and(|(_, first, last)| first < last) {
+        return Err(format!("`{name}`: name one device"));
+    }
     match Target::parse(&upper)? {
         // A timer or counter is watched by its current value.
         Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),

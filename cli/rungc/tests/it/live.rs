@@ -509,6 +509,31 @@ fn requests_that_mean_harm_are_rejected() {
     );
 }
 
+/// Commands for a device that is not there, by what is forced and watched: 200 or 422.
+#[test]
+fn what_is_not_forced_or_watched_is_not_released() {
+    let page = Page::open(&[]);
+    let json = JSON.replace("application/json", "APPLICATION/JSON");
+    for (command, status) in [
+        (r#""release","device":"M0""#, 422),
+        (r#""force","device":"K4M0","value":9"#, 200),
+        (r#""force","device":"K4M0","value":8"#, 200),
+        (r#""force","device":"M15","value":1"#, 422),
+        (r#""force","device":"M16","value":1"#, 200),
+        (r#""force","device":"D10.i32","value":9"#, 200),
+        (r#""force","device":"D11","value":9"#, 422),
+        (r#""set","device":"D0..D3","value":9"#, 422),
+        (r#""release","device":"K4M0""#, 200),
+        (r#""force","device":"M15","value":1"#, 200),
+        (r#""watch","device":"D77""#, 200),
+        (r#""unwatch","device":"D77""#, 200),
+        (r#""unwatch","device":"D77""#, 422),
+    ] {
+        let body = format!(r#"{{"do":{command}}}"#);
+        assert_eq!(page.command(&body, &json), status, "{command}");
+    }
+}
+
 #[test]
 fn slow_clients_hold_up_neither_the_run_nor_others() {
     let page = Page::open(&[]);

@@ -17,7 +17,7 @@ use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::{DeviceClass, Program};
 use serde_json::{Value, json};
 use std::net::SocketAddr;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Interval of updates of the page.
 const EVERY: Duration = Duration::from_millis(100);
@@ -177,6 +177,7 @@ impl Live {
                 Failure::Because(format!("{place} {address}: {error}{next}"))
             })?;
         eprint_line(&format!("rungc: page at {}", server.url()));
+        let began = SystemTime::now().duration_since(UNIX_EPOCH);
         Ok(Live {
             server,
             scene,
@@ -198,7 +199,7 @@ impl Live {
             disturbed: false,
             shifted: false,
             shown: None,
-            began: format!("{:?}", SystemTime::now()),
+            began: began.map_or(0, |since| since.as_micros()).to_string(),
         })
     }
 
@@ -383,6 +384,10 @@ impl Live {
             Command::Force { device, value } => {
                 let target = running.device(device, &self.names)?;
                 fits(target, *value)?;
+                let mut forced = self.control.forced.iter().map(|(other, _)| *other);
+                if let Some(other) = forced.find(|other| overlap(*other, target)) {
+                    return Err(format!("release {other} first, which is forced"));
+                }
                 running.set(target, *value);
                 self.control.forced.retain(|(other, _)| *other != target);
                 self.control.forced.push((target, *value));
@@ -391,7 +396,9 @@ impl Live {
             }
             Command::Release { device } => {
                 let target = running.device(device, &self.names)?;
-                self.control.forced.retain(|(other, _)| *other != target);
+                let forced = &mut self.control.forced;
+                let index = forced.iter().position(|(other, _)| *other == target);
+                forced.remove(index.ok_or_else(|| format!("{target} is not forced"))?);
                 self.log
                     .write(now_ms, "event", &format!("{target} released"));
             }
@@ -408,7 +415,9 @@ impl Live {
             }
             Command::Unwatch { device } => {
                 let target = running.device(device, &self.names)?;
-                self.watched.retain(|other| *other != target);
+                let index = self.watched.iter().position(|other| *other == target);
+                let index = index.ok_or_else(|| format!("{target} is not watched"))?;
+                self.watched.remove(index);
             }
             Command::BreakOnDevice { device, value } => {
                 let target = running.device(device, &self.names)?;
@@ -517,6 +526,18 @@ fn number(reading: &Reading) -> Option<f64> {
         Reading::Float(value) => Some(*value),
         Reading::Text(_) => None,
     }
+}
+
+/// Returns true if two names, which are not the same, have a device in common.
+fn overlap(one: Target, other: Target) -> bool {
+    let [
+        (class, first, count),
+        (other_class, other_first, other_count),
+    ] = [one, other].map(|target| target.devices(0));
+    one != other
+        && class == other_class
+        && first < other_first + other_count
+        && other_first < first + count
 }
 
 /// Checks that there is room for one more.
