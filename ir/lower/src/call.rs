@@ -232,6 +232,10 @@ impl Lowerer<'_> {
             OperandKind::Decimal(value, index) => self.constant_arg(value as i32, index, wide),
             OperandKind::Hex(value, index) => self.constant_arg(value as u32 as i32, index, wide),
             OperandKind::Float(value) => Arg::Float(value),
+            OperandKind::Device(device, index) if self.counts_words(device, index) => {
+                self.report_counter_words(operand);
+                self.constant_arg(0, None, wide)
+            }
             OperandKind::Device(device, index) => Arg::Device {
                 place: self.arg_place(device, index, extent, wide),
                 extent,
@@ -263,6 +267,16 @@ impl Lowerer<'_> {
                 None => self.constant_arg(0, None, wide),
             },
         }
+    }
+
+    /// The runtime finds 32-bit counters by their number alone.
+    fn report_counter_words(&mut self, operand: &Operand) {
+        let name = &self.instr().mnemonic;
+        let message = format!("`{name}` cannot be compiled with `{}`", operand.kind);
+        let diagnostic = codes::NOT_IMPLEMENTED.at(operand.span, message);
+        let label = "an index counts the words of 32-bit counters here";
+        let help = "copy the counter first, with `DMOV` and the index";
+        self.report(diagnostic.label(label).help(help));
     }
 
     fn constant_arg(&mut self, value: i32, index: Option<Index>, wide: bool) -> Arg {

@@ -196,7 +196,11 @@ impl Lowerer<'_> {
     fn store_number(&mut self, target: Target, value: ExprId) {
         let value = match target {
             Target::Word(_) => self.add(Expr::Narrow(value)),
-            Target::Pair(_) | Target::Nibbles(..) | Target::Sent(..) | Target::None => value,
+            Target::Pair(_)
+            | Target::CounterWords(_)
+            | Target::Nibbles(..)
+            | Target::Sent(..)
+            | Target::None => value,
         };
         self.store(target, value);
     }

@@ -23,6 +23,7 @@ mod comment;
 pub mod compile;
 mod count_rows;
 mod count_table;
+mod counter_words;
 mod density;
 mod digits;
 mod drums;

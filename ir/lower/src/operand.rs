@@ -2,6 +2,7 @@
 
 use super::Lowerer;
 use super::call::extents;
+use super::counter_words::CounterWords;
 use rungc_ir::node::{
     Access, AccessKind, Action, Arg, BinOp, Branch, CellId, Expr, ExprId, Fetch, Place, Send, Stmt,
     SysValue, Ty,
@@ -39,6 +40,8 @@ pub(super) enum Target {
     Word(Place),
     /// A pair or a 32-bit counter.
     Pair(Place),
+    /// 32 bits from any word of the 32-bit counters.
+    CounterWords(CounterWords),
     /// A group of bits.
     Nibbles(Place, u8),
     /// Operand that only the runtime writes; 32 bits of it.
@@ -483,6 +486,7 @@ impl Lowerer<'_> {
                 self.add(Expr::Narrow(value))
             }
             Target::Word(place) => self.add(Expr::Read(Access::word(place))),
+            Target::CounterWords(words) => self.read_counter_words(words),
             Target::Nibbles(..) | Target::Sent(..) | Target::None => self.int(0, wide),
         }
     }
@@ -496,6 +500,9 @@ impl Lowerer<'_> {
         wide_index: bool,
         guards: &mut Guards,
     ) -> Target {
+        if let Some(index) = index.filter(|_| self.counts_words(device, index)) {
+            return Target::CounterWords(self.counter_words(device, index, guards));
+        }
         if is_counter32(device.class, device.number) {
             return Target::Pair(self.place(device, index, 1, wide_index, guards));
         }
@@ -558,6 +565,7 @@ impl Lowerer<'_> {
         let stmt = match target {
             Target::Word(place) => Stmt::Do(Action::Write(Access::word(place), value)),
             Target::Pair(place) => Stmt::Do(Action::Write(Access::pair(place), value)),
+            Target::CounterWords(words) => return self.write_counter_words(words, value),
             Target::Nibbles(place, digits) => {
                 let wide = self.module.ty(value) == Ty::I32;
                 let kind = AccessKind::Nibbles { digits, wide };

@@ -308,9 +308,11 @@ impl Lowerer<'_> {
             Some(operand @ &OperandKind::Device(..)) => {
                 match self.target(operand, 0, true, self.wide(), guards) {
                     Target::Pair(place) => self.add(Expr::Read(Access::float(place))),
-                    Target::Word(_) | Target::Nibbles(..) | Target::Sent(..) | Target::None => {
-                        self.add(Expr::F32(0.0))
-                    }
+                    Target::Word(_)
+                    | Target::CounterWords(_)
+                    | Target::Nibbles(..)
+                    | Target::Sent(..)
+                    | Target::None => self.add(Expr::F32(0.0)),
                 }
             }
             operand => {

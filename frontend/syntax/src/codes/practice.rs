@@ -192,7 +192,7 @@ super::codes! {
 
     INDEXED_COUNTER = "W0235" "indexed-counter" Warning None,
     "32-bit counter with an index on HM",
-    "On HM, an index counts 16-bit words. With the index 1, C200 is therefore not C201 but the high word of C200, and the manual advises against such operands (hm-motion-controller §5.1.8). A compiled program goes to the next counter. Copy the counters to data registers and index these: `DMOV C200 D1000`, `DMOV C201 D1002`, then D1000 with an index of 0 or 2.",
+    "On HM, an index counts 16-bit words. With the index 1, `C200V0` is therefore not C201 but the high word of C200 and the low word of C201, and the index 2 leads to C201. The manual advises against such operands (hm-motion-controller §5.1.8). Copy the counters to data registers and index these: `DMOV C200 D1000`, `DMOV C201 D1002`, then D1000 with an index of 0 or 2.",
     model: "hm",
     wrong: "LD X0\nDMOV C200V0 D1100\nEND\n",
     right: "LD X0\nDMOV C200 D1000\nDMOV C201 D1002\nDMOV D1000V0 D1100\nEND\n";
