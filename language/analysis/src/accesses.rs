@@ -1,7 +1,8 @@
 //! Devices that each instruction reads and writes.
 
 use crate::resolve::Resolved;
-use rungc_catalogue::{Extent, Param, Role, Shape};
+use rungc_catalogue::{Comparison, Extent, Lower, Param, Role, Shape};
+use rungc_models::high_speed::zone_table;
 use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
 use std::ops::RangeInclusive;
 
@@ -70,7 +71,22 @@ pub(crate) fn at(resolved: &Resolved, i: usize, n: usize) -> Option<Access> {
     let fits = !resolution.meant
         && param.shape != Shape::Pointer
         && param.classes.meets(Classes::of(&operand.kind));
-    fits.then(|| access(operands, operand, param, resolution.form.wide))?
+    let access = fits.then(|| access(operands, operand, param, resolution.form.wide))??;
+    Some(match resolution.lower {
+        Some(Lower::HighSpeed(Comparison::Zone)) => of_zone(access),
+        _ => access,
+    })
+}
+
+/// An access of HSZ. A relay that selects a table is itself meant, not the two after it.
+fn of_zone(access: Access) -> Access {
+    match zone_table(access.first) {
+        Some(_) => Access {
+            count: Some(1),
+            ..access
+        },
+        None => access,
+    }
 }
 
 fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) -> Option<Access> {

@@ -463,3 +463,14 @@ fn timers_in_routines_of_models_without_others() {
         0
     );
 }
+
+#[test]
+fn a_mode_of_zone_comparison_is_one_relay() {
+    let table = "LD M8000 / OUT C235 K1000 / DHSZ D0 K2 C235";
+    for model in [ModelId::H2u, ModelId::H1u, ModelId::Fx2n, ModelId::Fx3u] {
+        for relay in ["M8130", "M8132"] {
+            let lines = format!("{table} {relay}");
+            assert_eq!(count(model, "undefined-special", &lines), 0, "{lines}");
+        }
+    }
+}
