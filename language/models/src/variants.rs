@@ -227,7 +227,7 @@ const fn l01s(name: &'static str, title: &'static str, inputs: u32, outputs: u32
     Variant {
         model: ModelId::L01s,
         pulse_outputs: 4,
-        source: "l01s-programming §1.3",
+        source: "l01s-programming §1.3; pulse outputs §7.2",
         ..h2u(name, title, inputs, outputs)
     }
 }
