@@ -70,6 +70,10 @@ const FROM_10_HZ: &[Rule] = &[Rule::WideLimits(10, 100_000)];
 const PLSR_FX1: &[Param] = &plsr(speed(10, 32767, FROM_10_HZ), 110);
 const PLSR_FX2N: &[Param] = &plsr(speed(10, 20_000, &[]), 110);
 const PLSR_FX3SG: &[Param] = &plsr(speed(10, 32767, FROM_10_HZ), 0);
+/// l01s-programming §7.2.
+const L01S_HZ: Param = speed(10, 32767, &[Rule::WideLimits(10, 200_000)]);
+const PLSR_L01S: &[Param] = &plsr(L01S_HZ, 0);
+const PLSY_L01S: &[Param] = &plsy(L01S_HZ);
 const PLSR_FX3U: &[Param] = &plsr(speed(10, 32767, &[Rule::WideLimits(10, 200_000)]), 0);
 
 const PLSY_SMALL_FX: &[Param] = &plsy(speed(1, 32767, &[Rule::WideLimits(1, 100_000)]));
@@ -314,6 +318,7 @@ pub(super) const ROWS: &[Inst] = &[
             HM_FORMS,
             on(HM).takes(HM_PULSES),
             on(INOVANCE).takes(PLSY_INOVANCE),
+            on(L01S).takes(PLSY_L01S),
             on(SMALL_FX).takes(PLSY_SMALL_FX),
             on(FX2N).takes(PLSY_FX2N),
             on(FX3U_ITSELF).takes(PLSY_FX3U),
@@ -346,6 +351,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(FX3U_ITSELF).takes(PLSR_FX3U),
             on(ModelSet::FX2N).takes(PLSR_110),
             on(INOVANCE).takes(PLSR_INOVANCE),
+            on(L01S).takes(PLSR_L01S),
         ])
         .flags(&["M8029"])
         .errors(&[6770])

@@ -453,6 +453,7 @@ pub enum Pulses {
 /// Common properties of a family's pulse outputs.
 struct Family {
     outputs: &'static [Wiring],
+    lowest_hz: u32,
     highest_hz: u32,
     raises_speeds: bool,
     fewest_with_ramps: u32,
@@ -462,6 +463,7 @@ struct Family {
 /// Properties of most families.
 const PLAIN: Family = Family {
     outputs: &[],
+    lowest_hz: 1,
     highest_hz: 100_000,
     raises_speeds: true,
     fewest_with_ramps: 1,
@@ -480,6 +482,7 @@ impl Pulses {
             },
             Pulses::L01s => Family {
                 outputs: &L01S,
+                lowest_hz: 10,
                 highest_hz: 200_000,
                 raises_speeds: false,
                 ..PLAIN
@@ -518,6 +521,11 @@ impl Pulses {
     /// The outputs, Y000 first.
     pub const fn outputs(self) -> &'static [Wiring] {
         self.family().outputs
+    }
+
+    /// Lowest speed of PLSY in Hz.
+    pub const fn lowest_hz(self) -> u32 {
+        self.family().lowest_hz
     }
 
     /// Highest speed in Hz.

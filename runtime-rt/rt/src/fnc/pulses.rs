@@ -17,11 +17,13 @@ fn do_plsy(cx: &mut Cx) -> Done {
     match output.turn(cx)? {
         Turn::Start => {
             let [hz, count] = unsigned(cx)?;
+            let hz = raised(cx, hz);
             let train = Train::steady(output.millihertz(cx, hz), count);
             output.start(cx, train, output.wiring.pulses)?;
         }
         Turn::Sends => {
             let [hz, count] = unsigned(cx)?;
+            let hz = raised(cx, hz);
             let speed = output.millihertz(cx, hz);
             let changes = output.has_on(cx, output.wiring.changes);
             let generator = &mut output.axis(cx)?.generator;
@@ -34,6 +36,14 @@ fn do_plsy(cx: &mut Cx) -> Done {
         Turn::Rest => {}
     }
     output.show(cx)
+}
+
+/// A speed of PLSY that is at least the model's lowest; 0 sends nothing.
+fn raised(cx: &Cx, hz: u32) -> u32 {
+    match hz {
+        0 => 0,
+        _ => hz.max(cx.plc.pulses().lowest_hz()),
+    }
 }
 
 /// PLSR S1 S2 S3 D (FNC 59): sends S2 pulses on D, in S3 ms up to S1 Hz and in as many down, and comes down when its
