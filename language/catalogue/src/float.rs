@@ -72,6 +72,12 @@ pub(super) const ROWS: &[Inst] = &[
     float("ECMP", 110, "Compare floats", RtFn::Ecmp)
         .steps(13, 13)
         .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), coil("D", RESULT_BITS).len(3)])
+        // h1u-h2u-programming §4.3.10 marks Z and not V.
+        .variants(&[on(INOVANCE).takes(&[
+            real("S1", NUMBERS.or(Classes::Z)),
+            real("S2", NUMBERS.or(Classes::Z)),
+            coil("D", RESULT_BITS).len(3),
+        ])])
         .text("Compares floats: D is on if S1 > S2, D+1 if they are equal, D+2 if S1 < S2. Integer constants become floats."),
     float("EZCP", 111, "Zone compare of floats", RtFn::Ezcp)
         .steps(17, 17)
