@@ -184,7 +184,7 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::GroupAtMost(i, max) => format!("; at most {max} if {} is a group", name(i)),
             Rule::NotBefore(i) => format!("; not before {}", name(i)),
             Rule::ClassLike(i) => format!("; of the same class as {}", name(i)),
-            Rule::Holds(_, demand) => format!("; {demand}"),
+            Rule::Holds(_, demand) | Rule::Suits(_, demand) => format!("; {demand}"),
             Rule::WideCounter => "; in the 32-bit form, C200 and up".to_owned(),
             Rule::WideNot(classes) => {
                 let names: Vec<_> = classes.names().collect();

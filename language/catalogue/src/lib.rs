@@ -163,6 +163,8 @@ pub enum Rule {
     NotBefore(usize),
     /// A check of all operands; the text describes the demand.
     Holds(fn(&[Operand]) -> bool, &'static str),
+    /// A constant suits this predicate, which the text states.
+    Suits(fn(i64) -> bool, &'static str),
 }
 
 /// One operand of an instruction.

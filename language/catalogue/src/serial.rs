@@ -4,7 +4,8 @@ use super::row::*;
 use super::{Classes, Inst, Lower, Param, Repeat, Rule, When};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
-use rungc_syntax::{DeviceClass, OperandKind};
+use rungc_rt::comm::modbus::Limits;
+use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
 /// Reason for the missing inverter instructions: when a request is repeated, and which codes its errors have.
 const INVERTER: &str = "the exchange with Mitsubishi inverters is in no manual at hand; RS2 can send its frames, and ADPRW reaches \
@@ -40,6 +41,70 @@ const fn any(name: &'static str) -> Param {
 fn words_of_digits(constants: &[Option<i64>]) -> Option<u32> {
     Some(constant(constants, 2)?.div_ceil(4))
 }
+
+/// Last function of Modbus that reads.
+const LAST_READ: i64 = 0x04;
+
+/// Returns true if a Modbus request with these constants can be made; of what is not a constant, it may.
+fn request_holds(
+    limits: &Limits,
+    station: Option<i64>,
+    function: Option<i64>,
+    count: Option<i64>,
+) -> bool {
+    let fits = match (function, count) {
+        (Some(function), Some(count)) => {
+            let most = u8::try_from(function).ok().and_then(|f| limits.most(f));
+            most.is_none_or(|most| (1..=i64::from(most)).contains(&count))
+        }
+        _ => true,
+    };
+    let reads = function.is_some_and(|function| function <= LAST_READ);
+    fits && !(station == Some(0) && reads)
+}
+
+fn operand(operands: &[Operand], i: usize) -> Option<i64> {
+    operands.get(i)?.kind.constant()
+}
+
+/// Station and function in the bytes of the first operand (h1u-h2u-programming §5.7.1).
+const STATION_AND_FUNCTION: Rule = Rule::Suits(
+    |word| {
+        let (station, function) = (word >> 8 & 0xff, word & 0xff);
+        let known = matches!(function, 0x01..=0x06 | 0x0f | 0x10);
+        known && station <= 247 && (station > 0 || function > LAST_READ)
+    },
+    "high byte: a station from 1 to 247, or 0 to write to all; low byte: a function 01 to 06, 0F or 10",
+);
+const H1U_COUNT: Rule = Rule::Holds(
+    |operands| count_holds(&Limits::H1U, operands),
+    "1 to 800 coils or 1 to 50 registers",
+);
+const H2U_COUNT: Rule = Rule::Holds(
+    |operands| count_holds(&Limits::H2U, operands),
+    "1 to 2000 coils or 1 to 125 registers, for writing 1 to 1968 coils or 1 to 120 registers",
+);
+/// A rule for operand 2, with the function in the low byte of operand 0.
+fn count_holds(limits: &Limits, operands: &[Operand]) -> bool {
+    let function = operand(operands, 0).map(|word| word & 0xff);
+    request_holds(limits, None, function, operand(operands, 2))
+}
+
+/// Operands of ADPRW: station, function, address, number.
+const ADPRW_STATION: Rule = Rule::Holds(
+    |operands| {
+        let [station, function] = [0, 1].map(|i| operand(operands, i));
+        request_holds(&Limits::STANDARD, station, function, None)
+    },
+    "1 to 247 for a function that reads",
+);
+const ADPRW_COUNT: Rule = Rule::Holds(
+    |operands| {
+        let [function, count] = [1, 3].map(|i| operand(operands, i));
+        request_holds(&Limits::STANDARD, None, function, count)
+    },
+    "1 to 2000 coils or 1 to 125 registers, for writing 1 to 1968 coils or 1 to 123 registers",
+);
 
 const BOARDS: ModelSet = ModelSet::COMPATIBLE;
 /// Number of coils or registers in a Modbus request: at most 2000 and 125 (Modbus application protocol §6).
@@ -78,7 +143,24 @@ const RECEIVE: Param = dst("D", DATA).per(3).changed();
 const RECEIVE_LENGTH: Param = number("n", 256);
 /// RS as Modbus master, D8126 = 20h or 30h (h1u-h2u-programming §5.7): what the other models take for lengths and
 /// receive registers is the address, the number, and the data.
-const RS_MODBUS: &[Param] = &[any("S"), any("m"), any("D"), both("n", DATA).per(2)];
+const RS_MODBUS: &[Param] = &[
+    any("S").rules(&[STATION_AND_FUNCTION]),
+    any("m"),
+    any("D").rules(&[H2U_COUNT]),
+    both("n", DATA).per(2),
+];
+/// MODBUS, and without the port MODBUS2: station and function, address, number, data.
+const fn modbus(count: &'static [Rule]) -> [Param; 5] {
+    [
+        any("S1").rules(&[STATION_AND_FUNCTION]),
+        any("S2"),
+        any("n").rules(count),
+        both("D", DATA).per(2),
+        any("n1").limits(0, 3),
+    ]
+}
+const MODBUS_H1U: &[Param; 5] = &modbus(&[H1U_COUNT]);
+const MODBUS_H2U: &[Param; 5] = &modbus(&[H2U_COUNT]);
 /// Either form, where a register comes first: the number as a constant shows that it is a Modbus request.
 const RS_INOVANCE: &[Param] = &[
     src("S", DATA).len_of(|constants| match constant(constants, 2) {
@@ -105,21 +187,25 @@ const SENDS_256_BYTES: Rule = Rule::Holds(
     },
     "at most 256 bytes",
 );
-const HM_STATION: Param = any("S1");
+/// hm-motion-controller §6.4: 0 for all slaves, which only take writes.
+const HM_STATION: Param = any("S1").limits(0, 247);
+const HM_READ_STATION: Param = any("S1").limits(1, 247);
 const HM_ADDRESS: Param = any("S2");
-const HM_NUMBER: Param = any("S3");
+const fn hm_number(most: u16) -> Param {
+    any("S3").limits(1, most as i64)
+}
 const HM_PORT: Param = any("D2").limits(0, 1);
 const READ_BITS: &[Param] = &[
-    HM_STATION,
+    HM_READ_STATION,
     HM_ADDRESS,
-    HM_NUMBER,
+    hm_number(Limits::STANDARD.read_bits),
     coil("D1", COILS).per(2),
     HM_PORT,
 ];
 const READ_WORDS: &[Param] = &[
-    HM_STATION,
+    HM_READ_STATION,
     HM_ADDRESS,
-    HM_NUMBER,
+    hm_number(Limits::STANDARD.read_words),
     dst("D1", DATA).per(2),
     HM_PORT,
 ];
@@ -128,14 +214,14 @@ const WRITE_WORD: &[Param] = &[HM_STATION, HM_ADDRESS, src("D1", DATA).plain(), 
 const WRITE_BITS: &[Param] = &[
     HM_STATION,
     HM_ADDRESS,
-    HM_NUMBER,
+    hm_number(Limits::STANDARD.write_bits),
     bit("D1", COILS).per(2),
     HM_PORT,
 ];
 const WRITE_WORDS: &[Param] = &[
     HM_STATION,
     HM_ADDRESS,
-    HM_NUMBER,
+    hm_number(Limits::STANDARD.write_words),
     src("D1", DATA).per(2),
     HM_PORT,
 ];
@@ -326,7 +412,8 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     serial("MODBUS", 89, "Modbus master")
         .on(INOVANCE)
-        .takes(&[any("S1"), any("S2"), any("n"), both("D", DATA).per(2)])
+        .takes(MODBUS_H2U.split_at(4).0)
+        .variants(&[on(ModelSet::H1U).takes(MODBUS_H1U.split_at(4).0)])
         .flags(&["M8122", "M8123"])
         .call(RtFn::Modbus)
         .text("Sends a Modbus request: S1 the station and the function, S2 the address, n how many, D the data."),
@@ -357,7 +444,8 @@ pub(super) const ROWS: &[Inst] = &[
     serial("MODBUS2", 93, "Modbus master on a port")
         .steps(11, 11)
         .on(INOVANCE)
-        .takes(&[any("S1"), any("S2"), any("n"), both("D", DATA).per(2), any("n1").limits(0, 3)])
+        .takes(MODBUS_H2U)
+        .variants(&[on(ModelSet::H1U).takes(MODBUS_H1U)])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
         .call(RtFn::Modbus2)
         .text("As MODBUS, on port n1."),
@@ -419,7 +507,12 @@ pub(super) const ROWS: &[Inst] = &[
          S2 the first address, n how many coils or registers go to D and on.",
     )
         .takes(&[any("S1"), any("S2"), dst("D", DATA), number("n", 2)])
-        .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), dst("D", DATA).len_of(answer_words), COUNT])])
+        .variants(&[on(BOARDS).takes(&[
+            any("S1").rules(&[STATION_AND_FUNCTION]),
+            any("S2"),
+            dst("D", DATA).len_of(answer_words),
+            COUNT,
+        ])])
         .lower_on(&[(BOARDS, Lower::Call(RtFn::Ivrd))]),
     inverter(
         "IVWR",
@@ -429,7 +522,12 @@ pub(super) const ROWS: &[Inst] = &[
          function, S2 the first address, n how many coils or registers are written from S3 on.",
     )
         .takes(&[any("S1"), any("S2"), any("S3"), number("n", 2)])
-        .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), any("S3").len_of(answer_words), COUNT])])
+        .variants(&[on(BOARDS).takes(&[
+            any("S1").rules(&[STATION_AND_FUNCTION]),
+            any("S2"),
+            any("S3").len_of(answer_words),
+            COUNT,
+        ])])
         .lower_on(&[(BOARDS, Lower::Call(RtFn::Ivwr))]),
     inverter("IVBWR", 274, "Write parameters", "Writes the S2 parameters of the table at S3 to inverter S1 on port n.")
         .on(FX3U)
@@ -446,18 +544,19 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(11, 11)
         .on(LIKE_FX3)
         .takes(&[
-            any("S"),
-            any("S1"),
+            // l01s-programming §8.1.2.
+            any("S").limits(1, 247),
+            any("S1").among(&[(0x01, 0x06), (0x0f, 0x10)]),
             any("S2"),
-            any("S3"),
+            any("S3").rules(&[ADPRW_COUNT]),
             mixed_out("D", BITS.or(DATA)).per(3).changed(),
         ])
         // FX3U MODBUS manual §8.3: 05, 06, 0F, 10 and 16 write constants, too.
         .variants(&[on(FX3).takes(&[
-            any("S"),
-            any("S1"),
+            any("S").limits(0, 247).rules(&[ADPRW_STATION]),
+            any("S1").among(&[(0x01, 0x08), (0x0b, 0x0c), (0x0f, 0x11), (0x16, 0x16)]),
             any("S2"),
-            any("S3"),
+            any("S3").rules(&[ADPRW_COUNT]),
             mixed_out("D", BITS.or(DATA).or(CONSTANTS)).len_of(adprw_devices).changed(),
         ])])
         .flags(&["M8029"])

@@ -12,5 +12,6 @@ mod ports;
 mod ranges;
 mod rendered;
 mod resets;
+mod serial;
 mod warnings;
 mod worst;

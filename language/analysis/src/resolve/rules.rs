@@ -79,8 +79,17 @@ pub(super) fn broken(
                 .at(operand.span, message)
                 .label(demand)
         }),
+        Rule::Suits(suits, demand) => {
+            (!suits(operand.kind.constant()?)).then(|| unsuited(operand, demand))
+        }
         Rule::ClassLike(other) => unlike_class(operand, operands.get(other)?),
     })
+}
+
+/// A constant that a predicate does not accept.
+fn unsuited(operand: &Operand, demand: &'static str) -> Diagnostic {
+    let message = format!("`{}` is not a value that is accepted here", operand.kind);
+    codes::LIMITS.at(operand.span, message).label(demand)
 }
 
 /// Of two devices, one is a group of bits and the other is not.

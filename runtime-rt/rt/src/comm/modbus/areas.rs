@@ -1,6 +1,9 @@
 //! Modbus addresses of devices: the map of each model as data.
 
 use super::Profile;
+use super::function::{
+    READ_COILS, READ_INPUT_REGISTERS, READ_INPUTS, READ_REGISTERS, WRITE_COILS, WRITE_REGISTERS,
+};
 use crate::plc::Class;
 
 /// Mapping of devices to addresses.
@@ -170,6 +173,17 @@ impl Limits {
         write_words: 45,
         ..Self::STANDARD
     };
+
+    /// Largest number of coils or registers of a request; `None` if the function has no number.
+    pub const fn most(&self, function: u8) -> Option<u16> {
+        match function {
+            READ_COILS | READ_INPUTS => Some(self.read_bits),
+            READ_REGISTERS | READ_INPUT_REGISTERS => Some(self.read_words),
+            WRITE_COILS => Some(self.write_bits),
+            WRITE_REGISTERS => Some(self.write_words),
+            _ => None,
+        }
+    }
 }
 
 const fn bits(address: u16, count: u16, class: Class, first: u32) -> Area {

@@ -11,6 +11,9 @@ use super::{COIL_ON, Exception, diagnosis};
 use crate::comm::{Frame, LineFault, Map};
 use crate::plc::Class;
 
+/// The last address of a slave.
+const LAST_STATION: u8 = 247;
+
 /// The layout of data in the devices of a master.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
@@ -158,17 +161,27 @@ impl Job {
 
     /// Number of coils or registers, checked against the limits.
     fn count(&self, limits: &Limits) -> Result<u16, LineFault> {
-        let most = match self.function {
-            READ_COILS | READ_INPUTS => limits.read_bits,
-            READ_REGISTERS | READ_INPUT_REGISTERS => limits.read_words,
-            WRITE_COILS => limits.write_bits,
-            WRITE_REGISTERS => limits.write_words,
-            WRITE_COIL | WRITE_REGISTER => return Ok(1),
-            _ => return Err(LineFault::Command),
-        };
-        match (1..=most).contains(&self.count) {
-            true => Ok(self.count),
-            false => Err(LineFault::Data),
+        match limits.most(self.function) {
+            Some(most) if (1..=most).contains(&self.count) => Ok(self.count),
+            Some(_) => Err(LineFault::Data),
+            None if [WRITE_COIL, WRITE_REGISTER].contains(&self.function) => Ok(1),
+            None => Err(LineFault::Command),
+        }
+    }
+
+    /// Faults unless a slave, or all slaves of a line, can have the station: 248 to 255 are reserved, and all slaves
+    /// only take requests to write (Modbus over serial line §2.2; hm-motion-controller §6.4).
+    fn check_station(&self) -> Result<(), LineFault> {
+        let reads = [
+            READ_COILS,
+            READ_INPUTS,
+            READ_REGISTERS,
+            READ_INPUT_REGISTERS,
+        ];
+        match self.station {
+            BROADCAST if reads.contains(&self.function) => Err(LineFault::Station),
+            BROADCAST..=LAST_STATION => Ok(()),
+            _ => Err(LineFault::Station),
         }
     }
 }
@@ -181,6 +194,7 @@ pub fn request(
     map: &dyn Map,
     frame: &mut Frame,
 ) -> Result<(), LineFault> {
+    job.check_station()?;
     request_body(limits, job, map, frame)?;
     close(framing, frame)
 }
@@ -391,6 +405,10 @@ mod tests {
             (job(1, 3, 0, 0), LineFault::Data),
             (job(1, 16, 0, 121), LineFault::Data),
             (job(1, 8, 0, 1), LineFault::Command),
+            (job(0, 3, 0, 1), LineFault::Station),
+            (job(0, 1, 0, 1), LineFault::Station),
+            (job(248, 6, 0, 1), LineFault::Station),
+            (job(255, 3, 0, 1), LineFault::Station),
             (
                 Job {
                     buffer: Buffer::words(Class::D, 8511),
