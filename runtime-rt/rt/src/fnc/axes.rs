@@ -164,9 +164,16 @@ fn begin(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
     if order.speed < 0 || (order.speed == 0 && order.kind == Kind::Timed) {
         return axis.refuse(cx, error::BELOW_FIRST);
     }
-    if order.count == 0 && order.kind != Kind::Variable {
+    let is_endless = matches!(order.kind, Kind::ToInterrupt | Kind::Variable);
+    if order.count == 0 && !is_endless {
         axis.set(cx, at::ERROR, 0);
         axis.end(cx, state::DONE);
+        return Ok(());
+    }
+    let reverse = order.count < 0 && axis.has_direction(cx);
+    if axis.sees(cx, at::EMERGENCY, event::EMERGENCY) || at_limit(cx, axis, order.kind, reverse) {
+        axis.set(cx, at::ERROR, 0);
+        axis.end(cx, state::STOPPED);
         return Ok(());
     }
     let train = train(cx, axis, order);
@@ -175,6 +182,15 @@ fn begin(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
     state.0[COUNT] = order.count;
     state.0[INTERRUPTED] = 0;
     watch(cx, axis, order)
+}
+
+/// Returns true if the limit of a direction is reached, and this kind of motion ends there.
+fn at_limit(cx: &Cx, axis: Registers, kind: Kind, reverse: bool) -> bool {
+    matches!(kind, Kind::Move | Kind::ToInterrupt | Kind::Variable)
+        && match reverse {
+            true => axis.sees(cx, at::LEFT, event::LEFT),
+            false => axis.sees(cx, at::RIGHT, event::RIGHT),
+        }
 }
 
 /// A scan of a motion that has begun.
@@ -206,11 +222,7 @@ fn watch(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
         return Ok(());
     }
     let reverse = axis.generator(cx)?.is_reverse();
-    let limit = match reverse {
-        true => axis.sees(cx, at::LEFT, event::LEFT),
-        false => axis.sees(cx, at::RIGHT, event::RIGHT),
-    };
-    if limit && matches!(kind, Kind::Move | Kind::ToInterrupt | Kind::Variable) {
+    if at_limit(cx, axis, kind, reverse) {
         return axis.come_down(cx);
     }
     match kind {
@@ -222,6 +234,9 @@ fn watch(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
             let state = cx.state();
             state.0[INTERRUPTED] = 1;
             let count = state.0[COUNT].unsigned_abs();
+            if count == 0 {
+                return axis.stop(cx, state::DONE);
+            }
             axis.generator(cx)?.end_in(count);
         }
         Kind::Steady | Kind::Variable => {
