@@ -193,8 +193,14 @@ fn insert(cx: &mut Cx) -> Done {
     let count = if cx.drive() {
         i32::from(cx.word(1, 0)?)
     } else {
+        axis.forget_error(cx);
         0
     };
+    let speed = u64::from(count.unsigned_abs()) * 1_000_000;
+    if count != 0 && speed + axis.speed_of_motion(cx) > axis.most(cx) {
+        cx.state().0[MASTER] = 0;
+        return axis.fail(cx, error::OVERSPEED);
+    }
     let before = core::mem::replace(&mut cx.state().0[MASTER], count);
     let has_direction = axis.has_direction(cx);
     let turns = count.signum() * before.signum() < 0;

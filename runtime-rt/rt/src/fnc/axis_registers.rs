@@ -90,7 +90,10 @@ pub(super) fn motion(
                 Some(code) => axis.refuse(cx, code),
                 None => begin(cx, axis),
             },
-            (true, RUNS) if axis.is_mine(cx) => go_on(cx, axis),
+            // IPL may have failed on it.
+            (true, RUNS) if axis.is_mine(cx) && axis.word(cx, at::STATE) != state::ERROR => {
+                go_on(cx, axis)
+            }
             (true, RUNS) => {
                 cx.state().0[PHASE] = ENDED;
                 Ok(())
@@ -145,6 +148,13 @@ impl Registers {
     pub fn generator<'a>(self, cx: &'a mut Cx) -> Result<&'a mut Generator, Fault> {
         let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
         Ok(&mut axis.generator)
+    }
+
+    /// Speed of the motion that an instruction carries out on the axis, in millihertz.
+    pub fn speed_of_motion(self, cx: &mut Cx) -> u64 {
+        let moves = [state::RUNS, state::COMES_DOWN].contains(&self.word(cx, at::STATE));
+        let axis = cx.plc.axis(self.axis).filter(|_| moves);
+        axis.map_or(0, |axis| axis.generator.millihertz().into())
     }
 
     fn is_mine(self, cx: &mut Cx) -> bool {
@@ -337,6 +347,16 @@ impl Registers {
         axis.generator.start(Train { reverse, ..train });
         axis.show();
         Ok(())
+    }
+
+    /// The drive of an instruction that never owns the axis is off: an error that it has shown ends, unless another
+    /// instruction has the axis.
+    pub fn forget_error(self, cx: &mut Cx) {
+        let failed = core::mem::replace(&mut cx.state().0[PHASE], WAITS) == ENDED;
+        let is_free = cx.plc.axis(self.axis).is_some_and(|axis| axis.owner == 0);
+        if failed && is_free {
+            self.set(cx, at::STATE, state::IDLE);
+        }
     }
 
     /// The drive is off: what runs comes down, and the axis is free once it is at rest.
