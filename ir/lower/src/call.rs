@@ -32,6 +32,7 @@ impl Lowerer<'_> {
         let slot = self.slot(needs.state);
         if needs.pulses {
             self.use_outputs(needs.looks());
+            self.use_counts_of_inputs();
         }
         if needs.anywhere {
             self.specials.whole.extend(ANYWHERE);

@@ -2,11 +2,12 @@
 
 use super::Lowerer;
 use super::high_speed::{Counted, counter_place};
+use rungc_catalogue::Lower;
 use rungc_ir::node::{Access, Action, BinOp, CellId, Expr};
 use rungc_models::high_speed::{Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::M_COUNTER_DIRECTION;
-use rungc_rt::{CmpOp, Register};
+use rungc_rt::{CmpOp, Register, RtFn};
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 impl Lowerer<'_> {
@@ -16,7 +17,7 @@ impl Lowerer<'_> {
             return;
         };
         let count = self.add(Expr::Read(Access::pair(counter_place(counter.number))));
-        if self.looks_at_pair(axis.count) {
+        if self.looks_at_pair(axis.count) || self.is_master(axis) {
             self.emit(Action::Write(Access::pair(axis.count), count));
         }
         if self.looks_at_pair(axis.upper) {
@@ -165,6 +166,24 @@ impl Lowerer<'_> {
                 asked && !matches!(interrupt.source, Some(Source::Input { .. }))
             })
         })
+    }
+
+    /// An axis that follows the increment of an input reads the input's count.
+    pub(super) fn use_counts_of_inputs(&mut self) {
+        for axis in self.model.high_speed.axes {
+            if self.is_master(axis) {
+                let pair = axis.count.run::<2>();
+                let pair = pair.map(|register| (DeviceClass::D, register.number()));
+                self.specials.flags.extend(pair);
+            }
+        }
+    }
+
+    /// Returns true if an axis may follow the increment of an input.
+    fn is_master(&self, axis: &Axis) -> bool {
+        let mut instrs = self.resolved.instrs.iter();
+        self.names(axis.per_ms)
+            && instrs.any(|instr| matches!(instr.lower, Some(Lower::Call(RtFn::AxisGear))))
     }
 
     fn looks_at_pair(&self, register: Register) -> bool {

@@ -54,3 +54,8 @@ pub const COUNT: u32 = 28;
 pub const PULSES: Register = Register(80);
 /// Number of outputs counted this way.
 pub const OUTPUTS: u32 = 9;
+/// Pulses of the last millisecond of each input axis, and the pair with its count (hm-motion-controller §8.2.2).
+pub const INPUT_COUNTS: [(Register, Register); 2] = [
+    (Register(212), Register(200)),
+    (Register(262), Register(250)),
+];

@@ -9,7 +9,7 @@ use crate::interrupts::{
     Advanced, AdvancedPointers, Capture, Gate, Interrupt, Interrupts, Precedence, Source, edge,
 };
 use crate::runs::IndexAlias;
-use rungc_rt::axis_place::{ACCELERATION, HIGHEST, UNIT};
+use rungc_rt::axis_place::{ACCELERATION, HIGHEST, INPUT_COUNTS, UNIT};
 use rungc_rt::modules::Place;
 use rungc_rt::{CmpOp, ErrorRules, Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
@@ -139,22 +139,22 @@ const MASKED_PATTERNS: TableMode = TableMode {
 const AXES: &[Axis] = &[
     Axis {
         input: 0,
-        count: Register(200),
+        count: INPUT_COUNTS[0].1,
         upper: Register(202),
         captured: Register(206),
         compared: Register(208),
         mode: Register(210),
-        per_ms: Register(212),
+        per_ms: INPUT_COUNTS[0].0,
         capture: [4, 5],
     },
     Axis {
         input: 2,
-        count: Register(250),
+        count: INPUT_COUNTS[1].1,
         upper: Register(252),
         captured: Register(256),
         compared: Register(258),
         mode: Register(260),
-        per_ms: Register(262),
+        per_ms: INPUT_COUNTS[1].0,
         capture: [6, 7],
     },
 ];

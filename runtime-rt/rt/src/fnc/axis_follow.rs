@@ -48,13 +48,17 @@ fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
     cx.dword(1, 0)
 }
 
-/// The position to which an increment belongs, if the master is one of an output axis.
+/// The position to which an increment belongs, if the master is one of an axis.
 fn position_of_increment(cx: &Cx) -> Option<Register> {
     let operand = cx.ops.get(1)?;
     if operand.kind != OperandKind::Device || operand.class != Class::D {
         return None;
     }
     let named = u32::try_from(operand.value).ok()?;
+    let mut inputs = at::INPUT_COUNTS.iter();
+    if let Some((_, count)) = inputs.find(|(increment, _)| increment.number() == named) {
+        return Some(*count);
+    }
     let outputs = cx.plc.pulses().outputs().iter();
     let mut axes = outputs.filter_map(|wiring| wiring.axis);
     axes.find(|axis| axis.after(at::INCREMENT).number() == named)
@@ -179,8 +183,8 @@ pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
 }
 
 /// IPL D1 D2: inserts D2 pulses into what axis D1 sends, in the next millisecond, each time it is executed with its
-/// drive on. Its highest speed does not limit them, and it may be running. Without a pause of one execution before it,
-/// a change of direction is lost.
+/// drive on. Its highest speed does not limit them, and it may be running; more than its output can send in that time,
+/// together with what it sends, are an error. Without a pause of one execution before it, a change of direction is lost.
 pub fn axis_ipl(cx: &mut Cx) -> Done {
     held(cx, insert)
 }
