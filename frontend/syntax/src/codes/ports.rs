@@ -10,7 +10,7 @@ super::codes! {
 
     PORT_NOT_MASTER = "W0602" "port-not-master" Warning None,
     "a Modbus master's instruction on a port that is not a master",
-    "The instruction asks slaves by Modbus, but the registers of its port choose another protocol, so nothing is sent. `D8126` = H20 makes COM1 of H1U and H2U an RTU master.",
+    "The instruction asks slaves by Modbus, but the registers of its port choose another protocol, so nothing is sent. ADPRW of L01S asks by Modbus RTU alone, RD3A and WR3A in ASCII, too. `D8126` = H20 makes COM1 of H1U and H2U an RTU master.",
     model: "h2u",
     wrong: "LD M8002\nMOV H2 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n",
     right: "LD M8002\nMOV H20 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n";

@@ -7,7 +7,7 @@
 //! [`Exchange`]: crate::comm::modbus::Exchange
 
 use crate::comm::modbus::{Buffer, End, Exchange, Job, Layout, Visit};
-use crate::comm::{D_ADPRW_PORT, PortWiring, Progress};
+use crate::comm::{D_ADPRW_PORT, PortWiring, Progress, Protocol};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
@@ -212,12 +212,16 @@ fn adprw_job(cx: &Cx) -> Result<Job, Fault> {
 }
 
 /// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program
-/// resets it or the next one is executed.
+/// resets it or the next one is executed. A port that asks in ASCII does not serve it (l01s-programming §8.2.6, §8.3.5).
 pub fn adprw(cx: &mut Cx) -> Done {
     let port = D_ADPRW_PORT.value(cx.plc) as i16;
     let Some(number) = l01s_port(cx, port)? else {
         return Ok(());
     };
+    let port = cx.plc.port(number);
+    if port.is_some_and(|port| port.status.protocol == Protocol::MasterAscii) {
+        return Ok(());
+    }
     let turn = work(cx, number, adprw_job)?;
     let over = matches!(turn, Turn::Over(_));
     if over || cx.drive() {

@@ -340,7 +340,7 @@ impl Port<'_> {
             let asks = protocol.is_master() && function == RtFn::Rs;
             let (served, kind, code) = match of {
                 Use::Free => (protocol == Protocol::Free || asks, 0, &codes::PORT_NOT_FREE),
-                Use::Master => (protocol.is_master(), 1, &codes::PORT_NOT_MASTER),
+                Use::Master => (serves(protocol, function), 1, &codes::PORT_NOT_MASTER),
                 Use::SetUp => continue,
             };
             if served || std::mem::replace(&mut reported[kind], true) {
@@ -392,6 +392,12 @@ impl Port<'_> {
             None => diagnostic,
         }
     }
+}
+
+/// Returns true if a port with this protocol carries out a master's instruction. ADPRW of L01S asks in RTU alone
+/// (l01s-programming §8.2.6).
+fn serves(protocol: Protocol, function: RtFn) -> bool {
+    protocol.is_master() && !(protocol == Protocol::MasterAscii && function == RtFn::Adprw)
 }
 
 /// A station of CANlink: its frames are our own, and some registers are the network's (h1u-h2u-programming §5.9.8).
