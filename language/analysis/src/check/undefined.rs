@@ -5,15 +5,26 @@ use crate::accesses::Access;
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Device, Diagnostics, Span, codes};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// A longer run of devices is cleared or copied as a whole; it does not mean one of them.
 const MAX_RUN: u32 = 32;
 
-/// Special devices without a meaning that a program names, each with its first place and true if it is written there.
+/// Special devices without a meaning that a program names, each with its first use.
 #[derive(Default)]
 pub(super) struct Undefined {
-    used: BTreeMap<Device, (Span, bool)>,
+    used: BTreeMap<Device, Use>,
+}
+
+/// Use of such a device.
+#[derive(Clone, Copy)]
+struct Use {
+    span: Span,
+    /// True if it is written.
+    written: bool,
+    /// The device before it, which has a meaning, if both are a 32-bit value.
+    upper_of: Option<Device>,
 }
 
 impl Undefined {
@@ -24,20 +35,31 @@ impl Undefined {
         };
         let (class, first) = (access.first.class, access.first.number);
         let numbers = first..first.saturating_add(count);
-        for number in numbers.filter(|&number| is_special(class, number)) {
-            if code.model().has(class, number) && code.model().special(class, number).is_none() {
-                let device = Device { class, number };
-                let place = (access.span, access.writes());
-                self.used.entry(device).or_insert(place);
+        let lacks = |number| {
+            code.model().has(class, number) && code.model().special(class, number).is_none()
+        };
+        for number in numbers.filter(|&number| is_special(class, number) && lacks(number)) {
+            let is_upper = access.each == 2 && (number - first) % 2 == 1;
+            let device = |number| Device { class, number };
+            let lower = is_upper.then(|| device(number - 1));
+            // Both words of a value are one mistake.
+            if lower.is_some_and(|lower| lacks(lower.number)) {
+                continue;
             }
+            let place = Use {
+                span: access.span,
+                written: access.writes(),
+                upper_of: lower,
+            };
+            self.used.entry(device(number)).or_insert(place);
         }
     }
 
     /// Warns of them, in one diagnostic.
     pub(super) fn report(self, model: &'static Model, out: &mut Diagnostics) {
         let mut used: Vec<_> = self.used.into_iter().collect();
-        used.sort_by_key(|&(device, (span, _))| (span, device));
-        let Some((&(first, (span, written)), others)) = used.split_first() else {
+        used.sort_by_key(|&(device, place)| (place.span, device));
+        let Some((&(first, place), others)) = used.split_first() else {
             return;
         };
         let subject = match others.len() {
@@ -45,24 +67,34 @@ impl Undefined {
             n => format!("`{first}` and {n} more special devices have"),
         };
         let message = format!("{subject} no meaning on {}", model.title);
+        let help = match place.upper_of {
+            None => help(model, first),
+            Some(lower) => {
+                format!("`{lower}` holds 16 bits: use the 16-bit form of the instruction")
+            }
+        };
         let mut diagnostic = codes::UNDEFINED_SPECIAL
-            .at(span, message)
-            .label(what(written))
-            .help(help(model, first));
+            .at(place.span, message)
+            .label(place.what())
+            .help(help);
         if !others.is_empty() {
             diagnostic = diagnostic.devices(used.iter().map(|&(device, _)| device));
         }
-        for &(device, (span, written)) in others {
-            diagnostic = diagnostic.other(span, format!("`{device}` {}", what(written)));
+        for &(device, place) in others {
+            diagnostic = diagnostic.other(place.span, format!("`{device}` {}", place.what()));
         }
         out.push(diagnostic);
     }
 }
 
-fn what(written: bool) -> &'static str {
-    match written {
-        true => "written here: nothing depends on it but the program",
-        false => "read here: nothing but the program changes it",
+impl Use {
+    fn what(self) -> Cow<'static, str> {
+        match (self.upper_of, self.written) {
+            (Some(lower), true) => format!("written with `{lower}` as a 32-bit value").into(),
+            (Some(lower), false) => format!("read with `{lower}` as a 32-bit value").into(),
+            (None, true) => "written here: nothing depends on it but the program".into(),
+            (None, false) => "read here: nothing but the program changes it".into(),
+        }
     }
 }
 

@@ -91,3 +91,42 @@ fn long_runs_mean_none_of_their_devices() {
         BTreeSet::new()
     );
 }
+
+#[test]
+fn the_second_word_of_a_value_is_reported_as_such() {
+    let found = |text: &str| {
+        let program = rungc_frontend::read_text("p.il", text).program;
+        let (resolved, _) = resolve(&program, Model::get(ModelId::Fx1n));
+        let found = check(&resolved);
+        let found = found
+            .iter()
+            .filter(|d| d.code == codes::UNDEFINED_SPECIAL.id);
+        let found = found.map(|d| {
+            let others = d.others.iter().map(|label| format!(" / {}", label.text));
+            let others: String = others.collect();
+            let help = d.help.as_deref().unwrap_or_default();
+            format!("{}: {}{others}. {help}", d.message, d.label)
+        });
+        found.collect::<Vec<_>>().join("\n")
+    };
+    let single = "`D8148` holds 16 bits: use the 16-bit form of the instruction";
+    assert_eq!(
+        found("LD X0\nDMOV K100000 D8148\nEND\n"),
+        format!(
+            "`D8149` has no meaning on Mitsubishi FX1N: written with `D8148` as a 32-bit value. {single}"
+        )
+    );
+    assert_eq!(
+        found("LD X0\nDMOV D8148 D0\nEND\n"),
+        format!(
+            "`D8149` has no meaning on Mitsubishi FX1N: read with `D8148` as a 32-bit value. {single}"
+        )
+    );
+    // Both words of a value are one mistake.
+    let both = found("LD X0\nDMOV K1 D8150\nEND\n");
+    assert!(
+        both.starts_with("`D8150` has no meaning on Mitsubishi FX1N: written here"),
+        "{both}"
+    );
+    assert_eq!(found("LD X0\nDMOV K1 D8146\nMOV K1 D8148\nEND\n"), "");
+}
