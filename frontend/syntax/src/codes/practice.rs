@@ -9,7 +9,7 @@ super::codes! {
 
     NEVER_WRITTEN = "W0202" "never-written" Warning None,
     "contacts of relays, or values of registers, that nothing writes",
-    "Nothing in the program drives these relays, states, timers or counters, so their contacts never change; nothing writes these registers, so what compares them or takes them as a preset finds 0. An operator panel may write them: name what it writes in rungc.toml, `[hmi] writes = [\"M100-M115\", \"D0-D9\"]`. Latched registers, which keep what was once written, are not reported, nor are registers of a program whose ports let others write.",
+    "Nothing in the program drives these relays, states, timers or counters, so their contacts never change; nothing writes these registers, so what compares them or takes them as a preset finds 0. RST, ZRST and writing 0 switch nothing on, so they do not count. An operator panel may write them: name what it writes in rungc.toml, `[hmi] writes = [\"M100-M115\", \"D0-D9\"]`. Latched registers, which keep what was once written, are not reported, nor are registers of a program whose ports let others write.",
     wrong: "LD M10\nOUT Y0\nEND\n",
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 

@@ -379,6 +379,32 @@ fn relays_of_links() {
 }
 
 #[test]
+fn contacts_of_what_is_only_cleared() {
+    let cleared = |read: &str, clear: &str| format!("LD {read} / OUT Y0 / LD M8002 / {clear}");
+    let wrong = [
+        cleared("M10", "RST M10"),
+        cleared("M10", "ZRST M0 M100"),
+        cleared("M10", "MOVP K0 K4M0"),
+        cleared("M40", "DMOV K0 K8M20"),
+        cleared("M40", "FMOV K0 K4M0 K3"),
+        cleared("C5", "FMOV K0 C0 K20"),
+        cleared("T5", "ZRST T0 T9"),
+        cleared("S25", "ZRST S20 S40"),
+    ];
+    let right = [
+        cleared("M10", "MOV K1 K4M0"),
+        cleared("M10", "FMOV D0 K4M0 K1"),
+        cleared("M10", "ZRST M0 M9 / SET M10"),
+        cleared("M10", "BMOV K4M100 K4M0 K1"),
+    ];
+    judge(
+        "never-written",
+        &wrong.each_ref().map(|w| &**w),
+        &right.each_ref().map(|r| &**r),
+    );
+}
+
+#[test]
 fn registers_that_nothing_writes() {
     judge(
         "never-written",

@@ -2,6 +2,7 @@
 //! compared or used as presets and never written.
 
 use super::Code;
+use super::overlaps::clears;
 use super::ports::{self, Roles};
 use crate::accesses::Access;
 use crate::latches;
@@ -125,8 +126,8 @@ impl<'a, 'p> Unused<'a, 'p> {
         {
             self.classes[at].add_run(0, INITIAL, true);
         }
-        // RST alone never switches anything on.
-        if access.writes() && basic != Some(Basic::Rst) {
+        // What only clears never switches anything on.
+        if access.writes() && !clears(self.code, i) {
             self.classes[at].add(access, true);
         }
         if access.reads() {
