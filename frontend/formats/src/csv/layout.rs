@@ -130,7 +130,7 @@ fn by_shape(text: &str) -> Option<Layout> {
         has_headings,
     };
     // Lists as text have tabs between their words, too.
-    let is_table = certain || has_headings || rows.iter().any(|row| is_statement(row, columns));
+    let is_table = certain || has_headings || has_statements(&rows, columns);
     is_table.then_some(layout)
 }
 
@@ -139,11 +139,16 @@ fn cell(row: &StringRecord, column: usize) -> &str {
     row.get(column).unwrap_or_default().trim()
 }
 
-/// Returns true for a row of a statement alone.
-fn is_statement(row: &StringRecord, [_, statement, instruction, ..]: [usize; 7]) -> bool {
-    let text = cell(row, statement);
-    let is_code = il::is_basic(text) || il::is_label(text);
-    !text.is_empty() && !is_code && cell(row, instruction).is_empty()
+/// Returns true if some row holds a statement alone: not a word that could be a label or an instruction.
+fn has_statements(rows: &[StringRecord], [_, statement, instruction, ..]: [usize; 7]) -> bool {
+    let is_small = |text: &str| text.contains(|c: char| c.is_ascii_lowercase());
+    let small_code = rows.iter().any(|row| is_small(cell(row, instruction)));
+    rows.iter().any(|row| {
+        let text = cell(row, statement);
+        let is_word = text.is_ascii() && !text.contains(' ');
+        let is_code = is_word && (small_code || !is_small(text));
+        !text.is_empty() && !is_code && cell(row, instruction).is_empty()
+    })
 }
 
 /// Number of rows above the list, which have words in place of step numbers; true if the last of them has headings for

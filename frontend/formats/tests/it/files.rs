@@ -3,7 +3,7 @@
 use crate::fixture::{self, Stream, gxw, wpg};
 use encoding_rs::Encoding;
 use rungc_frontend::{print, read, read_bytes, recognise};
-use rungc_syntax::Program;
+use rungc_syntax::{Program, SourceKind};
 
 fn texts(program: &Program) -> Vec<String> {
     program.instrs.iter().map(ToString::to_string).collect()
@@ -225,6 +225,8 @@ fn lists_with_other_signs_are_read() {
         "0\tLD\tX0\n1\tOUT\tY0\n2\tEND\n",
         "S2 K1\nLD X0\nOUT Y0\nEND\n",
         "P0:\nLD X0\nOUT Y0\nEND\n",
+        "0\tP0:\n1\t\tLD\tX0\n2\t\tOUT\tY0\n3\t\tEND\n",
+        "0\tsret\n1\t\tld\tx0\n2\t\tout\ty0\n3\t\tend\n",
     ] {
         let read = read_bytes("a.il", text.as_bytes()).unwrap();
         let texts = texts(&read.program);
@@ -232,6 +234,7 @@ fn lists_with_other_signs_are_read() {
             texts.ends_with(&["LD X000".into(), "OUT Y000".into(), "END".into()]),
             "{texts:?}"
         );
+        assert_eq!(read.program.kind, SourceKind::Il, "{text}");
     }
 }
 
