@@ -13,8 +13,8 @@ pub enum Repeat {
     Overlapping,
     /// The same in the 32-bit form; the 16-bit form leaves the word of a float that counts (INT).
     OverlappingWide,
-    /// It changes its result again where that begins at a source. Elsewhere that depends on the order of the words (BK+),
-    /// or the row does not say how far the source reaches: M8161 does (CRC), or whether it is a word (DECO).
+    /// It changes its result again where that begins at a source. Elsewhere that depends on the order of the words
+    /// (BK+), or the row does not say how far the source reaches: M8161 does (CRC), or whether it is a word (DECO).
     Replacing,
     /// It changes its result again where that overlaps with the source and begins elsewhere (BMOV D0 D1 K5).
     Shifting,

@@ -55,8 +55,7 @@ fn values(machine: &Machine) -> Vec<i64> {
     words.chain(bits).chain(outputs).collect()
 }
 
-/// Returns whether `rungc check` warns of a program, and whether its second scan changes something; nothing of a program
-/// with errors.
+/// True if `rungc check` warns of a program, and true if its second scan changes something; `None` if it has errors.
 fn outcome(text: &str, model: ModelId) -> Option<(bool, bool)> {
     let read = rungc_frontend::read_text("test.il", text);
     let options = CompileOptions {

@@ -56,7 +56,7 @@ pub(super) struct Unused<'a, 'p> {
     coils: Vec<(Device, Span)>,
     /// Contacts, each once, in the order of the program.
     contacts: Vec<(Device, Span)>,
-    /// Registers that are compared or presets, each once, in the order of the program, with the number of the last word.
+    /// Registers that are compared or presets, each once, in the order of the program, with the last word's number.
     registers: Vec<(Device, Span, u32)>,
 }
 
