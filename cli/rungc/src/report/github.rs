@@ -27,7 +27,7 @@ pub fn findings(findings: &Findings) -> String {
         annotation(
             level,
             findings.path,
-            place.line,
+            &place,
             d.code,
             &format!("{step}{}{help}", d.message),
         )
@@ -35,16 +35,28 @@ pub fn findings(findings: &Findings) -> String {
     annotations.collect()
 }
 
-/// A command that marks a line of a file, or the file.
-pub fn annotation(level: &str, file: &Path, line: Option<u32>, title: &str, text: &str) -> String {
+/// A command that marks a place in a file, or the file.
+pub fn annotation(level: &str, file: &Path, place: &Location, title: &str, text: &str) -> String {
     let file = file.to_string_lossy().replace('\\', "/");
-    let line = line.map_or(String::new(), |line| format!(",line={line}"));
     format!(
-        "::{level} file={}{line},title={}::{}\n",
+        "::{level} file={}{},title={}::{}\n",
         property(&file),
+        region(place),
         property(title),
         data(text),
     )
+}
+
+/// The properties of a place: lines, and the columns of a place in one line. GitHub does not accept columns of
+/// different lines.
+fn region(place: &Location) -> String {
+    let one_line = place.end_line == place.line;
+    let lines = [("line", place.line), ("endLine", place.end_line)];
+    let columns = [("col", place.column), ("endColumn", place.end_column)];
+    let columns = columns.into_iter().filter(|_| one_line);
+    let known = lines.into_iter().chain(columns);
+    let known = known.filter_map(|(name, value)| Some(format!(",{name}={}", value?)));
+    known.collect()
 }
 
 /// The text of a command, as the runner reads it.
@@ -69,7 +81,40 @@ fn property(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{data, property};
+    use super::{annotation, data, property};
+    use crate::report::location::Location;
+    use std::path::Path;
+
+    #[test]
+    fn columns_are_those_of_one_line() {
+        let place = |lines: [Option<u32>; 2], columns: [Option<u32>; 2]| {
+            let place = Location {
+                line: lines[0],
+                end_line: lines[1],
+                column: columns[0],
+                end_column: columns[1],
+                ..Location::default()
+            };
+            annotation("error", Path::new("a.il"), &place, "E0101", "text")
+        };
+        insta::assert_snapshot!(
+            [
+                place([Some(2), Some(2)], [Some(5), Some(8)]),
+                place([Some(2), Some(3)], [Some(5), Some(1)]),
+                place([Some(2), Some(2)], [None; 2]),
+                place([Some(2), None], [None; 2]),
+                place([None; 2], [None; 2]),
+            ]
+            .concat(),
+            @r"
+        ::error file=a.il,line=2,endLine=2,col=5,endColumn=8,title=E0101::text
+        ::error file=a.il,line=2,endLine=3,title=E0101::text
+        ::error file=a.il,line=2,endLine=2,title=E0101::text
+        ::error file=a.il,line=2,title=E0101::text
+        ::error file=a.il,title=E0101::text
+        "
+        );
+    }
 
     #[test]
     fn what_ends_a_command_or_property_is_escaped() {

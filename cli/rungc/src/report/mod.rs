@@ -4,7 +4,7 @@ pub mod github;
 mod human;
 mod json;
 pub mod junit;
-mod location;
+pub mod location;
 pub mod sarif;
 mod visible;
 mod window;

@@ -2,6 +2,7 @@
 
 use super::report::{Results, human, kind, message};
 use crate::report::github;
+use crate::report::location::Location;
 use rungc_sim::plctest::Outcome;
 use std::collections::BTreeSet;
 
@@ -26,7 +27,7 @@ fn annotations(results: &Results, outcome: &Outcome) -> Vec<String> {
         let title = format!("{} does not compile", uncompiled.what);
         let errors = uncompiled.shown().iter();
         let errors = errors
-            .map(|(line, message)| github::annotation("error", path, Some(*line), &title, message));
+            .map(|(line, message)| github::annotation("error", path, &at(*line), &title, message));
         return errors.collect();
     }
     let name = &results.suite.files()[outcome.id.file].cases[outcome.id.case].name;
@@ -37,8 +38,16 @@ fn annotations(results: &Results, outcome: &Outcome) -> Vec<String> {
     vec![github::annotation(
         "error",
         path,
-        Some(line),
+        &at(line),
         &title,
         &message,
     )]
+}
+
+/// A line.
+fn at(line: u32) -> Location {
+    Location {
+        line: Some(line),
+        ..Location::default()
+    }
 }
