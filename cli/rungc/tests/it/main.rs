@@ -13,6 +13,7 @@ mod common;
 mod connected;
 mod conversions;
 mod coverage;
+mod deep;
 mod diff;
 mod documents;
 mod embedded;
