@@ -89,7 +89,7 @@ fn coils_that_a_later_one_replaces() {
 fn coils_that_jumps_choose_between() {
     let halves = |first: &str, second: &str| {
         [
-            // Behind FEND.
+            // After FEND.
             format!("LD X0 / CJ P1 / {first} / FEND / P1 / {second} / FEND"),
             // In a routine.
             format!(
@@ -142,6 +142,27 @@ fn coils_that_jumps_choose_between() {
             "LD X0 / CJ P1 / {call} / FEND / P1 / {call} / FEND / {timer}"
         )],
     );
+}
+
+#[test]
+fn outputs_that_are_refreshed_between_their_coils() {
+    let first = "LD X0 / OUT Y0";
+    let second = "LD X1 / OUT Y0";
+    let routine = "FEND / P0 / LD M8000 / REF Y0 K8 / SRET";
+    let wrong = [
+        format!("{first} / REF Y10 K8 / {second}"),
+        format!("{first} / REF X0 K8 / {second}"),
+        format!("{first} / {second} / REF Y0 K8"),
+        format!("LD M8000 / CALL P0 / {first} / {second} / {routine}"),
+        format!("{first} / LD Y0 / OUT Y1 / {second}"),
+    ];
+    let right = [
+        format!("{first} / REF Y0 K8 / {second}"),
+        format!("{first} / LDI X2 / REFP Y0 K16 / {second}"),
+        format!("{first} / LD M8000 / CALL P0 / {second} / {routine}"),
+        format!("{first} / REF Y0 K8 / LD M8000 / MOV D0 K2Y0"),
+    ];
+    judge("double-coil", &lines(&wrong), &lines(&right));
 }
 
 #[test]

@@ -256,6 +256,8 @@ impl Places {
 pub(super) struct Reads {
     /// By device: the places that read it, in order.
     places: BTreeMap<Device, Vec<usize>>,
+    /// By output: the places that send it to its terminal, in order.
+    refreshes: BTreeMap<Device, Vec<usize>>,
     /// Devices that a routine reads.
     in_routines: Vec<Device>,
     /// Devices whose state the program carries from scan to scan.
@@ -273,6 +275,7 @@ impl Reads {
             devices.filter(|device| !matches!(device.class, DeviceClass::T | DeviceClass::C));
         let mut reads = Reads {
             places: devices.map(|device| (device, Vec::new())).collect(),
+            refreshes: BTreeMap::new(),
             in_routines: Vec::new(),
             carried: BTreeSet::new(),
             calls: Vec::new(),
@@ -284,14 +287,20 @@ impl Reads {
             if code.basic(i) == Some(Basic::Call) {
                 reads.calls.push(i);
             }
+            let refreshes = matches!(code.lower(i), Some(Lower::Call(RtFn::Ref | RtFn::RefHm)));
             for access in accesses::of(code.resolved, i).filter(Access::reads) {
                 let is_contact = access.count == Some(1);
                 for (device, places) in reads.places.range_mut(access.devices()) {
-                    places.push(i);
+                    let is_output = device.class == DeviceClass::Y;
+                    if refreshes {
+                        reads.refreshes.entry(*device).or_default().push(i);
+                    } else {
+                        places.push(i);
+                    }
                     if is_contact {
                         uses.entry(*device).or_default().read(routine);
                     }
-                    if routine != Routine::Main {
+                    if routine != Routine::Main && is_output == refreshes {
                         reads.in_routines.push(*device);
                     }
                 }
@@ -326,10 +335,18 @@ impl Reads {
         {
             return true;
         }
-        // Outputs leave the PLC at the end of the scan, and the next scan sees only the last result.
-        if device.class == DeviceClass::Y || self.carried.contains(&device) {
+        // The next scan sees only the last result.
+        if self.carried.contains(&device) {
             return false;
         }
+        let places = match device.class {
+            // Outputs leave the PLC at the end of the scan, unless REF sends them before.
+            DeviceClass::Y => match self.refreshes.get(&device) {
+                Some(refreshes) => refreshes,
+                None => return false,
+            },
+            _ => places,
+        };
         let in_routines = self.in_routines.binary_search(&device).is_ok();
         if coil.condition.0 == next.condition.0 {
             return between(places, coil.at, next.at)
