@@ -50,7 +50,7 @@ pub fn annotation(level: &str, file: &Path, place: &Location, title: &str, text:
 /// The properties of a place: lines, and the columns of a place in one line. GitHub does not accept columns of
 /// different lines.
 fn region(place: &Location) -> String {
-    let one_line = place.end_line == place.line;
+    let one_line = place.end_line.is_none_or(|end| Some(end) == place.line);
     let lines = [("line", place.line), ("endLine", place.end_line)];
     let columns = [("col", place.column), ("endColumn", place.end_column)];
     let columns = columns.into_iter().filter(|_| one_line);

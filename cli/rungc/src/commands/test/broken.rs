@@ -5,6 +5,7 @@ use super::report::to_document;
 use crate::args::{TestArgs, TestFormat};
 use crate::commands::Failure;
 use crate::report::junit::{Case, Problem, Suite, render};
+use crate::report::location::Location;
 use crate::report::{github, sarif};
 use rungc_sim::LoadError;
 use rungc_syntax::diag::counted;
@@ -114,12 +115,11 @@ fn sarif(mistakes: &[Mistake]) -> io::Result<String> {
 }
 
 fn annotation(mistake: &Mistake) -> String {
+    let place = Location {
+        line: mistake.line,
+        column: mistake.column,
+        ..Location::default()
+    };
     let title = "mistake in a test file";
-    github::annotation(
-        "error",
-        &mistake.file,
-        mistake.line,
-        title,
-        &mistake.message,
-    )
+    github::annotation("error", &mistake.file, &place, title, &mistake.message)
 }
