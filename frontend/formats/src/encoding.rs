@@ -49,7 +49,7 @@ pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<
     }
 }
 
-/// A text without the zeros that fill the rest of a block behind it.
+/// A text without the zeros that fill the rest of its last block.
 fn without_padding(bytes: &[u8]) -> &[u8] {
     let end = bytes.iter().rposition(|&b| b != 0).map_or(0, |at| at + 1);
     // The last character of UTF-16 may end with a zero.
@@ -356,7 +356,7 @@ mod tests {
         }
     }
 
-    /// A byte is lost, a line is in another code page, or the end is missing: what is left is read, and the damage marked.
+    /// A byte is lost, a line is in another code page, or the end is missing: what is left is read, the damage marked.
     #[test]
     fn damaged_text_stays_in_its_encoding() {
         let damaged = |bytes: &[u8]| decode(bytes, None).unwrap_or_default();

@@ -5,3 +5,4 @@ mod connections;
 mod modules;
 mod read;
 mod requests;
+mod tables;

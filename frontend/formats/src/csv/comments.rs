@@ -81,8 +81,8 @@ pub(crate) fn is_comments(text: &str) -> bool {
     devices > 0 && devices + 2 >= rows.len()
 }
 
-/// Reads an export of device comments, and warns of rows that it cannot use. Rows without a comment, and those above the
-/// first device, are headings.
+/// Reads an export of device comments, and warns of rows that it cannot use. Rows without a comment, and those above
+/// the first device, are headings.
 pub(crate) fn comments(text: &str) -> (BTreeMap<Device, String>, Vec<Diagnostic>) {
     let (rows, [device_column, comment_column]) = comment_rows(text);
     let mut comments: BTreeMap<Device, String> = BTreeMap::new();

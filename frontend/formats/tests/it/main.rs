@@ -2,6 +2,7 @@
 
 mod corpus;
 mod diagnostics;
+mod exports;
 mod files;
 mod fixture;
 mod formats;

@@ -184,7 +184,8 @@ pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
 
 /// IPL D1 D2: inserts D2 pulses into what axis D1 sends, in the next millisecond, each time it is executed with its
 /// drive on. Its highest speed does not limit them, and it may be running; more than its output can send in that time,
-/// together with what it sends, are an error. Without a pause of one execution before it, a change of direction is lost.
+/// together with what it sends, are an error. Without a pause of one execution before it, a change of direction is
+/// lost.
 pub fn axis_ipl(cx: &mut Cx) -> Done {
     held(cx, insert)
 }

@@ -212,7 +212,8 @@ fn adprw_job(cx: &Cx) -> Result<Job, Fault> {
 }
 
 /// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program
-/// resets it or the next one is executed. A port that asks in ASCII does not serve it (l01s-programming §8.2.6, §8.3.5).
+/// resets it or the next one is executed. A port that asks in ASCII does not serve it (l01s-programming §8.2.6,
+/// §8.3.5).
 pub fn adprw(cx: &mut Cx) -> Done {
     let port = D_ADPRW_PORT.value(cx.plc) as i16;
     let Some(number) = l01s_port(cx, port)? else {

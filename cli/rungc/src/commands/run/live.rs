@@ -381,19 +381,7 @@ impl Live {
                 self.log
                     .write(now_ms, "event", &format!("{target} set to {value}"));
             }
-            Command::Force { device, value } => {
-                let target = running.device(device, &self.names)?;
-                fits(target, *value)?;
-                let mut forced = self.control.forced.iter().map(|(other, _)| *other);
-                if let Some(other) = forced.find(|other| overlap(*other, target)) {
-                    return Err(format!("release {other} first, which is forced"));
-                }
-                running.set(target, *value);
-                self.control.forced.retain(|(other, _)| *other != target);
-                self.control.forced.push((target, *value));
-                self.log
-                    .write(now_ms, "event", &format!("{target} forced to {value}"));
-            }
+            Command::Force { device, value } => self.begin_force(device, *value, running)?,
             Command::Release { device } => {
                 let target = running.device(device, &self.names)?;
                 let forced = &mut self.control.forced;
@@ -443,6 +431,30 @@ impl Live {
             Command::Unbreak { .. } => return Err("there is no such breakpoint".to_string()),
         }
         Ok(None)
+    }
+
+    /// Forces a device from now on.
+    fn begin_force(
+        &mut self,
+        device: &str,
+        value: f64,
+        running: &mut Running,
+    ) -> Result<(), String> {
+        let target = running.device(device, &self.names)?;
+        fits(target, value)?;
+        let mut forced = self.control.forced.iter().map(|(other, _)| *other);
+        if let Some(other) = forced.find(|other| overlap(*other, target)) {
+            return Err(format!("release {other} first, which is forced"));
+        }
+        running.set(target, value);
+        self.control.forced.retain(|(other, _)| *other != target);
+        self.control.forced.push((target, value));
+        self.log.write(
+            running.now_ms,
+            "event",
+            &format!("{target} forced to {value}"),
+        );
+        Ok(())
     }
 
     fn resume(&mut self, scans: Option<u32>) {

@@ -294,7 +294,7 @@ fn refusals_of_1e() {
     assert_eq!(map.writes, 0);
 }
 
-/// Devices and counts of each kind that no command takes, by the table of end codes (FX3U-ENET-ADP user's manual 9.3.2).
+/// Devices and counts of each kind that no command takes, by the end codes of FX3U-ENET-ADP (user's manual 9.3.2).
 #[test]
 fn reasons_of_1e() {
     let mut map = Watched::new();
