@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 40] = [
+const READERS: [(&str, &str); 41] = [
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
     ("firmware/src/flash/uf2.rs read", "flash-file"),
@@ -116,6 +116,7 @@ const READERS: [(&str, &str); 40] = [
     ("frontend/formats/src/lib.rs read_bytes", "memory-image"),
     ("frontend/formats/src/lib.rs read_bytes_with", "plcopen"),
     ("frontend/formats/src/lib.rs read_from", "instruction-list"),
+    ("frontend/formats/src/plcopen/mod.rs read", "plcopen"),
     ("frontend/formats/src/plcopen/variables.rs parse", "variable-names"),
     ("project/src/lib.rs parse", "settings"),
     ("project/src/reader.rs read", "settings"),
