@@ -16,8 +16,8 @@ use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use dependence::dependent;
 use rungc_ir::Module;
-use rungc_ir::node::{Action, Expr, ExprId, Stmt};
-use rungc_ir::walk::statements;
+use rungc_ir::node::{AccessKind, Action, Expr, ExprId, Stmt};
+use rungc_ir::walk::{operands, statements};
 use rungc_models::runs::is_special;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
@@ -74,9 +74,10 @@ pub struct Finding {
     /// Evidence for it.
     pub evidence: Evidence,
     /// Devices that nothing but the program may write for the proof to hold, without outputs and relays that every scan
-    /// writes anew; of what a run shows, none.
+    /// writes anew; of what a run shows, none. Those that a comparison names come first.
     pub untouched: Vec<(DeviceClass, u32)>,
-    /// Some of these devices: if something else writes them, it can happen.
+    /// Some of these devices: if something else writes them, it can happen. If that could not be decided in time, those
+    /// that the comparison names.
     pub possible_with: Vec<(DeviceClass, u32)>,
 }
 
@@ -197,11 +198,33 @@ pub fn look(module: &Module, world: World, time: Duration) -> Report {
         }
     }
     for (finding, about) in proved {
-        let finding = dependent(finding, &about, &encoder, begin + time);
+        let named = compared(module, &finding.kind);
+        let finding = dependent(finding, &named, (&about, &encoder), begin + time);
         report.findings.push(finding);
     }
     report.findings.sort_by_key(|finding| finding.network);
     report
+}
+
+/// Devices that a comparison names.
+fn compared(module: &Module, kind: &Kind) -> BTreeSet<(DeviceClass, u32)> {
+    let mut open = match kind {
+        Kind::Constant { sides, .. } => sides.to_vec(),
+        _ => Vec::new(),
+    };
+    let mut found = BTreeSet::new();
+    while let Some(side) = open.pop() {
+        let expr = module.expr(side);
+        open.extend(operands(expr));
+        if let Expr::Read(access) = expr
+            && access.place.index.is_none()
+        {
+            let (class, number) = (access.place.class, access.place.number);
+            let pair = access.kind == AccessKind::Pair;
+            found.extend((number..=number + u32::from(pair)).map(|number| (class, number)));
+        }
+    }
+    found
 }
 
 /// Events that a program provides for.

@@ -267,6 +267,17 @@ fn the_console_takes_anything() {
     assert_eq!(output.status.code(), Some(130), "{messages}");
     assert!(rows.ends_with(&[-1, -3]), "{rows:?}");
     assert!(messages.contains("standard input has ended"), "{messages}");
+    // What is left out is reported once.
+    let reports = |report: &str| messages.matches(report).count();
+    let long = format!("io console: `{}…` is left out: ", "X".repeat(40));
+    for report in [
+        &*long,
+        "io console: `X0=2` is left out: the value is 0 or 1",
+        "io console: `D10=99999999999` is left out: ",
+        "io console: connected to standard input and output",
+    ] {
+        assert_eq!(reports(report), 1, "{report}: {messages}");
+    }
 }
 
 #[test]

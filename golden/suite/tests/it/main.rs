@@ -25,6 +25,7 @@ mod port_errors;
 mod ports;
 mod pulse_pins;
 mod pulses;
+mod results;
 mod saved;
 mod scan_time;
 mod shape;

@@ -145,6 +145,42 @@ fn coils_that_jumps_choose_between() {
 }
 
 #[test]
+fn results_that_a_later_coil_replaces() {
+    let then = |first: &str, coil: &str| format!("{first} / LD X1 / OUT {coil}");
+    let wrong = [
+        then("LD M8000 / SEGD D0 K2Y0", "Y0"),
+        then("LD M8000 / BMOV D0 K4M0 K1", "M0 / LD M0 / OUT Y0"),
+        then("LD M8000 / FROM K0 K0 K4M0 K1", "M3"),
+        then("LD X0 / ALTP Y0", "Y0"),
+        then("LD X0 / ALTP M0 / LD M0 / OUT Y0", "M0"),
+        then("LD X0 / SFTLP X1 Y0 K8 K1", "Y3"),
+        then("LD M8000 / DHSCS K5 C235 Y0", "Y0"),
+        then("LD X0 / DRVI K100 K100 Y0 Y4", "Y4"),
+        "LD X0 / OUT Y3 / LD M8000 / SUM D0 K2Y0".to_owned(),
+    ];
+    let right = [
+        // The source, unless BMOV may go backwards.
+        then("LD M8000 / BMOV K4M0 D0 K1", "M0 / LD M0 / OUT Y0"),
+        // A coil that feeds a shift register, and the values of a timer.
+        then("LD X0 / SFTLP M15 M0 K16 K1", "M0"),
+        then("LD X0 / MOVP D0 T0", "T0 K10"),
+        then("LD X0 / INCP D0", "D0.1"),
+        // What is written at times only.
+        "LD X0 / OUT Y3 / LD M8000 / FROM K0 K0 K2Y0 K1".to_owned(),
+        "LD X0 / OUT Y4 / LD X1 / DRVI K100 K100 Y0 Y4".to_owned(),
+        "LD X0 / OUT Y3 / LD M8000 / SEGD D0 K2Y0".to_owned(),
+    ];
+    judge("double-coil", &lines(&wrong), &lines(&right));
+    let backwards = "LD X7 / OUT M8024 / LD M8000 / BMOV K4M0 D0 K1 / LD X1 / OUT M0";
+    judge("double-coil", &[backwards], &[]);
+    judge(
+        "timer-twice",
+        &[],
+        &["LD X0 / MOVP D0 C0 / LD X1 / OUT C0 K10"],
+    );
+}
+
+#[test]
 fn outputs_that_are_refreshed_between_their_coils() {
     let first = "LD X0 / OUT Y0";
     let second = "LD X1 / OUT Y0";

@@ -168,6 +168,9 @@ fn changes_in_every_scan() {
             "LD X0 / FINS D0 D10 K1",
             "LD X0 / BMOV D0 D1 K9",
             "LD X0 / DADD D0 D2 D2",
+            "LD X0 / SUB K0 D0 D0",
+            "LD X0 / DIV K1 D0 D0",
+            "LD X0 / MUL D0 K0 D0",
         ],
         &[
             "LD X0 / INCP D0",
@@ -184,6 +187,9 @@ fn changes_in_every_scan() {
             // A value that is written anew before each change is a computation.
             "LD X0 / MOV D5 D0 / NEG D0",
             "LD X0 / WXOR D1 D2 D3 / CML D3 D3",
+            // Nothing changes but flags.
+            "LD X0 / ADD D0 K0 D0 / ADD K0 D1 D1 / SUB D2 K0 D2",
+            "LD X0 / MUL D0 K1 D0 / DMUL K1 D4 D4 / DIV D8 K1 D8 / WXOR D12 K0 D12",
             // Loops, routines, states and jumps run their instructions as often as is meant.
             "LD X0 / MOV K0 Z0 / FOR K5 / LD X0 / INC Z0 / NEXT",
             "LDP X1 / CALL P0 / FEND / P0 / LD X0 / INC D0 / SRET",
@@ -499,4 +505,25 @@ fn a_mode_of_zone_comparison_is_one_relay() {
             assert_eq!(count(model, "undefined-special", &lines), 0, "{lines}");
         }
     }
+}
+
+#[test]
+fn writes_that_reach_what_the_system_maintains() {
+    judge(
+        "writes-read-only",
+        &[
+            "LD X0 / FMOV K0 D8039 K3",
+            "LD X0 / DMOV K0 D8039",
+            "LD X0 / INCP D8012",
+            "LD X0 / SFTLP X0 M8011 K3 K1",
+            "LD X0 / BMOV D0 D8010 K3",
+            "LD X0 / ZRST M8040 M8048",
+        ],
+        &[
+            "LD X0 / FMOV K0 D8120 K2",
+            "LD X0 / BMOV D8010 D0 K3",
+            "LD X0 / MOV D8012 D0",
+            "LD X0 / OUT M8024 / BMOV D0 D8120 K1",
+        ],
+    );
 }

@@ -10,7 +10,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{Basic, Lower, Role};
-use rungc_rt::RtFn;
+use rungc_rt::{Needs, RtFn};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, OperandKind, codes};
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
@@ -80,7 +80,7 @@ fn others(
             let coils = driven.get(&(output, None));
             found.extend(coils.and_then(|coils| pulses(code, places, i, coils)));
         }
-        if !replaces(code, i) {
+        if code.basic(i).is_some() {
             continue;
         }
         let each_time = drive.lasts == Lasts::Always
@@ -88,8 +88,9 @@ fn others(
             && !places.nesting.of(i).in_zone;
         // A value that is cleared first may be put together afterwards.
         let is_lost = !clears(code, i);
-        for access in accesses::of(code.resolved, i).filter(|access| access.role == Role::Write) {
-            if access.count.is_none_or(|count| count > MAX_RUN) || !is_lost && !each_time {
+        for access in results(code, i) {
+            let decides = each_time && access.role == Role::Write && replaces(code, i);
+            if access.count.is_none_or(|count| count > MAX_RUN) || !is_lost && !decides {
                 continue;
             }
             let (first, last) = access.devices().into_inner();
@@ -98,7 +99,7 @@ fn others(
                 let place = Place {
                     is_word: true,
                     is_lost,
-                    decides: each_time,
+                    decides,
                     ..Place::new(code, places, i)
                 };
                 coils.insert(at, place);
@@ -110,19 +111,53 @@ fn others(
 /// A longer run of devices is not about one of them.
 const MAX_RUN: u32 = 64;
 
-/// Returns true if an instruction replaces its target as a whole whenever it runs.
+/// Devices into which an instruction writes results: relays, outputs and registers. Timers and counters are not driven
+/// by what is written to them, and outputs of pulses are reported otherwise.
+fn results(code: &Code, i: usize) -> impl Iterator<Item = Access> {
+    let pulses = pulse_output(code, i);
+    code.accesses(i).filter_map(move |access| {
+        let Device { class, .. } = access.first;
+        match (class, access.role) {
+            (_, Role::Read) => None,
+            (DeviceClass::Y, _) if pulses == Some(access.first) => None,
+            (DeviceClass::Y | DeviceClass::M, Role::Write) => Some(access),
+            (DeviceClass::Y | DeviceClass::M, Role::ReadWrite) => Some(inner(access)),
+            // A register may be put together from words and bits.
+            (DeviceClass::D, Role::Write) => Some(access).filter(|_| moves(code, i)),
+            _ => None,
+        }
+    })
+}
+
+/// Without the ends of a run that is shifted: a coil may feed it.
+fn inner(access: Access) -> Access {
+    match access.count {
+        Some(count @ 3..) if access.each == 1 => Access {
+            first: Device {
+                number: access.first.number + 1,
+                ..access.first
+            },
+            count: Some(count - 2),
+            ..access
+        },
+        _ => access,
+    }
+}
+
+/// Returns true if an instruction moves or computes a value.
+fn moves(code: &Code, i: usize) -> bool {
+    matches!(
+        code.lower(i),
+        Some(Lower::Move | Lower::MoveNot | Lower::Cmp | Lower::Zcp | Lower::Arith(_))
+    )
+}
+
+/// Returns true if an instruction writes its results whenever it runs: it depends on its operands alone.
 fn replaces(code: &Code, i: usize) -> bool {
-    const NAMES: &[&str] = &[
-        "BMOV", "FMOV", "BCD", "BIN", "DECO", "SEGD", "ECMP", "EZCP", "TCMP", "TZCP", "ZRST",
-    ];
-    let Some(lower) = code.lower(i) else {
-        return false;
-    };
-    let moves = matches!(
-        lower,
-        Lower::Move | Lower::MoveNot | Lower::Cmp | Lower::Zcp | Lower::Arith(_)
-    );
-    moves || code.inst(i).is_some_and(|inst| NAMES.contains(&inst.name))
+    match code.lower(i) {
+        Some(Lower::Call(function)) => function.needs() == Needs::default(),
+        _ => moves(code, i),
+    }
 }
 
 /// The output through which an instruction sends pulses.
@@ -447,6 +482,10 @@ fn driven_twice(
             "… and again here: this one decides its state",
             "write it in one place, or use another device",
         ),
+    };
+    let help = match code.basic(last) {
+        Some(Basic::Mc) => "give each zone a separate relay",
+        _ => help,
     };
     let mut diagnostic = finding.at(code.span(last), what).label(label).help(help);
     for (n, &coil) in earlier.iter().enumerate() {

@@ -39,12 +39,16 @@ mod unused;
 pub mod variants;
 mod writes;
 
-use crate::accesses;
+use crate::accesses::{self, Access};
 use crate::resolve::{Resolved, numbered};
-use rungc_catalogue::{Basic, Drive, Inst, Join, Lower, Param};
+use rungc_catalogue::{Basic, Drive, Inst, Join, Lower, Param, Role};
 use rungc_models::Model;
-use rungc_syntax::{Classes, Device, Diagnostics, Fix, Instr, OperandKind, Span, codes};
+use rungc_rt::RtFn;
+use rungc_syntax::{
+    Classes, Device, DeviceClass, Diagnostics, Fix, Instr, OperandKind, Span, codes,
+};
 
+use std::cell::OnceCell;
 use std::iter::{Copied, Peekable};
 use std::slice::Iter;
 
@@ -116,8 +120,9 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
         operation_errors::check(code, i, out);
         groups::check(code, i, out);
         indexed_counters::check(code, i, out);
+        writes::check(code, i, &roles, out);
         unused.note_broken(i);
-        for access in accesses::of(code.resolved, i) {
+        for access in code.accesses(i) {
             unused.note(i, &access);
             pairs.note(&access);
             overlaps.note(code, i, &access);
@@ -125,7 +130,6 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             inert.note(code, i, &access);
             doubtful.note(code, &access);
             undefined.note(code, &access);
-            writes::check(code, i, &access, &roles, out);
         }
     }
     unused.report(out);
@@ -144,6 +148,8 @@ struct Code<'a> {
     resolved: &'a Resolved<'a>,
     /// Number of these instructions.
     len: usize,
+    /// True if BMOV may go backwards.
+    reverses: OnceCell<bool>,
 }
 
 impl<'a> Code<'a> {
@@ -153,7 +159,12 @@ impl<'a> Code<'a> {
             .iter()
             .position(|instr| instr.basic() == Some(Basic::End));
         let len = end.map_or(resolved.instrs.len(), |end| end + 1);
-        Code { resolved, len }
+        let reverses = OnceCell::new();
+        Code {
+            resolved,
+            len,
+            reverses,
+        }
     }
 
     fn model(&self) -> &'static Model {
@@ -179,6 +190,36 @@ impl<'a> Code<'a> {
     /// For each instruction that could not be read, how many precede it.
     fn unread(&self) -> Peekable<Copied<Iter<'a, u32>>> {
         self.resolved.program.unread.iter().copied().peekable()
+    }
+
+    /// The accesses of an instruction. BMOV goes either way, but forwards where nothing switches M8024 on.
+    fn accesses(&self, i: usize) -> impl Iterator<Item = Access> {
+        let two_way = matches!(self.lower(i), Some(Lower::Call(RtFn::Bmov)));
+        let forward = two_way && !*self.reverses.get_or_init(|| self.may_reverse());
+        let source = self.instr(i).operands.first().map(|source| source.span);
+        accesses::of(self.resolved, i).map(move |access| Access {
+            role: match forward && access.role == Role::ReadWrite {
+                true if Some(access.span) == source => Role::Read,
+                true => Role::Write,
+                false => access.role,
+            },
+            ..access
+        })
+    }
+
+    /// Returns true if something may switch M8024 on.
+    fn may_reverse(&self) -> bool {
+        const M8024: Device = Device {
+            class: DeviceClass::M,
+            number: 8024,
+        };
+        let parameters = self.resolved.program.parameters.as_ref();
+        let outside = parameters.map_or(&[][..], |known| &known.written_externally);
+        let mut outside = outside.iter().filter(|run| run.class == M8024.class);
+        let mut inside = (0..self.len).flat_map(|i| accesses::of(self.resolved, i));
+        !self.is_understood()
+            || outside.any(|run| (run.first..run.first + run.count).contains(&M8024.number))
+            || inside.any(|access| access.writes() && access.devices().contains(&M8024))
     }
 
     /// The basic instruction that this is, if it is one.

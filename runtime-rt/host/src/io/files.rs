@@ -276,6 +276,10 @@ impl Driver for Console {
         }
         Ok(())
     }
+
+    fn reports(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.left_out.reports)
+    }
 }
 
 /// Does what `X000=1` says.

@@ -17,11 +17,12 @@ const TIME: Duration = Duration::from_millis(1000);
 /// Time limit of one attempt to prove it with fewer assumptions.
 const ATTEMPT: Duration = Duration::from_millis(200);
 
-/// A finding with the devices that its proof depends on.
+/// A finding with the devices that its proof depends on. Those that it names are tried first: there may be hundreds of
+/// others, and not the time for all.
 pub(super) fn dependent(
     finding: Finding,
-    system: &System,
-    encoder: &Encoder,
+    named: &BTreeSet<Device>,
+    (system, encoder): (&System, &Encoder),
     end: Instant,
 ) -> Finding {
     let keys = system.latches.iter().map(|latch| latch.key);
@@ -45,16 +46,34 @@ pub(super) fn dependent(
             .flat_map(|probes| probes.bits.get(device));
         device.0 == DeviceClass::Y || written.into_iter().any(|written| written.always)
     });
+    let named: Vec<Device> = all
+        .iter()
+        .copied()
+        .filter(|device| named.contains(device))
+        .collect();
+    let possible_with_one = proof.alone(&named);
     let mut released = BTreeSet::new();
-    let needed = match proof.release(&mut released, &all) {
+    let mut needed = match proof.release(&mut released, &all) {
         true => Vec::new(),
         false => {
             proof.needed(&mut released, &fleeting);
             proof.needed(&mut released, &lasting)
         }
     };
+    needed.sort_by_key(|device| !named.contains(device));
+    let mut possible_with = match possible_with_one {
+        Some(device) => vec![device],
+        None => proof.possible_with(&needed, &lasting),
+    };
+    if possible_with.is_empty() {
+        possible_with = needed
+            .iter()
+            .copied()
+            .filter(|device| named.contains(device))
+            .collect();
+    }
     Finding {
-        possible_with: proof.possible_with(&needed, &lasting),
+        possible_with,
         evidence: proof.evidence,
         untouched: needed,
         ..finding
@@ -113,17 +132,24 @@ impl Proof<'_> {
         needed
     }
 
+    /// Returns true if it can happen where something else writes these devices.
+    fn breaks(&self, released: &BTreeSet<Device>) -> bool {
+        matches!(self.without(released), Answer::Possible)
+    }
+
+    /// The first of these devices with which it can happen if something else writes that one alone.
+    fn alone(&self, of: &[Device]) -> Option<Device> {
+        let mut of = of.iter().copied();
+        of.find(|&device| self.breaks(&BTreeSet::from([device])))
+    }
+
     /// Devices, as few as possible, with which it can happen if something else writes them: one of those that the proof
     /// needs if one is enough.
     fn possible_with(&self, needed: &[Device], of: &[Device]) -> Vec<Device> {
-        let breaks =
-            |released: &BTreeSet<Device>| matches!(self.without(released), Answer::Possible);
-        let alone = needed
-            .iter()
-            .find(|device| breaks(&BTreeSet::from([**device])));
-        if let Some(device) = alone {
-            return vec![*device];
+        if let Some(device) = self.alone(needed) {
+            return vec![device];
         }
+        let breaks = |released: &BTreeSet<Device>| self.breaks(released);
         let mut all: BTreeSet<Device> = of.iter().copied().collect();
         if needed.is_empty() || !breaks(&all) {
             return Vec::new();
