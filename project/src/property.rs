@@ -55,14 +55,6 @@ impl PropertyKind {
                 .collect(),
         }
     }
-
-    /// The time limit.
-    pub fn within(&self) -> Option<&Named> {
-        match self {
-            PropertyKind::Whenever { within, .. } => within.as_ref(),
-            _ => None,
-        }
-    }
 }
 
 /// `[verify]`

@@ -5,14 +5,15 @@
 //! executables that the emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine
 //! that a PLC is wired to, and [`record`] writes recordings and plots. None of it knows an instruction or an output
 //! language; `engines` alone calls the backends. The modules build on one another in this order: [`Target`] and
-//! [`names`], [`wire`] and the mistakes in files ([`LoadError`]); `plant` and `record`; [`serve`]; [`protocol`] and
-//! `engines`; `plctest`. Start reading at [`plctest::run`].
+//! [`names`], [`property`], [`wire`] and the mistakes in files ([`LoadError`]); `plant` and `record`; [`serve`];
+//! [`protocol`] and `engines`; `plctest`. Start reading at [`plctest::run`].
 
 pub mod engines;
 pub mod names;
 pub mod plant;
 pub mod plctest;
 mod problem;
+pub mod property;
 pub mod protocol;
 pub mod record;
 pub mod serve;

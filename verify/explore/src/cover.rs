@@ -9,8 +9,8 @@ use rungc_ir::walk::statements;
 use rungc_models::runs::{is_counter32, is_special};
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
+use rungc_sim::property::{Condition, Devices, Number};
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::{Condition, Devices, Number};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Something that a scan has shown.
@@ -279,7 +279,7 @@ fn leaves<'c>(condition: &'c Condition, found: &mut Vec<&'c Condition>) {
         Condition::Constant(_) => {}
         Condition::On(_) | Condition::Compare(..) => found.push(condition),
         Condition::Not(a) => leaves(a, found),
-        Condition::And(a, b) | Condition::Or(a, b) => {
+        Condition::And(a, b) | Condition::Or(a, b) | Condition::Same(a, b) => {
             leaves(a, found);
             leaves(b, found);
         }

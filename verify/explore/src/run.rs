@@ -6,9 +6,9 @@ use rungc_interp::{Machine, Saved};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::{Plant, Wired};
+use rungc_sim::property::{Watcher, read};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::{Watcher, read};
 use std::collections::VecDeque;
 
 /// Number of successive scans in which an output changes before it counts as one that never comes to rest.

@@ -8,9 +8,9 @@ use rungc_models::runs::is_special;
 use rungc_rt::VirtualHal;
 use rungc_sim::Target;
 use rungc_sim::plant::Description;
+use rungc_sim::property::{Condition, Property};
 use rungc_syntax::DeviceClass;
 use rungc_verify::model::{Encoder, Key, World};
-use rungc_verify::property::{Condition, Property};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Kind of finding other than violated properties.

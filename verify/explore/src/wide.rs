@@ -14,8 +14,8 @@ use rungc_models::Model;
 use rungc_models::runs::{is_counter32, is_special, rt_class};
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
+use rungc_sim::property::{Condition, Devices, Property, Watcher};
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::{Condition, Devices, Property, Watcher};
 use rustc_hash::FxHashMap;
 use std::array;
 

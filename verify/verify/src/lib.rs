@@ -1,8 +1,9 @@
 //! Properties of programs: proofs, and counterexamples that the interpreter has replayed.
 //!
-//! A [`property::Property`] is decided for a module: [`model`] makes logic of a scan, [`system`] cuts out what the
-//! property depends on, [`search`] and [`pdr`] look for a run and for a proof by way of a SAT solver, and [`replay`]
-//! runs what was found on the interpreter. This crate must not know commands. Start reading at [`prove::decide`].
+//! A [`rungc_sim::property::Property`] is decided for a module: [`model`] makes logic of a scan, [`system`] cuts out
+//! what the property depends on, [`search`] and [`pdr`] look for a run and for a proof by way of a SAT solver, and
+//! [`replay`] runs what was found on the interpreter. This crate must not know commands. Start reading at
+//! [`prove::decide`].
 
 #![deny(missing_docs)]
 

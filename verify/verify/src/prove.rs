@@ -3,12 +3,13 @@
 use crate::model::{Encoder, Gap, Input, Key, World};
 use crate::pdr;
 use crate::proof::{Method, Posed, Proof};
-use crate::property::{Condition, Property};
+use crate::property::{condition, event};
 use crate::random::LongRuns;
 use crate::replay;
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
+use rungc_sim::property::{Condition, Property};
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -121,10 +122,10 @@ pub fn system<'m>(
         .extend(conditions.flat_map(Condition::devices));
     let mut encoder = Encoder::scan(module, world);
     for assumed in &options.assumed {
-        let holds = assumed.encode(&mut encoder);
+        let holds = condition(assumed, &mut encoder);
         encoder.suppose(holds);
     }
-    let bad = property.encode(&mut encoder);
+    let bad = event(property, &mut encoder);
     let system = encoder.system(bad).sliced();
     (encoder, system)
 }
@@ -455,11 +456,11 @@ mod tests {
     use crate::certificate::formulas;
     use crate::model::World;
     use crate::proof::{Fact, Proof};
-    use crate::property::{Property, parse};
     use crate::sat::{Answer, Solver};
     use rungc_ir::Module;
     use rungc_ir::passes::simplify;
     use rungc_lower::compile::{CompileOptions, compile};
+    use rungc_sim::property::{Property, parse};
     use std::time::Duration;
     use web_time::Instant;
 

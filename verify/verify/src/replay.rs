@@ -2,11 +2,11 @@
 
 use crate::model::device_of;
 use crate::model::{CounterPart, Key, TimerPart};
-use crate::property::{Condition, Property, Watcher};
 use crate::search::{Scan, Trace};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
+use rungc_sim::property::{Condition, Property, Watcher};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 use web_time::Instant;

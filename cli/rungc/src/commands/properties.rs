@@ -15,8 +15,9 @@ use rungc_models::Model;
 use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
+use rungc_sim::property::{Condition, ParseError, Property, parse};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program};
-use rungc_verify::property::{Condition, ParseError, Property, parse};
+use rungc_verify::property::is_possible;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
@@ -117,10 +118,13 @@ impl Reader<'_> {
         let mut requested = Vec::new();
         for (name, texts, kind) in kinds {
             for text in texts {
-                requested.push(RequestedProperty {
-                    text: format!("{name} {text}"),
-                    property: kind(self.given(&format!("--{name}"), text)?),
-                });
+                let option = format!("--{name}");
+                let property = kind(self.given(&option, text)?);
+                if let Some((_, why)) = self.senseless(&property) {
+                    return Err(pointed(&option, text, &ParseError { at: 0, why }));
+                }
+                let text = format!("{name} {text}");
+                requested.push(RequestedProperty { text, property });
             }
         }
         if let (true, Some(project)) = (requested.is_empty(), self.project()) {
@@ -147,14 +151,17 @@ impl Reader<'_> {
             return found;
         };
         let (rows, verify) = (&project.properties, &project.verify);
-        let conditions = rows.iter().flat_map(|row| row.kind.conditions());
-        for named in conditions.chain(&verify.assume) {
-            if let Err(error) = self.parse(&named.text) {
-                found.push(named.error(error.why));
+        for row in rows {
+            if let Err((named, why)) = self.property(&row.kind) {
+                found.push(named.error(why));
             }
         }
-        let within = rows.iter().filter_map(|row| row.kind.within());
-        for named in within.chain(&verify.timeout).chain(&verify.scan) {
+        for named in &verify.assume {
+            if let Err(why) = self.assumption(&named.text) {
+                found.push(named.error(why.why));
+            }
+        }
+        for named in verify.timeout.iter().chain(&verify.scan) {
             if let Err(why) = crate::time::parse(&named.text) {
                 found.push(named.error(why));
             }
@@ -191,11 +198,16 @@ impl Reader<'_> {
         let mut assumed = Vec::new();
         if let Some(project) = self.project() {
             for named in &project.verify.assume {
-                assumed.push((named.text.clone(), self.condition(project, named)?));
+                let condition = self.assumption(&named.text);
+                let condition =
+                    condition.map_err(|error| self.refused(project, named, error.why))?;
+                assumed.push((named.text.clone(), condition));
             }
         }
         for text in &self.args.assume {
-            assumed.push((text.clone(), self.given("--assume", text)?));
+            let condition = self.assumption(text);
+            let condition = condition.map_err(|error| pointed("--assume", text, &error))?;
+            assumed.push((text.clone(), condition));
         }
         Ok(assumed)
     }
@@ -219,20 +231,22 @@ impl Reader<'_> {
         }
     }
 
-    /// A condition of the command line.
-    fn given(&self, option: &str, text: &str) -> Result<Condition> {
-        self.parse(text).map_err(|error| {
-            let before = text[..error.at.min(text.len())].chars().count();
-            let marker = " ".repeat(before);
-            let why = error.why;
-            Failure::Because(format!("{option}: {why}\n  {text}\n  {marker}^"))
-        })
+    /// An assumption, which something can meet.
+    fn assumption(&self, text: &str) -> std::result::Result<Condition, ParseError> {
+        let condition = self.parse(text)?;
+        match self.is_possible(&condition) {
+            true => Ok(condition),
+            false => Err(ParseError {
+                at: 0,
+                why: "this condition can never hold, so no run would be left".to_string(),
+            }),
+        }
     }
 
-    /// A condition of the settings.
-    fn condition(&self, project: &Project, named: &Named) -> Result<Condition> {
-        self.parse(&named.text)
-            .map_err(|error| self.refused(project, named, error.why))
+    /// A condition of the command line.
+    fn given(&self, option: &str, text: &str) -> Result<Condition> {
+        self.parse(text)
+            .map_err(|error| pointed(option, text, &error))
     }
 
     fn refused(&self, project: &Project, named: &Named, why: String) -> Failure {
@@ -249,48 +263,25 @@ impl Reader<'_> {
     }
 
     fn row(&self, project: &Project, row: &Row) -> Result<RequestedProperty> {
-        let condition = |named: &Named| self.condition(project, named);
-        let (text, property) = match &row.kind {
-            PropertyKind::Never(a) => (format!("never {}", a.text), Property::Never(condition(a)?)),
-            PropertyKind::Always(a) => (
-                format!("always {}", a.text),
-                Property::Always(condition(a)?),
-            ),
-            PropertyKind::Reachable(a) => (
-                format!("reachable {}", a.text),
-                Property::Reachable(condition(a)?),
-            ),
+        let property = self
+            .property(&row.kind)
+            .map_err(|(named, why)| self.refused(project, named, why))?;
+        let soon = |within: &Option<Named>| match within {
+            Some(within) => format!(" within {}", within.text),
+            None => String::new(),
+        };
+        let text = match &row.kind {
+            PropertyKind::Never(a) => format!("never {}", a.text),
+            PropertyKind::Always(a) => format!("always {}", a.text),
+            PropertyKind::Reachable(a) => format!("reachable {}", a.text),
             PropertyKind::Whenever { when, then, within } => {
-                let soon = within
-                    .as_ref()
-                    .map_or_else(String::new, |w| format!(" within {}", w.text));
-                let within = within
-                    .as_ref()
-                    .map(|within| self.time(within))
-                    .transpose()?;
-                let property = Property::Whenever {
-                    when: condition(when)?,
-                    then: condition(then)?,
-                    within_ms: u32::try_from(within.unwrap_or(0)).unwrap_or(u32::MAX >> 1),
-                };
-                (
-                    format!("whenever {} then {}{soon}", when.text, then.text),
-                    property,
-                )
+                format!("whenever {} then {}{}", when.text, then.text, soon(within))
             }
-            PropertyKind::Stays { holds, until } => {
-                let end = until
-                    .as_ref()
-                    .map_or_else(String::new, |u| format!(" until {}", u.text));
-                let property = Property::Stays {
-                    holds: condition(holds)?,
-                    until: match until {
-                        Some(until) => condition(until)?,
-                        None => Condition::Constant(false),
-                    },
-                };
-                (format!("stays {}{end}", holds.text), property)
-            }
+            PropertyKind::Stays { holds, until: None } => format!("stays {}", holds.text),
+            PropertyKind::Stays {
+                holds,
+                until: Some(until),
+            } => format!("stays {} until {}", holds.text, until.text),
         };
         let text = match &row.name {
             Some(name) => format!("{name}: {text}"),
@@ -298,6 +289,86 @@ impl Reader<'_> {
         };
         Ok(RequestedProperty { text, property })
     }
+
+    /// A property of the settings; else what is wrong, and with which part.
+    fn property<'k>(
+        &self,
+        kind: &'k PropertyKind,
+    ) -> std::result::Result<Property, (&'k Named, String)> {
+        let condition = |named: &'k Named| {
+            let parsed = self.parse(&named.text);
+            parsed.map_err(|error| (named, error.why))
+        };
+        let property = match kind {
+            PropertyKind::Never(a) => Property::Never(condition(a)?),
+            PropertyKind::Always(a) => Property::Always(condition(a)?),
+            PropertyKind::Reachable(a) => Property::Reachable(condition(a)?),
+            PropertyKind::Whenever { when, then, within } => Property::Whenever {
+                when: condition(when)?,
+                then: condition(then)?,
+                within_ms: match within {
+                    Some(named) => {
+                        let ms = crate::time::parse(&named.text).map_err(|why| (named, why))?;
+                        u32::try_from(ms).unwrap_or(u32::MAX >> 1)
+                    }
+                    None => 0,
+                },
+            },
+            PropertyKind::Stays { holds, until } => Property::Stays {
+                holds: condition(holds)?,
+                until: match until {
+                    Some(until) => condition(until)?,
+                    None => Condition::Constant(false),
+                },
+            },
+        };
+        match self.senseless(&property) {
+            Some((part, why)) => Err((kind.conditions()[part], why)),
+            None => Ok(property),
+        }
+    }
+
+    /// The number and the problem of a condition with which a property says nothing about any program.
+    fn senseless(&self, property: &Property) -> Option<(usize, String)> {
+        const NOTHING: &str = "so the property says nothing about a program";
+        let never = |a: &Condition| !self.is_possible(a);
+        let reason =
+            |part: usize, what: &str| Some((part, format!("this condition {what}, {NOTHING}")));
+        match property {
+            Property::Never(a) | Property::Reachable(a) if never(a) => reason(0, "can never hold"),
+            Property::Always(a) if never(&Condition::Not(Box::new(a.clone()))) => {
+                reason(0, "always holds")
+            }
+            Property::Whenever { when: a, .. } | Property::Stays { holds: a, .. } if never(a) => {
+                reason(0, "can never hold")
+            }
+            Property::Whenever { then: b, .. } if never(&Condition::Not(Box::new(b.clone()))) => {
+                reason(1, "always holds")
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns true if there are values of the devices with which a condition holds.
+    fn is_possible(&self, condition: &Condition) -> bool {
+        let empty = rungc_frontend::read_text("", "END\n").program;
+        let model = rungc_lower::compile::model(self.program, &self.subject.options());
+        let options = CompileOptions {
+            model: Some(model.id),
+            observe: condition.devices(),
+            ..CompileOptions::default()
+        };
+        let module = compile(&empty, &options).module;
+        module.is_none_or(|module| is_possible(condition, &module))
+    }
+}
+
+/// A mistake in a condition of the command line, with its place.
+fn pointed(option: &str, text: &str, error: &ParseError) -> Failure {
+    let before = text[..error.at.min(text.len())].chars().count();
+    let marker = " ".repeat(before);
+    let why = &error.why;
+    Failure::Because(format!("{option}: {why}\n  {text}\n  {marker}^"))
 }
 
 /// Compiles the program with all devices that properties and assumptions look at; reports why if that fails.

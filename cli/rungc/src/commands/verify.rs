@@ -15,10 +15,10 @@ use crate::output::{spare, write_file};
 use crate::report::Reporter;
 use rungc_frontend::Read;
 use rungc_ir::Module;
+use rungc_sim::property::Condition;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
-use rungc_verify::property::Condition;
 use rungc_verify::prove::{Decision, Options, Verdict, decide};
 use std::time::{Duration, Instant};
 

@@ -555,7 +555,14 @@ fn properties_that_cannot_be_read_are_reported_by_check() {
         "[[property]]\nstays = \"Y000\"\nuntil = \"X000)\"",
         "[[property]]\nnever = \"Y777 & M0\"",
         "[[property]]\nnever = \"D9000 > 3\"",
+        "[[property]]\nnever = \"D70 > 40000\"",
+        "[[property]]\nalways = \"D70 < 32768\"",
+        "[[property]]\nnever = \"X000 & !X000\"",
+        "[[property]]\nalways = \"K1Y000 <= 15\"",
+        "[[property]]\nthen = \"Y000\"\nwhenever = \"D70 > 5 & D70 < 2\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y000 | !Y000\"",
         "[verify]\nassume = [\"!\"]",
+        "[verify]\nassume = [\"Y000 != Y000\"]",
         "[verify]\nfree = [\"D9000\"]",
         "[verify]\nscan = \"40s\"",
         "[verify]\ntimeout = \"long\"",
@@ -573,17 +580,68 @@ fn properties_that_cannot_be_read_are_reported_by_check() {
     }
     let all = format!(
         "[project]\nprogram = \"modes.il\"\n{}\n",
-        rows[..10].join("\n")
+        rows[..16].join("\n")
     );
     std::fs::write(folder.path().join("rungc.toml"), all).unwrap();
     let shown = text(&rungc(folder.path(), &["check"]).stderr);
-    assert_eq!(shown.matches("error[E0042]").count(), 10, "{shown}");
+    assert_eq!(shown.matches("error[E0042]").count(), 16, "{shown}");
     // A project's settings say nothing of other programs.
     std::fs::write(folder.path().join("other.il"), "LD X000\nOUT Y000\nEND\n").unwrap();
     assert_eq!(
         rungc(folder.path(), &["check", "other.il"]).status.code(),
         Some(0)
     );
+}
+
+/// The same verdict in proofs and searches: what comes with the first scan after the deadline is late, a trigger counts
+/// when it begins, and groups of four digits are signed.
+#[test]
+fn a_property_means_the_same_to_all_commands() {
+    let next_scan = "LD M0\nOUT Y000\nLD X000\nOUT M0\nEND\n";
+    let same_scan = "LDP X000\nOUT Y000\nEND\n";
+    let group = "LD M8000\nMOV K4X000 K4Y000\nEND\n";
+    let late = "whenever = \"X000\"\nthen = \"Y000\"\nwithin = \"1ms\"";
+    let cases = [
+        (next_scan, late, true),
+        (next_scan, &late.replace("1ms", "3s"), false),
+        (same_scan, &late.replace("\nwithin = \"1ms\"", ""), false),
+        (same_scan, "always = \"X000 = Y000\"", true),
+        (group, "never = \"K4Y000 = 40960\"", true),
+        (group, "never = \"K4Y000 < -30000\"", true),
+    ];
+    for (program, property, is_violated) in cases {
+        let settings = format!("[project]\nprogram = \"p.il\"\n[[property]]\n{property}\n");
+        let files = [
+            ("p.il", program.as_bytes()),
+            ("rungc.toml", settings.as_bytes()),
+        ];
+        let folder = folder(&files);
+        let verify = ["verify", "--replay", "interp"];
+        let explore = [
+            "explore",
+            "--scans",
+            "20000",
+            "--write-test",
+            "run.plctest.toml",
+        ];
+        for command in [&verify[..], &explore] {
+            let output = rungc(folder.path(), command);
+            let shown = text(&output.stderr);
+            assert_eq!(
+                output.status.code(),
+                Some(is_violated.into()),
+                "{property}: {shown}"
+            );
+        }
+        // The written test sees the violation, too.
+        if is_violated {
+            let output = rungc(
+                folder.path(),
+                &["test", "run.plctest.toml", "--engine", "interp"],
+            );
+            assert_eq!(output.status.code(), Some(1), "{property}");
+        }
+    }
 }
 
 #[test]

@@ -5,8 +5,8 @@ use rungc_fleet::Fleet;
 use rungc_frontend::Names;
 use rungc_host::io;
 use rungc_project::serve::{FxEnd, Line, LineEnd};
+use rungc_sim::property;
 use rungc_sim::protocol::Answer;
-use rungc_verify::property;
 use std::path::Path;
 
 fn fleet(text: &str) {

@@ -6,7 +6,7 @@ use rungc_explore::wide::refusal;
 use rungc_explore::{Kind, Limits, Report, Task, What, lanes, search, shrink};
 use rungc_ir::Module;
 use rungc_rt::VirtualHal;
-use rungc_verify::property::{Condition, Property, parse};
+use rungc_sim::property::{Condition, Property, parse};
 use std::path::Path;
 
 fn task<'a>(module: &'a Module, property: &'a Property, assumed: &'a [Condition]) -> Task<'a> {

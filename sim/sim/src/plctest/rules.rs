@@ -4,6 +4,7 @@ use super::format::Reader;
 use super::raw::{RawSettings, RawWhenever, RawWithin};
 use super::runner::Running;
 use super::{Failure, Setting, Step};
+use crate::property::Deadline;
 use std::fmt;
 use toml::Spanned;
 
@@ -167,20 +168,13 @@ impl Reader<'_> {
 pub(super) struct Watch<'c> {
     /// The rules of the case and, at the end, those of the step.
     never: Vec<&'c Never>,
-    whenever: Vec<(&'c Whenever, Followed)>,
+    whenever: Vec<(&'c Whenever, Deadline)>,
     /// Number of the case's rules among them.
     of_case: (usize, usize),
     /// Conditions that have not come to hold in the running step.
     within: Vec<&'c Within>,
-}
-
-/// Progress of a [`Whenever`].
-#[derive(Clone, Copy, Default)]
-struct Followed {
-    /// True if the trigger held after the last scan.
-    held: bool,
-    /// Time at which the trigger began to hold, if the other condition has not followed.
-    since_ms: Option<u32>,
+    /// Time of the last scan that was judged.
+    last_ms: u32,
 }
 
 impl<'c> Watch<'c> {
@@ -189,9 +183,10 @@ impl<'c> Watch<'c> {
         let whenever = rules.whenever.iter();
         Watch {
             never: rules.never.iter().collect(),
-            whenever: whenever.map(|w| (w, Followed::default())).collect(),
+            whenever: whenever.map(|w| (w, Deadline::default())).collect(),
             of_case: (rules.never.len(), rules.whenever.len()),
             within: Vec::new(),
+            last_ms: 0,
         }
     }
 
@@ -202,13 +197,13 @@ impl<'c> Watch<'c> {
         if step.power_cycle {
             self.whenever
                 .iter_mut()
-                .for_each(|(_, followed)| *followed = Followed::default());
+                .for_each(|(_, deadline)| *deadline = Deadline::default());
         }
         if step.watches() {
             self.never.extend(&step.rules.never);
             let whenever = step.rules.whenever.iter();
             self.whenever
-                .extend(whenever.map(|w| (w, Followed::default())));
+                .extend(whenever.map(|w| (w, Deadline::default())));
         }
         self.within = step.within.iter().collect();
     }
@@ -281,15 +276,20 @@ impl Running<'_> {
                 return Err(self.broken(RuleKind::Never, never.line, message));
             }
         }
-        for (whenever, followed) in &mut watch.whenever {
-            self.follow(whenever, followed, now_ms)?;
+        let elapsed_ms = now_ms.wrapping_sub(std::mem::replace(&mut watch.last_ms, now_ms));
+        for (whenever, deadline) in &mut watch.whenever {
+            self.follow(whenever, deadline, elapsed_ms)?;
         }
         let mut open = Vec::new();
         for within in std::mem::take(&mut watch.within) {
+            let waited_ms = now_ms.wrapping_sub(begin_ms);
+            if waited_ms > within.ms {
+                return Err(self.late(within)?);
+            }
             if self.holds(&within.all)? {
                 continue;
             }
-            if now_ms.wrapping_sub(begin_ms) >= within.ms {
+            if waited_ms == within.ms {
                 return Err(self.late(within)?);
             }
             open.push(within);
@@ -299,7 +299,7 @@ impl Running<'_> {
     }
 
     fn late(&mut self, within: &Within) -> Result<Failure, Failure> {
-        let differences = self.differences(&within.all)?;
+        let differences = self.differences_now(&within.all)?;
         let message = format!(
             "not {} within {} ms: {differences}",
             All(self, &within.all),
@@ -308,36 +308,41 @@ impl Running<'_> {
         Ok(self.broken(RuleKind::Within, within.line, message))
     }
 
+    /// Differences from the expectation, or that it holds too late.
+    fn differences_now(&mut self, all: &[Setting]) -> Result<String, Failure> {
+        let differences = self.differences(all)?;
+        let now_ms = self.now_ms();
+        Ok(match differences.is_empty() {
+            true => format!("it holds at {now_ms} ms"),
+            false => differences,
+        })
+    }
+
     fn follow(
         &mut self,
         rule: &Whenever,
-        followed: &mut Followed,
-        now_ms: u32,
+        deadline: &mut Deadline,
+        elapsed_ms: u32,
     ) -> Result<(), Failure> {
-        let holds = self.holds(&rule.when)?;
-        if holds && !followed.held && followed.since_ms.is_none() {
-            followed.since_ms = Some(now_ms);
-        }
-        followed.held = holds;
-        let Some(since_ms) = followed.since_ms else {
+        let state = (self.holds(&rule.when)?, self.holds(&rule.then)?);
+        let waited_ms = deadline
+            .waited_ms()
+            .map_or(0, |ms| ms + u64::from(elapsed_ms));
+        if !deadline.is_missed(state, rule.within_ms, elapsed_ms) {
             return Ok(());
-        };
-        if self.holds(&rule.then)? {
-            followed.since_ms = None;
-        } else if now_ms.wrapping_sub(since_ms) >= rule.within_ms {
-            let differences = self.differences(&rule.then)?;
-            let soon = match rule.within_ms {
-                0 => "after the same scan".to_string(),
-                ms => format!("within {ms} ms"),
-            };
-            let message = format!(
-                "{} at {since_ms} ms, but not {} {soon}: {differences}",
-                All(self, &rule.when),
-                All(self, &rule.then),
-            );
-            return Err(self.broken(RuleKind::Whenever, rule.line, message));
         }
-        Ok(())
+        let soon = match rule.within_ms {
+            0 => "after the same scan".to_string(),
+            ms => format!("within {ms} ms"),
+        };
+        let since_ms = u64::from(self.now_ms()).saturating_sub(waited_ms);
+        let differences = self.differences_now(&rule.then)?;
+        let message = format!(
+            "{} at {since_ms} ms, but not {} {soon}: {differences}",
+            All(self, &rule.when),
+            All(self, &rule.then),
+        );
+        Err(self.broken(RuleKind::Whenever, rule.line, message))
     }
 
     /// A step is over.

@@ -4,11 +4,12 @@ use crate::aig::Lit;
 use crate::bits::Bits;
 use crate::model::{Encoder, Key, Names, Shared, World, device_of};
 use crate::proof::Formula;
-use crate::property::Condition;
+use crate::property;
 use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_models::runs::is_special;
+use rungc_sim::property::Condition;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
@@ -235,7 +236,7 @@ impl<'m> Product<'m> {
 
 fn suppose(encoder: &mut Encoder, assumed: &[Condition]) {
     for condition in assumed {
-        let holds = condition.encode(encoder);
+        let holds = property::condition(condition, encoder);
         encoder.suppose(holds);
     }
 }

@@ -16,12 +16,12 @@ use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_models::Model;
 use rungc_rt::CmpOp;
 use rungc_sim::Target;
+use rungc_sim::property::{Condition, Property};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Label, OperandKind, Program,
 };
 use rungc_verify::deep::{Evidence, Finding, Kind, look, world};
-use rungc_verify::property::{Condition, Property};
 use rungc_verify::replay::story;
 use std::collections::BTreeSet;
 use std::time::Duration;

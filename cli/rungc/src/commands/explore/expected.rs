@@ -5,8 +5,8 @@ use crate::commands::verify::test_file::table;
 use rungc_explore::{Found, What};
 use rungc_rt::special::{M_OPERATION_ERROR, M_WATCHDOG, Relay};
 use rungc_rt::{Class, CmpOp, Plc};
+use rungc_sim::property::{Condition, Number, Property};
 use rungc_syntax::DeviceClass;
-use rungc_verify::property::{Condition, Number, Property};
 use rungc_verify::replay::Setting;
 
 /// Parts of a case in a test file beside its steps.
@@ -48,6 +48,14 @@ fn ways(condition: &Condition, wanted: bool) -> Option<Vec<Values>> {
         Condition::And(a, b) => either(a, b)?,
         Condition::Or(a, b) if wanted => either(a, b)?,
         Condition::Or(a, b) => both(a, b)?,
+        Condition::Same(a, b) => {
+            let mut all = Vec::new();
+            for on in [true, false] {
+                let (a, b) = (ways(a, on)?, ways(b, on == wanted)?);
+                all.extend(a.iter().flat_map(|a| b.iter().filter_map(|b| joined(a, b))));
+            }
+            all
+        }
         Condition::Compare(op, Number::Of(target), Number::Constant(value))
             if *op == if wanted { CmpOp::Eq } else { CmpOp::Ne } =>
         {

@@ -4,7 +4,7 @@ use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
-use rungc_verify::property::{Condition, Property, parse};
+use rungc_sim::property::{Condition, Property, parse};
 use serde::Deserialize;
 use std::path::Path;
 

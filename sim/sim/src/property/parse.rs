@@ -1,8 +1,8 @@
 //! Reading conditions: `Y000 & !(Y001 | "Guard open") & D0 > 100`.
 
 use super::{Condition, Number, access};
+use crate::Target;
 use rungc_rt::CmpOp;
-use rungc_sim::Target;
 
 /// A mistake in a condition.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -178,28 +178,44 @@ impl Reader<'_> {
         let Some(&Token::Compare(op)) = self.peek() else {
             return match left {
                 Operand::On(target) => Ok(Condition::On(target)),
-                Operand::Number(Number::Constant(value @ (0 | 1))) => {
-                    Ok(Condition::Constant(value == 1))
+                Operand::Constant(constant) if matches!(constant.value, 0 | 1) => {
+                    Ok(Condition::Constant(constant.value == 1))
                 }
-                Operand::Number(_) => Err(error(at, "compare a number with something: `D0 > 100`")),
+                _ => Err(error(at, "compare a number with something: `D0 > 100`")),
             };
         };
         self.next += 1;
         let (right_at, right) = self.operand()?;
+        let is_equality = matches!(op, CmpOp::Eq | CmpOp::Ne);
+        let or_inverse = |condition: Condition, on: bool| match (op == CmpOp::Eq) == on {
+            true => condition,
+            false => Condition::Not(Box::new(condition)),
+        };
         match (left, right) {
-            (Operand::Number(a), Operand::Number(b)) => Ok(Condition::Compare(op, a, b)),
-            // `Y000 = 1` is a way to say that a bit is on.
-            (Operand::On(bit), Operand::Number(Number::Constant(value @ (0 | 1))))
-                if matches!(op, CmpOp::Eq | CmpOp::Ne) =>
+            // `Y000 = 1` is a way to say that a bit is on, `Y000 = Y001` that two are alike.
+            (Operand::On(bit), Operand::Constant(Constant { value, .. }))
+            | (Operand::Constant(Constant { value, .. }), Operand::On(bit))
+                if is_equality && matches!(value, 0 | 1) =>
             {
-                let on = Condition::On(bit);
-                Ok(match (op == CmpOp::Eq) == (value == 1) {
-                    true => on,
-                    false => Condition::Not(Box::new(on)),
-                })
+                Ok(or_inverse(Condition::On(bit), value == 1))
+            }
+            (Operand::On(a), Operand::On(b)) if is_equality => {
+                let [a, b] = [a, b].map(|bit| Box::new(Condition::On(bit)));
+                Ok(or_inverse(Condition::Same(a, b), true))
             }
             (Operand::On(_), _) => Err(error(at, CONTACT)),
             (_, Operand::On(_)) => Err(error(right_at, CONTACT)),
+            (left, right) => {
+                let number = |at, operand: &Operand, other: &Operand| match *operand {
+                    Operand::Of(target) | Operand::On(target) => Ok(Number::Of(target)),
+                    Operand::Constant(ref constant) => constant
+                        .beside(other, is_equality)
+                        .map(Number::Constant)
+                        .map_err(|why| error(at, why)),
+                };
+                let (a, b) = (number(at, &left, &right)?, number(right_at, &right, &left)?);
+                Ok(Condition::Compare(op, a, b))
+            }
         }
     }
 
@@ -211,17 +227,16 @@ impl Reader<'_> {
             _ => return Err(error(at, "expected a device, a name or a number here")),
         };
         self.next += 1;
-        if !quoted && let Some(value) = number(&word) {
-            let value =
-                value.ok_or_else(|| error(at, format!("`{word}` does not fit in 32 bits")))?;
-            return Ok((at, Operand::Number(Number::Constant(value))));
+        if !quoted && let Some(constant) = Constant::parse(&word) {
+            let does_not_fit = || error(at, format!("`{word}` does not fit in 32 bits"));
+            return Ok((at, Operand::Constant(constant.ok_or_else(does_not_fit)?)));
         }
         let target = self.target(&word, quoted).map_err(|why| error(at, why))?;
         Ok((
             at,
             match target {
                 Target::Bit(..) => Operand::On(target),
-                _ => Operand::Number(Number::Of(target)),
+                _ => Operand::Of(target),
             },
         ))
     }
@@ -263,31 +278,81 @@ fn shown(target: Target) -> String {
 /// Operand of a comparison, or a single condition.
 enum Operand {
     On(Target),
-    Number(Number),
+    Of(Target),
+    Constant(Constant),
 }
 
-/// A constant: `100`, `-5`, `K100`, `H0F`, `0x0F`; `Some(None)` if it is too large.
-fn number(word: &str) -> Option<Option<i32>> {
-    let upper = word.to_ascii_uppercase();
-    let (digits, radix) = match upper.strip_prefix("0X").or_else(|| upper.strip_prefix('H')) {
-        Some(digits) => (digits, 16),
-        None => (upper.strip_prefix('K').unwrap_or(&upper), 10),
-    };
-    let plain = digits.strip_prefix('-').unwrap_or(digits);
-    if plain.is_empty() || !plain.chars().all(|c| c.is_digit(radix)) {
-        return None;
+/// A constant: `100`, `-5`, `K100`, `H0F`, `0x0F`.
+struct Constant {
+    /// As it is written.
+    text: String,
+    /// From -2147483648 to 4294967295.
+    value: i64,
+    /// Written in hexadecimal: the bits of a value.
+    is_hex: bool,
+}
+
+impl Constant {
+    /// Reads a constant; `Some(None)` if it is too large for 32 bits.
+    fn parse(word: &str) -> Option<Option<Constant>> {
+        let upper = word.to_ascii_uppercase();
+        let (digits, radix) = match upper.strip_prefix("0X").or_else(|| upper.strip_prefix('H')) {
+            Some(digits) => (digits, 16),
+            None => (upper.strip_prefix('K').unwrap_or(&upper), 10),
+        };
+        let plain = digits.strip_prefix('-').unwrap_or(digits);
+        if plain.is_empty() || !plain.chars().all(|c| c.is_digit(radix)) {
+            return None;
+        }
+        let value = i64::from_str_radix(digits, radix).ok();
+        let fits = |value: &i64| (i64::from(i32::MIN)..=i64::from(u32::MAX)).contains(value);
+        Some(value.filter(fits).map(|value| Constant {
+            text: word.to_string(),
+            value,
+            is_hex: radix == 16,
+        }))
     }
-    let value = i64::from_str_radix(digits, radix).ok();
-    Some(value.and_then(|value| match radix {
-        16 => u32::try_from(value).ok().map(|value| value as i32),
-        _ => i32::try_from(value).ok(),
-    }))
+
+    /// Its value in a comparison with this: `HFFFF` has the bits of -1 beside a word, as in the PLC's `LD= D0 HFFFF`.
+    ///
+    /// # Errors
+    ///
+    /// The other operand cannot have the value.
+    fn beside(&self, other: &Operand, is_equality: bool) -> Result<i32, String> {
+        let (text, value) = (&self.text, self.value);
+        let range = match *other {
+            Operand::Of(target) => target.integers().map(|range| (target, range)),
+            _ => None,
+        };
+        let Some((target, range)) = range else {
+            return i32::try_from(value).map_err(|_| format!("`{text}` does not fit in 32 bits"));
+        };
+        let (first, last) = (*range.start(), *range.end());
+        let is_word = last == 0xffff;
+        let is_held = range.contains(&value);
+        let last = if first < 0 { !first } else { last };
+        if !is_held {
+            return Err(format!(
+                "`{target}` is never {text}: its values are {first} to {last}"
+            ));
+        }
+        let signed = match is_word {
+            true => i32::from(value as i16),
+            false => value as i32,
+        };
+        if i64::from(signed) != value && !is_equality && !self.is_hex {
+            return Err(format!(
+                "`{target}` is signed, {first} to {last}: the bits of {text} are {signed} there, so write H{value:X} if that is meant"
+            ));
+        }
+        Ok(signed)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Condition, parse};
-    use rungc_sim::Target;
+    use crate::Target;
     use rungc_syntax::DeviceClass;
 
     fn read(text: &str) -> Result<Condition, String> {
@@ -310,7 +375,21 @@ mod tests {
         is("Y000 = 1 & Y1 == 0", "Y0 & !Y1");
         is("D0 >= K100", "D0>=100");
         is("\"Guard open\" & guard", "X3 & X003");
+        is("1 = Y0 & Y0 != Y1", "Y0 & !(Y0 = Y1)");
         assert!(read("T0 & T0.value > 5 & C200.value < -3 & K1X0 = H0F").is_ok());
+    }
+
+    #[test]
+    fn constants_are_bits_of_signed_values() {
+        let is = |a, b| assert_eq!(read(a), read(b), "{a}");
+        is("D0 = HFFFF", "D0 = -1");
+        is("D0 != 65535", "D0 <> -1");
+        is("D0 > H8000", "D0 > -32768");
+        is("K4Y000 = 0x9C40", "K4Y000 = -25536");
+        is("D0.i32 = HFFFFFFFF", "D0.i32 = -1");
+        is("D0.i32 > HFFFF", "D0.i32 > 65535");
+        is("K5X0 < HFFFFF", "K5X0 < 1048575");
+        is("C200.value = 4294967295", "C200.value = -1");
     }
 
     #[test]
@@ -322,6 +401,11 @@ mod tests {
         insta::assert_snapshot!(why("Y000 X1"), @"5: expected `&`, `|`, a comparison or the end here");
         insta::assert_snapshot!(why("D0"), @"0: compare a number with something: `D0 > 100`");
         insta::assert_snapshot!(why("Y000 > 3"), @"0: this is a contact, which is on or off; the value of a timer or counter is `T0.value`");
+        insta::assert_snapshot!(why("D0 > 40000"), @"5: `D0` is signed, -32768 to 32767: the bits of 40000 are -25536 there, so write H9C40 if that is meant");
+        insta::assert_snapshot!(why("K4Y000 < 65536"), @"9: `K4Y000` is never 65536: its values are -32768 to 32767");
+        insta::assert_snapshot!(why("16 = K1X0"), @"0: `K1X000` is never 16: its values are 0 to 15");
+        insta::assert_snapshot!(why("D0.i32 >= 2147483648"), @"10: `D0.i32` is signed, -2147483648 to 2147483647: the bits of 2147483648 are -2147483648 there, so write H80000000 if that is meant");
+        insta::assert_snapshot!(why("Y0 < Y1"), @"0: this is a contact, which is on or off; the value of a timer or counter is `T0.value`");
         insta::assert_snapshot!(why("D0 > 99999999999"), @"5: `99999999999` does not fit in 32 bits");
         insta::assert_snapshot!(why("Pump & X0"), @"0: `Pump` is neither a device nor the comment of one; write a name with blanks in quotes");
         insta::assert_snapshot!(why("Motor"), @"0: `Motor` is the comment of several devices, such as Y000 and Y001");

@@ -1,0 +1,83 @@
+//! Properties over the scans of a run.
+
+use super::{Devices, Property};
+
+/// Wait for a condition that must follow another.
+///
+/// What is true after a scan is true until the next one ends. The condition must therefore hold after a scan that
+/// begins at the deadline or before: if it comes with a later scan, the deadline has passed without it.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Deadline {
+    /// True if the trigger held after the last scan.
+    held: bool,
+    /// Milliseconds since the trigger began to hold, if the other condition has not followed.
+    waited_ms: Option<u64>,
+}
+
+impl Deadline {
+    /// Judges a scan that began `elapsed_ms` after the one before. Returns true if the condition is late: it did not
+    /// hold at any moment of the `within_ms` since the trigger began to hold. Without time, it must hold after the
+    /// same scan.
+    pub fn is_missed(
+        &mut self,
+        (when, then): (bool, bool),
+        within_ms: u32,
+        elapsed_ms: u32,
+    ) -> bool {
+        let held = std::mem::replace(&mut self.held, when);
+        let begins = when && !held;
+        let waited = match self.waited_ms {
+            Some(ms) => Some(ms + u64::from(elapsed_ms)),
+            None => begins.then_some(0),
+        };
+        self.waited_ms = waited.filter(|_| !then);
+        let limit = u64::from(within_ms);
+        waited.is_some_and(|ms| ms > limit || ms == limit && !then)
+    }
+
+    /// Milliseconds since the trigger began to hold, if the other condition has not followed.
+    pub fn waited_ms(&self) -> Option<u64> {
+        self.waited_ms
+    }
+}
+
+/// Follows a property over the scans of a machine.
+#[derive(Clone)]
+pub struct Watcher<'p> {
+    property: &'p Property,
+    deadline: Deadline,
+    /// True if the condition of `stays` holds and has not ended.
+    stays: bool,
+}
+
+impl<'p> Watcher<'p> {
+    /// Before the first scan.
+    pub fn new(property: &'p Property) -> Self {
+        Watcher {
+            property,
+            deadline: Deadline::default(),
+            stays: false,
+        }
+    }
+
+    /// Returns true if the event has happened in the scan that has just ended, which began `elapsed_ms` after the one
+    /// before.
+    pub fn happened(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
+        match self.property {
+            Property::Never(condition) | Property::Reachable(condition) => condition.holds(devices),
+            Property::Always(condition) => !condition.holds(devices),
+            Property::Whenever {
+                when,
+                then,
+                within_ms,
+            } => {
+                let state = (when.holds(devices), then.holds(devices));
+                self.deadline.is_missed(state, *within_ms, elapsed_ms)
+            }
+            Property::Stays { holds, until } => {
+                let (holds, until) = (holds.holds(devices), until.holds(devices));
+                std::mem::replace(&mut self.stays, holds && !until) && !holds && !until
+            }
+        }
+    }
+}
