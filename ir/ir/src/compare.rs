@@ -17,7 +17,7 @@ mod order;
 
 use crate::node::Module;
 use atoms::{Atom, ERRORS, Names, Sequence, Uses};
-use rungc_rt::special::D_FIRST_ERROR_STEP;
+use rungc_rt::special::{D_FIRST_ERROR_STEP, M_OUTPUTS_OFF};
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -83,6 +83,10 @@ pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
         if ERRORS.into_iter().any(|run| taint.meets(run)) {
             ERRORS.into_iter().for_each(|run| taint.add(run));
         }
+        // Outputs are terminals, which M8034 switches off.
+        if taint.meets((DeviceClass::M, OUTPUTS_OFF, OUTPUTS_OFF)) {
+            taint.add((DeviceClass::Y, 0, u32::MAX));
+        }
         // The set-up of a port, and so its writes, is in special devices.
         taint.all |= ports && taint.has_special();
         if taint.size() == before {
@@ -117,6 +121,9 @@ fn reads_steps(module: &Module) -> bool {
     let stored = |number| module.layout.area(DeviceClass::D, number).is_some();
     stored(first) || stored(first + 1)
 }
+
+/// Relay that switches the output terminals off.
+const OUTPUTS_OFF: u32 = M_OUTPUTS_OFF.number();
 
 /// Numbers of devices are below this.
 const NUMBERS: usize = 1 << 16;

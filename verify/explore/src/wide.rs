@@ -12,6 +12,7 @@ use rungc_interp::Machine;
 use rungc_ir::node::FlagId;
 use rungc_models::Model;
 use rungc_models::runs::{is_counter32, is_special, rt_class};
+use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
 use rungc_sim::property::{Condition, Devices, Property, Watcher};
@@ -21,6 +22,9 @@ use std::array;
 
 /// Number of runs in a sweep.
 pub const LANES: usize = rungc_codegen_c::lanes::LANES as usize;
+
+/// Relay that switches the output terminals off.
+const OUTPUTS_OFF: (Class, u32) = (Class::M, M_OUTPUTS_OFF.number());
 
 /// Scans of a sweep between which inputs do not change.
 #[derive(Clone, Debug)]
@@ -112,6 +116,10 @@ impl Items {
                 items.add(class, n);
             }
         }
+        let layout = &task.module.layout;
+        if layout.area(DeviceClass::M, OUTPUTS_OFF.1).is_some() {
+            items.add(DeviceClass::M, OUTPUTS_OFF.1);
+        }
         items
     }
 
@@ -193,8 +201,11 @@ struct Lane<'i, 't> {
 
 impl Devices for Lane<'_, '_> {
     fn bit_at(&self, class: Class, number: u32) -> bool {
-        let item = self.items.bit_of.get(&(class, number));
-        item.is_some_and(|&item| self.values[item] != 0)
+        let on = |device: (Class, u32)| {
+            let item = self.items.bit_of.get(&device);
+            item.is_some_and(|&item| self.values[item] != 0)
+        };
+        on((class, number)) && (class != Class::Y || !on(OUTPUTS_OFF))
     }
 
     fn word_at(&self, class: Class, number: u32) -> i16 {

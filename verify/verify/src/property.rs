@@ -2,11 +2,14 @@
 
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, signed, unsigned};
-use crate::model::{Encoder, World};
+use crate::model::{Encoder, Key, World};
 use crate::sat::{Answer, Solver};
 use rungc_ir::Module;
+use rungc_ir::node::AccessKind;
+use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::Target;
 use rungc_sim::property::{Condition, Number, Property, access};
+use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::time::Duration;
 use web_time::Instant;
@@ -42,6 +45,12 @@ pub fn condition(condition: &Condition, encoder: &mut Encoder) -> Lit {
 
 fn value(encoder: &mut Encoder, target: Target) -> Bits {
     match access(target) {
+        Some((AccessKind::Bit, DeviceClass::Y, number)) => vec![terminal(encoder, number)],
+        Some((AccessKind::Nibbles { digits, wide }, DeviceClass::Y, number)) => {
+            let outputs = (number..).take(4 * usize::from(digits));
+            let bits: Bits = outputs.map(|number| terminal(encoder, number)).collect();
+            unsigned(&bits, if wide { 32 } else { 16 })
+        }
         Some((kind, class, number)) => encoder.read_at(kind, class, number),
         None => constant(0, 32),
     }
@@ -69,6 +78,17 @@ pub fn is_possible(of: &Condition, module: &Module) -> bool {
 
 /// Time limit for the question whether a condition is possible, which has no program in it.
 const LIMIT: Duration = Duration::from_secs(5);
+
+/// An output at its terminal: pulses show there, and M8034 switches it off.
+fn terminal(encoder: &mut Encoder, number: u32) -> Lit {
+    let off = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());
+    // A program that does not know the relay leaves it off.
+    let off = encoder.after(off).map_or(Lit::FALSE, |bits| bits[0]);
+    let image = encoder.read_at(AccessKind::Bit, DeviceClass::Y, number)[0];
+    let pulse = encoder.pulse(number);
+    let on = encoder.aig.or(image, pulse);
+    encoder.aig.and(on, !off)
+}
 
 /// Event of a property that must not happen, or is searched for.
 pub fn event(property: &Property, encoder: &mut Encoder) -> Lit {
@@ -146,7 +166,7 @@ mod tests {
     /// Writes what conditions look at: values that are often alike, and any.
     const PROGRAM: &str = "LD M8000\nWAND K4X000 H8003 D0\nMOV K4X010 D1\nMOV K4X000 K4Y000\nMOV D0 K4M0\nMOV D1 K3M16\n\
                            MOV D0 D2\nWAND K4X010 H8001 D3\nLD X000\nOUT T0 K3\nLD X001\nOUT C0 K2\nLD X002\nOUT M8200\n\
-                           LD X003\nOUT C200 K-2\nEND\n";
+                           LD X003\nOUT C200 K-2\nLD X017\nAND X016\nOUT M8034\nEND\n";
 
     fn module(list: &str) -> Module {
         let program = rungc_frontend::read_text("program.il", list).program;
@@ -171,6 +191,12 @@ mod tests {
         of[random.below(of.len() as u64) as usize]
     }
 
+    /// A bit; outputs are terminals, which M8034 switches off.
+    fn is_on(machine: &Machine, class: Class, number: u32) -> bool {
+        let off = class == Class::Y && machine.bit(Class::M, 8034) == Some(true);
+        machine.bit(class, number) == Some(true) && !off
+    }
+
     fn bit(random: &mut Random) -> Written {
         let (class, name, last) = pick(
             &[
@@ -185,7 +211,7 @@ mod tests {
         let number = random.below(last) as u32;
         Written {
             text: format!("{name}{number}"),
-            holds: Box::new(move |machine| machine.bit(class, number) == Some(true)),
+            holds: Box::new(move |machine| is_on(machine, class, number)),
         }
     }
 
@@ -215,8 +241,7 @@ mod tests {
                 let (class, name) = pick(&[(Class::Y, "Y000"), (Class::M, "M0")], random);
                 let digits = 1 + random.below(5) as u32;
                 let value = move |m: &Machine| {
-                    let bits =
-                        (0..4 * digits).map(|i| i64::from(m.bit(class, i) == Some(true)) << i);
+                    let bits = (0..4 * digits).map(|i| i64::from(is_on(m, class, i)) << i);
                     let value: i64 = bits.sum();
                     if digits == 4 {
                         value << 48 >> 48
@@ -400,6 +425,7 @@ mod tests {
         let violated: usize = (0..400).map(|_| agree(&module, &mut random)).sum();
         assert!((800..2800).contains(&violated), "{violated} of 3200 runs");
     }
+
     #[test]
     fn conditions_that_nothing_can_meet() {
         let module = module("END\n");

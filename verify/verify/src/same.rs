@@ -15,7 +15,7 @@ use crate::replay::Run;
 use crate::search::Trace;
 use product::Product;
 use rungc_ir::Module;
-use rungc_rt::{Class, Plc};
+use rungc_rt::Program;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -60,7 +60,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     let runs_alike = product.is_equal(Key::Running);
     let numbers = product.outputs();
     let key_of = |number: &u32| Key::Bit(DeviceClass::Y, *number);
-    let is_open = |key: &Key| !(runs_alike && product.is_equal(*key));
+    let is_open = |key: &Key| !(runs_alike && product.is_equal_output(*key));
     let open: Vec<Key> = numbers.iter().map(key_of).filter(is_open).collect();
     let (whole, questions) = product.whole(&open, &names);
     let outputs = numbers.into_iter().map(|number| {
@@ -155,7 +155,7 @@ impl Question for Differs<'_> {
             if !kept(old) || !kept(new) {
                 return None;
             }
-            let output = |run: &Run| run.machine.bit(Class::Y, self.number).unwrap_or(false);
+            let output = |run: &Run| run.machine.output(self.number);
             if output(old) != output(new) {
                 return Some(n + 1);
             }

@@ -19,7 +19,7 @@ use rungc_ladder::compare::{Comparison, Drawn, compare};
 use rungc_ladder::{Ladder, build, html, svg};
 use rungc_lower::compile::{CompileOptions, compile, model};
 use rungc_models::Model;
-use rungc_syntax::{DeviceClass, DeviceRun};
+use rungc_syntax::{DeviceClass, DeviceRun, Program};
 use std::path::{Path, PathBuf};
 
 /// Compares two programs.
@@ -49,6 +49,8 @@ struct Side {
     name: String,
     subject: Option<Subject>,
     read: Read,
+    /// The program with what its settings say of it, which decides what it does.
+    meant: Program,
     model: &'static Model,
 }
 
@@ -76,10 +78,13 @@ impl Side {
             return Err(Failure::Because(why));
         }
         let model = model(&read.program, &subject.options());
+        let mut meant = read.program.clone();
+        super::complete(&subject, &mut meant, &mut reporter)?;
         Ok(Side {
             name: named.display().to_string(),
             subject: Some(subject),
             read,
+            meant,
             model,
         })
     }
@@ -91,6 +96,7 @@ impl Side {
         Side {
             name: name.display().to_string(),
             subject: None,
+            meant: read.program.clone(),
             read,
             model,
         }
@@ -176,7 +182,7 @@ fn compared<'a>(
 /// Comparison of the behaviour of both programs.
 fn of_both(old: &Side, new: &Side) -> Behaviour {
     let modules = [old, new].map(|side| {
-        let module = compile(&side.read.program, &side.options()).module;
+        let module = compile(&side.meant, &side.options()).module;
         module.map(|mut module| {
             simplify(&mut module);
             module

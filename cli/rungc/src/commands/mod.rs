@@ -40,7 +40,7 @@ use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::{self, CompileOptions, Compiled};
 pub use rungc_syntax::diag::{counted, grouped};
-use rungc_syntax::{SourceKind, Span, codes, text};
+use rungc_syntax::{Program, SourceKind, Span, codes, text};
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -160,18 +160,28 @@ pub fn read_as_written(
 pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
     let mut read = read_as_written(subject, reporter)?;
     unproven::suggest(&mut read, subject.model);
+    complete(subject, &mut read.program, reporter)?;
+    Ok(read)
+}
+
+/// Gives a program what its settings say of it.
+pub fn complete(
+    subject: &Subject,
+    program: &mut Program,
+    reporter: &mut Reporter,
+) -> std::result::Result<(), Failure> {
     if let Some(project) = &subject.project {
         let options = CompileOptions {
             model: subject.model,
             ..CompileOptions::default()
         };
-        let model = compile::model(&read.program, &options);
-        if let Err(error) = project.complete(&subject.file, &mut read.program, model) {
+        let model = compile::model(program, &options);
+        if let Err(error) = project.complete(&subject.file, program, model) {
             subject::report_invalid(error, &subject.reporting, reporter)?;
             return Err(Failure::Reported);
         }
     }
-    Ok(read)
+    Ok(())
 }
 
 /// Reports that a program cannot be read.

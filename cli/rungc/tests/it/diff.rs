@@ -137,6 +137,30 @@ fn a_changed_calculation_decides_about_what_reads_its_result() {
     assert!(words.contains("D0 to D1"), "{words}");
 }
 
+/// The same list does otherwise after power-off if another register is latched.
+#[test]
+fn settings_decide_about_behaviour() {
+    let list = "LD= D0 K5\nOUT Y0\nLD X0\nMOV K5 D0\nEND\n";
+    let folder = tempfile::tempdir().unwrap();
+    for (project, latched) in [("old", ""), ("new", "[latched]\nD = \"D0-D511\"\n")] {
+        let at = folder.path().join(project);
+        fs::create_dir(&at).unwrap();
+        fs::write(at.join("p.il"), list).unwrap();
+        let settings = format!("[project]\nprogram = \"p.il\"\nmodel = \"fx3u\"\n{latched}");
+        fs::write(at.join("rungc.toml"), settings).unwrap();
+    }
+    let output = rungc(
+        folder.path(),
+        &["diff", "--semantic", "old/p.il", "new/p.il"],
+    );
+    let words = text(&output.stdout);
+    assert!(
+        words.contains("Outputs that can differ: Y000.\nOther devices that can differ: D0."),
+        "{words}"
+    );
+    assert_eq!(output.status.code(), Some(1));
+}
+
 /// Outputs that no run makes differ are listed separately.
 #[test]
 fn outputs_that_are_proved_the_same_do_not_differ() {

@@ -644,6 +644,35 @@ fn a_property_means_the_same_to_all_commands() {
     }
 }
 
+/// An output is its terminal, which M8034 switches off.
+#[test]
+fn outputs_are_terminals() {
+    let plain = "LD X000\nOUT Y000\nEND\n";
+    let switched = "LD X000\nOUT Y000\nLD X001\nOUT M8034\nEND\n";
+    let folder = folder(&[("a.il", plain.as_bytes()), ("b.il", switched.as_bytes())]);
+    let code = |args: &[&str]| rungc(folder.path(), args).status.code();
+    let stays = ["--always", "Y000 = X000"];
+    assert_eq!(code(&["verify", "a.il", stays[0], stays[1]]), Some(0));
+    for command in ["verify", "explore"] {
+        assert_eq!(
+            code(&[command, "b.il", stays[0], stays[1]]),
+            Some(1),
+            "{command}"
+        );
+        let group = ["--never", "K1Y000 = 0 & X000"];
+        assert_eq!(
+            code(&[command, "b.il", group[0], group[1]]),
+            Some(1),
+            "{command}"
+        );
+    }
+    assert_eq!(code(&["verify", "b.il", "--same-as", "a.il"]), Some(1));
+    assert_eq!(code(&["verify", "b.il", "--same-as", "b.il"]), Some(0));
+    let output = rungc(folder.path(), &["diff", "--semantic", "a.il", "b.il"]);
+    let shown = text(&output.stdout);
+    assert!(shown.contains("Outputs that can differ: Y000."), "{shown}");
+}
+
 #[test]
 fn a_property_of_devices_that_are_not_there_is_rejected() {
     let folder = folder(&[("modes.il", MODES.as_bytes())]);

@@ -591,9 +591,13 @@ impl Running<'_> {
             }
             Target::Nibbles(digits, c, first) => {
                 let mut value = 0u32;
-                for i in 0..4 * u32::from(digits) {
-                    let on = self.value(target, Request::Bit(class(c), first.saturating_add(i)))?;
-                    value |= u32::from(on != 0) << i;
+                for n in (first..).take(4 * usize::from(digits)) {
+                    let on = match c {
+                        DeviceClass::Y => Request::Output(n),
+                        _ => Request::Bit(class(c), n),
+                    };
+                    let on = self.value(target, on)?;
+                    value |= u32::from(on != 0) << (n - first);
                 }
                 let value = value as i32;
                 Ok(Value::Int(if digits <= 4 {

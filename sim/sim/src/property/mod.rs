@@ -13,7 +13,7 @@ use rungc_interp::{Machine, rt_class};
 use rungc_ir::node::{AccessKind, Place};
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
-use rungc_rt::{Class, CmpOp, Plc};
+use rungc_rt::{Class, CmpOp, Plc, Program};
 use rungc_syntax::DeviceClass;
 
 /// A condition over devices, as they are after a scan.
@@ -73,7 +73,7 @@ pub enum Property {
 }
 
 impl Condition {
-    /// The devices that it looks at, each with how many from it on.
+    /// The devices that it looks at.
     pub fn devices(&self) -> Vec<(DeviceClass, u32)> {
         let mut found = Vec::new();
         self.targets(&mut |target| {
@@ -169,7 +169,7 @@ pub fn access(target: Target) -> Option<(AccessKind, DeviceClass, u32)> {
 
 /// Devices as conditions read them: those of a machine, or of one that is elsewhere.
 pub trait Devices {
-    /// A bit; off if it is not stored.
+    /// A bit; off if it is not stored. An output is its terminal: pulses show there, and M8034 switches it off.
     fn bit_at(&self, class: Class, number: u32) -> bool;
     /// 16 bits; 0 if they are not stored.
     fn word_at(&self, class: Class, number: u32) -> i16;
@@ -181,7 +181,10 @@ pub trait Devices {
 
 impl Devices for Machine<'_> {
     fn bit_at(&self, class: Class, number: u32) -> bool {
-        self.bit(class, number).unwrap_or(false)
+        match class {
+            Class::Y => self.output(number),
+            _ => self.bit(class, number).unwrap_or(false),
+        }
     }
 
     fn word_at(&self, class: Class, number: u32) -> i16 {

@@ -56,12 +56,7 @@ impl Reading {
                 let signal = hal.signal(channel.unit, channel.number, channel.quantity)?;
                 Reading::Float(f64::from(signal) / 1e6)
             }
-            // An output is its terminal, as in test files: pulses show there, and M8034 switches it off.
-            Target::Bit(DeviceClass::Y, n) => {
-                machine.bit(Class::Y, n)?;
-                Reading::Bit(machine.output(n))
-            }
-            Target::Bit(class, n) => Reading::Bit(machine.bit(rt_class(class)?, n)?),
+            Target::Bit(class, n) => Reading::Bit(bit(machine, class, n)?),
             Target::Current(class, n) if is_counter32(class, n) => {
                 Reading::Integer(machine.counter32(n)?.into(), 32)
             }
@@ -76,9 +71,8 @@ impl Reading {
                 Reading::Float(f32::from_bits(bits).into())
             }
             Target::Nibbles(digits, class, n) => {
-                let class = rt_class(class)?;
                 let width = 4 * u32::from(digits);
-                let bit = |i| Some(i64::from(machine.bit(class, n.checked_add(i)?)?) << i);
+                let bit = |i| Some(i64::from(bit(machine, class, n.checked_add(i)?)?) << i);
                 Reading::Integer((0..width).map(bit).sum::<Option<i64>>()?, width)
             }
             Target::Text(class, n) => {
@@ -113,6 +107,15 @@ pub fn hertz(machine: &Machine, output: u32) -> f64 {
     } else {
         hertz
     }
+}
+
+/// A bit. An output is its terminal, as in test files: pulses show there, and M8034 switches it off.
+fn bit(machine: &Machine, class: DeviceClass, number: u32) -> Option<bool> {
+    let on = machine.bit(rt_class(class)?, number)?;
+    Some(match class {
+        DeviceClass::Y => machine.output(number),
+        _ => on,
+    })
 }
 
 fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {

@@ -389,6 +389,14 @@ impl<'m> Encoder<'m> {
         self.extra_latches[monitor].2 = next;
     }
 
+    /// Bit that is on if an output is on by a pulse. Pulses are not modelled.
+    pub fn pulse(&mut self, output: u32) -> Lit {
+        match self.module.pulse_outputs.contains(&output) {
+            true => self.fresh(1, "pulses at outputs")[0],
+            false => Lit::FALSE,
+        }
+    }
+
     /// Milliseconds since the scan before, 0 in the first.
     pub fn elapsed(&self) -> Bits {
         self.time

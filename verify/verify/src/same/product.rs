@@ -9,11 +9,15 @@ use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_models::runs::is_special;
+use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::property::Condition;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
 use web_time::Instant;
+
+/// Relay that switches the output terminals off.
+const OUTPUTS_OFF: Key = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());
 
 /// Two programs that are executed at the same time with the same inputs.
 ///
@@ -141,6 +145,12 @@ impl<'m> Product<'m> {
         self.is_shared(name) && after(&self.old).is_some() && after(&self.new).is_some()
     }
 
+    /// Returns true if an output is proved to be equal at its terminal, which M8034 switches off.
+    pub(crate) fn is_equal_output(&self, name: Key) -> bool {
+        let has_off = self.old.after(OUTPUTS_OFF).is_some();
+        self.is_equal(name) && (!has_off || self.is_equal(OUTPUTS_OFF))
+    }
+
     /// The programs' outputs.
     pub fn outputs(&self) -> Vec<u32> {
         let keys = self.old.memory().map(|(key, ..)| key);
@@ -176,7 +186,16 @@ impl<'m> Product<'m> {
         let run = aig.and(self.old.running(), self.new.running());
         let questions = keys.iter().map(|&key| {
             let both = [&self.old, &self.new];
-            let [old, new] = both.map(|encoder| encoder.after(key).cloned().unwrap_or_default());
+            let [old, new] = both.map(|encoder| {
+                let after = |key| encoder.after(key).cloned().unwrap_or_default();
+                let value = after(key);
+                match (key, after(OUTPUTS_OFF).first()) {
+                    (Key::Bit(DeviceClass::Y, _), Some(&off)) => {
+                        value.iter().map(|&on| aig.and(on, !off)).collect()
+                    }
+                    _ => value,
+                }
+            });
             let equal = aig.equal(&old, &new);
             let differs = aig.and(run, !equal);
             aig.or(differs, stops)

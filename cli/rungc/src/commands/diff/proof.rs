@@ -79,7 +79,7 @@ fn module(side: &Side) -> Option<Module> {
         optimise: false,
         ..side.options()
     };
-    let mut module = compile(&side.read.program, &options).module?;
+    let mut module = compile(&side.meant, &options).module?;
     simplify(&mut module);
     Some(module)
 }
