@@ -76,7 +76,8 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         .iter()
         .flat_map(|requested| requested.property.conditions());
     let conditions = conditions.chain(&assumed);
-    let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
+    let external = reader.external()?;
+    let Some(module) = module(&subject, &read, conditions, &external, &mut reporter)? else {
         reporter.finish()?;
         return Ok(Outcome::Unusable);
     };
@@ -92,7 +93,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
     let hal = Box::new(hardware::of(fitted));
-    let external: Vec<_> = reader.external()?.devices.into_keys().collect();
+    let external: Vec<_> = external.devices.into_keys().collect();
     let mut task = Task::new(
         &module,
         (&properties, &assumed),

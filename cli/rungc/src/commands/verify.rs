@@ -57,7 +57,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         .iter()
         .flat_map(|requested| requested.property.conditions());
     let conditions = conditions.chain(&options.assumed);
-    let Some(module) = module(&subject, &read, conditions, &mut reporter)? else {
+    let Some(module) = module(&subject, &read, conditions, &external, &mut reporter)? else {
         deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };

@@ -3,7 +3,7 @@
 mod causes;
 
 use crate::commands::counted;
-use crate::commands::properties::ExternalWrites;
+use crate::commands::properties::{ExternalWrites, open_indexes};
 use crate::commands::subject::Subject;
 use crate::commands::verify::report::{assumptions, changes};
 use causes::Contacts;
@@ -45,15 +45,17 @@ pub struct Found {
 /// Searches a program that compiles.
 pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
     let mut found = Found::default();
-    let options = CompileOptions {
+    let external = ExternalWrites::of(None, subject.own_project());
+    let mut options = CompileOptions {
         optimise: false,
         ..subject.options()
     };
+    let indexes = open_indexes(&read.program, &options, &external);
+    options.observe.extend(indexes);
     let Some(mut module) = compile(&read.program, &options).module else {
         return found;
     };
     simplify(&mut module);
-    let external = ExternalWrites::of(None, subject.own_project());
     let place = Place {
         program: &read.program,
         steps: &checked.step_numbers,

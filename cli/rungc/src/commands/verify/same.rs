@@ -50,8 +50,8 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let external = reader.external()?;
     let options = super::options(args, &reader, &assumed, &external)?;
     let looked = || options.assumed.iter();
-    let old_module = module(&before, &read_old, looked(), &mut reporter)?;
-    let new_module = module(&subject, &read_new, looked(), &mut reporter)?;
+    let old_module = module(&before, &read_old, looked(), &external, &mut reporter)?;
+    let new_module = module(&subject, &read_new, looked(), &external, &mut reporter)?;
     let (Some(old_module), Some(new_module)) = (old_module, new_module) else {
         super::deliver(args, reporter, String::new, super::UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);

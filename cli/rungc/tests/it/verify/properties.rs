@@ -1,0 +1,185 @@
+//! What properties mean: conditions, time, outputs, and what is outside the program.
+
+use super::MODES;
+use crate::common::{folder, rungc, text};
+
+/// Each table is valid without its last line. `check` reports what the commands that prove and search report.
+#[test]
+fn properties_that_cannot_be_read_are_reported_by_check() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    let rows = [
+        "[[property]]\nnever = \"Y000 &\"",
+        "[[property]]\nalways = \"pump\"",
+        "[[property]]\nreachable = \"D70\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y000 Y001\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y001\"\nwithin = \"soon\"",
+        "[[property]]\nstays = \"(Y000\"",
+        "[[property]]\nstays = \"Y000\"\nuntil = \"X000)\"",
+        "[[property]]\nnever = \"Y777 & M0\"",
+        "[[property]]\nnever = \"D9000 > 3\"",
+        "[[property]]\nnever = \"D70 > 40000\"",
+        "[[property]]\nalways = \"D70 < 32768\"",
+        "[[property]]\nnever = \"X000 & !X000\"",
+        "[[property]]\nalways = \"K1Y000 <= 15\"",
+        "[[property]]\nthen = \"Y000\"\nwhenever = \"D70 > 5 & D70 < 2\"",
+        "[[property]]\nwhenever = \"X000\"\nthen = \"Y000 | !Y000\"",
+        "[verify]\nassume = [\"!\"]",
+        "[verify]\nassume = [\"Y000 != Y000\"]",
+        "[verify]\nfree = [\"D9000\"]",
+        "[verify]\nscan = \"40s\"",
+        "[verify]\ntimeout = \"long\"",
+        "[hmi]\nwrites = \"M9000\"",
+    ];
+    for row in rows {
+        let settings = format!("[project]\nprogram = \"modes.il\"\n{row}\n");
+        std::fs::write(folder.path().join("rungc.toml"), &settings).unwrap();
+        let output = rungc(folder.path(), &["check"]);
+        let shown = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{row}: {shown}");
+        let place = 2 + row.lines().count();
+        let is_placed = shown.contains(&format!("[ rungc.toml:{place}:"));
+        assert!(shown.contains("E0042") && is_placed, "{row}: {shown}");
+    }
+    let all = format!(
+        "[project]\nprogram = \"modes.il\"\n{}\n",
+        rows[..16].join("\n")
+    );
+    std::fs::write(folder.path().join("rungc.toml"), all).unwrap();
+    let shown = text(&rungc(folder.path(), &["check"]).stderr);
+    assert_eq!(shown.matches("error[E0042]").count(), 16, "{shown}");
+    // A project's settings say nothing of other programs.
+    std::fs::write(folder.path().join("other.il"), "LD X000\nOUT Y000\nEND\n").unwrap();
+    assert_eq!(
+        rungc(folder.path(), &["check", "other.il"]).status.code(),
+        Some(0)
+    );
+}
+
+/// The same verdict in proofs and searches: what comes with the first scan after the deadline is late, a trigger counts
+/// when it begins, and groups of four digits are signed.
+#[test]
+fn a_property_means_the_same_to_all_commands() {
+    let next_scan = "LD M0\nOUT Y000\nLD X000\nOUT M0\nEND\n";
+    let same_scan = "LDP X000\nOUT Y000\nEND\n";
+    let group = "LD M8000\nMOV K4X000 K4Y000\nEND\n";
+    let late = "whenever = \"X000\"\nthen = \"Y000\"\nwithin = \"1ms\"";
+    let cases = [
+        (next_scan, late, true),
+        (next_scan, &late.replace("1ms", "3s"), false),
+        (same_scan, &late.replace("\nwithin = \"1ms\"", ""), false),
+        (same_scan, "always = \"X000 = Y000\"", true),
+        (group, "never = \"K4Y000 = 40960\"", true),
+        (group, "never = \"K4Y000 < -30000\"", true),
+    ];
+    for (program, property, is_violated) in cases {
+        let settings = format!("[project]\nprogram = \"p.il\"\n[[property]]\n{property}\n");
+        let files = [
+            ("p.il", program.as_bytes()),
+            ("rungc.toml", settings.as_bytes()),
+        ];
+        let folder = folder(&files);
+        let verify = ["verify", "--replay", "interp"];
+        let explore = [
+            "explore",
+            "--scans",
+            "20000",
+            "--write-test",
+            "run.plctest.toml",
+        ];
+        for command in [&verify[..], &explore] {
+            let output = rungc(folder.path(), command);
+            let shown = text(&output.stderr);
+            assert_eq!(
+                output.status.code(),
+                Some(is_violated.into()),
+                "{property}: {shown}"
+            );
+        }
+        // The written test sees the violation, too.
+        if is_violated {
+            let output = rungc(
+                folder.path(),
+                &["test", "run.plctest.toml", "--engine", "interp"],
+            );
+            assert_eq!(output.status.code(), Some(1), "{property}");
+        }
+    }
+}
+
+/// An output is its terminal, which M8034 switches off.
+#[test]
+fn outputs_are_terminals() {
+    let plain = "LD X000\nOUT Y000\nEND\n";
+    let switched = "LD X000\nOUT Y000\nLD X001\nOUT M8034\nEND\n";
+    let folder = folder(&[("a.il", plain.as_bytes()), ("b.il", switched.as_bytes())]);
+    let code = |args: &[&str]| rungc(folder.path(), args).status.code();
+    let stays = ["--always", "Y000 = X000"];
+    assert_eq!(code(&["verify", "a.il", stays[0], stays[1]]), Some(0));
+    for command in ["verify", "explore"] {
+        assert_eq!(
+            code(&[command, "b.il", stays[0], stays[1]]),
+            Some(1),
+            "{command}"
+        );
+        let group = ["--never", "K1Y000 = 0 & X000"];
+        assert_eq!(
+            code(&[command, "b.il", group[0], group[1]]),
+            Some(1),
+            "{command}"
+        );
+    }
+    assert_eq!(code(&["verify", "b.il", "--same-as", "a.il"]), Some(1));
+    assert_eq!(code(&["verify", "b.il", "--same-as", "b.il"]), Some(0));
+    let output = rungc(folder.path(), &["diff", "--semantic", "a.il", "b.il"]);
+    let shown = text(&output.stdout);
+    assert!(shown.contains("Outputs that can differ: Y000."), "{shown}");
+}
+
+/// An index register that something else may write leads anywhere.
+#[test]
+fn index_registers_may_be_written_from_outside() {
+    let unwritten = "LD X000\nOUT Y004\nLD X006\nMOV K1 K4Y000Z0\nEND\n";
+    let written = unwritten.replace(
+        "LD X006",
+        "LD M8002\nMOV K0 Z0\nLD X001\nMOV K3 Z0\nLD X006",
+    );
+    let files = [
+        ("unwritten.il", unwritten.as_bytes()),
+        ("written.il", written.as_bytes()),
+    ];
+    let folder = folder(&files);
+    let code = |args: &[&str]| rungc(folder.path(), args).status.code();
+    let both = ["--never", "Y004 & Y005"];
+    for command in ["verify", "explore"] {
+        assert_eq!(
+            code(&[command, "unwritten.il", both[0], both[1]]),
+            Some(1),
+            "{command}"
+        );
+        let freed = [command, "written.il", both[0], both[1], "--free", "Z0"];
+        assert_eq!(code(&freed), Some(1), "{command}");
+    }
+    assert_eq!(code(&["verify", "written.il", both[0], both[1]]), Some(0));
+}
+
+#[test]
+fn a_property_of_devices_that_are_not_there_is_rejected() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    for condition in [
+        "Y777",
+        "!M9000",
+        "X000 & D9000 > 3",
+        "T300.value = 5",
+        "K4M1530 = 5",
+    ] {
+        for command in ["verify", "explore"] {
+            let output = rungc(folder.path(), &[command, "modes.il", "--never", condition]);
+            let shown = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{condition}: {shown}");
+            assert!(
+                shown.contains("does not exist on Mitsubishi FX1N"),
+                "{shown}"
+            );
+        }
+    }
+}
