@@ -170,7 +170,7 @@ fn begin(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
         axis.end(cx, state::DONE);
         return Ok(());
     }
-    let reverse = order.count < 0 && axis.has_direction(cx);
+    let reverse = order.count < 0 && axis.can_reverse(cx);
     if axis.sees(cx, at::EMERGENCY, event::EMERGENCY) || at_limit(cx, axis, order.kind, reverse) {
         axis.set(cx, at::ERROR, 0);
         axis.end(cx, state::STOPPED);
@@ -242,7 +242,7 @@ fn watch(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
         Kind::Steady | Kind::Variable => {
             let speed = train(cx, axis, order).speed;
             let turns = kind == Kind::Variable
-                && axis.has_direction(cx)
+                && axis.can_reverse(cx)
                 && order.count != 0
                 && (order.count < 0) != reverse;
             let generator = axis.generator(cx)?;

@@ -163,7 +163,7 @@ pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
     }
     let pending = cx.state().0[PENDING].wrapping_add(pulses);
     cx.state().0[PENDING] = pending;
-    let reverse = pending < 0 && axis.has_direction(cx);
+    let reverse = pending < 0 && axis.can_reverse(cx);
     let generator = *axis.generator(cx)?;
     if pending == 0 || (generator.is_busy() && generator.is_reverse() != reverse) {
         return Ok(());
@@ -207,15 +207,14 @@ fn insert(cx: &mut Cx) -> Done {
         return axis.fail(cx, error::OVERSPEED);
     }
     let before = core::mem::replace(&mut cx.state().0[MASTER], count);
-    let has_direction = axis.has_direction(cx);
     let turns = count.signum() * before.signum() < 0;
-    let lost = turns && has_direction;
+    let lost = turns && axis.has_direction(cx);
     let state = cx.state();
     if !lost {
         state.0[PENDING] = state.0[PENDING].wrapping_add(count);
     }
     let pending = state.0[PENDING];
-    let reverse = pending < 0 && has_direction;
+    let reverse = pending < 0 && axis.can_reverse(cx);
     let generator = *axis.generator(cx)?;
     let busy = generator.is_busy();
     let takes_more = generator.remaining() > 0 && !generator.is_stopping();

@@ -86,7 +86,7 @@ fn go_on(cx: &mut Cx, axis: Registers) -> Done {
         (PAUSES, _) => axis.end(cx, state::DONE),
         (GOES_ON, Some(reverse)) if !busy => return run_on(cx, axis, reverse),
         (GOES_ON, Some(reverse)) => {
-            let turns = axis.has_direction(cx) && axis.generator(cx)?.is_reverse() != reverse;
+            let turns = axis.can_reverse(cx) && axis.generator(cx)?.is_reverse() != reverse;
             if turns {
                 axis.generator(cx)?.stop();
             }

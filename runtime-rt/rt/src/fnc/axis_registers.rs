@@ -237,8 +237,7 @@ impl Registers {
 
     /// The highest speed that the outputs in use leave it, in millihertz.
     pub fn most(self, cx: &Cx) -> u64 {
-        let sends = (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT));
-        if sends {
+        if self.sends_pulses(cx) {
             HIGHEST / outputs_in_use(cx)
         } else {
             HIGHEST
@@ -292,10 +291,20 @@ impl Registers {
         Ok(())
     }
 
-    /// Returns true if it has an output for its direction; without one, all motion is forward.
+    /// Returns true if it sends pulses, and has an output for their direction.
     pub fn has_direction(self, cx: &Cx) -> bool {
-        let sends = (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT));
-        self.word(cx, at::DIRECTION) == 1 && sends
+        self.word(cx, at::DIRECTION) == 1 && self.sends_pulses(cx)
+    }
+
+    /// Returns true if it can run in reverse: a digital output only counts, and counts down, too; pulses without an
+    /// output for their direction are all forward.
+    pub fn can_reverse(self, cx: &Cx) -> bool {
+        self.has_direction(cx) || !self.sends_pulses(cx)
+    }
+
+    /// Returns true if the output to which it is bound sends pulses.
+    fn sends_pulses(self, cx: &Cx) -> bool {
+        (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT))
     }
 
     /// The instruction has the axis from now on.
@@ -315,11 +324,10 @@ impl Registers {
     /// Shows that its outputs, for pulses and for the direction, are no longer the ladder's (hm-motion-controller
     /// §5.4.56, §5.7.2).
     fn show_use(self, cx: &mut Cx) {
-        let output = self.word(cx, at::OUTPUT);
-        if !(0..PULSE_OUTPUTS).contains(&output) {
+        if !self.sends_pulses(cx) {
             return;
         }
-        let output = output as u32;
+        let output = self.word(cx, at::OUTPUT) as u32;
         cx.set_special_word(D_OUTPUT_USE.after(output), USE_PULSES);
         if self.has_direction(cx) {
             let direction = D_OUTPUT_USE.after(DIRECTION + output);
@@ -336,9 +344,8 @@ impl Registers {
     /// Sends a train, whoever has the axis.
     pub fn send(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
         let number = self.word(cx, at::OUTPUT) as u16;
-        let has_direction = self.has_direction(cx);
-        let reverse = reverse && has_direction;
-        if has_direction {
+        let reverse = reverse && self.can_reverse(cx);
+        if self.has_direction(cx) {
             let output = DIRECTION + self.word(cx, at::OUTPUT) as u32;
             let _ = cx.plc.set_bit(Class::Y, output, !reverse);
         }
