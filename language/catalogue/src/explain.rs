@@ -255,6 +255,9 @@ fn forms(inst: &Inst, model: ModelId) -> String {
         Drive::Contact => "\nMust be driven by a contact.\n",
         Drive::Alone => "\nMust not be driven by a contact.\n",
     });
+    if inst.stops_undriven {
+        text.push_str("It must stay driven until it has ended: it stops when its contacts open.\n");
+    }
     if let Some(uses) = inst.max_uses {
         let _ = writeln!(text, "A program may use it at most {uses} times.");
     }

@@ -326,6 +326,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .errors(&[6770, 6771])
         .call(RtFn::Plsy)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsy))])
         .text("Sends S2 pulses of S1 Hz on output D; S2 = 0: without end. HM: D1 the frequency, D2 the number, and an axis."),
     fast("PWM", 58, "Pulse width modulation")
@@ -337,6 +338,7 @@ pub(super) const ROWS: &[Inst] = &[
             PULSE_OUTPUT,
         ])
         .call(RtFn::Pwm)
+        .stops_undriven()
         .text("Sends pulses S1 ms wide with a period of S2 ms on output D as long as it is driven."),
     fast("PLSR", 59, "Pulse output with ramps")
         .forms(W16_W32)
@@ -356,6 +358,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .errors(&[6770])
         .call(RtFn::Plsr)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsr))])
         .text("Sends S2 pulses on output D with ramps of S3 ms up to S1 Hz and down. HM: an axis instead of D."),
     fast("HCMOV", 189, "Read a high-speed counter")

@@ -512,6 +512,8 @@ pub struct Inst {
     pub variants: &'static [Variant],
     /// Position relative to contacts.
     pub drive: Drive,
+    /// True if it takes many scans, and stops when its contacts open before it has ended.
+    pub stops_undriven: bool,
     /// Special relays and registers that it reads or writes.
     pub flags: &'static [&'static str],
     /// Maximum number of uses in a program; `None`: any number of times.

@@ -95,14 +95,17 @@ pub(super) const ROWS: &[Inst] = &[
     motion("HOME", "Return to the origin")
         .takes(&[AXIS])
         .call(RtFn::AxisHome)
+        .stops_undriven()
         .text("Runs the axis to its origin, as AXEI, AXOSP and AXOX say."),
     motion("JOG", "Jog")
         .takes(&[AXIS, any("D2"), any("D3"), any("D4").inputs(), any("D5").inputs()])
         .call(RtFn::AxisJog)
+        .stops_undriven()
         .text("Jogs the axis by D2 pulses, then on and on at speed D3, while an input of mask D4 (forward) or D5 (backward) is on."),
     wide("PSOUT", "Position by pulses")
         .takes(&[AXIS, src("D2", CONSTANTS.or(DATA))])
         .call(RtFn::AxisPsout)
+        .stops_undriven()
         .text("Moves the axis by D2 pulses within its highest speed and acceleration."),
     wide("PTAB", "Point table")
         .takes(&[
@@ -111,10 +114,12 @@ pub(super) const ROWS: &[Inst] = &[
             any("D3"),
         ])
         .lower(Lower::Exclusive(RtFn::Ptab))
+        .stops_undriven()
         .text("Appends a segment as the eleven words at D1 say to the point table at D2, one point for each interval D3."),
     wide("PTOUT", "Follow a point table")
         .takes(&[AXIS, table("D2").open_ended(), table("D3"), src("D4", CONSTANTS.or(DATA)), any("D5").limits(0, 1)])
         .call(RtFn::AxisPtout)
+        .stops_undriven()
         .text("Moves the axis along the point table at D2 as register D3 goes through its range D4; D5 = 1 starts again at its end."),
     motion("IPL", "Insert pulses")
         .takes(&[AXIS, any("D2")])
@@ -123,6 +128,7 @@ pub(super) const ROWS: &[Inst] = &[
     motion("GEAR", "Electronic gear")
         .takes(&[AXIS, table("D2").word().len(2), any("D3").limits(0, 1), any("D4"), any("D5")])
         .call(RtFn::AxisGear)
+        .stops_undriven()
         .text("The axis follows register D2 by the ratio D4/D5; D3 says whether its value or its change counts."),
     wide("CAM", "Electronic cam")
         .takes(&[
@@ -134,13 +140,16 @@ pub(super) const ROWS: &[Inst] = &[
             both("D5", DATA).word().len(31),
         ])
         .call(RtFn::AxisCam)
+        .stops_undriven()
         .text("The axis follows register D3 along the cam table at D2; the 31 words at D5 say when it engages and disengages."),
     wide("PCTAB", "Cam table")
         .takes(&[both("D1", DATA).word().len(16), table("D2").open_ended()])
         .lower(Lower::Exclusive(RtFn::Pctab))
+        .stops_undriven()
         .text("Builds the cam table at D2 of a flying cut as the sixteen words at D1 say."),
     wide("PBTAB", "Return of a cam table")
         .takes(&[both("D1", DATA).word().len(12), table("D2").open_ended()])
         .lower(Lower::Exclusive(RtFn::Pbtab))
+        .stops_undriven()
         .text("Appends the way back to the cam table at D2 as the twelve words at D1 say."),
 ];

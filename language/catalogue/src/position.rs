@@ -100,12 +100,14 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(SEARCH)
         .variants(&[on(LIKE_FX3).forms(W16), on(INOVANCE).takes(SEARCH_INOVANCE)])
         .call(RtFn::Dszr)
+        .stops_undriven()
         .text("Runs the axis of output D1 to its origin by the signals DOG S1 and zero S2, searching the DOG if it starts past it."),
     position("DVIT", 151, "Interrupt positioning")
         .on(FX3U.or(HM))
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .call(RtFn::Dvit)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDvit))])
         .text("Runs at S2 Hz until the interrupt input of the axis, then sends S1 pulses more."),
     position("TBL", 152, "Positioning by a table")
@@ -114,6 +116,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3GU)
         .takes(&[POSITION_OUTPUT, count("n", 1, 100)])
         .todo("its positioning table is a parameter of the project that rungc does not read")
+        .stops_undriven()
         .text("Does what row n of the positioning table in the parameters says for output D."),
     position("ABS", 155, "Read an absolute position")
         .forms(W32)
@@ -127,6 +130,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(RETURN)
         .variants(&[on(INOVANCE).takes(RETURN_INOVANCE), on(L01S).takes(RETURN_L01S)])
         .call(RtFn::Zrn)
+        .stops_undriven()
         .text("Runs output D back at S1 Hz until the DOG signal S3, then at S2 Hz until it is off: the origin."),
     position("PLSV", 157, "Variable-speed pulses")
         .steps(7, 13)
@@ -137,18 +141,21 @@ pub(super) const ROWS: &[Inst] = &[
             on(L01S).takes(FREE_L01S),
         ])
         .call(RtFn::Plsv)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsv))])
         .text("Sends pulses of |S| Hz on D1 while driven, the sign of S on D2; S may change. HM: an axis instead of D1 and D2."),
     position("DRVI", 158, "Relative positioning")
         .takes(MOVE)
         .variants(MOVE_VARIANTS)
         .call(RtFn::Drvi)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDrvi))])
         .text("Moves by S1 pulses at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
     position("DRVA", 159, "Absolute positioning")
         .takes(MOVE)
         .variants(MOVE_VARIANTS)
         .call(RtFn::Drva)
+        .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDrva))])
         .text("Moves to position S1 at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
 ];

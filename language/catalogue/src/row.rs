@@ -115,6 +115,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         params: &[],
         variants: &[],
         drive: Drive::Contact,
+        stops_undriven: false,
         flags: &[],
         max_uses: None,
         errors: &[],
@@ -134,6 +135,14 @@ impl Inst {
 
     pub(super) const fn spelling(self, spelling: Spelling) -> Self {
         Inst { spelling, ..self }
+    }
+
+    /// It takes many scans, and stops when its contacts open.
+    pub(super) const fn stops_undriven(self) -> Self {
+        Inst {
+            stops_undriven: true,
+            ..self
+        }
     }
 
     pub(super) const fn fnc(self, number: u16) -> Self {

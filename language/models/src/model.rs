@@ -279,6 +279,9 @@ pub struct Model {
     /// Parameters of axes that start with a value other than 0, in addition to the output, which is at first an axis'
     /// own ([`rungc_rt::axis_place`]).
     pub axis_defaults: &'static [(u32, i16)],
+    /// Data registers below the special ones that its system keeps for itself, from the first to the last of each run,
+    /// sorted.
+    pub reserved: &'static [(u32, u32)],
     /// Special data registers that are other names of index registers.
     pub index_aliases: &'static [IndexAlias],
     /// Its special devices; see [`Model::special`]. Each table is sorted by class and number, and none holds what

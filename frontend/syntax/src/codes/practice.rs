@@ -154,7 +154,7 @@ super::codes! {
 
     ONE_OUTPUT = "W0229" "one-output" Warning None,
     "output of pulses with two purposes at the same time",
-    "An output gives pulses or their direction, not both. It sends the pulses of one instruction at a time. Two instructions that are driven by the same contacts, or one of which is always driven, interfere with each other: the second does not start, or not before the first has ended.",
+    "An output gives pulses or their direction, not both. It sends the pulses of one instruction at a time. Two instructions that are driven by the same contacts, or one of which is always driven, interfere with each other: the second does not start, or not before the first has ended. On HM, the same holds for two motions of one axis, to which only IPL adds pulses, and for PTAB, PCTAB and PBTAB, of which one runs at a time.",
     wrong: "LD X0\nPLSY K1000 K500 Y0\nPLSY K200 K100 Y0\nEND\n",
     right: "LD X0\nPLSY K1000 K500 Y0\nLDI X0\nPLSY K200 K100 Y0\nEND\n";
 
@@ -196,6 +196,32 @@ super::codes! {
     model: "hm",
     wrong: "LD X0\nDMOV C200V0 D1100\nEND\n",
     right: "LD X0\nDMOV C200 D1000\nDMOV C201 D1002\nDMOV D1000V0 D1100\nEND\n";
+
+    SHORT_DRIVE = "W0236" "short-drive" Warning None,
+    "motion that is driven for one scan",
+    "Pulse outputs and motions run while their contacts are closed, and stop when they open. An edge (LDP, PLS, MEP) and M8002 close them for one scan: the motion starts, and stops in the next scan. Let the edge SET a relay that drives the motion, and RST it at the end: M8029, or on HM 32 in the state of the axis (D320, D370, …) or of the table. Only IPL of HM is meant for edges, too. Routines, loops and code that jumps skip are not reported.",
+    wrong: "LDP X0\nPLSY K1000 K5000 Y0\nEND\n",
+    right: "LDP X0\nSET M0\nLD M0\nPLSY K1000 K5000 Y0\nLD M8029\nRST M0\nEND\n";
+
+    NEVER_COUNTS = "W0237" "never-counts" Warning None,
+    "value of a high-speed counter that nothing drives",
+    "A high-speed counter counts its inputs while its coil is driven. Without `OUT` its value never changes, and comparisons such as HSCS never act. A counter into which the program writes values is a register, and is not reported.",
+    wrong: "LDD>= C235 K100\nOUT Y0\nEND\n",
+    right: "LD M8000\nOUT C235 K100000\nLDD>= C235 K100\nOUT Y0\nEND\n";
+
+    RESERVED_REGISTER = "W0238" "reserved-register" Warning None,
+    "write to a register that the system of HM uses",
+    "The manual of HM keeps D0 to D79, D98 to D199 and D600 to D999 for the system, and some registers of each output axis between D300 and D599 (hm-motion-controller §5.1, §8.2.3). On the PLC, the program and the system overwrite each other's values there. Registers from D1000 on are free. Runs of more than 32 registers are not reported.",
+    model: "hm",
+    wrong: "LD X0\nMOV K5 D100\nEND\n",
+    right: "LD X0\nMOV K5 D1100\nEND\n";
+
+    ZONE_SHARED = "W0239" "zone-shared" Warning None,
+    "two comparisons of high-speed counters in one compare zone",
+    "DHSCS, DHSCR and DHSZ of HM share the compare zones 0 to 5, and a zone executes one instruction at a time (hm-motion-controller §8.3.14). Two that are driven by the same contacts, or one of which is always driven, need a zone each. Compiled code runs both.",
+    model: "hm",
+    wrong: "LD M8000\nOUT C255 K1000\nDHSCS K100 C255 Y10 K0\nDHSCS K150 C255 Y11 K0\nEND\n",
+    right: "LD M8000\nOUT C255 K1000\nDHSCS K100 C255 Y10 K0\nDHSCS K150 C255 Y11 K1\nEND\n";
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",

@@ -6,6 +6,7 @@ mod corpus;
 mod diagnostics;
 mod lower;
 mod mistakes;
+mod motion;
 mod parameters;
 mod passes;
 mod ports;

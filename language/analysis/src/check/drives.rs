@@ -1,9 +1,9 @@
 //! Drives of instructions: the contacts before each, as far as they are known independently of their devices' values.
 
 use super::{Code, Part};
-use rungc_catalogue::Basic;
+use rungc_catalogue::{Basic, Join, Lower};
 use rungc_syntax::{Device, DeviceClass};
-use rustc_hash::FxHasher;
+use rustc_hash::{FxHashSet, FxHasher};
 use std::hash::{Hash, Hasher};
 
 /// The result of some contacts.
@@ -24,6 +24,8 @@ pub(super) enum Lasts {
     Always,
     /// For many scans: it depends on inputs and slow clocks alone.
     Long,
+    /// For one scan, or less: an edge is in series with the rest.
+    Once,
     /// That depends on what the program does.
     Unknown,
 }
@@ -33,6 +35,8 @@ pub(super) enum Lasts {
 pub(super) struct Drives {
     stack: Vec<Drive>,
     branches: Vec<Drive>,
+    /// Relays that are known to be on for one scan.
+    pulses: FxHashSet<Device>,
 }
 
 /// The left bus bar.
@@ -43,13 +47,21 @@ const BUS: Drive = Drive {
 };
 
 impl Drives {
+    /// With relays that are on for one scan each time.
+    pub(super) fn with_pulses(pulses: FxHashSet<Device>) -> Self {
+        Drives {
+            pulses,
+            ..Drives::default()
+        }
+    }
+
     /// Takes instruction `i`, the next of the program; what drives it, if it is one that contacts drive.
     pub(super) fn next(&mut self, code: &Code, i: usize) -> Option<Drive> {
         match code.part(i) {
-            Part::Start => self.stack.push(contact(code, i)),
+            Part::Start => self.stack.push(self.contact(code, i)),
             Part::Continue => {
                 let result = self.stack.pop().unwrap_or(BUS);
-                self.stack.push(result.joined(code, i));
+                self.stack.push(self.joined(result, code, i));
             }
             part @ (Part::JoinSeries | Part::JoinParallel) => {
                 let right = self.stack.pop().unwrap_or(BUS);
@@ -80,31 +92,64 @@ impl Drives {
         self.stack.pop();
         self.stack.push(drive.unwrap_or(BUS));
     }
-}
 
-impl Drive {
-    /// With the contact, or the change of the result, of instruction `i`.
-    fn joined(self, code: &Code, i: usize) -> Drive {
+    /// A result with the contact, or the change of the result, of instruction `i`.
+    fn joined(&self, result: Drive, code: &Code, i: usize) -> Drive {
         let series = match code.basic(i) {
             Some(Basic::And | Basic::Ani) => true,
             Some(Basic::Or | Basic::Ori) => false,
             // An edge, a comparison or a change of the result.
             _ => {
-                let signature = hashed(&(self.signature, signature(code, i)));
+                let signature = hashed(&(result.signature, signature(code, i)));
                 return Drive {
                     signature,
-                    lasts: Lasts::Unknown,
+                    lasts: changed(result.lasts, code, i),
                     contact: None,
                 };
             }
         };
-        self.with(contact(code, i), series)
+        result.with(self.contact(code, i), series)
     }
 
+    /// The contact of an instruction by itself.
+    fn contact(&self, code: &Code, i: usize) -> Drive {
+        let drive = contact(code, i);
+        let is_pulse =
+            matches!(drive.contact, Some((device, true)) if self.pulses.contains(&device));
+        match is_pulse {
+            true => Drive {
+                lasts: Lasts::Once,
+                ..drive
+            },
+            false => drive,
+        }
+    }
+}
+
+/// Duration of a result after an edge, a comparison or a change of it that instruction `i` adds.
+fn changed(result: Lasts, code: &Code, i: usize) -> Lasts {
+    let (edge, series) = match (code.basic(i), code.lower(i)) {
+        (Some(Basic::Andp | Basic::Andf | Basic::Mep | Basic::Mef), _) => (true, true),
+        (Some(Basic::Orp | Basic::Orf), _) => (true, false),
+        (_, Some(Lower::Compare(Join::And, _))) => (false, true),
+        _ => return Lasts::Unknown,
+    };
+    let both = edge && result == Lasts::Once;
+    let either = series && (edge || result == Lasts::Once);
+    if both || either {
+        Lasts::Once
+    } else {
+        Lasts::Unknown
+    }
+}
+
+impl Drive {
     fn with(self, other: Drive, series: bool) -> Drive {
-        use Lasts::{Always, Long, Unknown};
+        use Lasts::{Always, Long, Once, Unknown};
         let lasts = match (self.lasts, other.lasts) {
-            (Unknown, _) | (_, Unknown) => Unknown,
+            (Once, Once) => Once,
+            (Once, _) | (_, Once) if series => Once,
+            (Unknown | Once, _) | (_, Unknown | Once) => Unknown,
             (Always, one) | (one, Always) if series => one,
             (Always, _) | (_, Always) => Always,
             (Long, Long) => Long,
@@ -123,6 +168,8 @@ impl Drive {
 fn contact(code: &Code, i: usize) -> Drive {
     /// M8000, on while the program runs, and its inverse.
     const RUNS: [u32; 2] = [8000, 8001];
+    /// M8002, on in the first scan, and its inverse.
+    const BEGINS: [u32; 2] = [8002, 8003];
     /// The clocks of a second and of a minute, which are on for many scans.
     const CLOCKS: [u32; 2] = [8013, 8014];
     let normally_open = match code.basic(i) {
@@ -131,6 +178,7 @@ fn contact(code: &Code, i: usize) -> Drive {
         _ => None,
     };
     let lasts = match (code.device(i, 0), normally_open) {
+        _ if matches!(code.basic(i), Some(Basic::Ldp | Basic::Ldf)) => Lasts::Once,
         (
             Some(Device {
                 class: DeviceClass::X,
@@ -147,6 +195,8 @@ fn contact(code: &Code, i: usize) -> Drive {
         ) => {
             if number == RUNS[usize::from(!open)] {
                 Lasts::Always
+            } else if number == BEGINS[usize::from(!open)] {
+                Lasts::Once
             } else if CLOCKS.contains(&number) {
                 Lasts::Long
             } else {

@@ -13,6 +13,7 @@ mod every_scan;
 mod fast_inputs;
 mod fast_units;
 mod groups;
+mod idle_counters;
 mod indexed_counters;
 mod inert;
 mod jumped_over;
@@ -26,8 +27,10 @@ mod pairs;
 mod parallel;
 mod pointers;
 pub mod ports;
+mod reserved;
 mod resets;
 mod set_and_out;
+mod short_drives;
 mod skips;
 mod states;
 mod structure;
@@ -90,7 +93,8 @@ fn driven(
     skips: &skips::Skips,
     out: &mut Diagnostics,
 ) {
-    let mut drives = drives::Drives::default();
+    let pulses = short_drives::pulses(code, nesting, skips);
+    let mut drives = drives::Drives::with_pulses(pulses);
     let mut every_scan = every_scan::EveryScan::default();
     let mut outputs = one_output::Outputs::default();
     let mut jumped_over = jumped_over::JumpedOver::default();
@@ -98,6 +102,7 @@ fn driven(
         if let Some(drive) = drives.next(code, i) {
             every_scan.note(code, i, drive, nesting, skips);
             outputs.note(code, i, drive, nesting, skips);
+            short_drives::check(code, i, drive, (nesting, skips), out);
             jumped_over.note(code, i, drive, (pointers, nesting), out);
         }
     }
@@ -115,6 +120,8 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let mut inert = inert::Inert::new(code, &modules, &roles);
     let mut doubtful = doubtful::Doubtful::default();
     let mut undefined = undefined::Undefined::default();
+    let mut reserved = reserved::Reserved::default();
+    let mut idle_counters = idle_counters::IdleCounters::default();
     for i in 0..code.len {
         modules.check(code, i, out);
         operation_errors::check(code, i, out);
@@ -130,6 +137,8 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             inert.note(code, i, &access);
             doubtful.note(code, &access);
             undefined.note(code, &access);
+            reserved.note(code, i, &access);
+            idle_counters.note(code, i, &access);
         }
     }
     unused.report(out);
@@ -141,6 +150,8 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     inert.report(out);
     doubtful.report(code, out);
     undefined.report(code.model(), out);
+    reserved.report(code, out);
+    idle_counters.report(code, out);
 }
 
 /// The part of a program that is run: up to and with its first END.

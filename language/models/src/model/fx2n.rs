@@ -72,6 +72,7 @@ pub(super) const FX2N: Model = Model {
     max_for: 5,
     max_call: 5,
     axis_defaults: &[],
+    reserved: &[],
     index_aliases: INDEX_ALIASES,
     special: &[
         mitsubishi::ALL,

@@ -59,6 +59,7 @@ pub(super) const HM: Model = Model {
     max_call: 8,
     // hm-motion-controller §8.2.3.
     axis_defaults: &[(UNIT, 10), (HIGHEST, 1000), (ACCELERATION, 100)],
+    reserved: RESERVED,
     index_aliases: INDEX_ALIASES,
     special: &[special::HM],
     cleared_in_stop: &[],
@@ -267,6 +268,33 @@ const RANGES: &[Range] = joined! {Range:
     ],
     NESTS,
 };
+
+/// Registers that the manual keeps for the system (hm-motion-controller §5.1), and those of output axes (§8.2.3). Those
+/// of input axes (D213 to D249, D263 to D299) are not among them: its own examples take D220 and D230 for counts of a
+/// master (§8.3.5, §8.4.1, §8.4.4).
+const RESERVED: &[(u32, u32)] = &[
+    (0, 79),
+    (98, 199),
+    (317, 317),
+    (325, 325),
+    (328, 349),
+    (367, 367),
+    (375, 375),
+    (378, 399),
+    (417, 417),
+    (425, 425),
+    (428, 449),
+    (467, 467),
+    (475, 475),
+    (478, 499),
+    (517, 517),
+    (525, 525),
+    (528, 549),
+    (567, 567),
+    (575, 575),
+    (578, 599),
+    (600, 999),
+];
 
 /// Timers. They continue counting past the preset.
 const TIMERS: &[Timers] = &[
