@@ -120,7 +120,7 @@ impl Fitting<'_, '_> {
                 let count = count.and_then(|count| u32::try_from(count + i64::from(extra)).ok());
                 count.unwrap_or(1)
             }
-            Extent::Of(count) => count(&self.constants).unwrap_or(1),
+            Extent::Of(count) | Extent::Bits(count) => count(&self.constants).unwrap_or(1),
         }
     }
 

@@ -358,7 +358,7 @@ pub(super) fn extents<'o>(
         if let Extent::Through(last) = param.extent {
             return through(&operand.kind, &operands.get(last)?.kind);
         }
-        let elements = elements(param, &constants)?;
+        let elements = elements(param.extent_of(&operand.kind), &constants)?;
         Some(elements.saturating_mul(unit(param, &operand.kind, form)))
     })
 }
@@ -373,8 +373,8 @@ fn through(first: &OperandKind, last: &OperandKind) -> Option<u32> {
     }
 }
 
-fn elements(param: &Param, constants: &[Option<i64>]) -> Option<u32> {
-    match param.extent {
+fn elements(extent: Extent, constants: &[Option<i64>]) -> Option<u32> {
+    match extent {
         Extent::One => Some(1),
         Extent::Count(count) => Some(count),
         Extent::Between { most, .. } => Some(most),
@@ -382,7 +382,7 @@ fn elements(param: &Param, constants: &[Option<i64>]) -> Option<u32> {
             let count = constants.get(i).copied()??;
             u32::try_from(count.saturating_add(i64::from(extra)).max(1)).ok()
         }
-        Extent::Of(count) => count(constants),
+        Extent::Of(count) | Extent::Bits(count) => count(constants),
         Extent::Through(_) => None,
     }
 }

@@ -11,8 +11,10 @@ use std::ops::RangeInclusive;
 pub(crate) struct Access {
     /// The first device.
     pub(crate) first: Device,
-    /// Number of devices; `None` if it is only known at run time, so that any device of the class may be meant.
+    /// Number of devices, at most; `None` if it is only known at run time, so that any device of the class may be meant.
     pub(crate) count: Option<u32>,
+    /// Number of devices that it takes with any settings.
+    pub(crate) least: Option<u32>,
     /// Number of devices per value: 2 for a 32-bit value in registers.
     pub(crate) each: u32,
     /// Kind of access.
@@ -29,6 +31,7 @@ impl Access {
         Access {
             first,
             count: Some(1),
+            least: Some(1),
             each: 1,
             role: Role::ReadWrite,
             indexed: false,
@@ -83,6 +86,7 @@ fn of_zone(access: Access) -> Access {
     match zone_table(access.first) {
         Some(_) => Access {
             count: Some(1),
+            least: Some(1),
             ..access
         },
         None => access,
@@ -111,9 +115,15 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
         None => 1,
     };
     let values = values(operands, operand, param).filter(|_| !indexed);
+    let count = values.map(|values| values.saturating_mul(each));
+    let least = match param.extent {
+        Extent::Between { least, .. } => count.map(|_| least.saturating_mul(each)),
+        _ => count,
+    };
     Some(Access {
         first,
-        count: values.map(|values| values.saturating_mul(each)),
+        count,
+        least,
         each,
         role: param.role,
         indexed,
@@ -124,14 +134,14 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
 /// Number of values of an operand, if known.
 fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32> {
     let constant = |operand: &Operand| operand.kind.constant();
-    match param.extent {
+    match param.extent_of(&operand.kind) {
         Extent::One => Some(1),
         Extent::Count(count) | Extent::Between { most: count, .. } => Some(count),
         Extent::Operand { i, extra } => {
             let count = constant(operands.get(i)?)?.checked_add(i64::from(extra))?;
             u32::try_from(count).ok()
         }
-        Extent::Of(count) => {
+        Extent::Of(count) | Extent::Bits(count) => {
             let constants: Vec<_> = operands.iter().map(constant).collect();
             count(&constants)
         }

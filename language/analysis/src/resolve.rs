@@ -15,7 +15,7 @@ use mnemonic::{Fit, Match};
 use rungc_catalogue::{Basic, Drive, Form, Found, Inst, Join, Lower, Param};
 use rungc_models::{ErrorNumbers, Model};
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
+    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program, Severity,
 };
 
 /// Resolution of one instruction.
@@ -27,6 +27,8 @@ pub struct Resolution {
     /// True if `inst` is only a guess, by which the structure of the program is judged; the error in the instruction
     /// was reported.
     pub meant: bool,
+    /// True if an error in its operands was reported.
+    pub wrong: bool,
     /// Implementation on the model; `None` if there is no row.
     pub lower: Option<Lower>,
     /// Its form.
@@ -50,6 +52,7 @@ impl Resolution {
         Resolution {
             inst: None,
             meant: false,
+            wrong: false,
             lower: None,
             form: Form::default(),
             params: &[],
@@ -149,6 +152,10 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
                 diagnostics.extend(fraction);
             }
         }
+        let found_here = diagnostics.iter().skip(before);
+        let wrong = found_here
+            .clone()
+            .any(|found| found.severity == Severity::Error);
         let known = !meant && !instr.is_broken();
         if fit == Fit::Good && known && diagnostics.len() == before {
             lengths.instr(i, found, written, &mut diagnostics);
@@ -156,6 +163,7 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
         instrs.push(Resolution {
             inst: Some(inst),
             meant,
+            wrong,
             lower: Some(inst.lower_on_model(model.id)),
             form,
             params,

@@ -75,6 +75,11 @@ const ROOT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA_PLACES)), dst("D", DATA_P
 const TO_FLOAT: &[Param] = &[src("S", DATA_PLACES), real_out("D", DATA_PLACES)];
 const TO_FLOAT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 
+/// The constant n, operand 2.
+fn n_bits(constants: &[Option<i64>]) -> Option<u32> {
+    Some(constant(constants, 2)?.max(1))
+}
+
 /// Two to the power of the constant n, operand 2.
 fn bits_of_n(constants: &[Option<i64>]) -> Option<u32> {
     1u32.checked_shl(constant(constants, 2)?)
@@ -117,15 +122,15 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[
-            mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).per(2),
-            mixed_out("D", COILS.or(PLACES)).len_of(bits_of_n),
+            mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).bits_of(n_bits),
+            mixed_out("D", COILS.or(PLACES)).bits_of(bits_of_n),
             src("n", CONSTANTS)
                 .word()
                 .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(1, 4)]),
         ])
         .variants(&[on(FX).takes(&[
-            mixed("S", VALUE_OR_BITS.or(CONSTANTS)).per(2),
-            mixed_out("D", COILS.or(PLACES)).len_of(bits_of_n),
+            mixed("S", VALUE_OR_BITS.or(CONSTANTS)).bits_of(n_bits),
+            mixed_out("D", COILS.or(PLACES)).bits_of(bits_of_n),
             CODED_BITS.rules(&[at_most_4_of_a_word!(1)]),
         ])])
         .call(RtFn::Deco)
@@ -139,14 +144,14 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[
-            mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
+            mixed("S", VALUE_OR_BITS).bits_of(bits_of_n),
             dst("D", PLACES.or(INDEX)),
             src("n", CONSTANTS)
                 .word()
                 .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(0, 4)]),
         ])
         .variants(&[on(FX).takes(&[
-            mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
+            mixed("S", VALUE_OR_BITS).bits_of(bits_of_n),
             dst("D", PLACES.or(INDEX)),
             CODED_BITS.rules(&[at_most_4_of_a_word!(0)]),
         ])])

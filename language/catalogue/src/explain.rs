@@ -154,6 +154,9 @@ fn meaning(param: &Param, params: &[Param]) -> String {
         }
         Extent::Through(i) => text += &format!("; up to {}", name(i)),
         Extent::Of(_) => text += "; more devices starting with it, depending on the operands",
+        Extent::Bits(_) => {
+            text += "; more bits starting with it, depending on the operands, or one word"
+        }
     }
     if param.limits != Limits::None {
         text += &format!("; {}", param.limits.in_words(""));

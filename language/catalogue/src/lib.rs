@@ -102,6 +102,8 @@ pub enum Extent {
     /// As many as this function of the operands' constants says (`None` for an operand that is none); `None`: to the
     /// class's end.
     Of(fn(&[Option<i64>]) -> Option<u32>),
+    /// As many bits as such a function says, all of them in one word if the operand is a word.
+    Bits(fn(&[Option<i64>]) -> Option<u32>),
 }
 
 /// Steps that a text of any length takes beyond those of two bytes: two for each two more, as GX Works2 counts them. A
@@ -205,6 +207,14 @@ pub struct Param {
 }
 
 impl Param {
+    /// Extent of an operand: a word holds all bits of [`Extent::Bits`].
+    pub fn extent_of(&self, operand: &OperandKind) -> Extent {
+        match self.extent {
+            Extent::Bits(_) if !row::BITS.meets(Classes::of(operand)) => Extent::One,
+            extent => extent,
+        }
+    }
+
     /// Numbers that devices of these classes must have on a model, first to last.
     pub fn numbers_on(&self, model: &Model) -> &'static [(DeviceClass, u32, u32)] {
         match (self.numbers, self.keeps_position) {

@@ -334,6 +334,12 @@ impl Param {
         Param { extent, ..self }
     }
 
+    /// It occupies as many bits as this function of the operands' constants says, or a word that holds them.
+    pub(super) const fn bits_of(self, count: fn(&[Option<i64>]) -> Option<u32>) -> Self {
+        let extent = Extent::Bits(count);
+        Param { extent, ..self }
+    }
+
     /// Parameter whose extent is known only at run time.
     pub(super) const fn open_ended(self) -> Self {
         self.len_of(|_| None)

@@ -231,7 +231,7 @@ super::codes! {
 
     UNDEFINED_SPECIAL = "W0302" "undefined-special" Warning None,
     "special device without a meaning on the model",
-    "The manual of the model gives this special relay or register no meaning, so nothing sets, clears or reads it but the program: a contact of it never changes. It may belong to another model, or be misspelt. Runs of more than 32 devices, which a program clears or copies as a whole, are not reported.",
+    "The manual of the model gives this special relay or register no meaning, so nothing sets, clears or reads it but the program: a contact of it never changes. It may belong to another model, or be misspelt. Of a run of devices or a group of bits, which a program clears or copies as a whole, only the first is looked at; runs of more than 32 are not reported.",
     wrong: "LD M8010\nOUT Y0\nEND\n",
     right: "LD M8013\nOUT Y0\nEND\n";
 

@@ -25,7 +25,7 @@ fn result(inst: &Inst, param: &Param, operands: &[Operand], operand: &Operand) -
         Extent::One => 1,
         Extent::Count(count) | Extent::Between { most: count, .. } => i64::from(count),
         Extent::Operand { i, extra } => operands[i].kind.constant()? + i64::from(extra),
-        Extent::Through(_) | Extent::Of(_) => return None,
+        Extent::Through(_) | Extent::Of(_) | Extent::Bits(_) => return None,
     };
     let bit = matches!(device.class, DeviceClass::Y | DeviceClass::M);
     // BMOV goes forwards where nothing switches M8024 on.

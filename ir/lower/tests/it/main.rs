@@ -16,3 +16,4 @@ mod resets;
 mod serial;
 mod warnings;
 mod worst;
+mod zones;

@@ -67,6 +67,9 @@ fn parts_of_results() {
             "LD X0 / DMOV D5 D0 / RST D1 / FMOV K0 D0 K2 / ZRST D0 D1",
             // Read, copied whole, or side by side.
             "LD X0 / MUL D0 D1 D10 / MOV D11 D20",
+            // The digits of a number: each remainder is divided on.
+            "LD X0 / DIV D0 K100 D10 / DIV D11 K10 D11",
+            "LD X0 / DIV D0 D1 D10 / SUB D11 K1 D11",
             "LD X0 / DMOV D0 D108 / BMOV D200 D100 K10",
             "LD X0 / DMOV D0 D2 / MOV D5 D4 / MOV D6 D1",
             // A pair that another pair overlaps has a separate warning.

@@ -172,7 +172,7 @@ fn sites(code: &Code, pointers: &Pointers, nesting: &Nesting, skips: &Skips) -> 
             continue;
         }
         let place = nesting.of(i);
-        let inside = place.in_zone || (place.inner_loop, place.state) != (NONE, NONE);
+        let inside = (place.inner_loop, place.state) != (NONE, NONE);
         let once = !code.resolved.instrs[i].form.pulse && !inside;
         let when = match (drive.lasts, drive.contact, jumps.only()) {
             _ if !once => When::Other,

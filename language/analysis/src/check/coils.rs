@@ -83,9 +83,7 @@ fn others(
         if code.basic(i).is_some() {
             continue;
         }
-        let each_time = drive.lasts == Lasts::Always
-            && !code.resolved.instrs[i].form.pulse
-            && !places.nesting.of(i).in_zone;
+        let each_time = drive.lasts == Lasts::Always && !code.resolved.instrs[i].form.pulse;
         // A value that is cleared first may be put together afterwards.
         let is_lost = !clears(code, i);
         for access in results(code, i) {

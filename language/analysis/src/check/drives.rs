@@ -1,4 +1,5 @@
-//! Drives of instructions: the contacts before each, as far as they are known independently of their devices' values.
+//! Drives of instructions: the contacts before each, and those of the master controls around it, as far as they are
+//! known independently of their devices' values.
 
 use super::{Code, Part};
 use rungc_catalogue::{Basic, Join, Lower};
@@ -13,6 +14,8 @@ pub(super) struct Drive {
     pub(super) signature: u64,
     /// Duration of its result.
     pub(super) lasts: Lasts,
+    /// The same without the master controls around it.
+    pub(super) in_zone: Lasts,
     /// The device of the contact, if it is only one, and true if it is normally open.
     pub(super) contact: Option<(Device, bool)>,
 }
@@ -37,12 +40,15 @@ pub(super) struct Drives {
     branches: Vec<Drive>,
     /// Relays that are known to be on for one scan.
     pulses: FxHashSet<Device>,
+    /// Open master controls: the level of each, and the drive of its zone.
+    zones: Vec<(u32, Drive)>,
 }
 
 /// The left bus bar.
 const BUS: Drive = Drive {
     signature: 0,
     lasts: Lasts::Always,
+    in_zone: Lasts::Always,
     contact: None,
 };
 
@@ -74,14 +80,46 @@ impl Drives {
                 let branch = self.branches.pop();
                 self.replace(branch);
             }
-            Part::Output => return Some(self.top()),
+            Part::Output => {
+                let drive = self.in_zone(self.top());
+                if code.basic(i) == Some(Basic::Mc) {
+                    self.zones.push((level(code, i), drive));
+                }
+                return Some(drive);
+            }
             Part::Alone | Part::Unknown => {
                 self.stack.clear();
                 self.branches.clear();
+                self.end_zones(code, i);
             }
             Part::Nothing => {}
         }
         None
+    }
+
+    /// A drive together with that of the zone that it is in.
+    fn in_zone(&self, drive: Drive) -> Drive {
+        match self.zones.last() {
+            Some((_, zone)) => Drive {
+                in_zone: drive.lasts,
+                ..zone.with(drive, true)
+            },
+            None => drive,
+        }
+    }
+
+    /// Leaves the zones that instruction `i` ends.
+    fn end_zones(&mut self, code: &Code, i: usize) {
+        match code.basic(i) {
+            Some(Basic::Mcr) => {
+                let ended = level(code, i);
+                self.zones.retain(|&(level, _)| level < ended);
+            }
+            Some(Basic::Fend | Basic::End | Basic::Sret | Basic::Iret | Basic::Pret) => {
+                self.zones.clear();
+            }
+            _ => {}
+        }
     }
 
     fn top(&self) -> Drive {
@@ -100,10 +138,11 @@ impl Drives {
             Some(Basic::Or | Basic::Ori) => false,
             // An edge, a comparison or a change of the result.
             _ => {
-                let signature = hashed(&(result.signature, signature(code, i)));
+                let lasts = changed(result.lasts, code, i);
                 return Drive {
-                    signature,
-                    lasts: changed(result.lasts, code, i),
+                    signature: hashed(&(result.signature, signature(code, i))),
+                    lasts,
+                    in_zone: lasts,
                     contact: None,
                 };
             }
@@ -119,6 +158,7 @@ impl Drives {
         match is_pulse {
             true => Drive {
                 lasts: Lasts::Once,
+                in_zone: Lasts::Once,
                 ..drive
             },
             false => drive,
@@ -159,9 +199,15 @@ impl Drive {
         Drive {
             signature,
             lasts,
+            in_zone: lasts,
             contact,
         }
     }
+}
+
+/// The level of a master control, or of its end.
+fn level(code: &Code, i: usize) -> u32 {
+    code.device(i, 0).map_or(0, |level| level.number)
 }
 
 /// The contact of an instruction by itself.
@@ -209,6 +255,7 @@ fn contact(code: &Code, i: usize) -> Drive {
     Drive {
         signature,
         lasts,
+        in_zone: lasts,
         contact: code.device(i, 0).zip(normally_open),
     }
 }

@@ -50,10 +50,11 @@ impl<'a> Inert<'a> {
 
     /// Takes an access of instruction `i`.
     pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
-        let Some(count) = access.count.filter(|&count| count <= MAX_RUN) else {
+        let Some(count) = access.least.filter(|&count| count <= MAX_RUN) else {
             return;
         };
         let first = access.first.number;
+        let mut before = None;
         for number in first..first.saturating_add(count) {
             let device = Device {
                 number,
@@ -63,7 +64,12 @@ impl<'a> Inert<'a> {
                 continue;
             };
             let inert = row.status.inert(&self.fitted);
-            let Some(reason) = inert.or_else(|| self.in_role(row, access)) else {
+            let reason = inert.or_else(|| self.in_role(row, access));
+            // Both words of a value are one finding.
+            let is_upper = access.each == 2 && (number - first) % 2 == 1;
+            let is_same = is_upper && before == reason;
+            before = reason;
+            let Some(reason) = reason.filter(|_| !is_same) else {
                 continue;
             };
             let used = self.used.entry(device).or_insert_with(|| Used {

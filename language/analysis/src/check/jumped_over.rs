@@ -28,14 +28,18 @@ impl JumpedOver {
         let runs = i >= self.until && nesting.of(i).routine != Routine::Nothing;
         let Some(device) = code
             .device(i, 0)
-            .filter(|_| jump && runs && drive.lasts == Lasts::Always)
+            .filter(|_| jump && runs && drive.in_zone == Lasts::Always)
         else {
             return;
         };
         let label = pointers
             .get(device)
             .and_then(|pointer| pointer.labels.first());
+        let zones = |i: usize| matches!(code.basic(i), Some(Basic::Mc | Basic::Mcr));
         match label {
+            // A loop in one zone goes on once the zone runs.
+            Some(&label) if label < i && !(label..i).any(zones) => backward(code, label, i, out),
+            _ if drive.lasts != Lasts::Always => {}
             Some(&label) if label < i => backward(code, label, i, out),
             Some(&label) => self.forward(code, (i, label), pointers, out),
             None if code.model().end_pointer == Some(device.number) => {

@@ -123,17 +123,23 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     let mut reserved = reserved::Reserved::default();
     let mut idle_counters = idle_counters::IdleCounters::default();
     for i in 0..code.len {
+        unused.note_broken(i);
+        for access in code.accesses(i) {
+            unused.note(i, &access);
+            resets.note(code, i, &access);
+        }
+        // What is wrong with its operands was reported as an error.
+        if code.resolved.instrs[i].wrong {
+            continue;
+        }
         modules.check(code, i, out);
         operation_errors::check(code, i, out);
         groups::check(code, i, out);
         indexed_counters::check(code, i, out);
         writes::check(code, i, &roles, out);
-        unused.note_broken(i);
         for access in code.accesses(i) {
-            unused.note(i, &access);
             pairs.note(&access);
             overlaps.note(code, i, &access);
-            resets.note(code, i, &access);
             inert.note(code, i, &access);
             doubtful.note(code, &access);
             undefined.note(code, &access);

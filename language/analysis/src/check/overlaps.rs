@@ -4,7 +4,7 @@
 
 use super::Code;
 use crate::accesses::Access;
-use rungc_catalogue::{ArithOp, Basic, Lower};
+use rungc_catalogue::{ArithOp, Basic, Lower, Role};
 use rungc_models::runs::is_special;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
@@ -19,13 +19,23 @@ struct Result {
     each: u32,
 }
 
+/// A write to a register that may be part of a result.
+#[derive(Clone, Copy)]
+struct Part {
+    at: usize,
+    span: Span,
+    /// True if the register is a source of the instruction, too.
+    uses: bool,
+}
+
 /// Collects the registers that instructions write.
 #[derive(Default)]
 pub(super) struct Overlaps {
     /// Results of several words by their first register; the longest, where several begin there.
     results: FxHashMap<Device, Result>,
-    /// By its first register, the first thing written there that is shorter than a result and not 0.
-    parts: FxHashMap<Device, (usize, Span)>,
+    /// By its first register, the first thing written there that is shorter than a result and not 0; one that does not
+    /// take the register as a source, if there is any.
+    parts: FxHashMap<Device, Part>,
     /// Blocks that are written as a whole, with their lengths.
     blocks: Vec<(Device, u32, usize, Span)>,
 }
@@ -61,14 +71,25 @@ impl Overlaps {
                     *known = result;
                 }
                 if count == 2 {
-                    self.parts.entry(first).or_insert((i, span));
+                    self.note_part(code, i, access);
                 }
             }
-            0 | 1 => {
-                self.parts.entry(first).or_insert((i, span));
-            }
+            0 | 1 => self.note_part(code, i, access),
             2..=MAX_RESULT => {}
             _ => self.blocks.push((first, count, i, span)),
+        }
+    }
+
+    fn note_part(&mut self, code: &Code, i: usize, access: &Access) {
+        let mut sources = code.accesses(i).filter(|source| source.role == Role::Read);
+        let part = Part {
+            at: i,
+            span: access.span,
+            uses: sources.any(|source| source.devices().contains(&access.first)),
+        };
+        let known = self.parts.entry(access.first).or_insert(part);
+        if known.uses && !part.uses {
+            *known = part;
         }
     }
 
@@ -79,7 +100,11 @@ impl Overlaps {
             let inside = (1..result.words).find_map(|offset| {
                 let number = first.number.checked_add(offset)?;
                 let device = Device { number, ..first };
-                let &(at, span) = self.parts.get(&device)?;
+                let &Part { at, span, uses } = self.parts.get(&device)?;
+                // A remainder that is replaced by what is made of it, as the digits of a number are.
+                if uses && is_remainder(code, result, offset) {
+                    return None;
+                }
                 // Two pairs, which have a separate warning.
                 let pairs = self
                     .results
@@ -91,7 +116,7 @@ impl Overlaps {
             let composed = self
                 .parts
                 .get(&first)
-                .is_some_and(|&(at, _)| at != result.at);
+                .is_some_and(|part| part.at != result.at);
             if let Some((device, at, span)) = inside.filter(|_| !composed) {
                 found.push(overwritten(code, (first, result), device, at, span));
             }
@@ -129,6 +154,15 @@ fn divides_or_multiplies(code: &Code, i: usize) -> bool {
         _ => return false,
     };
     matches!(op, ArithOp::Mul | ArithOp::Div)
+}
+
+/// Returns true if a word of a result belongs to the remainder of a division.
+fn is_remainder(code: &Code, result: &Result, offset: u32) -> bool {
+    let divides = matches!(
+        code.lower(result.at),
+        Some(Lower::Arith(ArithOp::Div) | Lower::ArithSaturating(ArithOp::Div))
+    );
+    divides && offset >= result.words / 2
 }
 
 /// Returns true if an instruction sets its target to 0, as is done before a value is put together.

@@ -7,6 +7,7 @@ mod areas;
 mod choices;
 mod facts;
 mod findings;
+mod first_scan;
 mod roles;
 
 use super::Code;

@@ -21,8 +21,6 @@ pub(super) struct Enclosing {
     pub(super) inner_loop: u32,
     /// The STL of the state it belongs to.
     pub(super) state: u32,
-    /// True if it is in a zone of master control.
-    pub(super) in_zone: bool,
 }
 
 /// Routine of an instruction.
@@ -138,7 +136,6 @@ impl Walk<'_, '_> {
             routine: self.routine,
             inner_loop: self.loops.last().copied().unwrap_or(NONE),
             state: self.state,
-            in_zone: self.open.iter().any(|open| open.kind == Kind::Mc),
         }
     }
 

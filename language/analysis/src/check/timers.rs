@@ -50,13 +50,14 @@ fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnost
         let diagnostic = codes::TIMER_IN_ROUTINE
             .at(code.span(i), message)
             .label("measures incorrectly if not every scan does")
-            .help(instead(model, kind.unit_ms, subroutine));
+            .help(instead(model, kind.unit_ms, kind.accumulating, subroutine));
         out.push(diagnostic);
     }
 }
 
-/// What to do instead of driving a timer that counts units of this many milliseconds in a routine.
-fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
+/// What to do instead of driving a timer that counts units of this many milliseconds in a routine, and may keep its
+/// value.
+fn instead(model: &Model, unit_ms: u16, accumulating: bool, subroutine: bool) -> String {
     let named = |timers: &Timers| {
         let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
         format!("{first} to {last}")
@@ -74,6 +75,13 @@ fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
         };
         return format!("drive it in the main program{call}");
     };
+    if let (true, Some(fine)) = (accumulating, fine) {
+        return format!(
+            "{} continue by themselves and keep their value until RST, too, but count 1 ms: convert a preset given in \
+             {unit_ms} ms units",
+            named(fine)
+        );
+    }
     if unit_ms == 100 {
         return format!("{free} continue by themselves in scans that do not run their coils");
     }

@@ -30,10 +30,13 @@ struct Use {
 impl Undefined {
     /// Takes an access.
     pub(super) fn note(&mut self, code: &Code, access: &Access) {
-        let Some(count) = access.count.filter(|&count| count <= MAX_RUN) else {
+        let Some(count) = access.least.filter(|&count| count <= MAX_RUN) else {
             return;
         };
         let (class, first) = (access.first.class, access.first.number);
+        // A group or a run that begins elsewhere is meant as a whole.
+        let is_run = count > access.each || access.each > 2;
+        let count = if is_run { 1 } else { count };
         let numbers = first..first.saturating_add(count);
         let lacks = |number| {
             code.model().has(class, number) && code.model().special(class, number).is_none()

@@ -14,7 +14,7 @@ const MAX_RUN: u32 = 32;
 /// Warns of an instruction that writes special devices that are there to be read.
 pub(super) fn check(code: &Code, i: usize, roles: &Roles, out: &mut Diagnostics) {
     let written = |access: Access| {
-        let count = access.count.filter(|_| access.writes())?;
+        let count = access.least.filter(|_| access.writes())?;
         let count = if count > MAX_RUN { 1 } else { count };
         let Device { class, number } = access.first;
         if !is_special(class, number) {

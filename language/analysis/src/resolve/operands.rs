@@ -9,6 +9,7 @@ use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Diagnostics, Fix, Index, Instr, Operand, OperandKind,
     Span, codes,
 };
+use std::borrow::Cow;
 
 /// Checks operands for one model.
 pub(super) struct Checker {
@@ -202,7 +203,7 @@ impl Checker {
                 codes::NOT_INDEXABLE
                     .at(span, message)
                     .label(format!("`{index}` is not allowed here"))
-                    .help("name the device directly, or copy the indexed one first: `MOV`, `BMOV`"),
+                    .help(without_index(&operand.kind, &matched.instr.mnemonic)),
             );
         }
         let pair = matched.found.form.wide && self.model.z_pairs_with_v;
@@ -348,7 +349,8 @@ impl Checker {
             return None;
         }
         let class = device.class;
-        let values = extent(&matched.instr.operands, param);
+        let kind = OperandKind::Device(device, None);
+        let values = extent(&matched.instr.operands, param.extent_of(&kind));
         let each = match class {
             _ if each > 1 => each,
             DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
@@ -389,7 +391,8 @@ impl Checker {
         index: Option<Index>,
         param: &Param,
     ) -> Option<Diagnostic> {
-        let bits = extent(&matched.instr.operands, param);
+        let kind = OperandKind::WordBit(device, bit, None);
+        let bits = extent(&matched.instr.operands, param.extent_of(&kind));
         let words = words_of_bits(bit & 15, bits);
         let end = self.end_of_run(device.class, device.number)?;
         let last = device.number.saturating_add(words - 1);
@@ -465,8 +468,8 @@ fn words(found: Found, param: &Param) -> u32 {
 }
 
 /// Number of values of an operand; an unknown number counts as one.
-fn extent(operands: &[Operand], param: &Param) -> u32 {
-    match param.extent {
+fn extent(operands: &[Operand], extent: Extent) -> u32 {
+    match extent {
         Extent::One | Extent::Through(_) => 1,
         Extent::Count(count) => count,
         Extent::Between { least, .. } => least,
@@ -475,7 +478,7 @@ fn extent(operands: &[Operand], param: &Param) -> u32 {
             .and_then(|operand| operand.kind.constant())
             .and_then(|count| u32::try_from(count + i64::from(extra)).ok())
             .unwrap_or(1),
-        Extent::Of(count) => {
+        Extent::Of(count) | Extent::Bits(count) => {
             let constants = operands.iter().map(|operand| operand.kind.constant());
             let constants: Vec<_> = constants.collect();
             count(&constants).unwrap_or(1)
@@ -501,6 +504,18 @@ fn numbers(span: Span, device: Device, param: &Param, model: &Model) -> Option<D
 /// Number of bits in a value of an operand.
 fn bits(found: Found, param: &Param) -> u32 {
     16 * words(found, param)
+}
+
+/// What to do instead of giving an operand an index.
+fn without_index(kind: &OperandKind, mnemonic: &str) -> Cow<'static, str> {
+    let class = device_of(kind).map(|device| device.class);
+    match class {
+        Some(DeviceClass::P | DeviceClass::I) => format!(
+            "name the pointer directly: one `{mnemonic}` for each, under a comparison of the index register"
+        )
+        .into(),
+        _ => "name the device directly, or copy the indexed one first: `MOV`, `BMOV`".into(),
+    }
 }
 
 /// An index register goes with other devices, not with index registers (h1u-h2u-programming §3.8).

@@ -26,7 +26,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8019 r 0 scan "the clock was set to an invalid date or time";
     M 8020 r 0 by("arithmetic") "zero flag";
     M 8021 r 0 by("arithmetic") "borrow flag: the result was too small";
-    M 8022 r 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
+    M 8022 rw 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
     M 8024 rw 0 by("BMOV") "BMOV copies from D to S";
     M 8026 rw 0 by("RAMP") "RAMP holds the final value";
     M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
@@ -63,7 +63,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8126 r 0 by("serial ports") "computer link: global signal";
     M 8127 r 0 by("serial ports") "computer link: on-demand data is being sent";
     M 8128 r(LINK_1) 0 by("serial ports") "computer link: on-demand data is wrong";
-    M 8129 r(LINK_1) 0 by("serial ports") "time-out of RS; computer link: on-demand data is characters, not words";
+    M 8129 rw 0 by("serial ports") "time-out of RS; computer link: on-demand data is characters, not words";
     M 8162 rw 0 by("serial ports") "fast mode of the parallel link";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
     M 8235-8245 rw 0 by("OUT C") "C235–C245 count down";

@@ -1,8 +1,7 @@
 //! The constants that a program writes to the registers and relays of its ports.
 
-use super::super::pointers::Pointers;
-use super::super::skips::Skips;
-use super::super::{Code, Part};
+use super::super::Code;
+use super::first_scan::{First, first_scan};
 use crate::accesses;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
@@ -27,6 +26,8 @@ pub(super) struct Write {
     pub(super) value: Option<u16>,
     /// True if it is executed in the first scan, whatever the devices of the program hold.
     pub(super) first_scan: bool,
+    /// The only contact on which that depends, and true if it is normally open.
+    pub(super) contact: Option<(Device, bool)>,
 }
 
 /// Set-up by UINIT.
@@ -52,7 +53,7 @@ impl Uinit {
 /// All that is written.
 pub(super) struct Facts {
     model: &'static Model,
-    /// By the register's or relay's device, in the order of the program.
+    /// By the register's or relay's device, in the order of the first scan.
     writes: BTreeMap<Device, Vec<Write>>,
     /// Registers that are written through an index, each with a set-up register near it and the place of the operand.
     pub(super) indexed: Vec<(Device, Device, Span)>,
@@ -110,16 +111,21 @@ impl Facts {
             indexed_relays: BTreeSet::new(),
             uinit: BTreeMap::new(),
         };
-        let mut when = When::new(code);
-        for i in 0..code.len {
-            let first_scan = when.next(code, i);
-            facts.note(code, i, first_scan, &watched);
+        let first_scan = first_scan(code);
+        for (i, first) in first_scan.iter().enumerate() {
+            facts.note(code, i, first, &watched);
         }
+        let order = |write: &Write| {
+            let order = first_scan[write.at].order.clone();
+            order.unwrap_or_else(|| vec![write.at as u32])
+        };
+        let writes = facts.writes.values_mut();
+        writes.for_each(|writes| writes.sort_by_cached_key(order));
         facts
     }
 
     /// Notes what instruction `i` writes.
-    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &BTreeSet<Device>) {
+    fn note(&mut self, code: &Code, i: usize, first: &First, watched: &BTreeSet<Device>) {
         if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
             self.note_uinit(code, i);
         }
@@ -144,7 +150,8 @@ impl Facts {
                 self.writes.entry(device).or_default().push(Write {
                     at: i,
                     value,
-                    first_scan,
+                    first_scan: first.order.is_some(),
+                    contact: first.contact,
                 });
             }
         }
@@ -364,96 +371,6 @@ fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
     };
     found.extend(numbers.zip(each).map(|(n, &word)| (device(n), word)));
     found
-}
-
-/// Decision whether instructions are certain to be executed in the first scan.
-struct When {
-    skips: Skips,
-    stack: Vec<bool>,
-    branches: Vec<bool>,
-    /// In the main program, outside of states and master controls.
-    plain: bool,
-    controls: u32,
-}
-
-impl When {
-    fn new(code: &Code) -> Self {
-        When {
-            skips: Skips::new(code, &Pointers::new(code)),
-            stack: Vec::new(),
-            branches: Vec::new(),
-            plain: true,
-            controls: 0,
-        }
-    }
-
-    /// Takes instruction `i`, the next of the program.
-    fn next(&mut self, code: &Code, i: usize) -> bool {
-        let top = self.stack.last().copied().unwrap_or(true);
-        match code.part(i) {
-            Part::Start => self.stack.push(is_on_first(code, i)),
-            Part::Continue => {
-                let result = match code.basic(i) {
-                    Some(Basic::And | Basic::Ani) => top && is_on_first(code, i),
-                    Some(Basic::Or | Basic::Ori) => top || is_on_first(code, i),
-                    _ => false,
-                };
-                self.replace(result);
-            }
-            part @ (Part::JoinSeries | Part::JoinParallel) => {
-                self.stack.pop();
-                let left = self.stack.last().copied().unwrap_or(true);
-                self.replace(match part {
-                    Part::JoinSeries => left && top,
-                    _ => left || top,
-                });
-            }
-            Part::Push => self.branches.push(top),
-            Part::Read => {
-                let branch = self.branches.last().copied().unwrap_or(true);
-                self.replace(branch);
-            }
-            Part::Pop => {
-                let branch = self.branches.pop().unwrap_or(true);
-                self.replace(branch);
-            }
-            Part::Alone | Part::Unknown => {
-                self.stack.clear();
-                self.branches.clear();
-            }
-            Part::Output | Part::Nothing => {}
-        }
-        match code.basic(i) {
-            Some(Basic::Stl | Basic::Fend | Basic::End) => self.plain = false,
-            Some(Basic::Ret) => self.plain = true,
-            Some(Basic::Mc) => self.controls += 1,
-            Some(Basic::Mcr) => self.controls = self.controls.saturating_sub(1),
-            _ => {}
-        }
-        top && self.plain && self.controls == 0 && self.skips.mark(i) == 0
-    }
-
-    fn replace(&mut self, result: bool) {
-        self.stack.pop();
-        self.stack.push(result);
-    }
-}
-
-/// Returns true if a contact is on in the first scan.
-fn is_on_first(code: &Code, i: usize) -> bool {
-    let Some(device) = code
-        .device(i, 0)
-        .filter(|device| device.class == DeviceClass::M)
-    else {
-        return false;
-    };
-    match code.basic(i) {
-        Some(Basic::Ld | Basic::And | Basic::Or | Basic::Ldp) => {
-            matches!(device.number, 8000 | 8002)
-        }
-        Some(Basic::Ldi | Basic::Ani | Basic::Ori) => matches!(device.number, 8001 | 8003),
-        _ => false,
-    }
 }
 
 /// The special devices of a port; all others are 0.

@@ -158,7 +158,12 @@ impl Port<'_> {
         let relays = self.wiring.setup_relays().map(m);
         for device in protocol.into_iter().chain(relays) {
             let writes = self.facts.writes(device);
-            let in_time = writes.iter().any(|write| write.first_scan);
+            // A switch and its inverse may choose one of two protocols.
+            let either = writes.iter().any(|write| {
+                let inverse = write.contact.map(|(device, open)| (device, !open));
+                inverse.is_some() && writes.iter().any(|other| other.contact == inverse)
+            });
+            let in_time = either || writes.iter().any(|write| write.first_scan);
             let Some(first) = writes.iter().find(|write| write.value != Some(0)) else {
                 continue;
             };

@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CHECKED, CONTROLLER, HARDWARE, LATCHES, LINK_1, N_SERIES,
-    NETWORK, NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
+    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CHECKED, CONTROLLER, HARDWARE, LATCHES, N_SERIES, NETWORK,
+    NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
 };
 use rungc_rt::modules::Place;
 
@@ -29,7 +29,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8019 r 0 scan "real-time clock error: a value to be set is out of its range";
     M 8020 r 0 by("arithmetic") "zero flag: result of the last operation is 0";
     M 8021 r 0 by("arithmetic") "borrow flag: result below the smallest representable value";
-    M 8022 r 0 by("arithmetic") "carry flag: result above the largest representable value; bit carried out by rotate instructions";
+    M 8022 rw 0 by("arithmetic") "carry flag: result above the largest representable value; bit carried out by rotate instructions";
     M 8024 rw 0 by("BMOV") "BMOV direction: on reverses the transfer (D to S)";
     M 8025 rw 0 by("HSCS, HSCR, HSZ") "HSC mode: on makes HSCS/HSCR/HSZ also act when an external reset input clears the counter";
     M 8026 rw 0 by("RAMP") "RAMP mode (holds final value / single ramp)";
@@ -96,7 +96,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8126 r 0 by("serial ports") "COM1: on when the 485BD card is effective";
     M 8127 r 0 by("serial ports") "COM1: computer link sends on demand (§5.6; reserved in §5.1)";
     M 8128 r 0 by("serial ports") "COM1: range of what computer link is to send on demand is wrong (§5.6; reserved in §5.1)";
-    M 8129 r(LINK_1) 0 by("serial ports") "COM1: time-out; computer link: on-demand data is characters, not words (§5.6)";
+    M 8129 rw 0 by("serial ports") "COM1: time-out; computer link: on-demand data is characters, not words (§5.6)";
     M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
     M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
     M 8132 rw 0 by("HSZ") "HSZ & PLSY speed-pattern mode";

@@ -17,7 +17,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8014 r 0 scan "clock oscillating with 1 min period";
     M 8020 r 0 by("arithmetic") "zero flag: on when an ADD/SUB-type result is 0";
     M 8021 r 0 by("arithmetic") "borrow flag: on when a result is below the type minimum";
-    M 8022 r 0 by("arithmetic") "carry flag: on when a result exceeds the type maximum; shifted-out bit of ROR/ROL/RCR/RCL/SFR/SFL";
+    M 8022 rw 0 by("arithmetic") "carry flag: on when a result exceeds the type maximum; shifted-out bit of ROR/ROL/RCR/RCL/SFR/SFL";
     M 8024 rw 0 by("BMOV") "selects the direction of BMOV (on: copies from D to S, off: S to D)";
     M 8028 rw 0 inert(INTERRUPTS) "on: interrupts may break an instruction that executes";
     M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
