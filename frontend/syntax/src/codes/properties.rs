@@ -33,7 +33,7 @@ super::codes! {
 
     RUNG_NEVER_ACTS = "W0902" "rung-never-acts" Warning None,
     "a rung that can never do anything",
-    "The scan comes to this rung, but its contacts never conduct, so no instruction in it is ever executed. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
+    "The scan comes to this rung, but its contacts never conduct, so nothing in it is ever executed; coils beside it may be on, if they have other contacts. SET, RST and CALL count as any other instruction. `rungc check --deep` has proved it, if only the program writes the devices that it writes: name what a panel writes in rungc.toml, `[hmi] writes = \"D70-D79\"`.",
     wrong: "",
     right: "";
 

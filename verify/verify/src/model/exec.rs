@@ -30,8 +30,9 @@ impl Encoder<'_> {
 
     /// Executes a body; under which condition its end is reached.
     fn run(&mut self, body: &Body, mut guard: Lit) -> Lit {
-        for stmt in body {
+        for (n, stmt) in body.iter().enumerate() {
             if guard == Lit::FALSE {
+                self.note_dead(&body[n..]);
                 break;
             }
             self.statements += 1;

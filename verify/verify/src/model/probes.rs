@@ -2,7 +2,8 @@
 
 use super::Encoder;
 use crate::aig::Lit;
-use rungc_ir::node::{Access, AccessKind, Action, ExprId, Stmt};
+use rungc_ir::node::{Access, AccessKind, Action, Expr, ExprId, Stmt};
+use rungc_ir::walk::statements;
 use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -36,7 +37,8 @@ pub struct Expiry {
 pub struct Rung {
     /// The scan comes to it.
     pub reached: Lit,
-    /// An instruction in it, other than a coil, is executed; `None`: it has no such instruction.
+    /// An instruction in it, other than a coil, is executed; `None`: it has no such instruction. The coil of a counter
+    /// may count as one.
     pub acts: Option<Lit>,
 }
 
@@ -115,10 +117,22 @@ impl Encoder<'_> {
             return;
         };
         let acts = match stmt {
-            Stmt::Do(Action::Write(Access { kind, .. }, _)) => *kind != AccessKind::Bit,
-            Stmt::Do(Action::Block(_) | Action::Call(_) | Action::Send(_) | Action::Fetch(_)) => {
+            Stmt::Do(Action::Write(access, value)) => {
+                // OUT writes its bit whenever the scan comes to it, SET and RST a constant under their contacts.
+                let constant = matches!(self.module.expr(*value), Expr::Bit(_));
+                if access.kind == AccessKind::Bit && !constant {
+                    return;
+                }
                 true
             }
+            Stmt::Do(
+                Action::Block(_)
+                | Action::Call(_)
+                | Action::Send(_)
+                | Action::Fetch(_)
+                | Action::Reset { .. },
+            )
+            | Stmt::CallSub(_) => true,
             Stmt::Network(_) => false,
             _ => return,
         };
@@ -132,6 +146,31 @@ impl Encoder<'_> {
         match acts {
             true => rung.acts = Some(self.aig.or(rung.acts.unwrap_or(Lit::FALSE), guard)),
             false => rung.reached = self.aig.or(rung.reached, guard),
+        }
+    }
+
+    /// Notes statements of the network at hand whose condition is never on.
+    pub(super) fn note_dead(&mut self, body: &[Stmt]) {
+        if self.noted().is_none() {
+            return;
+        }
+        let mut is_here = true;
+        let mut dead = Vec::new();
+        statements(body, &mut |stmt| {
+            is_here &= !matches!(stmt, Stmt::Network(_));
+            dead.extend(is_here.then_some(stmt));
+        });
+        for stmt in dead {
+            self.note_stmt(stmt, Lit::FALSE);
+            if let Stmt::Do(Action::Write(Access { place, kind }, _)) = stmt
+                && (*kind, place.index) == (AccessKind::Bit, None)
+                && matches!(
+                    place.class,
+                    DeviceClass::Y | DeviceClass::M | DeviceClass::S
+                )
+            {
+                self.note_bit((place.class, place.number), Lit::FALSE, Lit::FALSE);
+            }
         }
     }
 

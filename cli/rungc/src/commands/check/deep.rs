@@ -106,6 +106,12 @@ fn clears(instr: &Instr) -> bool {
     found.is_some_and(|found| found.inst.basic() == Some(Basic::Rst) || found.inst.name == "ZRST")
 }
 
+/// Returns true if an instruction writes the result of its contacts, whatever it is.
+fn is_coil(instr: &Instr) -> bool {
+    let coils = [Basic::Out, Basic::Pls, Basic::Plf, Basic::Mc];
+    basic(instr).is_some_and(|basic| coils.contains(&basic))
+}
+
 fn basic(instr: &Instr) -> Option<Basic> {
     rungc_catalogue::find(&instr.mnemonic).and_then(|found| found.inst.basic())
 }
@@ -118,6 +124,8 @@ struct Placed<'a> {
     instr: &'a Instr,
     /// The network of the instruction, by number in the module.
     network: u32,
+    /// True if there are coils in the network.
+    has_coils: bool,
 }
 
 impl Placed<'_> {
@@ -148,6 +156,10 @@ impl Placed<'_> {
             Kind::NeverExpires => format!("`{name}` runs but can never expire"),
             Kind::Oscillates => {
                 format!("`{name}` can change in every scan while no input does")
+            }
+            Kind::NeverActs if self.has_coils => {
+                let mnemonic = &self.instr.mnemonic;
+                format!("`{mnemonic}` can never be executed: its contacts never conduct")
             }
             Kind::NeverActs => {
                 "this rung can never do anything: its contacts never conduct".to_string()
@@ -248,17 +260,19 @@ impl Place<'_> {
                 here.find(writes)?
             }
             Kind::NeverExpires | Kind::Oscillates => here.find(writes)?,
-            Kind::NeverActs => here.find(is_driven)?,
+            Kind::NeverActs => here.filter(is_driven).find(|instr| !is_coil(instr))?,
             Kind::Constant { op, sides, .. } => {
                 drop(here);
                 self.comparison(finding.network, *op, sides)?
             }
         };
+        let network = self.network_of(instr);
         Some(Placed {
             finding,
             device,
             instr,
-            network: self.network_of(instr),
+            network,
+            has_coils: self.instrs(network).any(is_coil),
         })
     }
 

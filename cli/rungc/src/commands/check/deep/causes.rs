@@ -3,6 +3,7 @@
 use super::{Place, Placed, basic, writes};
 use rungc_catalogue::{Basic, Drive};
 use rungc_ir::Module;
+use rungc_models::runs::is_special;
 use rungc_syntax::{Device, DeviceClass, Instr, Program};
 use rungc_verify::deep::Kind;
 use std::collections::BTreeSet;
@@ -114,11 +115,25 @@ impl Place<'_> {
             if more.is_empty() {
                 return found.retain(|placed| {
                     placed.finding.kind == Kind::Oscillates
-                        || !is_intended(placed) && !self.is_meant(placed.network)
+                        || !is_intended(placed)
+                            && !self.is_meant(placed.network)
+                            && !self.is_defensive(placed)
                 });
             }
             off.extend(more);
         }
+    }
+
+    /// Returns true if a rung waits for what the system reports: an error, the end of an instruction. That it never
+    /// happens in this program does no harm.
+    fn is_defensive(&self, placed: &Placed) -> bool {
+        /// Contacts that change in any program: those of the first scan, and clocks.
+        const CHANGING: [u32; 6] = [8002, 8003, 8011, 8012, 8013, 8014];
+        let mut contacts = self.contacts(placed.network).iter();
+        placed.finding.kind == Kind::NeverActs
+            && contacts.any(|(_, device)| {
+                is_special(device.class, device.number) && !CHANGING.contains(&device.number)
+            })
     }
 
     /// Returns true if a contact of M8000 or M8001 in a network never conducts.
@@ -214,6 +229,8 @@ impl Place<'_> {
         }
         match cause.finding.kind {
             Kind::Constant { result: false, .. } => cause.network == of.network,
+            // What the rung switches on.
+            Kind::NeverActs => cause.network == of.network && of.finding.kind == Kind::NeverOn,
             Kind::NeverOn | Kind::NeverReached | Kind::NeverExpires => {
                 let contacts = self.contacts(of.network);
                 contacts
