@@ -534,7 +534,9 @@ impl Lowerer<'_> {
             }
             this.when(resets, |this| {
                 this.reset(place);
-                if let Some(compares_too) = relay(this, M_COMPARE_AT_RESET) {
+                if this.model.special_works(M_COMPARE_AT_RESET)
+                    && let Some(compares_too) = relay(this, M_COMPARE_AT_RESET)
+                {
                     this.when(compares_too, |this| {
                         for compare in compares {
                             this.act(compare);

@@ -318,7 +318,7 @@ fn devices(inst: &Inst, model: ModelId) -> String {
         text.push_str("\n## Special devices\n\n");
         for flag in inst.flags {
             let meaning = special_of(flag, model).map_or("", |row| row.meaning);
-            let _ = writeln!(text, "- {flag}: {meaning}");
+            let _ = writeln!(text, "- {flag}{}: {meaning}", without(inst, flag));
         }
     }
     if !inst.errors.is_empty() {
@@ -328,6 +328,17 @@ fn devices(inst: &Inst, model: ModelId) -> String {
         }
     }
     text
+}
+
+/// The models of an instruction that do not use one of its special devices, in parentheses.
+fn without(inst: &Inst, flag: &str) -> String {
+    let models = ModelId::ALL.into_iter().filter(|&id| inst.models.has(id));
+    let without = models.filter(|&id| inst.flags_on(id).all(|used| used != flag));
+    let names: Vec<_> = without.map(|id| Model::get(id).name).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        names => format!(" (not on {})", names.join(", ")),
+    }
 }
 
 fn special_of(name: &str, model: ModelId) -> Option<&'static special::Special> {

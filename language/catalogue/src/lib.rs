@@ -14,6 +14,7 @@ mod compare;
 mod data;
 mod explain;
 mod external_io;
+mod flags;
 mod float;
 mod flow;
 mod form;
@@ -524,7 +525,7 @@ pub struct Inst {
     pub drive: Drive,
     /// True if it takes many scans, and stops when its contacts open before it has ended.
     pub stops_undriven: bool,
-    /// Special relays and registers that it reads or writes.
+    /// Special relays and registers that it reads or writes on some model; see [`Inst::flags_on`].
     pub flags: &'static [&'static str],
     /// Maximum number of uses in a program; `None`: any number of times.
     pub max_uses: Option<u32>,

@@ -1,8 +1,9 @@
 //! Special devices and the instructions that their tables name.
 
-use rungc_catalogue::find;
+use rungc_catalogue::{all, find};
 use rungc_models::special::Status;
 use rungc_models::{Model, ModelId};
+use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
 /// Names of instructions in a text: its words in capitals that the catalogue has.
@@ -27,6 +28,26 @@ fn special_devices_name_instructions_of_their_model() {
                 let inst = find(name).unwrap().inst;
                 if !inst.models.has(id) {
                     wrong.insert(format!("{id:?} {:?}{} {name}", row.class, row.first));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Every special device that an instruction uses on a model is one there: a program that uses it is not told that
+/// nothing depends on it (W0302), and the scan obeys it.
+#[test]
+fn instructions_have_their_special_devices() {
+    let mut wrong = BTreeSet::new();
+    for inst in all() {
+        for id in ModelId::ALL.into_iter().filter(|&id| inst.models.has(id)) {
+            let model = Model::get(id);
+            for flag in inst.flags_on(id) {
+                let class = DeviceClass::from_prefix(&flag[..1]).unwrap();
+                let number = flag[1..].parse().unwrap();
+                if model.special(class, number).is_none() {
+                    wrong.insert(format!("{} {flag} {}", inst.name, model.name));
                 }
             }
         }

@@ -64,7 +64,7 @@ pub(super) const L01S: Model = Model {
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),
-    special: &[special::L01S],
+    special: &[special::L01S, special::OF_INSTRUCTIONS],
     high_speed: HighSpeed {
         counters: COUNTERS_L01S,
         idle: &[IDLE_L01S],

@@ -1,4 +1,4 @@
-//! Special devices of L01S (l01s-programming §3.3).
+//! Special devices of L01S (l01s-programming §3).
 
 use crate::special::{
     CHECKED, CONTROL_LINES, COUNTER_INPUTS, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, NO_CAN,
@@ -291,4 +291,29 @@ pub(super) const L01S: &[Special] = specials! {
     D 8436 rw 0 inert(NO_PORT) "RS2 sent checksum";
     D 8464-8467 rw 0 inert(LATER) "Y000–003: clear-signal device number";
     D 8473-8476 rw 2 by("PWM") "PWM: time unit of Y000–003: 0 = 10 us, 1 = 10 us, 2 = 1 ms, 3 = 10 ms";
+};
+
+/// Devices that its instructions use, as on FX3, though its list of special devices lacks them: the list of instructions
+/// refers to FX3G and to the manual of all the maker's PLCs (l01s-programming §4.2).
+pub(super) const OF_INSTRUCTIONS: &[Special] = specials! {
+    M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
+    M 8026 rw 0 by("RAMP") "RAMP holds the final value";
+    M 8040 rw 0 scan "steps do not change";
+    M 8041 rw 0 by("IST") "a step program may start";
+    M 8042 rw 0 by("IST") "pulse of the start input";
+    M 8043 rw 0 by("IST") "the return to the origin is complete";
+    M 8044 rw 0 by("IST") "the machine is at its origin";
+    M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
+    M 8091 rw 0 by("BINDA") "no zero after the characters";
+    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
+    M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
+    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words that FROM and TO transfer";
+    M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
+    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
+    M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
+    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
+    D 8138 r 0 by("HSCT") "the row of the table that waits";
+    D 8164 rw 0 by("FROM, TO") "number of words that FROM and TO transfer while M8164 is on";
+    D 8310 rw 1 by("RND") "state of RND, low word";
+    D 8311 rw 0 by("RND") "state of RND, high word";
 };
