@@ -17,6 +17,7 @@ mod tests;
 
 use super::{Cut, Frame, LineFault, Map, hex_byte, hex_digits};
 use crate::plc::Class;
+use crate::special::M_FORCE_ENABLE;
 use device::{Device, NAME};
 
 /// Start of text.
@@ -557,18 +558,22 @@ fn test_words(contents: &mut Contents, map: &mut dyn Map) -> Result<Answer, Refu
     Ok(Answer::Done)
 }
 
-/// RUN out of STOP; STOP out of a RUN that was begun so.
+/// RUN out of STOP; STOP out of a forced RUN: one that was begun so, or by M8035 and M8036. M8035 is on meanwhile
+/// (h1u-h2u-programming §5.6, §8.9).
 fn switch(remote: &mut Remote, run: bool, map: &mut dyn Map) -> Result<Answer, Refusal> {
     let running = map.running();
+    let forced = (Class::M, M_FORCE_ENABLE.number());
     let possible = if run {
         !running
     } else {
-        running && remote.forced_run
+        running && (remote.forced_run || map.bit(forced.0, forced.1) == Some(true))
     };
     if !possible {
         return Err(Refusal::Remote);
     }
     remote.forced_run = run;
+    // A program that does not use M8035 may not store it.
+    let _ = map.set_bit(forced.0, forced.1, run);
     map.request_running(run);
     Ok(Answer::Done)
 }
