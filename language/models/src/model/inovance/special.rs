@@ -369,8 +369,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8264 rw 0 by("serial ports") "COM2: start character STX (RS2)";
     D 8265 rw 0 by("serial ports") "COM2: end character ETX (RS2)";
     D 8266 rw 0 by("serial ports") "COM2: protocol selection";
-    D 8267 rw 0 by("serial ports") "COM2: computer link on-demand first data number; SETEX: buffer PLC to display (18 words)";
-    D 8268 rw 0 by("serial ports") "COM2: computer link on-demand number of data; SETEX: buffer display to PLC (19 words)";
+    D 8267 rw 0 by("serial ports") "COM2: computer link on-demand first data number; the SETEX of displays, whose buffer it names, too, is not simulated";
+    D 8268 rw 0 by("serial ports") "COM2: computer link on-demand number of data; the SETEX of displays, whose buffer it names, too, is not simulated";
     D 8269 rw 10 by("serial ports") "COM2: time-out, unit 10 ms";
     D 8270 rw 0 by("serial ports") "COM3: communication format";
     D 8271 rw 1 by("serial ports") "COM3: station number";
@@ -379,8 +379,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8274 rw 0 by("serial ports") "COM3: start character STX (RS2)";
     D 8275 rw 0 by("serial ports") "COM3: end character ETX (RS2)";
     D 8276 rw 0 by("serial ports") "COM3: protocol selection";
-    D 8277 rw 0 by("serial ports") "COM3: computer link on-demand first data number; SETEX: buffer PLC to display (18 words)";
-    D 8278 rw 0 by("serial ports") "COM3: computer link on-demand number of data; SETEX: buffer display to PLC (19 words)";
+    D 8277 rw 0 by("serial ports") "COM3: computer link on-demand first data number; the SETEX of displays, whose buffer it names, too, is not simulated";
+    D 8278 rw 0 by("serial ports") "COM3: computer link on-demand number of data; the SETEX of displays, whose buffer it names, too, is not simulated";
     D 8279 rw 10 by("serial ports") "COM3: time-out, unit 10 ms";
     D 8280 r 300 by("CANlink") "CAN protocol version of this software";
     D 8281 rw 0 inert(CANLINK) "extension card type, as D8199 (5 = 6A/6B/3A)";
