@@ -59,7 +59,7 @@ pub(super) const ROWS: &[Inst] = &[
     arith("MUL", 22, "Multiplication", ArithOp::Mul)
         .neutral(1)
         .takes(DOUBLE_RESULT)
-        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(LIKE_FX).takes(DOUBLE_RESULT_FX)])
         .text(
             "D = S1 × S2, signed, in double width: the 16-bit form writes the pair D (low) and D+1, the 32-bit form the four \
              registers from D on. A group of bits takes as many low bits as it has.",
@@ -67,7 +67,7 @@ pub(super) const ROWS: &[Inst] = &[
     arith("DIV", 23, "Division", ArithOp::Div)
         .neutral_second(1)
         .takes(DOUBLE_RESULT)
-        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(FX).takes(DOUBLE_RESULT_FX)])
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX), on(LIKE_FX).takes(DOUBLE_RESULT_FX)])
         .errors(&[6706])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Div))])
         .text(

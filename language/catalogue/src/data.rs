@@ -26,8 +26,6 @@ const COUNTERS_ALIKE: Rule = Rule::Holds(
     },
     "both counters have 16 bits, or both 32: divide the range",
 );
-/// Models whose DECO also takes a constant.
-const DECODES_CONSTANTS: ModelSet = FX.or(L01S);
 
 /// The number n of DECO and ENCO, 0 to 8 on FX (JY992D48301 §5.5.2, §5.5.3; JY997D16601 §12.2, §12.3).
 const CODED_BITS: Param = count("n", 0, 8).also_on(LIKE_FX3, DATA);
@@ -122,13 +120,13 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[
-            mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).bits_of(n_bits),
+            mixed("S", VALUE_OR_BITS).bits_of(n_bits),
             mixed_out("D", COILS.or(PLACES)).bits_of(bits_of_n),
             src("n", CONSTANTS)
                 .word()
                 .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(1, 4)]),
         ])
-        .variants(&[on(FX).takes(&[
+        .variants(&[on(LIKE_FX).takes(&[
             mixed("S", VALUE_OR_BITS.or(CONSTANTS)).bits_of(n_bits),
             mixed_out("D", COILS.or(PLACES)).bits_of(bits_of_n),
             CODED_BITS.rules(&[at_most_4_of_a_word!(1)]),
@@ -150,16 +148,16 @@ pub(super) const ROWS: &[Inst] = &[
                 .word()
                 .rules(&[Rule::WorksWith(0, 8), Rule::WordWorksTo(0, 4)]),
         ])
-        .variants(&[on(FX).takes(&[
+        .variants(&[on(LIKE_FX).takes(&[
             mixed("S", VALUE_OR_BITS).bits_of(bits_of_n),
             dst("D", PLACES.or(INDEX)),
             CODED_BITS.rules(&[at_most_4_of_a_word!(0)]),
         ])])
         .call(RtFn::Enco)
-        .lower_on(&[(FX, Lower::Call(RtFn::EncoZero))])
+        .lower_on(&[(LIKE_FX, Lower::Call(RtFn::EncoZero))])
         .text(
             "Writes to D which is the highest of the 2^n bits from S on (of a word: in S) that is on, counted from 0. None on is an \
-             error; on FX, D is 0 then. n is 1 to 8, with a word as S to 4; 0 does nothing.",
+             error; on FX and L01S, D is 0 then. n is 1 to 8, with a word as S to 4; 0 does nothing.",
         ),
     data("SUM", 43, "Count bits")
         .on(NOT_HM_FX1)

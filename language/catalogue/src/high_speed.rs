@@ -26,7 +26,6 @@ const COUNTER_INTERRUPTS: &[(DeviceClass, u32, u32)] = &[
 const FAST_COUNTER: Param = src("S2", Classes::C).numbers(FAST);
 /// An output that sends pulses.
 const PULSE_OUTPUT: Param = coil("D", Classes::Y).plain().pulses();
-const LIKE_FX: ModelSet = FX.or(L01S);
 
 /// The greatest number of pulses, and any speed where no manual gives the limits; a run uses the model's highest at
 /// most.

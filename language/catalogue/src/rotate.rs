@@ -74,7 +74,7 @@ const SHIFT_WORDS_HM: &[Param] = &[
 
 const fn enqueue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
-        src("S", WORDS).also_on(FX.or(L01S), CONSTANTS),
+        src("S", WORDS).also_on(LIKE_FX, CONSTANTS),
         both("D", RESULTS).per(2).rules(rules),
         count("n", 2, max),
     ]
@@ -104,7 +104,6 @@ const DEQUEUE_HM: &[Param] = &[
     count("n", 2, 512).rules(&[Rule::GroupAtMost(0, 64)]),
 ];
 const DEQUEUE_FX: &[Param] = &dequeue(512, &[]);
-const LIKE_FX: ModelSet = FX.or(L01S);
 
 const fn rotate(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.4")

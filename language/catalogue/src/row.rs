@@ -71,6 +71,8 @@ pub(super) const FX3: ModelSet = ModelSet::FX3;
 pub(super) const FX3GU: ModelSet = ModelSet::FX3G.or(ModelSet::FX3U);
 /// The Mitsubishi models.
 pub(super) const FX: ModelSet = ModelSet::FX;
+/// The Mitsubishi models, and L01S, which follows FX3G.
+pub(super) const LIKE_FX: ModelSet = FX.or(L01S);
 /// Only FX3U.
 pub(super) const FX3U: ModelSet = ModelSet::FX3U;
 /// FX3S, FX3G, FX3U and what descends from them.

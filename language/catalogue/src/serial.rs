@@ -324,7 +324,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             on(HM).takes(ASCI_HM),
             // JY997D16601 §16.3.
-            on(FX).takes(&[
+            on(LIKE_FX).takes(&[
                 src("S", VALUES).len_of(words_of_digits),
                 dst("D", RESULT_GROUPS.or(PLACES)).per(2),
                 N_OR_REGISTER,
@@ -346,7 +346,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             on(HM).takes(HEX_HM),
             // JY997D16601 §16.4.
-            on(FX).takes(&[
+            on(LIKE_FX).takes(&[
                 src("S", VALUES).per(2),
                 dst("D", RESULTS).len_of(words_of_digits),
                 N_OR_REGISTER,
@@ -371,7 +371,7 @@ pub(super) const ROWS: &[Inst] = &[
             N,
         ])
         // JY992D88101 §5.9.5: n is K, H or D; JY997D16601 §16.5: D, R, K or H.
-        .variants(&[on(FX).takes(&[
+        .variants(&[on(LIKE_FX).takes(&[
             src("S", GROUPS.or(PLACES)).per(2),
             dst("D", RESULT_GROUPS.or(PLACES)).len(2),
             N_OR_REGISTER,
