@@ -213,8 +213,8 @@ pub fn twr_short(cx: &mut Cx) -> Done {
 }
 
 /// Keeps D8013–D8019 up to date at the start of each scan, shows in M8018 whether there is a clock, and obeys the
-/// clock's relays: M8015 stops it, and its fall sets it from the registers; M8016 holds the registers; the rise of
-/// M8017 rounds to a minute.
+/// clock's relays: M8015 stops it, and its fall sets it from the registers, whose year may have two digits; M8016
+/// holds the registers; the rise of M8017 rounds to a minute.
 ///
 /// Where the year is `short`, [`FOUR_DIGITS`] in D8018 makes it long until power-off.
 ///
@@ -253,7 +253,11 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
         ];
         let shown = shown(cx);
         // A program that never names the registers has none: it only stops the clock.
-        let set = if shown == [0; 7] { held } else { shown };
+        let mut set = if shown == [0; 7] { held } else { shown };
+        // Where years have four digits, two are also taken here, but not by TWR (h1u-h2u-programming §8.9, §4.3.12).
+        if !short && (0..=99).contains(&set[0]) {
+            set[0] += *YEARS.start();
+        }
         let clock = moment(set, short);
         cx.set_special(M_CLOCK_ERROR, clock.is_none());
         if let Some(clock) = clock.or(moment(held, true)) {

@@ -213,7 +213,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8015 rw 0 scan "real-time clock: hour 0-23";
     D 8016 rw 0 scan "real-time clock: day 1-31";
     D 8017 rw 0 scan "real-time clock: month 1-12";
-    D 8018 rw 0 scan "real-time clock: year 2000-2099";
+    D 8018 rw 0 scan "real-time clock: year 2000-2099; also 0-99 where M8015 sets the clock";
     D 8019 rw 0 scan "real-time clock: weekday 0-6 (0 Sunday)";
     D 8020 rw 10 by("REFF") "input filter time of X000-X007 in ms, 1-60, default 10";
     D 8028 rw 0 scan "same memory as Z0";
