@@ -153,3 +153,26 @@ fn ports_that_a_program_leaves_alone() {
         assert_eq!(found, expected, "{}", model.name);
     }
 }
+
+/// Errors and time-outs that stay until the program resets them, and the carry that RCR and RCL take in, are the
+/// program's to write.
+#[test]
+fn programs_reset_what_only_they_reset() {
+    for model in ModelId::ALL.map(Model::get) {
+        if matches!(model.ports, Ports::Hm) {
+            continue;
+        }
+        let (m, d) = (DeviceClass::M, DeviceClass::D);
+        let mut devices = vec![(m, 8022), (m, 8063), (d, 8063)];
+        // That of RD3A and WR3A on L01S resets itself.
+        if !matches!(model.ports, Ports::L01s) {
+            devices.push((m, 8129));
+        }
+        let rows: Vec<_> = devices
+            .into_iter()
+            .filter_map(|(class, number)| model.special(class, number))
+            .collect();
+        let found = warned(model, codes::WRITES_READ_ONLY.id, "", &rows);
+        assert!(found.is_empty(), "{}: {found:?}", model.name);
+    }
+}

@@ -48,7 +48,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
     M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
-    M 8063 r 0 by("serial ports") "communication error, code in D8063";
+    M 8063 rw 0 by("serial ports") "communication error, code in D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
     M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
@@ -83,7 +83,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8039 rw 0 scan "constant time of a scan in ms (with M8039)";
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
-    D 8063 r 0 by("serial ports") "code of the communication error";
+    D 8063 rw 0 by("serial ports") "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
     D 8065 r 0 inert(CHECKED) "code of the syntax error";
     D 8066 r 0 inert(CHECKED) "code of the circuit error";
@@ -122,8 +122,8 @@ pub(super) const ALL: &[Special] = specials! {
 
 /// Errors of the programming port, on all but FX3U.
 pub(super) const PROGRAMMING_PORT: &[Special] = specials! {
-    M 8062 r 0 by("serial ports") "communication error of the programming port, code in D8062";
-    D 8062 r 0 by("serial ports") "code of the communication error of the programming port";
+    M 8062 rw 0 by("serial ports") "communication error of the programming port, code in D8062";
+    D 8062 rw 0 by("serial ports") "code of the communication error of the programming port";
 };
 
 /// Additional devices of all but FX1S.
@@ -315,7 +315,7 @@ pub(super) const FX3: &[Special] = specials! {
     M 8426-8427 r 0 by("serial ports") "channel 2: computer link: global signal, on-demand data is being sent";
     M 8428 rw 0 by("serial ports") "channel 2: on-demand data is wrong; ADPRW has sent its request again";
     M 8429 rw 0 by("serial ports") "channel 2: time-out of RS2 or ADPRW; bytes of on-demand data";
-    M 8438 r 0 by("serial ports") "channel 2: communication error, code in D8438";
+    M 8438 rw 0 by("serial ports") "channel 2: communication error, code in D8438";
     M 8449 r 0 inert(HARDWARE) "a special module has an error, code in D8449";
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
     D 8107 r 0 inert(MAKER) "how many comments of devices the PLC holds";
@@ -384,7 +384,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8434 rw 0 by("serial ports") "channel 2: sum that RS2 has received; station of a Modbus slave";
     D 8435 r(COUNTING_2) 0 by("serial ports") "channel 2: sum of what RS2 has received; what a Modbus slave stores of its communication";
     D 8436 r(SLAVE_2) 0 by("serial ports") "channel 2: sum of what RS2 has sent; first register of what a Modbus slave stores";
-    D 8438 r 0 by("serial ports") "channel 2: code of the communication error";
+    D 8438 rw 0 by("serial ports") "channel 2: code of the communication error";
     D 8439 r 0 inert(SHOWN) "channel 2: mode of operation";
     D 8449 r 0 inert(HARDWARE) "code of the error of a special module";
     D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
