@@ -36,6 +36,22 @@ pub(super) fn check(
     out.push(diagnostic);
 }
 
+/// For each instruction, true if a master control is open there.
+fn in_zones(code: &Code) -> Vec<bool> {
+    let mut open = 0;
+    let inside = |i| {
+        let level = || code.device(i, 0).map_or(0, |level| level.number);
+        match code.basic(i) {
+            Some(Basic::Mc) => open = level() + 1,
+            Some(Basic::Mcr) => open = open.min(level()),
+            Some(Basic::Fend | Basic::End | Basic::Sret | Basic::Iret | Basic::Pret) => open = 0,
+            _ => {}
+        }
+        open > 0
+    };
+    (0..code.len).map(inside).collect()
+}
+
 /// The relays that are on for one scan each time: nothing but one PLS or PLF switches them on, in each scan.
 pub(super) fn pulses(code: &Code, nesting: &Nesting, skips: &Skips) -> FxHashSet<Device> {
     let mut found = BTreeSet::new();
@@ -44,12 +60,13 @@ pub(super) fn pulses(code: &Code, nesting: &Nesting, skips: &Skips) -> FxHashSet
     if !code.is_understood() || outside.iter().any(|run| run.class == DeviceClass::M) {
         return FxHashSet::default();
     }
+    let in_zone = in_zones(code);
     let is_pulse = |i: usize| {
         let enclosing = nesting.of(i);
         matches!(code.basic(i), Some(Basic::Pls | Basic::Plf))
             && enclosing.routine == Routine::Main
             && (enclosing.inner_loop, enclosing.state) == (NONE, NONE)
-            && !enclosing.in_zone
+            && !in_zone[i]
             && skips.mark(i) == 0
     };
     for i in (0..code.len).filter(|&i| is_pulse(i)) {
