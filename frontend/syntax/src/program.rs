@@ -34,6 +34,8 @@ pub struct Program {
     pub comments: BTreeMap<Device, String>,
     /// PLC parameters of the project, if the source has them.
     pub parameters: Option<Parameters>,
+    /// Devices of variables that keep their values over power-off, as the source declares.
+    pub retained: Vec<DeviceRun>,
 }
 
 /// PLC parameters of a project, as set in the editors.

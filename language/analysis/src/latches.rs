@@ -88,9 +88,41 @@ fn is_latched(range: Range, number: u32, model: &Model, latched: &[DeviceRun]) -
     }
 }
 
+/// Warns of variables that are to keep their values, but whose devices are not latched.
+fn retained(program: &Program, model: &Model, out: &mut Diagnostics) {
+    let ranges = ranges(program, model);
+    let is_latched = |device: &Device| {
+        let of_class = ranges.iter().filter(|range| range.class == device.class);
+        let mut around =
+            of_class.filter(|range| (range.first..=range.last).contains(&device.number));
+        // A device that the model does not have is an error elsewhere.
+        around.next().is_none_or(|range| range.latched)
+    };
+    for run in &program.retained {
+        let devices = (run.first..end(run)).map(|number| Device {
+            class: run.class,
+            number,
+        });
+        let Some(lost) = devices.into_iter().find(|device| !is_latched(device)) else {
+            continue;
+        };
+        let comment = program.comments.get(&lost);
+        let named = comment.map_or_else(String::new, |text| format!(" ({text})"));
+        let what = format!(
+            "`{lost}`{named} is to keep its value over power-off, but is not latched on {}",
+            model.name
+        );
+        let warning = codes::RETAINED.at(Span::default(), what);
+        out.push(warning.label("the project says RETAIN").help(
+            "name a latched device in `[plcopen.names]` or `[plcopen] free` of rungc.toml, or add this one to `[latched]`",
+        ));
+    }
+}
+
 /// Checks a project's parameters against the model.
 pub fn check(program: &Program, model: &Model) -> Diagnostics {
     let mut out = Diagnostics::new();
+    retained(program, model, &mut out);
     let Some(parameters) = &program.parameters else {
         return out;
     };

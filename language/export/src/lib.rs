@@ -472,13 +472,13 @@ fn instances(xml: &mut Xml, program: &Program, pous: &[Pou], words: &Words) {
 
 /// The devices that elements name and those that have comments, with their types.
 fn types(program: &Program, words: &Words) -> BTreeMap<Device, &'static str> {
-    use DeviceClass::{C, D, M, S, T, X, Y};
+    use DeviceClass::{C, D, M, R, S, T, X, Y};
     let mut types: BTreeMap<Device, &str> = BTreeMap::new();
     let commented = program.comments.keys();
     for device in commented.filter(|device| !words.steps.contains(device)) {
         match device.class {
             X | Y | M | S | T | C => _ = types.insert(*device, "BOOL"),
-            D => _ = types.insert(*device, "INT"),
+            D | R => _ = types.insert(*device, "INT"),
             _ => {}
         }
     }

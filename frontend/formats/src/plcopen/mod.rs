@@ -5,10 +5,11 @@
 //! line. `variables` finds the devices of variables, `logic` turns what leads to an output into a list, `drawing`
 //! follows the wires of ladders and diagrams, `modifiers` reads the attributes that change a value on them, `blocks`
 //! knows the standard's functions and blocks, `list` its instruction lists, `chart` its steps and transitions,
-//! `expression` their conditions.
+//! `expression` their conditions, `configuration` the programs that run.
 
 mod blocks;
 mod chart;
+mod configuration;
 mod drawing;
 mod expression;
 mod functions;
@@ -68,10 +69,12 @@ pub fn read(name: &str, text: &str, names: &Names) -> Read {
     };
     match Document::parse_with_options(text.trim_start_matches('\u{FEFF}'), options) {
         Ok(document) => {
+            let (variables, twice) = Variables::new(names, document.root_element());
             let mut reader = Reader {
-                variables: Variables::new(names, document.root_element()),
+                variables,
                 ..Reader::default()
             };
+            reader.report_twice(twice);
             reader.project(&document);
             reader.finish(name)
         }
@@ -139,6 +142,10 @@ impl Fault {
     fn variable(node: Node, name: &str, missing: &Missing) -> Self {
         let name = name.trim();
         let (what, help) = match missing {
+            Missing::Device if !is_name(name) => (
+                format!("`{name}` is neither a variable nor a constant of a PLC of the family"),
+                "numbers are whole, such as `5` and `16#1F`; draw or list what an expression computes",
+            ),
             Missing::Device => (format!("the variable `{name}` is not a device"), ADDRESSES),
             Missing::Address(address) => (
                 format!("the address `{address}` of `{name}` is not that of a device"),
@@ -155,6 +162,15 @@ impl Fault {
             help,
         }
     }
+}
+
+/// Returns true for a name, an address, or the part of a block's instance: not a number or an expression.
+fn is_name(written: &str) -> bool {
+    let mut letters = written.chars();
+    let begins = letters
+        .next()
+        .is_some_and(|c| c.is_alphabetic() || matches!(c, '_' | '%'));
+    begins && letters.all(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '-' | '[' | ']'))
 }
 
 /// An element with its name, if it has one.
@@ -181,6 +197,8 @@ struct Reader {
     in_state: bool,
     /// Contacts on all ways so far.
     contacts: usize,
+    /// Programs that no task runs.
+    not_run: Vec<String>,
     faults: Vec<Fault>,
     /// True if reading stopped after many mistakes.
     cut_short: bool,
@@ -236,8 +254,9 @@ impl Reader {
                 help: "functions and function blocks alone do not run",
             });
         }
-        for pou in programs {
-            self.variables.enter(pou);
+        for pou in self.running(root, programs) {
+            let declared = self.variables.enter(pou);
+            self.report_twice(declared);
             self.instances.clear();
             self.steps.clear();
             self.in_state = false;
@@ -393,18 +412,31 @@ impl Reader {
         {
             return device.to_smolstr();
         }
-        let number = match self.pointers.get(label) {
+        // Identifiers of the standard do not distinguish case.
+        let label = label.trim().to_uppercase();
+        let number = match self.pointers.get(&label) {
             Some(number) => *number,
             None => {
                 let number = self.variables.pointer();
-                self.pointers.insert(label.to_owned(), number);
+                self.pointers.insert(label, number);
                 number
             }
         };
         smol_str::format_smolstr!("P{number}")
     }
 
-    fn finish(self, name: &str) -> Read {
+    /// Reports the declarations whose name another one has.
+    fn report_twice(&mut self, declared: Vec<Node>) {
+        for node in declared {
+            let what = format!("{} has the name of another variable", called(node));
+            let help = "names do not distinguish upper and lower case: rename one of them";
+            self.report(Fault::at(node, what, help));
+        }
+    }
+
+    fn finish(mut self, name: &str) -> Read {
+        self.variables.finish();
+        let not_run = self.without_instance();
         let first_scan = self.variables.first_scan.iter().map(|line| {
             Part::Output(Output {
                 logic: Logic::contact(u32::MAX, true, "M8002"),
@@ -417,9 +449,11 @@ impl Reader {
         lines.push("END".into());
         let mut read = il::read_text(name, &lines.join("\n"));
         read.program.kind = SourceKind::Plcopen;
+        read.diagnostics.extend(not_run);
         read.program.title = self.title.filter(|title| !title.trim().is_empty());
         read.program.cpu = self.cpu.filter(|cpu| !cpu.is_empty());
         read.program.comments = self.variables.comments;
+        read.program.retained = self.variables.retained;
         if self.faults.is_empty() {
             return read;
         }

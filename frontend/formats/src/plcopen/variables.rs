@@ -3,9 +3,10 @@
 use super::{children, text};
 use crate::il;
 use roxmltree::Node;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind};
+use rungc_syntax::{Device, DeviceClass, DeviceRun, Diagnostics, OperandKind};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::mem;
 
 /// The devices of variables of PLCopen XML.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -100,6 +101,8 @@ struct Variable {
     foreign: Option<String>,
     comment: Option<SmolStr>,
     initial: Option<String>,
+    /// True if it keeps its value over power-off.
+    is_retained: bool,
     /// Its name in the table of devices.
     key: String,
 }
@@ -125,6 +128,10 @@ pub(super) struct Variables {
     pub comments: BTreeMap<Device, String>,
     /// Instructions of the first scan.
     pub first_scan: Vec<SmolStr>,
+    /// Devices of variables that keep their values over power-off.
+    pub retained: Vec<DeviceRun>,
+    /// Variables whose devices are stated, in the order of their declarations.
+    stated: Vec<Variable>,
 }
 
 /// A device that a variable is, and what it holds.
@@ -146,8 +153,8 @@ pub(super) enum Missing {
 }
 
 impl Variables {
-    /// Takes the table and the declarations of a project.
-    pub fn new(names: &Names, root: Node) -> Self {
+    /// Takes the table and the declarations of a project; also returns declarations whose name another one has.
+    pub fn new<'a, 'i>(names: &Names, root: Node<'a, 'i>) -> (Self, Vec<Node<'a, 'i>>) {
         let mut variables = Variables {
             names: names.clone(),
             taken: names.devices.values().copied().collect(),
@@ -171,26 +178,30 @@ impl Variables {
         let outside = root
             .descendants()
             .filter(|node| node.tag_name().name() == "globalVars");
-        for list in outside {
-            variables.declare(list, true);
-        }
-        variables
+        let twice = outside.flat_map(|list| variables.declare(list, true));
+        let twice = twice.collect();
+        (variables, twice)
     }
 
-    /// Takes the declarations of a program, whose body is read next.
-    pub fn enter(&mut self, pou: Node) {
+    /// Takes the declarations of a program, whose body is read next; returns those whose name another one has.
+    pub fn enter<'a, 'i>(&mut self, pou: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
+        let mut twice = Vec::new();
         self.local.clear();
         self.program = pou.attribute("name").unwrap_or_default().to_uppercase();
         for interface in children(pou, "interface") {
             for list in interface.children().filter(Node::is_element) {
                 if list.tag_name().name() != "externalVars" {
-                    self.declare(list, false);
+                    twice.extend(self.declare(list, false));
                 }
             }
         }
+        twice
     }
 
-    fn declare(&mut self, list: Node, global: bool) {
+    /// Takes a list of declarations; returns those whose name another one has.
+    fn declare<'a, 'i>(&mut self, list: Node<'a, 'i>, global: bool) -> Vec<Node<'a, 'i>> {
+        let mut twice = Vec::new();
+        let is_set = |key: &str| matches!(list.attribute(key).map(str::trim), Some("true" | "1"));
         for node in children(list, "variable") {
             let Some(name) = node.attribute("name") else {
                 continue;
@@ -221,6 +232,7 @@ impl Variables {
                     .filter_map(|value| value.attribute("value"))
                     .map(|value| value.trim().to_uppercase())
                     .next(),
+                is_retained: is_set("retain") || is_set("persistent"),
                 key: if global { name.clone() } else { full },
             };
             let scope = if global {
@@ -228,8 +240,14 @@ impl Variables {
             } else {
                 &mut self.local
             };
-            scope.insert(name, variable);
+            if variable.device.is_some() && variable.foreign.is_none() {
+                self.stated.push(variable.clone());
+            }
+            if scope.insert(name, variable).is_some() {
+                twice.push(node);
+            }
         }
+        twice
     }
 
     fn declared(&self, name: &str) -> Option<&Variable> {
@@ -299,11 +317,42 @@ impl Variables {
             self.comments
                 .extend(comment.map(|comment| (device, comment)));
             self.begin(device, variable);
+            self.retain(device, variable);
         }
         Ok(Found {
             device,
             kind: variable.kind.clone(),
         })
+    }
+
+    /// Notes the devices of a variable that keeps its value over power-off.
+    fn retain(&mut self, device: Device, variable: &Variable) {
+        // Inputs are read anew.
+        if variable.is_retained && device.class != DeviceClass::X {
+            self.retained.push(DeviceRun {
+                class: device.class,
+                first: device.number,
+                count: if variable.kind.is_wide() { 2 } else { 1 },
+            });
+        }
+    }
+
+    /// Takes comments, initial values and retention of the variables that nothing in the programs uses, but that have
+    /// devices: other equipment may use those.
+    pub fn finish(&mut self) {
+        for variable in mem::take(&mut self.stated) {
+            let Some(device) = variable.device.filter(|device| self.used.insert(*device)) else {
+                continue;
+            };
+            if let Some(comment) = &variable.comment {
+                let comment = comment.to_string();
+                self.comments.entry(device).or_insert(comment);
+            }
+            if !matches!(variable.kind, Kind::Time | Kind::Block(_) | Kind::Other(_)) {
+                self.begin(device, &variable);
+                self.retain(device, &variable);
+            }
+        }
     }
 
     /// Lets the first scan give a variable its initial value; devices begin with 0.

@@ -10,6 +10,7 @@ mod image;
 mod ladder_text;
 mod learn;
 mod plcopen;
+mod plcopen_configuration;
 mod plcopen_modifiers;
 mod print;
 mod robust;

@@ -184,13 +184,13 @@ super::codes! {
 
     PLCOPEN_ELEMENT = "E0063" "plcopen-element" Error None,
     "element of a PLCopen project without a counterpart",
-    "Of PLCopen XML, rungc reads programs as LD, FBD, IL and SFC, with contacts, coils and those functions and blocks of IEC 61131-3 that instructions of the PLC compute exactly. The message names the element, its line and what is different: structured text, blocks of the project's own, types such as REAL, actions that do not end with their step, a comparison with EN, a timer whose preset is not a constant..",
+    "Of PLCopen XML, rungc reads programs as LD, FBD, IL and SFC, with contacts, coils and those functions and blocks of IEC 61131-3 that instructions of the PLC compute exactly. The message names the element, its line and what is different: structured text, blocks of the project's own, types such as REAL, actions that do not end with their step, a comparison with EN, a timer whose preset is not a constant. So are tasks that one scan cannot replace: those that wait for an event, or have different intervals.",
     wrong: "",
     right: "";
 
     PLCOPEN_VARIABLE = "E0064" "plcopen-variable" Error None,
     "variable of a PLCopen project without a device",
-    "A PLC of the FX family knows devices, not variables. A variable of a PLCopen project becomes the device that `[plcopen.names]` of `rungc.toml` or a table for `--names` names, or the device at its address: `%IX0.3` is X003, `%QX1.0` is Y010, `%MX0.5` is M5, `%MW7` is D7 (bits are counted through, eight to a byte). A variable with neither must have the name of a device, such as `M100`, or `[plcopen]` must list free devices..",
+    "A PLC of the FX family knows devices, not variables. A variable of a PLCopen project becomes the device that `[plcopen.names]` of `rungc.toml` or a table for `--names` names, or the device at its address: `%IX0.3` is X003, `%QX1.0` is Y010, `%MX0.5` is M5, `%MW7` is D7 (bits are counted through, eight to a byte). A variable with neither must have the name of a device, such as `M100`, or `[plcopen]` must list free devices. No two variables of a program have the same name; upper and lower case are the same.",
     wrong: "",
     right: "";
 

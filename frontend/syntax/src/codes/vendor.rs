@@ -43,6 +43,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    RETAINED = "W0526" "not-latched" Warning None,
+    "a variable that is to keep its value has a device that is not latched",
+    "The project declares the variable as RETAIN, but its device loses its value when the power fails: latched devices are those of the model and of `[latched]` in rungc.toml. Name a latched device in `[plcopen.names]`, list latched ones in `[plcopen] free`, or add the device to `[latched]`.",
+    wrong: "",
+    right: "";
+
     READ_AS_COMPILED = "N0010" "read-as-compiled" Note None,
     "a structured program is shown as compiled",
     "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read in the form that GX Works2 compiled them to, so instructions, steps and automatically assigned devices are those of the compiled program.",
