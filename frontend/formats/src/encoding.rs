@@ -158,7 +158,7 @@ pub(crate) fn is_damaged_utf8(bytes: &[u8]) -> bool {
             for c in chunk.valid().chars().filter(|c| !c.is_ascii()) {
                 match c.len_utf8() {
                     2 if is_readable(c) => count.two += 1,
-                    3 if is_readable(c) => count.three += 1,
+                    3 | 4 if is_readable(c) => count.three += 1,
                     _ => count.others += 1,
                 }
             }
@@ -196,7 +196,22 @@ fn sample(bytes: &[u8]) -> Vec<u8> {
 /// chance, which is then one that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
 fn is_plausible(text: &str) -> bool {
     let odd = |c: char| matches!(c, '\u{250}'..='\u{36F}' | '\u{591}'..='\u{5C7}' | '\u{700}'..='\u{7FF}');
-    text.contains(|c| c >= '\u{800}') || !text.contains(odd)
+    let letters = text.chars().zip(text.chars().skip(1));
+    let mut odd_ones = letters.filter(|&(_, c)| odd(c));
+    text.contains(|c| c >= '\u{800}')
+        || !text.starts_with(odd) && odd_ones.all(|(base, mark)| is_accented(base, mark))
+}
+
+/// Returns true for a mark and the Latin letter or mark before it: accents apart from their letters, as macOS writes
+/// names and editors there paste them.
+fn is_accented(base: char, mark: char) -> bool {
+    let above = |mark| matches!(mark, '\u{300}'..='\u{30C}' | '\u{31B}' | '\u{323}');
+    let is_letter = base.is_ascii_alphabetic() || matches!(base, '\u{C0}'..='\u{24F}');
+    match mark {
+        '\u{327}' => "cCsStTgGkKlLnNrReE".contains(base),
+        '\u{328}' => "aAeEiIoOuU".contains(base),
+        _ => above(mark) && (is_letter || above(base)),
+    }
 }
 
 /// The runs of bytes above 7Fh, each with whether an ASCII letter is at one of its ends.
@@ -274,7 +289,9 @@ fn wide(bytes: &[u8]) -> Option<&'static Encoding> {
     }
     let readable = |encoding: &'static Encoding| {
         let (text, _) = encoding.decode_without_bom_handling(head);
-        let readable = text.chars().filter(|&c| is_readable(c)).count();
+        let readable =
+            |c| is_readable(c) || matches!(c, '\u{300}'..='\u{36F}' | '\u{5D0}'..='\u{6FF}');
+        let readable = text.chars().filter(|&c| readable(c)).count();
         let is_list = text.contains(|c: char| c.is_ascii_alphanumeric() || c == '\n');
         (is_list && readable * 16 >= text.chars().count() * 15).then_some((readable, encoding))
     };
@@ -289,6 +306,9 @@ fn is_readable(c: char) -> bool {
     matches!(
         c,
         '\t' | '\r' | '\n' | ' '..='~' | '\u{A0}'..='\u{24F}' | '\u{370}'..='\u{52F}'
+            // Devanagari to Burmese, with Thai; the gaps are control characters the wrong way round.
+            | '\u{901}'..='\u{9FF}' | '\u{A01}'..='\u{CFF}' | '\u{D01}'..='\u{109F}'
+            | '\u{1F000}'..='\u{1FAFF}'
             | '\u{1E00}'..='\u{22FF}' | '\u{2460}'..='\u{27BF}' | '\u{3000}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF00}'..='\u{FFEF}'
     )
 }
@@ -422,6 +442,36 @@ mod tests {
             let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
             assert_eq!(decode(&little, None), Some((text.to_owned(), false)));
             assert_eq!(decode(&big, None), Some((text.to_owned(), false)));
+        }
+    }
+
+    /// Languages of the editors' users beside those of code pages of two bytes.
+    #[test]
+    fn other_scripts_are_read_in_every_form_of_unicode() {
+        for text in [
+            "LD X0 ; ปุ่มเริ่ม\nEND ; จบ\n",
+            "LD X0 ; nút khởi động\nEND ; kết thúc\n",
+            "LD X0 ; प्रारंभ\nEND\n",
+            "LD X0 ; زر البدء\nEND\n",
+            "LD X0 ; התחלה\nEND\n",
+            // Accents apart from their letters.
+            "LD X0 ; Tu\u{308}r\nEND\n",
+            "LD X0 ; nu\u{301}t kho\u{31b}\u{309}i\nEND ; nhie\u{302}\u{323}t\n",
+            "LD X0 ; botao\u{303} c\u{327}\nEND ; za\u{328}b\n",
+        ] {
+            let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+            for bytes in [text.as_bytes(), &little, &big] {
+                assert_eq!(decode(bytes, None), Some((text.to_owned(), false)));
+            }
+        }
+        let lines = "LD X0 ; ปุ่มเริ่ม\nOUT Y0 ; มอเตอร์เดินหน้า\nEND ; จบ";
+        let (read, is_damaged) = decode(&lines.as_bytes()[..lines.len() - 1], None).unwrap();
+        assert!(is_damaged && read.starts_with("LD X0 ; ปุ่มเริ่ม\n"), "{read}");
+        // Texts of ASCII alone, in both orders.
+        for text in ["NOP\nOUT Y0\n", "OUT\tY000\r\n", "0 NOP\n"] {
+            let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            assert_eq!(decode(&little, None), Some((text.to_owned(), false)));
         }
     }
 
