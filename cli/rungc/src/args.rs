@@ -174,9 +174,9 @@ pub struct Input {
 /// Programs and their reader options.
 #[derive(Args, Debug)]
 pub struct Inputs {
-    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw) and
-    /// images of program memory, recognised by content, not by name; folders, for all programs in them and below; `-`
-    /// is standard input. Default: the program of rungc.toml.
+    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw),
+    /// PLCopen XML and images of program memory, recognised by content, not by name; folders, for all programs in them
+    /// and below (lists and drawn ladder as `.il`); `-` is standard input. Default: the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     #[command(flatten)]

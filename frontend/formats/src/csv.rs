@@ -218,7 +218,11 @@ impl Reader {
         ] = self
             .layout
             .columns
-            .map(|column| record.get(column).unwrap_or("").trim());
+            .map(|column| record.get(column).unwrap_or(""));
+        let (step, name) = (step.trim(), mnemonic.trim());
+        // Spaces belong to a text, unless they pad all cells of a table.
+        let is_padded = name.len() < mnemonic.len();
+        let (mnemonic, operand) = (name, if is_padded { operand.trim() } else { operand });
         let statements = [line_statement, pointer_statement]
             .into_iter()
             .filter_map(clean);
@@ -235,12 +239,12 @@ impl Reader {
                 });
             }
         }
-        if !mnemonic.is_empty() || !operand.is_empty() {
+        if !mnemonic.is_empty() || !operand.trim().is_empty() {
             self.instruction_row(step, mnemonic, operand);
         }
         if !mnemonic.is_empty() {
             self.row = 0;
-        } else if !operand.is_empty() || !note.is_empty() {
+        } else if !operand.trim().is_empty() || !note.trim().is_empty() {
             self.row += 1;
         }
         for statement in statements {
@@ -262,14 +266,17 @@ impl Reader {
             self.instruction(mnemonic, step);
         }
         match self.current {
-            _ if operand.is_empty() => {}
+            _ if operand.trim().is_empty() => {}
             Current::Last => self.operand(operand),
-            Current::Unread => _ = self.listing.word(operand),
+            Current::Unread => _ = self.listing.word(operand.trim()),
             Current::None => {
-                self.misplaced(operand, "there is no instruction in or above this row");
+                self.misplaced(
+                    operand.trim(),
+                    "there is no instruction in or above this row",
+                );
                 self.unread();
             }
-            Current::Label => self.misplaced(operand, "a label has no operands"),
+            Current::Label => self.misplaced(operand.trim(), "a label has no operands"),
         }
     }
 
@@ -340,12 +347,13 @@ impl Reader {
     }
 
     fn operand(&mut self, text: &str) {
-        // The field itself is read: a text in it may hold characters that the listing does not show.
-        let span = self.listing.word(text);
         let Some(instr) = self.program.instrs.last_mut() else {
             return;
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
+        let text = if characters { text } else { text.trim() };
+        // The field itself is read: a text in it may hold characters that the listing does not show.
+        let span = self.listing.word(text);
         let several = il::field::operands(text, span.start).filter(|_| !characters);
         let operands = several.unwrap_or_else(|| {
             let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);

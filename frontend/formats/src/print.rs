@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr as _;
 
 mod autoshop;
-pub use autoshop::{nops_outside_windows, to_autoshop};
+pub use autoshop::to_autoshop;
 
 /// Characters that an instruction takes before the comment beside it.
 const COMMENT_COLUMN: usize = 24;
@@ -371,7 +371,7 @@ fn characters(operand: &Operand, program: &Program) -> String {
         return spelled(&operand.kind);
     };
     let read = field::operand(text, 0, true, &mut Diagnostics::new());
-    let reads_back = !text.is_empty() && read.is_some_and(|read| read.kind == operand.kind);
+    let reads_back = !text.trim().is_empty() && read.is_some_and(|read| read.kind == operand.kind);
     match reads_back && !(is_quoted && program.kind == SourceKind::Csv) {
         true => text.to_string(),
         false => spelled(&operand.kind),

@@ -72,6 +72,9 @@ const MAGIC: [(&[u8], Recognised); 24] = {
     ]
 };
 
+/// Mark of an archive (tar) and its place.
+const TAR: (usize, &[u8]) = (257, b"ustar");
+
 /// Endings of files with their own content. Only binary content goes by its name.
 const ENDINGS: [(&str, &str, &str); 13] = [
     (
@@ -218,6 +221,15 @@ pub fn recognise(name: &str, bytes: &[u8]) -> Option<Recognised> {
     if let Some((_, known)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Some(*known);
     }
+    if bytes
+        .get(TAR.0..)
+        .is_some_and(|rest| rest.starts_with(TAR.1))
+    {
+        return Some(Recognised {
+            what: "an archive (tar)",
+            help: UNPACK,
+        });
+    }
     let is_marked = bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF");
     if bytes.contains(&0) && !is_marked && by_name.is_some() {
         return by_name;
@@ -237,6 +249,12 @@ fn without_content(ending: Option<&str>, bytes: &[u8]) -> Option<Recognised> {
         return is(
             "an empty file",
             "copy it again; it has no content, whatever its name says",
+        );
+    }
+    if bytes.len() >= 16 && bytes.iter().all(|&byte| byte == 0) {
+        return is(
+            "a file of zeros, which was not written whole",
+            "copy it again, from where it is undamaged",
         );
     }
     if bytes.len() >= 16 && bytes.iter().all(|&byte| byte == 0xFF) {

@@ -1,6 +1,6 @@
 //! Finding the programs in a folder.
 
-use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file};
+use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file, plcopen};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -9,14 +9,21 @@ use walkdir::{DirEntry, WalkDir};
 /// Size of the part of a table that shows whether it is a list export, in bytes: its headers are in the first rows.
 const HEAD: u64 = 64 << 10;
 
-/// Returns true if a folder is itself a program: that of a GX Developer project, or of a list export.
+/// Returns true if a folder is itself a program: that of a GX Developer project, or of a list export alone.
 pub fn is_project(folder: &Path) -> bool {
-    main_file(folder).is_ok()
+    let is_alone = || programs(folder, usize::MAX).is_ok_and(|found| found.len() < 2);
+    is_of_gx_developer(folder) || main_file(folder).is_ok() && is_alone()
+}
+
+fn is_of_gx_developer(folder: &Path) -> bool {
+    GX_DEVELOPER
+        .iter()
+        .any(|place| find(folder, place).is_some())
 }
 
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
 /// (`.il`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN
-/// programs (`.pmw`) and images of program memory (`.bin`). Hidden folders, folders called `target` and links to
+/// programs (`.pmw`), images of program memory (`.bin`) and PLCopen XML (`.xml`). Hidden folders, folders called `target` and links to
 /// folders are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
@@ -28,7 +35,7 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
         if entry.file_type().is_dir() {
             if entry.depth() > 0 && is_left_out(&entry) {
                 entries.skip_current_dir();
-            } else if GX_DEVELOPER.iter().any(|place| find(path, place).is_some()) {
+            } else if is_of_gx_developer(path) {
                 found.push(path.to_owned());
                 entries.skip_current_dir();
             }
@@ -40,6 +47,7 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
             "il" | "gxw" | "pmw" => true,
             "csv" => is_export(path),
             "bin" => is_memory(path),
+            "xml" => is_plcopen(path),
             _ => false,
         };
         if fits {
@@ -64,6 +72,14 @@ fn head(path: &Path) -> Option<Vec<u8>> {
 /// Returns true if a file of bytes is an image of program memory, not firmware or something else.
 fn is_memory(path: &Path) -> bool {
     head(path).is_none_or(|head| image::is_image(&head))
+}
+
+/// Returns true if a document is a project of PLCopen XML.
+fn is_plcopen(path: &Path) -> bool {
+    let Some(head) = head(path) else {
+        return true;
+    };
+    encoding::decode(&head, None).is_some_and(|(text, _)| plcopen::is_project(&text))
 }
 
 /// Returns true if a table is a list export, not comments or something else.

@@ -188,6 +188,33 @@ mod tests {
     use rungc_models::ModelId;
     use rungc_syntax::Parameters;
 
+    #[test]
+    fn retained_variables_need_latched_devices() {
+        let run = |first| DeviceRun {
+            class: D,
+            first,
+            count: 2,
+        };
+        let mut program = Program {
+            retained: vec![run(100), run(199), run(200)],
+            ..Program::default()
+        };
+        let device = |number| Device { class: D, number };
+        program.comments.insert(device(100), "pieces".to_owned());
+        let found = check(&program, Model::get(ModelId::Fx3u));
+        let found: Vec<_> = found
+            .iter()
+            .map(|found| found.message.to_string())
+            .collect();
+        assert_eq!(
+            found,
+            [
+                "`D100` (pieces) is to keep its value over power-off, but is not latched on fx3u",
+                "`D199` is to keep its value over power-off, but is not latched on fx3u",
+            ]
+        );
+    }
+
     fn program(latched: &[(DeviceClass, u32, u32)]) -> Program {
         let run = |&(class, first, count)| DeviceRun {
             class,

@@ -131,16 +131,16 @@ impl ConvertTo {
         }
     }
 
-    /// Name of this form, if it cannot store comments on devices.
-    pub const fn without_comments(self) -> Option<&'static str> {
+    /// Name of this form of a program; `None` for one that holds comments alone.
+    pub const fn form(self) -> Option<&'static str> {
         match self {
-            ConvertTo::Il
-            | ConvertTo::Ladder
-            | ConvertTo::Comments
-            | ConvertTo::Plcopen
-            | ConvertTo::Autoshop => None,
+            ConvertTo::Il => Some("an instruction list"),
+            ConvertTo::Ladder => Some("drawn ladder"),
             ConvertTo::Csv => Some("a list export"),
+            ConvertTo::Comments => None,
             ConvertTo::Image => Some("an image"),
+            ConvertTo::Plcopen => Some("PLCopen XML"),
+            ConvertTo::Autoshop => Some("a list of AutoShop"),
         }
     }
 }

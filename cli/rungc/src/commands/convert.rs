@@ -1,11 +1,12 @@
 //! `rungc convert`.
 
 mod ladder;
+mod omitted;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, eprint_line, print_bytes, print_text,
-    read, stem,
+    Context, Failure, Outcome, Result, completed, conclude, eprint_line, print_bytes, print_text,
+    read_as_written, stem,
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::output::write_file;
@@ -38,7 +39,9 @@ fn convert(
     outputs: &mut OutputPaths,
     cx: Context,
 ) -> Result {
-    let mut read = read(subject, reporter)?;
+    let as_written = read_as_written(subject, reporter)?;
+    let own = as_written.program.parameters.clone();
+    let mut read = completed(as_written, subject, reporter)?;
     name_model(&mut read, subject);
     let mut diagnostics = read.diagnostics.clone();
     let body = args.body.unwrap_or_default();
@@ -53,18 +56,9 @@ fn convert(
         return conclude(&findings, reporter, cx, String::new);
     }
     reporter.add(&findings)?;
-    let comments = read.program.comments.len();
-    if let (Some(what), 1..) = (args.to.without_comments(), comments) {
-        let comments = counted(comments, "device comment");
-        eprint_line(&format!(
-            "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them, and `--to comments` writes them"
-        ));
-    }
-    let nops = print::nops_outside_windows(&read.program);
-    if let (ConvertTo::Autoshop, 1..) = (args.to, nops) {
-        eprint_line(&format!(
-            "rungc: {nops} NOP omitted, because AutoShop has no place for them between routines or after END; `--to il` keeps them"
-        ));
+    let options = subject.options();
+    for sentence in omitted::sentences(args.to, &read, own.as_ref(), &options, &bytes) {
+        eprint_line(&format!("rungc: {sentence}"));
     }
     let name = || format!("{}.{}", stem(subject, &read), args.to.ending());
     match outputs.place(args.output.as_deref(), reporter.many(), name, subject)? {

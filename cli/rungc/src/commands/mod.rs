@@ -158,7 +158,16 @@ pub fn read_as_written(
 
 /// Reads a program, and gives it what its settings say of it.
 pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
-    let mut read = read_as_written(subject, reporter)?;
+    let read = read_as_written(subject, reporter)?;
+    completed(read, subject, reporter)
+}
+
+/// Gives a program that was read what its settings say of it.
+pub fn completed(
+    mut read: Read,
+    subject: &Subject,
+    reporter: &mut Reporter,
+) -> std::result::Result<Read, Failure> {
     unproven::suggest(&mut read, subject.model);
     complete(subject, &mut read.program, reporter)?;
     Ok(read)

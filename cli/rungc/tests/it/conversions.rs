@@ -118,6 +118,98 @@ fn comments_below_the_program_are_kept() {
     }
 }
 
+/// What does not come back from an output is named, and nothing else.
+#[test]
+fn what_a_form_cannot_store_is_named() {
+    let list = ";! title = 冲压机\n;! cpu = FX3U\n;! X000 = start\n;! P1 = sub\n; above\n; and\nLD X000 ; note\n\
+                CALL P1\nOUT Y000\nFEND\nP1\nSRET\nEND\nNOP\n; below\n";
+    let folder = folder(&[("list.il", list.as_bytes())]);
+    let path = folder.path();
+    let omitted = |file: &str, to: &str| {
+        let output = rungc(path, &["convert", file, "--to", to, "-o", "out", "--force"]);
+        let messages = text(&output.stderr);
+        let lines = messages
+            .lines()
+            .filter_map(|line| line.split_once(" omitted, "));
+        let lines = lines.map(|(what, _)| what.trim_start_matches("rungc: ").to_owned());
+        lines.collect::<Vec<_>>()
+    };
+    for (to, expected) in [
+        ("il", &[][..]),
+        ("ladder", &[]),
+        ("comments", &[]),
+        ("csv", &["2 device comments"]),
+        ("autoshop", &["1 NOP"]),
+        ("plcopen", &["1 device comment", "1 note"]),
+        (
+            "image",
+            &[
+                "2 device comments",
+                "1 NOP",
+                "3 statement lines, 1 note, the title and the CPU type",
+            ],
+        ),
+    ] {
+        assert_eq!(omitted("list.il", to), expected, "{to}");
+    }
+    // Latched devices by choice, and a block of file registers.
+    convert(path, "list.il", "image", "memory.bin");
+    let mut memory = fs::read(path.join("memory.bin")).unwrap();
+    memory[0x30..0x34].copy_from_slice(&[0x00, 0x08, 0x63, 0x08]);
+    memory[6] = 1;
+    memory.splice(0x5C..0x5C, [0; 1000]);
+    fs::write(path.join("chosen.bin"), memory).unwrap();
+    let latched =
+        "the latched devices (M0 to M99, S500 to S999, C100 to C199, C220 to C255, D200 to D511)";
+    let all = format!("{latched}, the memory capacity (8 000 steps) and 1 file register block");
+    assert_eq!(omitted("chosen.bin", "il"), [all]);
+    assert_eq!(omitted("chosen.bin", "image"), ["1 file register block"]);
+    let variables = r#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="a" pouType="program">
+<interface><localVars retain="true"><variable name="D300"><type><INT/></type></variable></localVars></interface>
+<body><IL>LD X0
+ST Y0</IL></body></pou></pous></types></project>"#;
+    fs::write(path.join("variables.xml"), variables).unwrap();
+    assert_eq!(omitted("variables.xml", "il"), ["RETAIN of D300"]);
+}
+
+/// A folder with a `MAIN.csv` and other programs is all of them; PLCopen XML counts.
+#[test]
+fn a_folder_is_all_programs_in_it() {
+    let folder = folder(&[
+        ("MAIN.csv", b"0,LD,X000\r\n1,OUT,Y000\r\n2,END,\r\n"),
+        ("other.il", LIST.as_bytes()),
+    ]);
+    let path = folder.path();
+    convert(path, "other.il", "plcopen", "drawn.xml");
+    fs::write(path.join("settings.xml"), "<settings/>").unwrap();
+    let checked = text(&rungc(path, &["check", "."]).stderr);
+    for name in ["MAIN.csv", "other.il", "drawn.xml"] {
+        assert!(checked.contains(&format!("Checked {name}")), "{checked}");
+    }
+    assert!(!checked.contains("settings.xml"), "{checked}");
+}
+
+/// A project is equal to the list that was made of it, unless its parameters choose what a list leaves to the model.
+#[test]
+fn an_image_is_equal_to_its_list() {
+    let folder = folder(&[("list.il", b"LD X000\nOUT Y000\nEND\n")]);
+    let path = folder.path();
+    convert(path, "list.il", "image", "memory.bin");
+    assert!(
+        rungc(path, &["diff", "memory.bin", "list.il"])
+            .status
+            .success()
+    );
+    let mut memory = fs::read(path.join("memory.bin")).unwrap();
+    memory[0x30..0x34].copy_from_slice(&[0x00, 0x08, 0x63, 0x08]);
+    fs::write(path.join("chosen.bin"), memory).unwrap();
+    let output = rungc(path, &["diff", "chosen.bin", "list.il"]);
+    assert_eq!(output.status.code(), Some(1));
+    let shown = text(&output.stdout);
+    assert!(shown.contains("- latched devices = M0 to M99"), "{shown}");
+    assert!(!shown.contains("memory capacity"), "{shown}");
+}
+
 /// The page has a row for each input and a column for each output.
 #[test]
 fn the_page_lists_them_all() {

@@ -119,6 +119,14 @@ fn pointer(number: u32) -> Device {
     }
 }
 
+/// The editor's own name for the window of a pointer.
+pub(crate) fn usual_name(pointer: Device) -> String {
+    match pointer.class {
+        DeviceClass::I => format!("INT_{:03}", pointer.number),
+        _ => format!("SBR_{:02}", pointer.number),
+    }
+}
+
 /// The number at the end of the editor's own names: 1 of `SBR_01`.
 fn numbered(name: &str) -> Option<u32> {
     let (prefix, number) = name.split_at_checked(4)?;
@@ -235,7 +243,10 @@ impl Reader {
     /// Takes a line that begins a window, or calls one by name. Returns whether it is such a line.
     pub(super) fn window_line(&mut self, windows: &mut Windows, line: &str, start: u32) -> bool {
         if let Some(heading) = windows.headings.get(&start) {
-            self.end_window(windows.current, start);
+            let begins = windows.current.is_none() && heading.routine == Routine::Main;
+            if !begins || !self.program.instrs.is_empty() {
+                self.end_window(windows.current, start);
+            }
             windows.current = Some(heading.routine);
             self.begin_window(heading, line, start);
             return true;
@@ -308,17 +319,17 @@ impl Reader {
         if let (Some(label), Some(_)) = (self.program.instrs.last_mut(), &note) {
             label.remarks_mut().note = note;
         }
-        if let Some(name) = &heading.name {
-            self.program.comments.insert(pointer, name.clone());
+        // A comment that the text states stays, and the editor's own name is none.
+        let name = heading.name.as_ref();
+        if let Some(name) = name.filter(|name| **name != usual_name(pointer)) {
+            let comments = &mut self.program.comments;
+            comments.entry(pointer).or_insert_with(|| name.clone());
         }
     }
 
     /// Ends a window: where the next one begins or, after the last one, at the end of the text.
     fn end_window(&mut self, current: Option<Routine>, at: u32) {
         let instrs = &mut self.program.instrs;
-        if current.is_none() && instrs.is_empty() {
-            return;
-        }
         let routine = current.unwrap_or(Routine::Main);
         // END of a window is the end of the program only after the last one.
         let end = instrs.pop_if(|instr| instr.mnemonic == "END");

@@ -142,6 +142,10 @@ impl Fault {
     fn variable(node: Node, name: &str, missing: &Missing) -> Self {
         let name = name.trim();
         let (what, help) = match missing {
+            Missing::Device if name.is_empty() => (
+                "a variable or a constant is missing".to_owned(),
+                "write what the operator works on",
+            ),
             Missing::Device if !is_name(name) => (
                 format!("`{name}` is neither a variable nor a constant of a PLC of the family"),
                 "numbers are whole, such as `5` and `16#1F`; draw or list what an expression computes",

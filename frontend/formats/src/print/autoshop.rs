@@ -32,17 +32,6 @@ pub fn to_autoshop(program: &Program) -> Result<String, Box<Diagnostic>> {
     Ok(out + &closing(program))
 }
 
-/// Number of NOP that [`to_autoshop`] leaves out: they stand between routines or after END, where no window is.
-pub fn nops_outside_windows(program: &Program) -> usize {
-    let nops = |instrs: &[Instr]| instrs.iter().filter(|instr| is_nop(instr)).count();
-    let inside = |divided: Divided| -> usize {
-        let windows = divided.windows.iter();
-        windows.map(|window| nops(window.instrs)).sum()
-    };
-    let all = nops(&program.instrs);
-    divide(program).map_or(0, |divided| all - inside(divided))
-}
-
 /// The remarks of an instruction that the text leaves out.
 fn remarks(out: &mut String, instr: &Instr) {
     statements(out, instr);
@@ -161,12 +150,8 @@ fn names(program: &Program, labels: &[Device]) -> BTreeMap<Device, String> {
     let mut names = BTreeMap::new();
     for &label in labels {
         let comment = program.comments.get(&label).map(String::as_str);
-        let usual = |label: Device| match label.class {
-            DeviceClass::I => format!("INT_{:03}", label.number),
-            _ => format!("SBR_{:02}", label.number),
-        };
         let name = comment.filter(|name| windows::is_window_name(name) && !used.contains(*name));
-        let name = name.map_or_else(|| usual(label), str::to_owned);
+        let name = name.map_or_else(|| windows::usual_name(label), str::to_owned);
         used.insert(name.clone());
         names.insert(label, name);
     }

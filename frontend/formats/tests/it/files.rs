@@ -250,6 +250,8 @@ fn files_that_are_no_programs_are_named() {
         fixture::compound(&[stream])
     };
     let files: Vec<(&str, Vec<u8>)> = vec![
+        ("zeros.gxw", vec![0; 4096]),
+        ("tape", [&[b'x'; 257][..], b"ustar\x0000"].concat()),
         ("a.gx3", b"\x01\0\x02binary".to_vec()),
         ("zip.gx3", b"PK\x03\x04....data.xml".to_vec()),
         ("a.hcp", b"\x05\0\0\x07".to_vec()),

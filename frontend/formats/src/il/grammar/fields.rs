@@ -49,7 +49,7 @@ pub(in crate::il) fn text_field<'s>() -> impl Rule<'s, Operand> {
         .to_slice()
         .map_with(|text: &str, e| Operand {
             span: span(e.span()),
-            kind: OperandKind::Text(text.trim().into()),
+            kind: OperandKind::Text(text.into()),
         });
     choice((quoted, bare))
 }
