@@ -1,6 +1,7 @@
 //! Comparing two programs network by network.
 
 use crate::network::{Ladder, Network};
+use rungc_analysis::latches;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::{Device, Parameters, Program, align};
 use std::collections::{BTreeSet, HashMap};
@@ -179,7 +180,7 @@ pub fn compare(old: Drawn, new: Drawn) -> Comparison {
     Comparison {
         networks: networks(old, new),
         comments: comments(programs),
-        parameters: parameters(programs),
+        parameters: parameters([old, new]),
     }
 }
 
@@ -343,8 +344,30 @@ fn comments(programs: [&Program; 2]) -> Vec<Differing<Device>> {
         .collect()
 }
 
-fn parameters(programs: [&Program; 2]) -> Vec<Differing<&'static str>> {
-    let [old, new] = programs.map(settings);
+fn parameters(sides: [Drawn; 2]) -> Vec<Differing<&'static str>> {
+    let [mut old, mut new] = sides.map(|side| settings(side.resolved.program));
+    let has = |side: Drawn| side.resolved.program.parameters.is_some();
+    if has(sides[0]) != has(sides[1]) {
+        // A list states no parameters; what it leaves open is as usual.
+        let latched = |side: Drawn<'_>| {
+            let resolved = side.resolved;
+            latches::ranges(resolved.program, resolved.model)
+        };
+        let is_same = latched(sides[0]) == latched(sides[1]);
+        for side in [&mut old, &mut new] {
+            for (key, value) in side {
+                let is_usual = match *key {
+                    "latched devices" => is_same,
+                    "memory capacity" => true,
+                    "comment blocks" | "file register blocks" => value.as_deref() == Some("0"),
+                    _ => false,
+                };
+                if is_usual {
+                    *value = None;
+                }
+            }
+        }
+    }
     let pairs = old.into_iter().zip(new);
     pairs
         .map(|((key, old), (_, new))| Differing { key, old, new })
