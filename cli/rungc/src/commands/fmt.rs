@@ -39,12 +39,15 @@ fn format(args: &FmtArgs, subject: &Subject, reporter: &mut Reporter, cx: Contex
     }
     reporter.add(&findings)?;
     let laid_out = lay_out(program);
-    match (args.check, subject.is_stdin()) {
+    let is_changed = !laid_out.changes.is_empty();
+    let file = (is_changed && !subject.is_stdin()).then(|| InPlace::open(subject, &read, "fmt"));
+    let file = file.transpose()?;
+    match (args.check, file) {
         (true, _) => return compare(&laid_out, subject),
-        (false, true) => print_text(&laid_out.text)?,
-        (false, false) if laid_out.changes.is_empty() => {}
-        (false, false) => {
-            InPlace::open(subject, &read, "fmt")?.write(&laid_out.text)?;
+        (false, None) if subject.is_stdin() => print_text(&laid_out.text)?,
+        (false, None) => {}
+        (false, Some(file)) => {
+            file.write(&laid_out.text)?;
             let lines = counted(laid_out.changes.len(), "line");
             cx.note(&format!("   Formatted {path}: {lines}"));
         }

@@ -24,13 +24,18 @@ impl InPlace {
         let file = fs::canonicalize(path).map_err(|error| at(path, error))?;
         let bytes = fs::read(&file).map_err(|error| at(path, error))?;
         let text = bytes.strip_prefix(BYTE_ORDER_MARK);
-        if text.unwrap_or(&bytes) != read.program.source.text.as_bytes() {
-            return Err(Failure::Because(format!(
-                "{who}: {} is not UTF-8; `rungc convert --to il` converts it",
-                path.display()
-            )));
+        let text = text.unwrap_or(&bytes);
+        let source = read.program.source.text.as_bytes();
+        if text != source {
+            let differs = match text.len() == source.len() && text.contains(&b'\r') {
+                true => "ends its lines with a carriage return alone",
+                false => "is not UTF-8",
+            };
+            let path = path.display();
+            let why = format!("{who}: {path} {differs}; `rungc convert --to il` converts it");
+            return Err(Failure::Because(why));
         }
-        let marked = text.is_some();
+        let marked = bytes.starts_with(BYTE_ORDER_MARK);
         Ok(InPlace { file, marked })
     }
 
