@@ -100,7 +100,8 @@ pub enum ReadError {
     },
     /// A folder that holds no program.
     #[error(
-        "no program found in `{path}` (looked for `.il`, list exports, GX Developer and GX Works2 projects, PLCopen XML, `.pmw` and images)"
+        "no program found in `{path}` (looked for `.il`, list exports, GX Developer and GX Works2 projects, \
+         PLCopen XML, `.pmw` and images)"
     )]
     NoProject {
         /// Its path.

@@ -114,7 +114,7 @@ fn retained(program: &Program, model: &Model, out: &mut Diagnostics) {
         );
         let warning = codes::RETAINED.at(Span::default(), what);
         out.push(warning.label("the project says RETAIN").help(
-            "name a latched device in `[plcopen.names]` or `[plcopen] free` of rungc.toml, or add this one to `[latched]`",
+            "name a latched device in `[plcopen]` of rungc.toml, or add this one to `[latched]`",
         ));
     }
 }

@@ -164,8 +164,8 @@ fn what_a_form_cannot_store_is_named() {
     let all = format!("{latched}, the memory capacity (8 000 steps) and 1 file register block");
     assert_eq!(omitted("chosen.bin", "il"), [all]);
     assert_eq!(omitted("chosen.bin", "image"), ["1 file register block"]);
-    let variables = r#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="a" pouType="program">
-<interface><localVars retain="true"><variable name="D300"><type><INT/></type></variable></localVars></interface>
+    let variables = r#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous>
+<pou name="a" pouType="program"><interface><localVars retain="true"><variable name="D300"><type><INT/></type></variable></localVars></interface>
 <body><IL>LD X0
 ST Y0</IL></body></pou></pous></types></project>"#;
     fs::write(path.join("variables.xml"), variables).unwrap();
