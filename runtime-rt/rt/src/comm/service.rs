@@ -187,6 +187,12 @@ impl Connection {
 
     fn carry_out(&mut self, map: &mut dyn Map, reply: &mut Frame) -> FeedResult {
         let family = self.service.family;
+        if let (ServerProtocol::ModbusTcp, Some(&unit)) =
+            (self.service.protocol, self.request().get(tcp::UNIT))
+        {
+            // Of several PLCs behind a port, it is the one that the request names.
+            map.takes_unit(unit);
+        }
         self.ran = family.will_run(map);
         let answered = self.answer(map, reply);
         self.runs = family.will_run(map);

@@ -8,7 +8,10 @@ use crate::comm::{Cut, Frame, LineFault, Map};
 /// Offset of the length of a frame.
 const LENGTH: usize = 4;
 /// Bytes before the unit of a frame.
-const HEADER: usize = 6;
+const HEADER: usize = UNIT;
+
+/// Offset of the unit of a frame.
+pub const UNIT: usize = 6;
 
 /// The longest frame.
 pub const LONGEST: usize = 260;
