@@ -100,8 +100,9 @@ pub struct Plcs {
     pub spread_ms: u64,
     /// After how many milliseconds the settings begin again.
     pub repeat_ms: Option<u64>,
-    /// Devices that are stored though the program may not name them: class, first and last number.
-    pub store: Vec<(DeviceClass, u32, u32)>,
+    /// Devices that are stored though the program may not name them: class, first and last number, and where each
+    /// range is written.
+    pub store: Vec<((DeviceClass, u32, u32), Span)>,
     /// Topics of a broker, to publish and to subscribe to.
     pub topics: Topics,
 }
@@ -233,7 +234,7 @@ impl Plcs {
             let last = row.first + row.count - 1;
             ((name_class(row.class), row.first, last), *span)
         });
-        let stored = self.store.iter().map(|&range| (range, self.name.span));
+        let stored = self.store.iter().copied();
         let mut all = Vec::new();
         for ((class, first, last), span) in topics.chain(stored) {
             for number in first..=last {
@@ -456,7 +457,10 @@ impl Reader {
             }
             "modbus-tcp" => {
                 plcs.modbus_span = place;
-                let text = self.text(value).map(|written| written.text);
+                let text = match value.get_ref() {
+                    DeValue::Integer(port) => Some(port.as_str().to_string()),
+                    _ => self.text(value).map(|written| written.text),
+                };
                 plcs.modbus_tcp = text.as_deref().and_then(address);
                 if let (Some(text), None) = (text, plcs.modbus_tcp) {
                     let help = "write for example \"127.0.0.1:5020\"";
@@ -469,7 +473,7 @@ impl Reader {
             "store" => {
                 for Written { text, span } in self.texts(value) {
                     match device::range(&text) {
-                        Some(range) => plcs.store.push(range),
+                        Some(range) => plcs.store.push((range, span)),
                         None => {
                             let message = format!("`{text}` is not a range of devices");
                             self.help(span, message, "write for example \"D0-D99\"");

@@ -1,8 +1,9 @@
 //! One program and its PLCs.
 
 use crate::engine::{At, Engine, Failed, FleetError};
+use crate::format::Plcs;
 use crate::schedule::Schedule;
-use crate::served::Served;
+use crate::served::{Served, Switched};
 use rungc_rt::comm::service::Service;
 use std::io;
 use std::net::SocketAddr;
@@ -13,6 +14,8 @@ pub struct Group<'m> {
     pub name: String,
     /// Number of PLCs.
     pub count: u32,
+    /// Number of the first, in messages.
+    first: u32,
     engine: Box<dyn Engine + 'm>,
     schedule: Schedule,
     served: Option<Served>,
@@ -24,10 +27,11 @@ pub struct Group<'m> {
 
 impl<'m> Group<'m> {
     /// A group of PLCs that have just been switched on.
-    pub fn new(name: &str, count: u32, engine: Box<dyn Engine + 'm>, schedule: Schedule) -> Self {
+    pub fn new(plcs: &Plcs, engine: Box<dyn Engine + 'm>, schedule: Schedule) -> Self {
         Group {
-            name: name.to_string(),
-            count,
+            name: plcs.name.text.clone(),
+            count: plcs.count,
+            first: plcs.first,
             engine,
             schedule,
             served: None,
@@ -71,8 +75,8 @@ impl<'m> Group<'m> {
     }
 
     /// Sets what is due, carries out the requests of clients, and begins a scan. `now_ms`: milliseconds since power-on;
-    /// `scan_us`: how long the last scan took. Returns what there is to report.
-    pub fn begin_scan(&mut self, now_ms: u64, scan_us: u32) -> Option<String> {
+    /// `scan_us`: how long the last scan took. Returns messages: clients that switch PLCs between RUN and STOP.
+    pub fn begin_scan(&mut self, now_ms: u64, scan_us: u32) -> Vec<String> {
         let engine = self.engine.as_mut();
         self.schedule.due(
             self.count,
@@ -86,22 +90,34 @@ impl<'m> Group<'m> {
             },
         );
         self.set_until_ms = Some(now_ms);
-        let mut switched = Vec::new();
+        let (mut requested, mut switched) = (Vec::new(), Vec::new());
         if let Some(served) = &mut self.served {
-            served.poll(engine, &mut |plc, running| switched.push((plc, running)));
+            switched = served.poll(engine, &mut |plc, running| requested.push((plc, running)));
         }
-        let mut report = None;
-        for (plc, running) in switched {
+        let mut messages: Vec<_> = switched.iter().map(|it| self.switched(it)).collect();
+        let engine = self.engine.as_mut();
+        for (plc, running) in requested {
             let done = engine.set_running(plc, running);
             if !done && !std::mem::replace(&mut self.refused_stop, true) {
                 let name = &self.name;
-                report = Some(format!(
+                messages.push(format!(
                     "{name}: a client asks for STOP, but PLCs that run 64 at once stay in RUN; write engine = \"c\" or \"interp\" to stop them"
                 ));
             }
         }
         engine.begin_scan(now_ms as u32, scan_us);
-        report
+        messages
+    }
+
+    fn switched(&self, switched: &Switched) -> String {
+        let Switched {
+            plc,
+            running,
+            client,
+        } = switched;
+        let (name, number) = (&self.name, self.first + plc);
+        let state = if *running { "RUN" } else { "STOP" };
+        format!("{name}: {client} switches PLC {number} to {state} (Modbus TCP)")
     }
 
     /// Waits for the end of the scan.

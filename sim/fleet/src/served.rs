@@ -3,11 +3,12 @@
 use crate::engine::{At, Engine};
 use rungc_host::servers::{Limits, Server, ServerEvent};
 use rungc_rt::comm::Map;
+use rungc_rt::comm::modbus::tcp::UNIT;
 use rungc_rt::comm::service::Service;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use std::cell::{Cell, RefCell};
 use std::io;
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::ops::Range;
 
 /// Number of ports without a connection that are polled for new ones before each scan. With more, they take turns.
@@ -38,6 +39,17 @@ struct Reached<'a> {
     type_code: u16,
     /// RUN or STOP was requested: of which PLC.
     request: Option<(u32, bool)>,
+}
+
+/// A client that has switched a PLC to RUN or STOP.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Switched {
+    /// Number of the PLC, from 0.
+    pub plc: u32,
+    /// RUN.
+    pub running: bool,
+    /// The client.
+    pub client: IpAddr,
 }
 
 impl Served {
@@ -85,8 +97,13 @@ impl Served {
     }
 
     /// Carries out and answers the requests since the last scan. Calls `switch` for PLCs that are requested to change
-    /// between RUN and STOP.
-    pub fn poll(&mut self, engine: &mut dyn Engine, switch: &mut dyn FnMut(u32, bool)) {
+    /// between RUN and STOP. Returns which PLCs clients switch so, or by special relays.
+    pub fn poll(
+        &mut self,
+        engine: &mut dyn Engine,
+        switch: &mut dyn FnMut(u32, bool),
+    ) -> Vec<Switched> {
+        let mut all = Vec::new();
         let (count, next) = (self.doors.len(), self.next);
         let turn = |n: usize| (n + count - next) % count < ASKED_AT_ONCE;
         self.next = (next + ASKED_AT_ONCE) % count.max(1);
@@ -101,17 +118,34 @@ impl Served {
                 type_code: self.type_code,
                 request: None,
             };
-            for (_, event) in door.server.poll(&mut map) {
+            for (client, event) in door.server.poll(&mut map) {
                 if let ServerEvent::Exchange(exchange) = event {
                     self.requests[0] += 1;
                     self.requests[1] += u64::from(exchange.rejected);
+                    let unit = exchange.request.get(UNIT).copied();
+                    let plc = unit.and_then(|unit| of_unit(&door.plcs, unit));
+                    all.extend(plc.zip(exchange.running).map(|(plc, running)| Switched {
+                        plc,
+                        running,
+                        client: client.ip(),
+                    }));
                 }
             }
             if let Some((plc, running)) = map.request {
                 switch(plc, running);
             }
         }
+        all
     }
+}
+
+/// The PLC of a unit among those of a port. A port of one PLC is the PLC itself, whichever unit that is called.
+fn of_unit(plcs: &Range<u32>, unit: u8) -> Option<u32> {
+    if plcs.len() == 1 {
+        return matches!(unit, 0 | 1 | 255).then_some(plcs.start);
+    }
+    let plc = plcs.start + u32::from(unit).checked_sub(1)?;
+    plcs.contains(&plc).then_some(plc)
 }
 
 impl Reached<'_> {
@@ -132,15 +166,7 @@ impl Reached<'_> {
 
 impl Map for Reached<'_> {
     fn takes_unit(&mut self, unit: u8) -> bool {
-        let plc = match self.plcs.len() {
-            // A port of one PLC is the PLC itself, whichever unit that is called.
-            1 if matches!(unit, 0 | 1 | 255) => Some(self.plcs.start),
-            1 => None,
-            _ => u32::from(unit)
-                .checked_sub(1)
-                .map(|n| self.plcs.start + n)
-                .filter(|plc| self.plcs.contains(plc)),
-        };
+        let plc = of_unit(&self.plcs, unit);
         plc.map(|plc| self.plc.set(plc)).is_some()
     }
 

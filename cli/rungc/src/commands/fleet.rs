@@ -27,6 +27,8 @@ use running::Fleets;
 /// A program of the fleet, compiled.
 struct Compiled {
     module: Module,
+    /// The same with all devices of the model, of PLCs that clients reach.
+    whole: Option<Module>,
     settings: Vec<Setting>,
     fitted: Vec<FittedModule>,
 }
@@ -59,14 +61,17 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
                 let at = plcs.engine_span;
                 return Err(refuse(FLEET_ENGINE.at(at, why.as_str()).into()));
             }
-            (None, _) => Box::new(Machines::new(&compiled.module, plcs.count, &hal)),
+            (None, _) => {
+                let module = compiled.whole.as_ref().unwrap_or(&compiled.module);
+                Box::new(Machines::new(module, plcs.count, &hal))
+            }
         };
         let schedule = Schedule {
             settings: compiled.settings.clone(),
             spread_ms: plcs.spread_ms,
             repeat_ms: plcs.repeat_ms,
         };
-        let mut group = Group::new(&plcs.name.text, plcs.count, engine, schedule);
+        let mut group = Group::new(plcs, engine, schedule);
         check_settings(&mut group, plcs, compiled).map_err(refuse)?;
         if let Some(first) = plcs.modbus_tcp {
             let model = compiled.module.model;
@@ -134,6 +139,14 @@ fn compile(
     };
     let compiled = compile::compile(&read.program, &options);
     let findings = findings(&subject, &read, &compiled);
+    // An interpreter has all devices, so it keeps the special ones up to date that a client may read.
+    let whole = plcs.modbus_tcp.and_then(|_| {
+        let options = CompileOptions {
+            observe_all: true,
+            ..options
+        };
+        compile::compile(&read.program, &options).module
+    });
     match compiled.module {
         Some(module) if !findings.failed() => {
             reporter.add_count(&findings, subject.check_command().as_deref(), cx)?;
@@ -141,6 +154,7 @@ fn compile(
             let parameters = read.program.parameters.as_ref();
             Ok(Ok(Compiled {
                 module,
+                whole,
                 settings,
                 fitted: parameters.map_or_else(Vec::new, |of| of.modules.clone()),
             }))

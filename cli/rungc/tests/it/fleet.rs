@@ -5,7 +5,8 @@ use crate::common;
 use crate::common::mosquitto::Ends;
 use crate::common::{folder, shown, text};
 use std::env;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::Path;
 use std::process::{ChildStderr, Command, Stdio};
 
@@ -241,6 +242,59 @@ modbus-tcp = '0'
     ] {
         assert!(summary.contains(line), "{summary}");
     }
+}
+
+/// The answer of unit 2 to a request of Modbus TCP.
+fn ask(client: &mut TcpStream, request: &[u8]) -> Vec<u8> {
+    let mut frame = vec![0, 1, 0, 0, 0, request.len() as u8 + 1, 2];
+    frame.extend_from_slice(request);
+    client.write_all(&frame).unwrap();
+    let mut answer = [0; 260];
+    let count = client.read(&mut answer).unwrap();
+    answer[7..count].to_vec()
+}
+
+/// PLCs on an interpreter have all special devices, as in `rungc serve`: the program names none of them.
+#[test]
+fn clients_see_special_devices_and_switch_to_stop() {
+    let fleet = "\
+[plc.presses]
+program = 'p.il'
+count = 3
+first = 11
+units = 3
+engine = 'interp'
+modbus-tcp = 0
+";
+    let folder = folder(&[
+        ("p.il", b"LD M0\nOUT M1\nEND\n"),
+        ("fleet.toml", fleet.as_bytes()),
+    ]);
+    let (mut fleet, errors) = start(folder.path(), "fleet.toml");
+    let mut lines = errors.lines().map_while(Result::ok);
+    let line = lines.find(|line| line.contains("Modbus TCP at ")).unwrap();
+    let address = line.split(" at ").nth(1).unwrap();
+    let address = address.split(',').next().unwrap();
+    let mut client = TcpStream::connect(address).unwrap();
+    client.set_nodelay(true).unwrap();
+    // M8011, the clock of 10 ms: M8000 is 1E00h.
+    let blinks = |client: &mut TcpStream| ask(client, &[1, 0x1e, 11, 0, 2]);
+    let first = blinks(&mut client);
+    common::soon("M8011 or M8012 changes", || blinks(&mut client) != first);
+    // D8018, the year: D8000 is 1F40h.
+    assert!(ask(&mut client, &[3, 0x1f, 0x52, 0, 1])[3] >= 26);
+    let runs = |client: &mut TcpStream| ask(client, &[1, 0x1e, 0, 0, 1]) == [1, 1, 1];
+    assert!(runs(&mut client));
+    let stop = [5, 0x1e, 37, 0xff, 0];
+    assert_eq!(ask(&mut client, &stop), stop);
+    common::soon("it is in STOP", || !runs(&mut client));
+    let line = lines.find(|line| line.contains(" switches ")).unwrap();
+    assert_eq!(
+        line,
+        "rungc: presses: 127.0.0.1 switches PLC 12 to STOP (Modbus TCP)"
+    );
+    let summary = interrupt(&mut fleet);
+    assert!(summary.contains("presses: 1 PLC in STOP"), "{summary}");
 }
 
 #[cfg(feature = "mqtt")]
