@@ -83,12 +83,25 @@ pub fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A path without links and `..`, whose end need not exist.
+/// A path without links and `..`, whose end need not exist: a link whose end is missing leads to where that would be.
 pub fn resolved(path: &Path) -> io::Result<PathBuf> {
+    follow(path, LINKS)
+}
+
+/// Links without an end that a path may have in a row; systems give up at a similar number.
+const LINKS: usize = 32;
+
+fn follow(path: &Path, links: usize) -> io::Result<PathBuf> {
     let path = std::path::absolute(path)?;
-    match (dunce::canonicalize(&path), path.parent(), path.file_name()) {
-        (Err(_), Some(parent), Some(name)) => Ok(resolved(parent)?.join(name)),
-        (canonical, _, _) => canonical,
+    let (error, parent, name) = match (dunce::canonicalize(&path), path.parent(), path.file_name())
+    {
+        (Err(error), Some(parent), Some(name)) => (error, parent, name),
+        (canonical, _, _) => return canonical,
+    };
+    match (std::fs::read_link(&path), links) {
+        (Ok(_), 0) => Err(error),
+        (Ok(end), _) => follow(&follow(parent, links - 1)?.join(end), links - 1),
+        (Err(_), _) => Ok(follow(parent, links)?.join(name)),
     }
 }
 

@@ -300,7 +300,12 @@ fn strange(settings: &str) -> TempDir {
     fs::write(project.join("rungc.toml"), settings).unwrap();
     fs::write(project.join("panel/notes.txt"), "notes\n").unwrap();
     #[cfg(unix)]
-    std::os::unix::fs::symlink("..", folder.path().join("project/link")).unwrap();
+    for (end, link) in [
+        ("..", "project/link"),
+        ("../../new.txt", "project/panel/away"),
+    ] {
+        std::os::unix::fs::symlink(end, folder.path().join(link)).unwrap();
+    }
     folder
 }
 
@@ -333,6 +338,9 @@ fn settings_do_not_lead_out_of_their_project() {
         cases.extend([
             (io("link", "new.txt"), &serve[..]),
             (io(".", "link/new.txt"), &serve),
+            // The file that the link leads to is missing.
+            (io("panel", "away"), &serve),
+            (retain("panel/away"), &["run"]),
             (output("link/new"), &build),
             (retain("link/new.retain"), &["run"]),
         ]);
