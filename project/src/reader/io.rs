@@ -23,16 +23,11 @@ impl Reader {
                 }
             }
         }
-        if let Some((device, n, row)) = overlap(&project.connections()) {
-            let connected = &project.io[n];
-            let at = row.and_then(|row| connected.rows.get(row));
+        if let Some(overlap) = overlap(&project.connections()) {
+            let connected = &project.io[overlap.connection];
+            let at = overlap.row.and_then(|row| connected.rows.get(row));
             let at = at.copied().unwrap_or(connected.fault);
-            let help = "a device takes its value from one place";
-            self.misconnected(
-                at,
-                format!("`{device}` takes its value from two places"),
-                help,
-            );
+            self.misconnected(at, overlap.message, overlap.help);
         }
     }
 

@@ -21,7 +21,7 @@ super::codes! {
 
     IO_CONNECTION = "E0820" "io-connection" Error None,
     "a connection of `[io]` in rungc.toml cannot be made as it is described",
-    "A table `[io.NAME]` connects devices of a running program to remote I/O, a broker, pins or files. It has one key that says to what (`modbus-tcp`, `modbus-rtu`, `mqtt`, `gpio`, `files` or `console`), options, and rows: ranges of devices with the direction and the place at the other end (`X000-X007 = \"read inputs 0\"`). No device takes its value from two places. `rungc book linux` explains the keys.",
+    "A table `[io.NAME]` connects devices of a running program to remote I/O, a broker, pins or files. It has one key that says to what (`modbus-tcp`, `modbus-rtu`, `mqtt`, `gpio`, `files` or `console`), options, and rows: ranges of devices with the direction and the place at the other end (`X000-X007 = \"read inputs 0\"`). No device takes its value from two places, and no two rows write the same place. `rungc book linux` explains the keys.",
     wrong: "",
     right: "";
 }

@@ -8,6 +8,7 @@
 //! | file | what |
 //! |---|---|
 //! | `settings.rs` | connections from their keys and values |
+//! | `overlap.rs` | rows that contradict each other |
 //! | `text.rs` | the same from a file, for hosts without a library for TOML |
 //! | `cycle.rs` | threads, and what they share with the scan |
 //! | `modbus.rs` | remote I/O over Modbus: the requests, and TCP |
@@ -31,6 +32,7 @@ mod modbus;
 mod mqtt;
 #[cfg(not(target_os = "linux"))]
 mod no_serial;
+mod overlap;
 mod ports;
 mod rtu;
 mod settings;
@@ -48,9 +50,10 @@ pub use host::Environment;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;
+pub use overlap::{Overlap, overlap};
 pub use ports::cannot_open;
 pub use rtu::{Rtu, SerialLine};
-pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table, overlap, time};
+pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table, time};
 #[cfg(target_os = "linux")]
 pub use sys::SerialPort;
 pub use text::parse;

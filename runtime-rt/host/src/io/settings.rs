@@ -575,34 +575,6 @@ fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Res
     }
 }
 
-/// A device that two rows read, or that a row reads and a connection shows a fault with: its name, and the place of the
-/// later one: connection and row, `None` for the fault.
-pub fn overlap(connections: &[Connection]) -> Option<(String, usize, Option<usize>)> {
-    let mut taken: Vec<(Class, Range<u32>)> = Vec::new();
-    for (n, connection) in connections.iter().enumerate() {
-        let rows = connection
-            .rows
-            .iter()
-            .enumerate()
-            .filter(|(_, row)| row.reads);
-        let rows = rows.map(|(at, row)| (row.class, row.first..row.first + row.count, Some(at)));
-        let fault = connection
-            .fault
-            .map(|(class, number)| (class, number..number + 1, None));
-        for (class, range, at) in rows.chain(fault) {
-            let meets = |other: &&(Class, Range<u32>)| {
-                other.0 == class && other.1.start < range.end && range.start < other.1.end
-            };
-            if let Some((_, other)) = taken.iter().find(meets) {
-                let device = device_name(class, other.start.max(range.start));
-                return Some((device, n, at));
-            }
-            taken.push((class, range));
-        }
-    }
-    None
-}
-
 /// Reads a time: `20ms`, `1s`, `2min`, or a number of milliseconds.
 pub fn time(text: &str) -> Option<u64> {
     let unit = text

@@ -135,13 +135,54 @@ allow = [
         ),
         (
             "[io.a]\nfiles = '.'\nX0 = 'read a'\nfault = 'M0'\n[io.b]\nfiles = '.'\nM0-M7 = 'read b'\n",
-            "line 5: `M0` takes its value from two places",
+            "line 7: `M0` takes its value from two places",
+        ),
+        (
+            "[io.a]\nfiles = '.'\nX0 = 'read a'\nD0 = 'write b'\nfault = 'X0'\n",
+            "line 5: `X0` is not a bit device Y, M or S",
+        ),
+        (
+            "[io.a]\nfiles = '.'\nM0 = 'read a'\nfault = 'M0'\n",
+            "line 4: `M0` takes its value from two places",
+        ),
+        (
+            "[io.a]\nfiles = '.'\nY0 = 'write a'\n[io.b]\nfiles = '.'\nX0 = 'read b'\nY1 = 'write a'\n",
+            "line 7: `a` takes its value from two rows",
         ),
     ] {
         let messages = parse(text).unwrap_err();
         // Before what helps.
         assert_eq!(messages.split("; ").next(), Some(why), "{text}");
     }
+}
+
+#[test]
+fn a_place_is_written_by_one_row() {
+    let rows = |kind: &str, rows: &[(&str, &str)]| {
+        let pairs: Vec<_> = [(kind, "x")].iter().chain(rows).copied().collect();
+        let connection = Connection::read("a", &pairs).unwrap();
+        overlap(&[connection]).map(|overlap| (overlap.message, overlap.row))
+    };
+    let twice = |place: &str| Some((format!("`{place}` takes its value from two rows"), Some(1)));
+    let pair = |a, b| [("Y000-Y007", a), ("Y010-Y017", b)];
+    let modbus = |a, b| rows("modbus-tcp", &pair(a, b));
+    assert_eq!(modbus("write coils 0", "write coils 8"), None);
+    assert_eq!(modbus("write coils 0", "write registers 0"), None);
+    assert_eq!(modbus("write coils 0", "write coils 7"), twice("coils 7"));
+    assert_eq!(
+        modbus("write registers 3", "write registers 3"),
+        twice("registers 3")
+    );
+    let mqtt = |a, b| rows("mqtt", &pair(a, b));
+    assert_eq!(mqtt("write lamp/{}", "write lamp/{}"), None);
+    assert_eq!(mqtt("write lamp", "write lamp"), twice("lamp"));
+    assert_eq!(mqtt("write {}", "write Y003"), twice("Y003"));
+    let same = [("Y000-Y007", "write {}"), ("Y003", "write {}")];
+    assert_eq!(rows("mqtt", &same), None);
+    let lines = [("Y000", "write 4"), ("Y001", "write 4 active-low")];
+    assert_eq!(rows("gpio", &lines), twice("line 4"));
+    let console = [("Y000", "write"), ("Y001", "write")];
+    assert_eq!(rows("console", &console), None);
 }
 
 /// A driver of files in a new folder.

@@ -1,6 +1,7 @@
 //! Connections from a file, for hosts without a library for TOML.
 
-use super::settings::{Connection, SettingError, overlap};
+use super::overlap::{Overlap, overlap};
+use super::settings::{Connection, SettingError};
 
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
 ///
@@ -50,10 +51,7 @@ pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
         return Err("there is no table `[io.NAME]`".to_owned());
     }
     match overlap(&connections) {
-        Some((device, n, _)) => Err(format!(
-            "line {}: `{device}` takes its value from two places",
-            tables[n].at
-        )),
+        Some(overlap) => Err(tables[overlap.connection].contradicts(&overlap)),
         None => Ok(connections),
     }
 }
@@ -107,6 +105,18 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
+    /// Message that a row contradicts an earlier one.
+    fn contradicts(&self, overlap: &Overlap) -> String {
+        let is_row = |key: &str| key.starts_with(|c: char| c.is_ascii_uppercase());
+        let mut rows = self.pairs.iter().filter(|(_, (key, _))| is_row(key));
+        let pair = match overlap.row {
+            Some(row) => rows.nth(row),
+            None => self.pairs.iter().find(|(_, (key, _))| *key == "fault"),
+        };
+        let line = pair.map_or(self.at, |pair| pair.0);
+        format!("line {line}: {}; {}", overlap.message, overlap.help)
+    }
+
     fn read(&self) -> Result<Connection, String> {
         let pairs: Vec<_> = self.pairs.iter().map(|(_, pair)| *pair).collect();
         Connection::read(self.name, &pairs).map_err(|errors| {
@@ -142,5 +152,6 @@ fn pair(line: &str) -> Option<(&str, &str)> {
     };
     let plain = |c: char| c.is_ascii_alphanumeric();
     let fits = (quote.is_some() && !value.contains('\\')) || value.chars().all(plain);
-    (fits && !key.is_empty() && !value.is_empty() && rest(after)).then_some((key, value))
+    let is_there = quote.is_some() || !value.is_empty();
+    (fits && !key.is_empty() && is_there && rest(after)).then_some((key, value))
 }
