@@ -96,6 +96,21 @@ static void set_line(void *context, uint8_t port, const rungc_line_format *forma
     }
 }
 
+/* Opens a serial port; -1 if that fails, or another kind of file is at the path. */
+static int open_terminal(const char *path)
+{
+    struct termios settings;
+    const int file = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+
+    if (file >= 0 && tcgetattr(file, &settings) != 0) {
+        const int why = errno;
+        close(file);
+        errno = why;
+        return -1;
+    }
+    return file;
+}
+
 /* Opens a line again that has vanished, if it is there. */
 static void reopen_line(serial_line *line, uint32_t now_us)
 {
@@ -103,7 +118,7 @@ static void reopen_line(serial_line *line, uint32_t now_us)
         return;
     }
     line->tried_us = now_us;
-    line->file = open(line->path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+    line->file = open_terminal(line->path);
     if (line->file >= 0) {
         const rungc_line_format format = line->format;
         print(stderr, "PROGRAM: COM%u: %s is back\n", line->port, line->path);
@@ -252,24 +267,27 @@ static bool open_pseudo_terminal(serial_line *line)
     return tcsetattr(line->client_end, TCSANOW, &settings) == 0;
 }
 
-/* Prints the serial ports of this machine: those of adapters and boards. */
+/* Number of ports that are listed at most: some machines have dozens without a connector. */
+#define LISTED_PORTS 8u
+
+/* Prints the serial ports of this machine, adapters first. */
 static void list_ports(void)
 {
-    static const char *const patterns[] = {"/dev/ttyUSB*", "/dev/ttyACM*", "/dev/ttyAMA*", "/dev/cu.*"};
-    bool any = false;
+    static const char *const patterns[] = {"/dev/ttyUSB*", "/dev/ttyACM*", "/dev/ttyAMA*", "/dev/cu.*", "/dev/ttyS*"};
+    unsigned listed = 0;
 
     for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; i++) {
         glob_t found;
         if (glob(patterns[i], 0, NULL, &found) != 0) {
             continue;
         }
-        for (size_t n = 0; n < found.gl_pathc; n++) {
-            any = true;
+        for (size_t n = 0; n < found.gl_pathc && listed < LISTED_PORTS; n++) {
+            listed++;
             print(stderr, "PROGRAM: this machine has %s\n", found.gl_pathv[n]);
         }
         globfree(&found);
     }
-    if (!any) {
+    if (listed == 0u) {
         print(stderr, "PROGRAM: this machine has no serial port: is the adapter connected?\n");
     }
 }
@@ -288,8 +306,13 @@ static bool connect_line(uint8_t port, const char *path)
         return false;
     }
     line->path = path;
+    if (strncmp(path, "tcp:", 4) == 0 || strncmp(path, "tcp-listen:", 11) == 0) {
+        print(stderr, "PROGRAM: COM%u=%s: this program has no serial lines over TCP, `rungc run` has; ", port, path);
+        print(stderr, "socat joins one to a pseudo-terminal\n");
+        return false;
+    }
     if (strcmp(path, "pty") != 0) {
-        line->file = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+        line->file = open_terminal(path);
     }
     if (strcmp(path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
         const bool is_missing = errno == ENOENT;

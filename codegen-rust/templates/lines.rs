@@ -87,7 +87,7 @@ impl Line {
         if plc.port(port).is_none() {
             return Err(format!("the program has no port COM{port}"));
         }
-        let line = Line::open(port, path).map_err(|error| cannot_open(&error))?;
+        let line = Line::open(port, path).map_err(|error| cannot_open(path, &error))?;
         report!("COM{port} at {path}");
         Ok(line)
     }

@@ -115,6 +115,12 @@ fn an_executable_in_c_answers_on_a_pseudo_terminal() {
         ),
         (&["--serial", "tty"], "a line is written COM1=/dev/ttyUSB0"),
         (&["--serial", "COM1=no-such-tty"], "No such file"),
+        (&["--serial", "COM1=tcp:a:1"], "no serial lines over TCP"),
+        (
+            &["--serial", "COM1=tcp-listen:1"],
+            "no serial lines over TCP",
+        ),
+        (&["--serial", "COM1=/dev/null"], "Inappropriate ioctl"),
         (&["--modem"], "usage: "),
     ] {
         let output = Command::new(&program).args(args).output().unwrap();
@@ -150,12 +156,19 @@ fn an_executable_in_rust_answers_on_a_terminal() {
     let (_running, _) =
         Running::start(Command::new(&program).args(["--serial", &line]), "COM1 at ");
     answers(&theirs.display().to_string());
-    let output = Command::new(&program)
-        .args(["--serial", "COM7=x"])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("the program has no port COM7"));
+    for (line, message) in [
+        ("COM7=x", "the program has no port COM7"),
+        ("COM1=pty", "this program has no pseudo-terminals"),
+        ("COM1=tcp:a:1", "no serial lines over TCP"),
+        ("COM1=/dev/null", "Inappropriate ioctl"),
+    ] {
+        let output = Command::new(&program)
+            .args(["--serial", line])
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        assert!(text(&output.stderr).contains(message), "{line}");
+    }
 }
 
 /// A program whose messages are read, and which takes commands.
