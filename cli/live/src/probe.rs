@@ -2,6 +2,7 @@
 
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Basic, Lower, Shape as Kind};
+use rungc_ir::ResetStates;
 use rungc_ladder::layout::Cell;
 use rungc_ladder::{InstrIndex, Shape};
 use rungc_rt::{Class, CmpOp, Plc};
@@ -57,15 +58,7 @@ impl Source {
 
     /// Its value; `None` if an index leads to a device that does not exist.
     fn read(self, seen: Seen) -> Option<Reading> {
-        let offset = |index: Option<Index>| {
-            let index = index?;
-            let class = match index.class {
-                DeviceClass::V => Class::V,
-                _ => Class::Z,
-            };
-            seen.machine.word(class, index.number)
-        };
-        let offset = |index| offset(index).unwrap_or(0);
+        let offset = |index| offset(index, seen);
         match self {
             Source::Target(target, None) => Reading::of(seen, target),
             Source::Target(target, index) => {
@@ -87,6 +80,21 @@ impl Source {
     /// Returns true if it is a bit that is on.
     pub(crate) fn is_on(self, seen: Seen) -> bool {
         self.read(seen) == Some(Reading::Bit(true))
+    }
+
+    /// Returns true if it is a timer or counter that RST holds at 0, as far as its reset state has a memory.
+    fn is_reset(self, seen: Seen, resets: &ResetStates) -> bool {
+        let target = match self {
+            Source::Target(target @ Target::Current(..), index) => {
+                shifted(target, offset(index, seen).into())
+            }
+            _ => None,
+        };
+        let state = match target {
+            Some(Target::Current(class, number)) => resets.get(class, number),
+            _ => None,
+        };
+        state.is_some_and(|state| seen.machine.is_reset(state))
     }
 
     /// Returns true if its value is worth showing: bits are seen in the ladder, and constants are written there.
@@ -112,6 +120,18 @@ fn target(Device { class, number }: Device, kind: Kind, pair: bool) -> Option<Ta
         D | R | ER | V | Z => Target::Word(class, number),
         _ => return None,
     })
+}
+
+/// The value of an index.
+fn offset(index: Option<Index>, seen: Seen) -> i16 {
+    let Some(index) = index else {
+        return 0;
+    };
+    let class = match index.class {
+        DeviceClass::V => Class::V,
+        _ => Class::Z,
+    };
+    seen.machine.word(class, index.number).unwrap_or(0)
 }
 
 /// The device to which an index leads.
@@ -229,14 +249,19 @@ impl Watched {
         }
     }
 
-    /// The values as they are now: `D0=5 D2=7`.
-    pub(crate) fn values(&self, seen: Seen) -> String {
+    /// The values as they are now: `D0=5 D2=7`; of a timer or counter that RST holds `C0=0 (reset)`.
+    pub(crate) fn values(&self, seen: Seen, resets: &ResetStates) -> String {
         let mut text = String::new();
         for (name, source) in &self.values {
             let separator = if text.is_empty() { "" } else { " " };
             let value = source.read(seen);
             let value = value.map_or_else(|| "?".to_string(), |value| value.to_string());
-            let _ = write!(text, "{separator}{name}={value}");
+            let reset = if source.is_reset(seen, resets) {
+                " (reset)"
+            } else {
+                ""
+            };
+            let _ = write!(text, "{separator}{name}={value}{reset}");
         }
         text
     }

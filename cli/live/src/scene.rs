@@ -7,6 +7,7 @@
 use crate::probe::{Probe, Watched, holds};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
+use rungc_ir::ResetStates;
 use rungc_ladder::circuit::Circuit;
 use rungc_ladder::svg::Painter;
 use rungc_ladder::{Ladder, Network};
@@ -25,6 +26,8 @@ pub struct Scene {
     edged: Vec<usize>,
     /// Memory of the power of each net and of what each link does.
     power: Power,
+    /// The reset states of the program, known from the first look on.
+    resets: Option<ResetStates>,
 }
 
 /// A network of the page.
@@ -73,6 +76,7 @@ impl Scene {
             edged: with_edges.map(|(n, _)| n).collect(),
             networks,
             power: Power::default(),
+            resets: None,
         };
         (scene, pictures)
     }
@@ -119,10 +123,13 @@ impl Scene {
     /// or is driven, and the values of links that show some. A network whose state has not changed has the same text.
     pub fn look(&mut self, seen: Seen) -> Vec<Arc<str>> {
         let mut text = String::new();
+        let resets = self
+            .resets
+            .get_or_insert_with(|| ResetStates::of(seen.machine.module()));
         let look = |shown: &mut Shown| {
             shown.flow(seen, &mut self.power);
             text.clear();
-            shown.write(seen, &self.power, &mut text);
+            shown.write((seen, resets), &self.power, &mut text);
             if *shown.state != *text {
                 shown.state = text.as_str().into();
             }
@@ -196,7 +203,7 @@ impl Shown {
         }
     }
 
-    fn write(&self, seen: Seen, power: &Power, out: &mut String) {
+    fn write(&self, (seen, resets): (Seen, &ResetStates), power: &Power, out: &mut String) {
         let digits = |bits: &[bool], out: &mut String| {
             out.extend(bits.iter().map(|&bit| if bit { '1' } else { '0' }));
         };
@@ -208,7 +215,7 @@ impl Shown {
         let mut separator = "";
         for (i, link) in self.links.iter().enumerate() {
             if link.watched.has_values() {
-                let values = serde_json::Value::from(link.watched.values(seen));
+                let values = serde_json::Value::from(link.watched.values(seen, resets));
                 out.push_str(&format!("{separator}\"{i}\":{values}"));
                 separator = ",";
             }

@@ -7,8 +7,8 @@ use crate::devices::Devices;
 use crate::errors::OperationError;
 use crate::eval::Value;
 use crate::logic::Logic;
-use rungc_ir::Module;
 use rungc_ir::node::{CellId, EdgeId, ExprId, FlagId, FunctionKind, Stmt, TableId, TempId};
+use rungc_ir::{Module, ResetState};
 use rungc_models::special::RunCommand;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::modbus::Profile;
@@ -197,6 +197,18 @@ impl<'m> Machine<'m> {
     /// Returns true if a private bit of the module is on.
     pub fn flag(&self, flag: FlagId) -> bool {
         self.flags[flag]
+    }
+
+    /// Returns true if a timer or counter is in its reset state.
+    pub fn is_reset(&self, state: ResetState) -> bool {
+        match state {
+            ResetState::Flag(flag) => self.flags[flag],
+            ResetState::Entry(table, number) => {
+                let entries = self.tables.get(table);
+                let entry = entries.and_then(|entries| entries.get(number as usize));
+                entry.is_some_and(|&entry| entry != 0)
+            }
+        }
     }
 
     /// Returns true if the watchdog has stopped the program.

@@ -12,10 +12,12 @@ pub mod node;
 pub mod passes;
 pub mod ranges;
 pub mod reach;
+mod resets;
 mod retained;
 pub mod validate;
 pub mod walk;
 pub mod worst;
 
 pub use node::Module;
+pub use resets::{ResetState, ResetStates, reset_name};
 pub use retained::fnv1a;

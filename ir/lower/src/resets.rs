@@ -11,6 +11,7 @@ use rungc_catalogue::Basic;
 use rungc_ir::node::{
     Action, BinOp, Expr, ExprId, FlagId, Module, Place, SetEntry, Table, TableId,
 };
+use rungc_ir::reset_name;
 use rungc_models::{Model, high_speed};
 use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass::{self, C, T};
@@ -117,7 +118,7 @@ impl Lowerer<'_> {
         for (class, (uses, indexed)) in classes {
             if indexed && uses.holds() {
                 let table = Table {
-                    name: format!("{}_reset", class.prefix().to_lowercase()),
+                    name: reset_name(class, None),
                     meaning: "which of them RST holds at 0",
                     length: end(self.model, class),
                 };
@@ -148,7 +149,7 @@ impl Lowerer<'_> {
         {
             return Memory::Drive;
         }
-        let name = format!("{}{number}_reset", class.prefix().to_lowercase());
+        let name = reset_name(class, Some(number));
         let flag = self.flag(name, "RST holds it at 0", None);
         self.module.flags[flag].retained =
             self.model.latch_key.is_none() && self.module.is_latched(class, number);

@@ -118,6 +118,23 @@ fn rails_after_master_controls_and_in_states_have_their_power() {
 }
 
 #[test]
+fn what_rst_holds_elsewhere_shows_its_reset_state() {
+    // The subroutine is called in scan 1 with the drive of RST on, in scan 3 with it off.
+    for rst in ["RST C3", "RST C1Z0"] {
+        let list = format!("LD X0\nCALL P0\nLD X1\nOUT C3 K5\nFEND\nP0\nLD X2\n{rst}\nSRET\nEND\n");
+        let seen = states(&list, 5, |n, machine| {
+            machine.set_word(Class::Z, 0, 2).unwrap();
+            machine.set_bit(Class::X, 0, n == 1 || n == 3).unwrap();
+            machine.set_bit(Class::X, 1, n % 2 == 0).unwrap();
+            machine.set_bit(Class::X, 2, n == 1).unwrap();
+        });
+        let value = |states: &Vec<String>| states[1].split(['=', '"']).nth(8).map(str::to_string);
+        let values: Vec<_> = seen.iter().filter_map(value).collect();
+        assert_eq!(values, ["1", "0 (reset)", "0 (reset)", "0", "1"], "{rst}");
+    }
+}
+
+#[test]
 fn indexed_operands_are_those_that_the_index_leads_to() {
     let list = "LD M8000\nMOV D0Z0 D10\nDADD D20 K1 D22\nDEMOV E1.5 D30\nEND\n";
     let seen = states(list, 1, |_, machine| {

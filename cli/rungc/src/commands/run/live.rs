@@ -365,10 +365,11 @@ impl Live {
     ) -> Result<Option<u32>, String> {
         let now_ms = running.now_ms;
         match command {
-            Command::Run {} => running.machine.set_running(true),
-            Command::Stop {} => running.machine.set_running(false),
+            Command::Run {} => turn_switch(running.machine, true),
+            Command::Stop {} => turn_switch(running.machine, false),
             Command::Pause {} => self.pause("by hand".to_string()),
             Command::Continue {} => self.resume(None),
+            Command::Back { count: 0 } => return Err("go back by at least one scan".to_string()),
             Command::Back { count } => return Ok(Some(*count)),
             Command::Scan { count: 0 } => return Err("execute at least one scan".to_string()),
             Command::Scan { count } => self.resume(Some(*count)),
@@ -515,6 +516,13 @@ impl Live {
         };
         self.server.show(frame);
     }
+}
+
+/// Turns the switch to RUN or STOP, and reports it as a switch by a client is.
+fn turn_switch(machine: &mut Machine, running: bool) {
+    machine.set_running(running);
+    let state = if running { "RUN" } else { "STOP" };
+    eprint_line(&format!("rungc: the page switches to {state}"));
 }
 
 /// The axes and processes of the machine that the PLC is wired to.
