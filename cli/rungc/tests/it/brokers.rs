@@ -8,7 +8,6 @@ use crate::connected::Form;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread;
 
 const PROGRAM: &str = "\
 LD X000
@@ -219,6 +218,7 @@ mod encrypted {
     use common::{normal, text};
     use std::io::{BufRead, BufReader};
     use std::sync::{Arc, Mutex};
+    use std::thread;
 
     /// Y000 follows X000; Y010 shows that the broker is lost, D0 counts scans.
     const PROGRAM: &str = "LD X000\nOUT Y000\nLD M100\nOUT Y010\nLD M8000\nINC D0\nEND\n";
