@@ -1,7 +1,6 @@
 //! `[io.NAME]` with brokers: mosquitto is killed and comes back while `rungc serve` runs. `.ci/run` installs it; where
 //! it is not, the tests say so, unless `RUNGC_REQUIRE_PEERS` is set.
 
-use crate::common;
 use crate::common::mosquitto::{self, Ends, broker, is_there, open_to_all};
 use crate::common::{folder, free_port, soon};
 use crate::connected::Form;
@@ -214,8 +213,8 @@ fn the_last_will_says_that_the_plc_is_gone() {
 #[cfg(feature = "tls")]
 mod encrypted {
     use super::*;
-    use common::mosquitto::are_there;
-    use common::{normal, text};
+    use crate::common::mosquitto::are_there;
+    use crate::common::{normal, text};
     use std::io::{BufRead, BufReader};
     use std::sync::{Arc, Mutex};
     use std::thread;

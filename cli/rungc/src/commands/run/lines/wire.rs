@@ -14,6 +14,20 @@ use std::sync::mpsc::{self, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
+/// Returns true if a port is an end of a pseudo-terminal, on which characters have no format.
+#[cfg(target_os = "linux")]
+fn is_pseudo_terminal(port: &SerialPort) -> bool {
+    use std::os::fd::AsRawFd;
+    let file = format!("/proc/self/fd/{}", port.as_raw_fd());
+    std::fs::read_link(file).is_ok_and(|path| path.starts_with("/dev/pts"))
+}
+
+/// Other systems do not say so.
+#[cfg(not(target_os = "linux"))]
+fn is_pseudo_terminal(_: &SerialPort) -> bool {
+    false
+}
+
 /// Time-out of a thread waiting for characters.
 const PATIENCE: Duration = Duration::from_millis(100);
 
@@ -325,7 +339,11 @@ impl Wire {
         };
         let mut settings = port.get_configuration()?;
         apply(&mut settings, format)?;
-        port.set_configuration(&settings)
+        match port.set_configuration(&settings) {
+            // It has eight data bits and no parity, whatever is set.
+            Err(_) if is_pseudo_terminal(port) => Ok(()),
+            set => set,
+        }
     }
 
     /// Reports what comes, until the end fails or another takes its place: one that has been silent for long may be
