@@ -190,7 +190,7 @@ impl Connection {
         if let (ServerProtocol::ModbusTcp, Some(&unit)) =
             (self.service.protocol, self.request().get(tcp::UNIT))
         {
-            // Of several PLCs behind a port, it is the one that the request names.
+            // Several PLCs may share a port: it is the one that the request names.
             map.takes_unit(unit);
         }
         self.ran = family.will_run(map);
