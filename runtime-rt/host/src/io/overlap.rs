@@ -66,11 +66,14 @@ type Other<'a> = (&'static str, &'a str, Option<&'a String>);
 /// Devices whose values are written together: class, first number, count.
 type Source = (Class, u32, u32);
 
+/// The parts of tables, topics and files that rows have written so far, with what they write there.
+type Taken<'a> = BTreeMap<(Other<'a>, String), Vec<(Range<u32>, Source)>>;
+
 /// A table, topic or file; the part of it that a row writes, and what it writes there.
 type Written = (String, Range<u32>, Source);
 
 fn of_places(connections: &[Connection]) -> Option<Overlap> {
-    let mut taken: BTreeMap<(Other<'_>, String), Vec<(Range<u32>, Source)>> = BTreeMap::new();
+    let mut taken = Taken::new();
     for (n, connection) in connections.iter().enumerate() {
         let unit = connection.options.get("unit");
         let other = (connection.kind.key(), connection.end.as_str(), unit);
