@@ -108,6 +108,20 @@ fn hint(word: &str, names: &[&str]) -> String {
     }
 }
 
+/// The most similar of the keys of all tables, with its table; else the tables.
+fn key_meant(word: &str) -> String {
+    let keys = || TABLES.iter().flat_map(|(_, keys)| keys.iter().copied());
+    let near = diag::did_you_mean(word, keys()).filter(|near| near.len() > 1);
+    let home = near.and_then(|near| TABLES.iter().find(|(_, keys)| keys.contains(&near)));
+    match (near, home) {
+        (Some(near), Some((table, _))) => format!("did you mean `{near}` in `[{table}]`?"),
+        _ => {
+            let tables: Vec<_> = TABLES.iter().map(|(table, _)| *table).collect();
+            format!("keys stand in a table: {}", listed(&tables))
+        }
+    }
+}
+
 struct Reader {
     found: Diagnostics,
 }
@@ -127,7 +141,11 @@ impl Reader {
                 let unknown = codes::PROJECT_KEY.at(at, message).label("unknown");
                 let home = TABLES.iter().find(|(_, keys)| keys.contains(&name));
                 let help = home.map(|(table, _)| format!("it belongs in `[{table}]`"));
-                let help = help.unwrap_or_else(|| hint(name, &tables));
+                let meant = || match value.get_ref().is_table() {
+                    true => hint(name, &tables),
+                    false => key_meant(name),
+                };
+                let help = help.unwrap_or_else(meant);
                 self.found.push(unknown.help(help));
                 continue;
             };
@@ -253,6 +271,18 @@ impl Reader {
             None => self.wrong(at, wrong, "put it in quotes"),
         }
         None
+    }
+
+    /// A duration: a text, or a number of milliseconds.
+    fn duration(&mut self, table: &DeTable<'_>, key: &str) -> Option<Named> {
+        let value = table.get(key)?;
+        let text = match value.get_ref() {
+            DeValue::Integer(number) => number.to_string(),
+            DeValue::Float(number) => number.to_string(),
+            _ => return self.text(key, value),
+        };
+        let span = span(value.span());
+        Some(Named { text, span })
     }
 
     fn get(&mut self, table: &DeTable<'_>, key: &str) -> Option<Named> {

@@ -64,7 +64,7 @@ impl Reader {
                 PropertyKind::Whenever {
                     when: first,
                     then: self.get(table, "then")?,
-                    within: self.get(table, "within"),
+                    within: self.duration(table, "within"),
                 }
             }
             _ => PropertyKind::Stays {
@@ -81,8 +81,8 @@ impl Reader {
 
     pub(super) fn verify(&mut self, table: &DeTable<'_>, project: &mut Project) {
         project.verify.assume = self.list(table, "assume");
-        project.verify.scan = self.get(table, "scan");
-        project.verify.timeout = self.get(table, "timeout");
+        project.verify.scan = self.duration(table, "scan");
+        project.verify.timeout = self.duration(table, "timeout");
         project.verify.free = self.devices(table, "free", "M100-M115");
     }
 }

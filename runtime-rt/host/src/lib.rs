@@ -12,6 +12,7 @@
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;
+pub mod duration;
 pub mod io;
 pub mod retain;
 pub mod servers;

@@ -2,7 +2,8 @@
 //! place.
 
 use crate::broker::{Broker, NUMBER, Rows};
-use rungc_host::io::{Connection, Kind, Row, SettingError, time};
+use rungc_host::duration;
+use rungc_host::io::{Connection, Kind, Row, SettingError};
 use rungc_models::Model;
 use rungc_models::runs::name_class;
 use rungc_project::{Error, device};
@@ -553,13 +554,18 @@ impl Reader {
 
     fn time(&mut self, value: &Value<'_>, least: u64) -> Option<u64> {
         let at = span(value.span());
-        let text = self.text(value)?.text;
-        let known = time(&text).filter(|ms| (least..=LONGEST_MS).contains(ms));
-        if known.is_none() {
-            let help = "write for example \"10ms\" or \"1s\"";
-            self.help(at, format!("`{text}` is not a time for this"), help);
+        let text = match value.get_ref() {
+            DeValue::Integer(number) => number.to_string(),
+            DeValue::Float(number) => number.to_string(),
+            _ => self.text(value)?.text,
+        };
+        match duration::parse_within(&text, least..=LONGEST_MS) {
+            Ok(ms) => Some(ms),
+            Err(why) => {
+                self.report(at, why);
+                None
+            }
         }
-        known
     }
 }
 

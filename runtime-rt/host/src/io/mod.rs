@@ -53,7 +53,7 @@ pub use no_serial::SerialPort;
 pub use overlap::{Overlap, overlap};
 pub use ports::cannot_open;
 pub use rtu::{Rtu, SerialLine};
-pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table, time};
+pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table};
 #[cfg(target_os = "linux")]
 pub use sys::SerialPort;
 pub use text::parse;

@@ -1,5 +1,6 @@
 //! Connections, and how their keys and values are read.
 
+use crate::duration;
 use rungc_rt::Class;
 use rungc_rt::comm::modbus::Limits;
 use std::collections::BTreeMap;
@@ -405,11 +406,8 @@ impl Connection {
         }
         match key {
             "every" | "timeout" => {
-                let known = time(value).filter(|ms| (1..=3_600_000).contains(ms));
-                let Some(ms) = known else {
-                    let help = "write for example \"20ms\" or \"1s\"";
-                    return Err((format!("`{value}` is not a time"), help.to_owned()));
-                };
+                let ms = duration::parse_within(value, 1..=3_600_000);
+                let ms = ms.map_err(|why| (why, String::new()))?;
                 match key {
                     "every" => self.every_ms = ms,
                     _ => self.timeout_ms = ms,
@@ -573,21 +571,6 @@ fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Res
         (Kind::Console, []) => Ok(End::Text),
         _ => Err(cannot()),
     }
-}
-
-/// Reads a time: `20ms`, `1s`, `2min`, or a number of milliseconds.
-pub fn time(text: &str) -> Option<u64> {
-    let unit = text
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(unit);
-    let factor = match unit {
-        "" | "ms" => 1,
-        "s" => 1000,
-        "min" => 60_000,
-        _ => return None,
-    };
-    number.parse::<u64>().ok()?.checked_mul(factor)
 }
 
 /// The name of a device, as the PLC writes it.

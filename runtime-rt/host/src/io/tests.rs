@@ -77,7 +77,7 @@ fn mistakes_of_a_connection() {
     ];
     let expected = "\
 unit: `unit` is 0 to 247
-every: `5h` is not a time
+every: `5h` is not from 1ms to 1h
 fault: `D0` is not a bit device Y, M or S
 loss: `loss` is \"zero\" or \"hold\"
 baud: a connection by modbus-tcp has no key `baud`
