@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
-use rungc_syntax::{DeviceClass, Source, inputs};
+use rungc_syntax::{DeviceClass, Source, inputs, toml_words};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -186,7 +186,19 @@ pub enum BoardError {
         place: String,
         /// Description of the error.
         message: String,
+        /// The line, with a mark below the place.
+        shown: String,
     },
+}
+
+impl BoardError {
+    /// The error with the line in question and a mark below the place.
+    pub fn report(&self) -> String {
+        match self {
+            BoardError::Wrong { shown, .. } => format!("{self}{shown}"),
+            _ => self.to_string(),
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -390,7 +402,7 @@ pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
     };
     let format: Format = toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
-        reader.wrong(at, error.message().to_string())
+        reader.wrong(at, toml_words::message(error.message()))
     })?;
     reader.board(format, folder)
 }
@@ -406,9 +418,11 @@ type Spanned = toml::Spanned<String>;
 impl Reader<'_> {
     fn wrong(&self, at: usize, message: String) -> BoardError {
         let (line, column) = self.source.line_col(at as u32);
+        let text = self.source.text.lines().nth(line as usize - 1);
         BoardError::Wrong {
             place: format!("{}:{line}:{column}", self.source.name),
             message,
+            shown: toml_words::marked(text.unwrap_or_default(), (line, column)),
         }
     }
 

@@ -14,6 +14,7 @@ pub mod inputs;
 mod program;
 mod source;
 pub mod text;
+pub mod toml_words;
 
 pub use classes::Classes;
 pub use device::{DeviceClass, Number};

@@ -1,7 +1,7 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
 use rungc_frontend::{Recognised, is_meant_as_toml, is_program, recognise};
-use rungc_syntax::{Source, diag, inputs};
+use rungc_syntax::{Source, inputs, toml_words};
 use serde::de::DeserializeOwned;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -33,9 +33,6 @@ impl Problem {
     }
 }
 
-/// Maximum number of characters of a line that a report shows.
-const LINE_SHOWN: usize = 100;
-
 /// Reason why a file could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
@@ -65,22 +62,8 @@ impl LoadError {
         };
         let shown = problems.iter().map(|problem| {
             let message = lines(name, std::slice::from_ref(problem));
-            let number = problem.line.to_string();
-            let text: String = problem
-                .text
-                .replace('\t', " ")
-                .chars()
-                .take(LINE_SHOWN)
-                .collect();
-            let before = problem.column as usize - 1;
-            if text.trim().is_empty() || before > text.chars().count() {
-                return message;
-            }
-            let margin = " ".repeat(number.len());
-            format!(
-                "{message}\n {number} | {text}\n {margin} | {}^",
-                " ".repeat(before)
-            )
+            let place = (problem.line, problem.column);
+            message + &toml_words::marked(&problem.text, place)
         });
         shown.collect::<Vec<_>>().join("\n")
     }
@@ -125,47 +108,10 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
             return vec![Problem::at(source, 0, what)];
         }
         let at = error.span().map_or(0, |span| span.start);
-        vec![Problem::at(source, at, plain(error.message()))]
+        vec![Problem::at(
+            source,
+            at,
+            toml_words::message(error.message()),
+        )]
     })
-}
-
-/// Message of the TOML reader, in the words of TOML rather than of Rust; for an unknown field with the name that is
-/// meant, if it is known.
-fn plain(message: &str) -> String {
-    if message.contains("$__toml_private") {
-        return "write a date or a time in quotes".to_string();
-    }
-    let unknown = message
-        .strip_prefix("unknown field `")
-        .and_then(|rest| rest.split_once('`'));
-    if let Some((field, known)) = unknown {
-        let known = known.split('`').skip(1).step_by(2);
-        let longer = known.clone().find(|known| known.starts_with(field));
-        if let Some(near) = diag::did_you_mean(field, known).or(longer) {
-            return format!("unknown field `{field}`: did you mean `{near}`?");
-        }
-    }
-    let words = [
-        ("expected f64", "expected a number"),
-        ("expected u16", "expected a whole number"),
-        ("expected u32", "expected a whole number"),
-        ("expected i32", "expected a whole number"),
-        (
-            "invalid type: map, expected a sequence",
-            "write tables of this name in double brackets",
-        ),
-        ("invalid type: map", "invalid type: table"),
-        ("expected a map", "expected a table: `{ NAME = VALUE }`"),
-        ("expected a sequence", "expected a list in brackets"),
-    ];
-    let message = match message.split_once("expected struct ") {
-        Some((before, name)) => {
-            let rest = name.trim_start_matches(|c: char| c.is_ascii_alphanumeric());
-            format!("{before}expected a table: `{{ KEY = VALUE }}`{rest}")
-        }
-        None => message.to_string(),
-    };
-    words
-        .iter()
-        .fold(message, |text, (from, to)| text.replace(from, to))
 }

@@ -1,5 +1,6 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
+use super::keys;
 use super::naming::Named;
 use super::program::{self, CaseProgram, RawProgram, Tested};
 use super::raw::{Map, Near, RawCase, RawFile, RawPlc, RawRow, RawScenario, Scalar};
@@ -54,7 +55,7 @@ pub(super) struct Reader<'t> {
 
 /// Reads the text of a test file.
 pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
-    let raw: RawFile = problem::from_toml(source)?;
+    let raw: RawFile = problem::from_toml(source).map_err(keys::with_homes)?;
     let mut reader = Reader {
         source,
         problems: Vec::new(),

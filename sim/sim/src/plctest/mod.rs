@@ -4,6 +4,7 @@
 //! [`Engine`](crate::engines::Engine).
 
 mod format;
+mod keys;
 mod lines;
 mod modules;
 mod naming;
@@ -454,7 +455,7 @@ within = [{ ms = 5, expect = {} }]
         t.plctest.toml:20:25: `tolerance` belongs to an expected value
         t.plctest.toml:21:17: the value of `M0` must be exact: `tolerance` is for numbers
         t.plctest.toml:21:52: the value of `D0` must be a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
-        t.plctest.toml:22:10: this value must be a whole number
+        t.plctest.toml:22:10: this value must be a whole number from 0 to 4294967295
         t.plctest.toml:24:6: no scenario `strat` is defined before this: did you mean `start`?
         t.plctest.toml:25:11: `until` needs `at_most_ms`, the time after which the step fails
         t.plctest.toml:27:14: use one of `scans`, `run_ms` and `at_most_ms` in a step

@@ -102,7 +102,7 @@ pub(super) struct RawWithin {
 
 /// A whole number, or one of a row.
 #[derive(Clone, Deserialize)]
-#[serde(untagged, expecting = "expected a whole number")]
+#[serde(untagged, expecting = "expected a whole number from 0 to 4294967295")]
 pub(super) enum RawCount {
     Number(u32),
     Name(String),

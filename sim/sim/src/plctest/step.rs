@@ -107,7 +107,10 @@ impl Reader<'_> {
             Scalar::Float(_) | Scalar::Text(_) | Scalar::Near(_) => None,
         };
         if count.is_none() {
-            self.report(at, "this value must be a whole number".to_string());
+            self.report(
+                at,
+                "this value must be a whole number from 0 to 4294967295".to_string(),
+            );
         }
         count
     }
