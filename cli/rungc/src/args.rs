@@ -2,6 +2,7 @@
 
 mod boards;
 mod diff;
+mod effects;
 mod emit;
 mod explore;
 mod flash;
@@ -17,6 +18,7 @@ mod verify;
 
 pub use boards::BoardsArgs;
 pub use diff::{DiffArgs, DiffFormat};
+pub use effects::{idle, long_option};
 pub use emit::{Backend, Emit};
 pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
@@ -99,6 +101,7 @@ pub enum Command {
     ///
     /// Options add servers to those of rungc.toml, and take precedence for a protocol or serial port that both name. At
     /// the end, a table lists the connections: frames, errors, and devices written.
+    #[command(mut_args(serve::in_real_time))]
     Serve(RunArgs),
     /// Run many PLCs in lock step, each with its own ports or MQTT topics, until Ctrl-C.
     ///
@@ -242,15 +245,15 @@ pub struct Reporting {
     /// Treat warnings as errors.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Suppress warnings and notes with this code (W0203) or name (double-coil); may be repeated.
-    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible)]
+    /// Suppress warnings and notes with this code (W0203) or name (double-coil); may be repeated or separated by commas.
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible, value_delimiter = ',')]
     pub allow: Vec<&'static str>,
-    /// Treat warnings with this code or name as errors; may be repeated.
-    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning)]
+    /// Treat warnings with this code or name as errors; may be repeated or separated by commas.
+    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     pub deny: Vec<&'static str>,
-    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC
-    /// rejects the program, but it can be compiled.
-    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit)]
+    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated or separated by
+    /// commas. The PLC rejects the program, but it can be compiled.
+    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit, value_delimiter = ',')]
     pub warn: Vec<&'static str>,
     /// Levels of codes from rungc.toml; the command line takes precedence.
     #[arg(skip)]

@@ -11,11 +11,13 @@ mod progress;
 mod report;
 mod time;
 
+use anstream::{AutoStream, ColorChoice};
 use args::{Cli, ColorWhen, Command, Emit};
 use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
+use output::OutputPath;
 use std::ffi::OsString;
-use std::io::{self, IsTerminal};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Does what the arguments of the process ask for, and returns its exit code.
@@ -27,7 +29,7 @@ pub fn main() -> ExitCode {
         ));
         return ExitCode::from(2);
     }
-    let matches = Cli::command().try_get_matches();
+    let matches = Cli::command().color(usage_color()).try_get_matches();
     let matches = matches.unwrap_or_else(|error| reject(&error));
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
@@ -83,19 +85,22 @@ pub fn main() -> ExitCode {
 
 /// The context of the command.
 fn context(cli: &Cli) -> Context {
+    let is_printed = |output: &Option<OutputPath>| output::file(output).is_none();
     Context {
         color: color(cli.color),
         stdout_in_use: match &cli.command {
-            Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
-            Command::Convert(args) => args.output.is_none(),
-            Command::Read(args) => args.output.is_none(),
+            Command::Build(args) => {
+                args.plan.emit == Some(Emit::Ir) && is_printed(&args.plan.output)
+            }
+            Command::Convert(args) => is_printed(&args.output),
+            Command::Read(args) => is_printed(&args.output),
             Command::Run(_)
             | Command::Serve(_)
             | Command::Fleet(_)
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Verify(_) => true,
-            Command::Xref(args) => args.output.is_none(),
+            Command::Xref(args) => is_printed(&args.output),
             Command::Fmt(args) => args.check,
             _ => false,
         },
@@ -127,7 +132,15 @@ fn reject(error: &clap::Error) -> ! {
         commands::eprint_line(error.to_string().trim_end());
         std::process::exit(error.exit_code());
     }
-    error.exit()
+    let printed = error.print().and_then(|()| io::stdout().flush());
+    if let Err(failed) = printed
+        && failed.kind() != io::ErrorKind::BrokenPipe
+        && !error.use_stderr()
+    {
+        commands::eprint_line(&format!("rungc: standard output: {failed}"));
+        std::process::exit(2);
+    }
+    std::process::exit(error.exit_code());
 }
 
 /// Prints the manual page of rungc, or of one of its commands.
@@ -160,6 +173,26 @@ fn color(when: ColorWhen) -> bool {
             true
         }
         ColorWhen::Never => false,
-        ColorWhen::Auto => io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        ColorWhen::Auto => AutoStream::choice(&io::stderr()) != ColorChoice::Never,
+    }
+}
+
+/// Use of colours in help and in errors of usage, which end the process before its arguments are known.
+fn usage_color() -> clap::ColorChoice {
+    let arguments: Vec<OsString> = std::env::args_os()
+        .take_while(|argument| argument != "--")
+        .collect();
+    let value = arguments.iter().enumerate().find_map(|(n, argument)| {
+        let argument = argument.to_string_lossy();
+        match argument.strip_prefix("--color") {
+            Some("") => Some(arguments.get(n + 1)?.to_string_lossy().into_owned()),
+            Some(value) => Some(value.strip_prefix('=')?.to_owned()),
+            None => None,
+        }
+    });
+    match value.as_deref() {
+        Some("always") => clap::ColorChoice::Always,
+        Some("never") => clap::ColorChoice::Never,
+        _ => clap::ColorChoice::Auto,
     }
 }

@@ -10,7 +10,7 @@ mod kind;
 
 pub use kind::Kind;
 
-use crate::commands::run::STANDARD_ERROR;
+use crate::args::{self, Emit};
 use crate::commands::{Failure, parent_dir};
 use clap::ArgMatches;
 use rungc_project::Project;
@@ -25,6 +25,16 @@ use tempfile::NamedTempFile;
 /// Value of an option that names what a command writes. All other paths on the command line are inputs.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct OutputPath(PathBuf);
+
+/// Name of the standard stream that a command writes to.
+pub const STREAM: &str = "-";
+
+impl OutputPath {
+    /// Returns true for `-`.
+    fn is_stream(&self) -> bool {
+        *self.0 == *Path::new(STREAM)
+    }
+}
 
 impl From<OsString> for OutputPath {
     fn from(path: OsString) -> Self {
@@ -51,21 +61,37 @@ impl Deref for OutputPath {
 /// # Errors
 /// The option whose file has another part.
 pub fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
-    let Some((_, command)) = matches.subcommand() else {
+    let Some((name, command)) = matches.subcommand() else {
         return Ok(());
     };
+    if let Some(why) = args::idle(name, command) {
+        return Err(Failure::Because(why));
+    }
+    let mut streams = 0;
     // Values of other types are not paths.
     for id in command.ids() {
         if let Ok(Some(paths)) = command.try_get_many::<PathBuf>(id.as_str()) {
-            paths.for_each(|path| inputs::note(path));
+            paths.clone().for_each(|path| inputs::note(path));
+            streams += paths.filter(|path| **path == *Path::new(STREAM)).count();
         }
+    }
+    if streams > 1 {
+        let why = "`-` stands for standard input, which can be read only once; name a file";
+        return Err(Failure::Because(why.to_owned()));
     }
     let mut used: Vec<(String, PathBuf)> = Vec::new();
     for id in command.ids() {
         let outputs = command.try_get_many::<OutputPath>(id.as_str());
         let files = outputs.ok().flatten().into_iter().flatten();
-        for path in files.filter(|path| ***path != *Path::new(STANDARD_ERROR)) {
-            let option = format!("--{}", id.as_str().replace('_', "-"));
+        for path in files {
+            let option = args::long_option(name, id.as_str());
+            if path.is_stream() {
+                // Results go to standard output; `--trace-frames` alone names standard error so.
+                match is_streamed(name, id.as_str(), command) {
+                    true => continue,
+                    false => return Err(no_stream(&option)),
+                }
+            }
             let real = resolved(path).unwrap_or_else(|_| path.to_path_buf());
             let part = match used.iter().find(|(_, other)| *other == real) {
                 Some((other, _)) => format!("is written by {other}"),
@@ -81,6 +107,27 @@ pub fn check_arguments(matches: &ArgMatches) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Returns true for an option whose `-` is a stream: the results of a command that prints them without it.
+fn is_streamed(command: &str, option: &str, matches: &ArgMatches) -> bool {
+    match (command, option) {
+        (_, "trace_frames") => true,
+        ("convert" | "read" | "xref" | "diff" | "test" | "verify", "output") => true,
+        ("build", "output") => matches.get_one::<Emit>("emit") == Some(&Emit::Ir),
+        ("boards", "output") => matches.get_flag("toml"),
+        _ => false,
+    }
+}
+
+fn no_stream(option: &str) -> Failure {
+    let why = "this is not written to standard output; name a file, or `./-` for one of this name";
+    Failure::Because(format!("{option} -: {why}"))
+}
+
+/// The file of an option; `None` for standard output, which `-` is, too.
+pub fn file(output: &Option<OutputPath>) -> Option<&Path> {
+    output.as_deref().filter(|path| *path != Path::new(STREAM))
 }
 
 /// A path without links and `..`, whose end need not exist: a link whose end is missing leads to where that would be.

@@ -19,10 +19,10 @@ pub struct ExploreArgs {
     /// Values of latched devices at the start of a run.
     #[arg(long, value_enum, default_value_t = Latched::Zero)]
     pub latched: Latched,
-    /// Do not search for this kind of finding; may be repeated.
-    #[arg(long, value_enum, value_name = "KIND")]
+    /// Do not search for this kind of finding; may be repeated or separated by commas.
+    #[arg(long, value_enum, value_name = "KIND", value_delimiter = ',')]
     pub ignore: Vec<Ignored>,
-    /// Number of scans to execute.
+    /// Number of scans to execute; a round of the search that has begun is completed.
     #[arg(long, default_value_t = 200_000, value_name = "COUNT")]
     pub scans: u64,
     /// Time limit of the search, in real time. With it, results depend on the speed of the machine.

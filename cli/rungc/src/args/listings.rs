@@ -11,14 +11,16 @@ use std::ops::RangeInclusive;
 pub struct ViewArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// Draw only these networks, by number: `12` or `12..20`; may be repeated.
-    #[arg(long, value_parser = networks, value_name = "RANGE")]
+    /// Draw only these networks, by number: `12` or `12..20`; may be repeated or separated by commas.
+    #[arg(long, value_parser = networks, value_name = "RANGE", value_delimiter = ',')]
     pub network: Vec<RangeInclusive<usize>>,
-    /// Draw only networks that contain these devices: `M100`, `D100..D199` or a comment; may be repeated.
+    /// Draw only networks that contain these devices: `M100`, `D100..D199` or a comment; may be repeated or separated by
+    /// commas.
     #[arg(long, value_name = "RANGE")]
     pub device: Vec<String>,
-    /// Draw only networks with a diagnostic of this code: `E0404`; may be repeated.
-    #[arg(long, value_parser = code, value_name = "CODE")]
+    /// Draw only networks with a diagnostic of this code: `E0404`; may be repeated or separated by
+    /// commas.
+    #[arg(long, value_parser = code, value_name = "CODE", value_delimiter = ',')]
     pub around: Vec<&'static str>,
     /// Draw the sequential function chart of the step ladder instead of the networks.
     #[arg(long, conflicts_with_all = ["network", "device", "around"])]
@@ -43,7 +45,7 @@ pub struct ViewArgs {
 pub struct XrefArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// List only these devices: `M100`, `D100..D199` or a comment; may be repeated.
+    /// List only these devices: `M100`, `D100..D199` or a comment; may be repeated or separated by commas.
     #[arg(long, value_name = "RANGE")]
     pub device: Vec<String>,
     /// Also list general devices that no instruction uses; the page and JSON always do.

@@ -19,7 +19,8 @@ pub struct Properties {
     /// A condition that the machine guarantees after every scan: `"!(X000 & X001)"`.
     #[arg(long, value_name = "CONDITION")]
     pub assume: Vec<String>,
-    /// Devices that something other than the program may write at any time, such as an operator panel: `M100..M115`.
+    /// Devices that something other than the program may write at any time, such as an operator panel: `M100..M115`;
+    /// may be separated by commas.
     #[arg(long, value_name = "RANGE")]
     pub free: Vec<String>,
     /// Maximum time between scans. Default: that of rungc.toml, or 200ms.

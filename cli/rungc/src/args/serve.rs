@@ -2,7 +2,7 @@
 
 use crate::commands::run::STANDARD_ERROR;
 use crate::output::OutputPath;
-use clap::Args;
+use clap::{Arg, Args};
 use rungc_lower::compile::CompileOptions;
 use rungc_models::Model;
 use rungc_project::serve::{FxEnd, Line, Serve, address};
@@ -119,6 +119,22 @@ pub struct PageArgs {
     /// Make the page read-only: it shows the run, and accepts no commands.
     #[arg(long)]
     pub read_only: bool,
+}
+
+/// The arguments that `run` and `serve` share, as `serve` describes them: it always runs in real time.
+pub(super) fn in_real_time(arg: Arg) -> Arg {
+    match arg.get_id().as_str() {
+        "duration" => arg.help(
+            "Time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: until Ctrl-C",
+        ),
+        "scan" => arg.help(
+            "Time from one scan to the next; a longer constant scan time of the program takes precedence. Default: \
+             the program's constant scan time, or 10ms",
+        ),
+        // It is always so, and a test cannot repeat what clients do.
+        "real_time" | "record" => arg.hide(true),
+        _ => arg,
+    }
 }
 
 impl ServeArgs {

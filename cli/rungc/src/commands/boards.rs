@@ -2,7 +2,7 @@
 
 use super::{Context, Failure, Outcome, Result, print_text};
 use crate::args::BoardsArgs;
-use crate::output::write_file;
+use crate::output::{file, write_file};
 use rungc_firmware::board::Board;
 use rungc_firmware::boards;
 use rungc_firmware::build::Tools;
@@ -22,12 +22,16 @@ pub fn run(args: &BoardsArgs, cx: Context) -> Result {
         print_text(&text)?;
         return Ok(Outcome::Success);
     };
-    let board = boards::named_or_described(name).map_err(|error| because(&error))?;
+    let board =
+        boards::named_or_described(name).map_err(|error| Failure::Because(error.report()))?;
     if args.toml {
-        let known = name.to_str().and_then(boards::find);
-        match known {
-            Some(known) => print_text(known.text)?,
-            None => print_text(&std::fs::read_to_string(name)?)?,
+        let text = match name.to_str().and_then(boards::find) {
+            Some(known) => known.text.to_owned(),
+            None => std::fs::read_to_string(name)?,
+        };
+        match file(&args.output) {
+            Some(path) => write_file(path, text.as_bytes(), args.force)?,
+            None => print_text(&text)?,
         }
         return Ok(Outcome::Success);
     }

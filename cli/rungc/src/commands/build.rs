@@ -12,7 +12,7 @@ use super::{
     file_name, findings, interruption, parent_dir, ports, print_text, read, stem,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
-use crate::output::{at, plain, refuse_inputs, spare, write_executable, write_file};
+use crate::output::{at, file, plain, refuse_inputs, spare, write_executable, write_file};
 use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
@@ -80,7 +80,7 @@ fn build(
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, reporter, cx, String::new),
     };
-    if plan.name.as_ref().is_some_and(|name| !name.is_ascii()) {
+    if plan.name.as_ref().is_some_and(|name| *name != module.name) {
         let (name, in_code) = (text::one_line(&name), &module.name);
         cx.note(&format!("       Named {name}: `{in_code}` in the code"));
     }
@@ -152,7 +152,7 @@ impl Plan {
         let Some(emit) = plan.emit.filter(|_| many) else {
             return Ok(plan);
         };
-        let path = match (&plan.output, emit) {
+        let path = match (file(&plan.output), emit) {
             (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(emit.default_output(name)),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
@@ -181,7 +181,8 @@ impl ForImage {
     }
 
     fn new((args, path): (&Plan, &Path), subject: &Subject, program: &Program) -> Built<Self> {
-        let board = boards::named_or_described(path).map_err(because)?;
+        let board = boards::named_or_described(path);
+        let board = board.map_err(|error| Failure::Because(error.report()))?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
                 "--target {}: {} is {}",
@@ -472,11 +473,12 @@ impl Job<'_> {
 
     fn ir(&self) -> Built<Option<PathBuf>> {
         let text = dump::dump(self.module);
-        match &self.plan.output {
+        let path = file(&self.plan.output);
+        match path {
             None => print_text(&text)?,
             Some(path) => write_file(path, text.as_bytes(), self.plan.force)?,
         }
-        Ok(self.plan.output.as_deref().map(Path::to_owned))
+        Ok(path.map(Path::to_owned))
     }
 
     /// Writes a folder with what `make` makes; whether it may be written is known before.

@@ -9,7 +9,7 @@ use super::{
     read_as_written, stem,
 };
 use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
-use crate::output::write_file;
+use crate::output::{file, write_file};
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::resolve;
 use rungc_export::to_plcopen;
@@ -61,7 +61,7 @@ fn convert(
         eprint_line(&format!("rungc: {sentence}"));
     }
     let name = || format!("{}.{}", stem(subject, &read), args.to.ending());
-    match outputs.place(args.output.as_deref(), reporter.many(), name, subject)? {
+    match outputs.place(file(&args.output), reporter.many(), name, subject)? {
         Some(path) => write_file(&path, &bytes, args.force)?,
         None if args.to.is_text() && io::stdout().is_terminal() => {
             print_text(&String::from_utf8_lossy(&bytes))?;

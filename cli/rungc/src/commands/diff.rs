@@ -9,7 +9,7 @@ use super::subject::{self, Subject};
 use super::view::PICTURE_WIDTH;
 use super::{Context, Failure, Outcome, Result, counted, eprint_line, print_text, read_as_written};
 use crate::args::{DiffArgs, DiffFormat, Input};
-use crate::output::write_file;
+use crate::output::{file, write_file};
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
@@ -151,7 +151,7 @@ fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, 
             )
         }
     };
-    match &args.output {
+    match file(&args.output) {
         Some(path) => write_file(path, text.as_bytes(), args.force)?,
         None => print_text(&text)?,
     }

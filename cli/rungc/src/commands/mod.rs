@@ -151,8 +151,29 @@ pub fn read_as_written(
     reporter: &mut Reporter,
 ) -> std::result::Result<Read, Failure> {
     match subject::source(subject) {
-        Ok(read) => Ok(read),
+        Ok(read) => {
+            if !reporter.many() {
+                report_idle(subject, read.program.kind);
+            }
+            Ok(read)
+        }
         Err(error) => Err(unread(&error, subject, reporter)?),
+    }
+}
+
+/// Reports options for reading that have no effect on a program of this kind; among several, they are for others.
+fn report_idle(subject: &Subject, kind: SourceKind) {
+    let options = [
+        ("--compiled", SourceKind::GxWorks2, "a GX Works2 project"),
+        ("--names", SourceKind::Plcopen, "PLCopen XML"),
+    ];
+    for (option, of, what) in options {
+        if kind != of && subject.arguments.iter().any(|given| given == option) {
+            let file = subject.file.display();
+            eprint_line(&format!(
+                "rungc: {option} has no effect: {file} is not {what}"
+            ));
+        }
     }
 }
 
@@ -244,8 +265,11 @@ pub fn stream_text(text: &str) -> io::Result<()> {
 
 fn write_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(bytes)?;
-    out.flush()
+    let written = out.write_all(bytes).and_then(|()| out.flush());
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => error,
+        kind => io::Error::new(kind, format!("standard output: {error}")),
+    })
 }
 
 /// Prints a report, or writes the same to the requested file, with `force` or not; `summary` says what is in it.

@@ -1,6 +1,6 @@
 //! Devices as the command line and the page name them: `D0`, or by the comment that the program has on it.
 
-use super::setting;
+use super::{Failure, setting};
 use rungc_project::device;
 use rungc_sim::Target;
 use rungc_sim::names::Comments;
@@ -104,6 +104,21 @@ impl Names {
             let [first, last] = ends;
             range(&format!("{}..{}", first?, last?))
         })
+    }
+
+    /// Reads the ranges of an option, which may be repeated or has several, separated by commas.
+    ///
+    /// # Errors
+    /// The option, and what is wrong with a range.
+    pub fn ranges(
+        &self,
+        option: &str,
+        lists: &[String],
+    ) -> Result<Vec<(DeviceClass, u32, u32)>, Failure> {
+        let items = setting::items(option, lists, self)?.into_iter();
+        let ranges = items.map(|text| self.range(text.trim()));
+        let ranges: Result<_, String> = ranges.collect();
+        ranges.map_err(|why| Failure::Because(format!("{option}: {why}")))
     }
 
     /// Reads a text as devices, then as a comment, then in `another` way.

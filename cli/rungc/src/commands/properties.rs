@@ -179,9 +179,7 @@ impl Reader<'_> {
     /// Devices that may be written from outside the program, by the command line and the settings.
     pub fn external(&self) -> Result<ExternalWrites> {
         let names = Names::of(self.program);
-        let free = self.args.free.iter().map(|text| names.range(text));
-        let free: std::result::Result<Vec<_>, _> = free.collect();
-        let free = free.map_err(|why| Failure::Because(format!("--free: {why}")))?;
+        let free = names.ranges("--free", &self.args.free)?;
         Ok(ExternalWrites::of(Some(&free), self.project()))
     }
 

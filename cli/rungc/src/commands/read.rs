@@ -5,7 +5,7 @@ mod client;
 use super::convert::written;
 use super::{Context, Failure, Result, conclude, grouped, interruption, print_bytes, print_text};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
-use crate::output::{spare, write_file};
+use crate::output::{file, spare, write_file};
 use crate::progress;
 use crate::report::{Findings, Reporter};
 use client::{Client, Reply};
@@ -37,7 +37,7 @@ const TYPES: [(u16, bool, &str); 6] = [
 
 /// Reads a PLC. Nothing is written before all of the program has been read.
 pub fn run(args: &ReadArgs, cx: Context) -> Result {
-    if let Some(path) = &args.output {
+    if let Some(path) = file(&args.output) {
         spare(path, args.force)?;
     }
     interruption::note();
@@ -67,7 +67,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     // An image is what the PLC holds, whether or not all of it is understood.
     let complete = args.to == ConvertTo::Image || !findings.failed();
     if complete {
-        match &args.output {
+        match file(&args.output) {
             Some(path) => write_file(path, &bytes, args.force)?,
             None if args.to.is_text() && io::stdout().is_terminal() => {
                 print_text(&String::from_utf8_lossy(&bytes))?;

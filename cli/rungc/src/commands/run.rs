@@ -24,9 +24,11 @@ use super::names::Names;
 use super::setting::{self, Setting, devices as observed};
 use super::subject::{self, Subject};
 use super::view::title;
-use super::{Context, Failure, Result, Verbosity, conclude, eprint_line, findings, read, stem};
+use super::{
+    Context, Failure, Result, Verbosity, conclude, eprint_line, findings, parent_dir, read, stem,
+};
 use crate::args::RunArgs;
-use crate::output::{refuse_outside, spare};
+use crate::output::{make_folder, refuse_outside, spare};
 use crate::report::Reporter;
 use live::Live;
 use recorder::Recorder;
@@ -302,6 +304,8 @@ fn retained(
         }
         (None, None) => return Ok(None),
     };
+    // What cannot be saved at the end is not begun.
+    make_folder(parent_dir(&path))?;
     let fault = subject.unsaved();
     let fault = fault.and_then(|(class, number)| Some((rt_class(class)?, number)));
     Ok(Some(RetainStorage { path, fault }))

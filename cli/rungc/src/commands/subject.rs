@@ -85,6 +85,11 @@ impl Subject {
     }
 }
 
+/// An option whose value depends on the program, in messages.
+pub fn option_of(option: &str, subject: &Subject) -> String {
+    format!("{}: {option}", subject.file.display())
+}
+
 /// The settings found so far, by the file they are in.
 struct Projects<'a> {
     reading: &'a Reading,

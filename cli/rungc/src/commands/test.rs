@@ -13,7 +13,7 @@ mod watch;
 
 use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
 use crate::args::{EngineChoice, Reporting, TestArgs, TestFormat};
-use crate::progress;
+use crate::{output, progress};
 use files::Unread;
 use report::Results;
 use rungc_project::Project;
@@ -178,7 +178,7 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     };
     let (passed, failed) = (results.report.passed(), results.report.failures().count());
     put(
-        (args.output.as_deref(), args.force),
+        (output::file(&args.output), args.force),
         &text,
         &format!("{passed} passed, {failed} failed"),
         cx,

@@ -11,7 +11,7 @@ use super::properties::{ExternalWrites, Reader, RequestedProperty, at_writes, mo
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, put, read};
 use crate::args::VerifyArgs;
-use crate::output::{spare, write_file};
+use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -24,6 +24,22 @@ use std::time::{Duration, Instant};
 
 /// Time limit of a property, in milliseconds.
 const TIMEOUT_MS: u64 = 60_000;
+
+/// Message for a program without a property; those of a project without a program are about none.
+fn no_property(subject: &Subject) -> String {
+    let project = subject.project.as_deref();
+    match project.filter(|project| !project.properties.is_empty()) {
+        Some(project) => format!(
+            "no property given: those of {} are about the program that its `[project]` names with `program = \"…\"`; \
+             name this one there, or add --never, --always or --reachable",
+            project.path.display()
+        ),
+        None => {
+            "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml"
+                .to_string()
+        }
+    }
+}
 
 /// Decides properties of a program.
 pub fn run(args: &VerifyArgs, cx: Context) -> Result {
@@ -47,8 +63,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     };
     let (requested, assumed) = (reader.properties()?, reader.assumed()?);
     if requested.is_empty() {
-        let why = "no property given: add --never, --always or --reachable, or [[property]] to rungc.toml";
-        return Err(Failure::Because(why.to_string()));
+        return Err(Failure::Because(no_property(&subject)));
     }
     let external = reader.external()?;
     let options = options(args, &reader, &assumed, &external)?;
@@ -211,7 +226,7 @@ fn deliver(
     }
     match document.is_empty() {
         true => Ok(()),
-        false => put((args.output.as_deref(), args.force), &document, summary, cx),
+        false => put((file(&args.output), args.force), &document, summary, cx),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `rungc view`.
 
 use super::names::Names;
-use super::subject::{self, OutputPaths, Subject};
+use super::subject::{self, OutputPaths, Subject, option_of};
 use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::ViewArgs;
 use crate::output::write_file;
@@ -107,11 +107,7 @@ fn devices(
     subject: &Subject,
     read: &Read,
 ) -> std::result::Result<Vec<Range>, Failure> {
-    let names = Names::of(&read.program);
-    let ranges = args.device.iter().map(|name| names.range(name));
-    ranges
-        .collect::<std::result::Result<_, _>>()
-        .map_err(|why| Failure::Because(format!("{}: --device: {why}", subject.file.display())))
+    Names::of(&read.program).ranges(&option_of("--device", subject), &args.device)
 }
 
 /// The networks that the arguments choose, with their numbers.

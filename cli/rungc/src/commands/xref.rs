@@ -4,13 +4,13 @@ mod html;
 mod table;
 
 use super::names::Names;
-use super::subject::{self, OutputPaths, Subject};
+use super::subject::{self, OutputPaths, Subject, option_of};
 use super::{
     Context, Failure, Outcome, Result, found_reading, print_bytes, print_text, read_as_written,
     stem,
 };
 use crate::args::{XrefArgs, XrefTo};
-use crate::output::write_file;
+use crate::output::{self, write_file};
 use crate::report::Reporter;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
@@ -39,10 +39,7 @@ fn xref(
     let model = compile::model(program, &subject.options());
     let (resolved, _) = resolve(program, model);
     let names = Names::of(program);
-    let ranges = args.device.iter().map(|name| names.range(name));
-    let ranges = ranges.collect::<std::result::Result<Vec<_>, _>>();
-    let ranges = ranges
-        .map_err(|why| Failure::Because(format!("{}: --device: {why}", subject.file.display())))?;
+    let ranges = names.ranges(&option_of("--device", subject), &args.device)?;
     let table = Table::new(&resolved, &build::ladder(&resolved), &ranges);
     if table.devices.is_empty() && !args.device.is_empty() {
         let path = subject.file.display();
@@ -56,7 +53,7 @@ fn xref(
         XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
         XrefTo::Json => (table.json()?, "json"),
     };
-    if args.output.is_none() && args.to == XrefTo::Text {
+    if output::file(&args.output).is_none() && args.to == XrefTo::Text {
         let heading = match reporter.many() {
             true => format!("; {name}\n"),
             false => String::new(),
@@ -64,7 +61,7 @@ fn xref(
         print_text(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
     } else {
         let file = || format!("{}.{ending}", stem(subject, &read));
-        match outputs.place(args.output.as_deref(), reporter.many(), file, subject)? {
+        match outputs.place(output::file(&args.output), reporter.many(), file, subject)? {
             Some(path) => write_file(&path, &bytes, args.force)?,
             None => print_bytes(&bytes)?,
         }

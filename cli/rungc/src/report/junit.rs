@@ -2,6 +2,7 @@
 
 use super::Findings;
 use super::location::Location;
+use super::visible::visible_xml;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 use rungc_syntax::Severity;
@@ -91,7 +92,8 @@ pub fn render_timed(name: &str, suites: &[Suite], elapsed: Duration) -> io::Resu
         ])
         .write_inner_content(|xml| suites.iter().try_for_each(|one| suite(xml, one)))?;
     xml.write_indent()?;
-    String::from_utf8(xml.into_inner()).map_err(io::Error::other)
+    let document = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
+    Ok(visible_xml(&document).into_owned())
 }
 
 /// Numbers of cases by result, as attributes.

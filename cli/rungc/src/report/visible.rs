@@ -41,6 +41,14 @@ fn visible_json(document: &str) -> Cow<'_, str> {
     })
 }
 
+/// An XML document in which the same characters are written as references. They occur only in texts and values.
+pub fn visible_xml(document: &str) -> Cow<'_, str> {
+    replaced(document, |c, out| match c {
+        '\n' | '\t' => out.push(c),
+        c => out.push_str(&format!("&#x{:X};", u32::from(c))),
+    })
+}
+
 /// A value as a JSON document, on several lines, in which nothing acts on a terminal.
 pub fn to_json(value: &impl Serialize) -> io::Result<String> {
     let document = serde_json::to_string_pretty(value)?;

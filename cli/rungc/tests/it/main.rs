@@ -63,6 +63,7 @@ mod together;
 mod tools;
 #[cfg(unix)]
 mod uart;
+mod usage;
 mod vendor;
 mod verify;
 mod view;

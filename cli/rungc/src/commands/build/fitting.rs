@@ -18,6 +18,13 @@ pub(super) fn fitting(
         return Ok(target);
     };
     match emit {
+        Emit::Ir if args.main => wrong("--main does not apply: the IR has no main program"),
+        Emit::Ir | Emit::C | Emit::Rust if !args.cargo_arg.is_empty() && !args.report => {
+            wrong("--cargo-arg only applies to what is built here; sources are only written")
+        }
+        _ if !args.cargo_arg.is_empty() && emit.package().is_some() => {
+            wrong("--cargo-arg only applies to what is built here; sources are only written")
+        }
         _ if args.backend.is_some() && !emit.is_image() => {
             wrong("--backend only applies to --emit elf and --emit uf2")
         }

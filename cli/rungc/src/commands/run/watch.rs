@@ -1,8 +1,8 @@
 //! Observation of a run's frames: the table of connections at its end, and `--trace-frames`.
 
 use super::capture::Capture;
-use crate::commands::{Failure, eprint_line};
-use crate::output::{Kind, permit};
+use crate::commands::{Failure, eprint_line, parent_dir};
+use crate::output::{Kind, make_folder, permit};
 use crate::report::visible;
 use rungc_models::Model;
 use rungc_sim::serve::{Decoder, Direction, LinkProtocol, Place, Seen, Traffic};
@@ -70,6 +70,7 @@ impl Watch {
                     Kind::Frames
                 };
                 permit(path, kind, force)?;
+                make_folder(parent_dir(path))?;
                 let file = File::create(path).map_err(because)?;
                 match captures {
                     true => Log::Capture(Capture::begin(file).map_err(because)?),

@@ -4,6 +4,7 @@ use super::super::{Context, put};
 use super::report::to_document;
 use crate::args::{TestArgs, TestFormat};
 use crate::commands::Failure;
+use crate::output;
 use crate::report::junit::{Case, Problem, Suite, render};
 use crate::report::location::Location;
 use crate::report::{github, sarif};
@@ -41,7 +42,12 @@ pub fn publish(args: &TestArgs, errors: &[LoadError], cx: Context) -> Result<(),
         TestFormat::Github => mistakes.iter().map(annotation).collect(),
     };
     let summary = counted(mistakes.len(), "mistake");
-    put((args.output.as_deref(), args.force), &text, &summary, cx)
+    put(
+        (output::file(&args.output), args.force),
+        &text,
+        &summary,
+        cx,
+    )
 }
 
 fn mistakes(error: &LoadError) -> Vec<Mistake> {

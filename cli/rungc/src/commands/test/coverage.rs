@@ -7,7 +7,7 @@ use super::Chosen;
 use super::files::is_in;
 use super::report::{Results, human};
 use crate::args::{CoverageFormat, EngineChoice, Shard, TestArgs};
-use crate::progress;
+use crate::{output, progress};
 use rungc_coverage::mutants::{self, Fate, Mutant};
 use rungc_coverage::{Covered, cover, html, lcov, text};
 use rungc_sim::plctest::{Suite, TestFile};
@@ -30,7 +30,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
         let why = format!("{option}: the interpreter runs the cases; leave out --engine");
         return Err(Failure::Because(why));
     }
-    if args.coverage == Some(CoverageFormat::Html) && args.output.is_none() {
+    if args.coverage == Some(CoverageFormat::Html) && output::file(&args.output).is_none() {
         let why = "--coverage html: name the page to write with -o";
         return Err(Failure::Because(why.to_string()));
     }
@@ -70,7 +70,7 @@ pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) 
     let reached = programs.iter().map(Covered::reached).sum();
     let all = programs.iter().map(|program| program.goals.len()).sum();
     put(
-        (args.output.as_deref(), args.force),
+        (output::file(&args.output), args.force),
         &shown,
         &text::share(reached, all),
         cx,
@@ -126,7 +126,12 @@ fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> R
         shown += &mutants::text(program, &all, &fates);
     }
     let summary = format!("{noticed} of {} mutants noticed", noticed + gaps);
-    put((args.output.as_deref(), args.force), &shown, &summary, cx)?;
+    put(
+        (output::file(&args.output), args.force),
+        &shown,
+        &summary,
+        cx,
+    )?;
     Ok(match gaps {
         0 => Outcome::Success,
         _ => Outcome::Failed,
