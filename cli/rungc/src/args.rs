@@ -245,7 +245,8 @@ pub struct Reporting {
     /// Treat warnings as errors.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Suppress warnings and notes with this code (W0203) or name (double-coil); may be repeated or separated by commas.
+    /// Suppress warnings and notes with this code (W0203) or name (double-coil); may be repeated or separated by
+    /// commas.
     #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible, value_delimiter = ',')]
     pub allow: Vec<&'static str>,
     /// Treat warnings with this code or name as errors; may be repeated or separated by commas.

@@ -14,8 +14,8 @@ pub struct ViewArgs {
     /// Draw only these networks, by number: `12` or `12..20`; may be repeated or separated by commas.
     #[arg(long, value_parser = networks, value_name = "RANGE", value_delimiter = ',')]
     pub network: Vec<RangeInclusive<usize>>,
-    /// Draw only networks that contain these devices: `M100`, `D100..D199` or a comment; may be repeated or separated by
-    /// commas.
+    /// Draw only networks that contain these devices: `M100`, `D100..D199` or a comment; may be repeated or separated
+    /// by commas.
     #[arg(long, value_name = "RANGE")]
     pub device: Vec<String>,
     /// Draw only networks with a diagnostic of this code: `E0404`; may be repeated or separated by
