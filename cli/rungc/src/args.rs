@@ -272,7 +272,7 @@ pub struct CheckArgs {
     /// Apply safe fixes to instruction lists, and report the remaining diagnostics.
     #[arg(long)]
     pub fix: bool,
-    /// Draw the network of each diagnostic as a ladder diagram, with the place marked.
+    /// In the human format, draw the network of each diagnostic as a ladder diagram, with the place marked.
     #[arg(long)]
     pub draw: bool,
     /// Also report dead logic, with a proof of each: coils that are never on, rungs without effect, steps that are

@@ -1,11 +1,12 @@
 //! Options that need another one to have an effect: alone they are an error, since silence would look like success.
 //!
 //! Options that depend on rungc.toml, too, are held to it where the command has read it (`commands/build/fitting.rs`,
-//! `commands/serve.rs`). Permissions (`--force`, `--allow-folder`) and levels of warnings may go unused.
+//! `commands/serve.rs`). Permissions (`--force`, `--allow-folder`), levels of warnings, and what is only about the
+//! human format of diagnostics (`--limit`, `--draw`) may go unused.
 
 use super::diff::DiffFormat;
 use super::listings::XrefTo;
-use super::{Cli, Format, TestFormat};
+use super::{Cli, TestFormat};
 use crate::output::OutputPath;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory};
@@ -35,8 +36,7 @@ const fn rule(
 }
 
 /// All of them; `tests/it/effects.rs` tries each.
-const RULES: [Rule; 17] = [
-    rule("check", "draw", is_human, "only applies to --format human"),
+const RULES: [Rule; 16] = [
     rule(
         "run",
         "clients",
@@ -139,10 +139,6 @@ pub fn long_option(command: &str, id: &str) -> String {
 fn has(matches: &ArgMatches, options: &[&str]) -> bool {
     let mut options = options.iter();
     options.any(|id| matches.value_source(id) == Some(ValueSource::CommandLine))
-}
-
-fn is_human(matches: &ArgMatches) -> bool {
-    matches.get_one::<Format>("format") == Some(&Format::Human)
 }
 
 /// Returns true if `view` writes a page or a document.

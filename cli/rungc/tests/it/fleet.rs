@@ -58,7 +58,7 @@ fn mistakes_have_their_place() {
         "",
         "[plc.a\n",
         "[fleets]\n[plc.a]\nprogram = 'p.il'\ncuont = 2\n",
-        "[fleet]\ncycle = 10\n[plc.a]\nprogram = 'p.il'\ncount = 0\nengine = 'fast'\nset = ['X000=2', 'X009=1']\n",
+        "[fleet]\ncycle = true\n[plc.a]\nprogram = 'p.il'\ncount = 0\nengine = 'fast'\nset = ['X000=2', 'X009=1']\n",
         "[plc.a]\nprogram = 'p.il'\nset = ['X000=2']\n",
         "[plc.a]\nprogram = 'p.il'\nset = ['0:CH1.V=2']\n",
         "[plc.a]\nprogram = 'p.il'\nmodbus-tcp = 'here'\nstore = ['D0:D9']\nspread = 'soon'\n",
