@@ -510,9 +510,9 @@ pub struct ExplainArgs {
     /// A diagnostic code (E0106), an error code of the PLC (6706), an instruction (ADD, LD>=), a special device
     /// (M8013), a variant of a model (h2u-mtq), or a page that `rungc book` lists.
     pub topic: String,
-    /// Model whose special devices are shown.
-    #[arg(long, value_parser = model, value_name = "MODEL")]
-    pub model: Option<ModelId>,
+    /// PLC model whose instructions, special devices and error codes are shown. Default: all.
+    #[arg(long, value_parser = plc, value_name = "MODEL")]
+    pub model: Option<Plc>,
 }
 
 /// Use of colours.

@@ -3,7 +3,7 @@
 //! and the variants of models, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
-use rungc_models::{Model, ModelId};
+use rungc_models::{Model, ModelId, plc_errors};
 use rungc_syntax::Severity;
 use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
@@ -142,7 +142,8 @@ fn code_page(code: &Code) -> String {
         "# {}: {}\n\n{severity} `{}`.\n\n{}\n",
         code.id, code.title, code.name, code.text
     );
-    if let Some(error) = code.plc_error {
+    if let Some(number) = code.plc_error {
+        let error = plc_errors::check_in_words(code.id, number);
         let _ = write!(page, "\nThe PLC reports this as error {error}.\n");
     }
     if code.can_be_eased().is_ok() {

@@ -13,7 +13,7 @@ mod wrong;
 
 use mnemonic::{Fit, Match};
 use rungc_catalogue::{Basic, Drive, Form, Found, Inst, Join, Lower, Param};
-use rungc_models::{ErrorNumbers, Model};
+use rungc_models::{Model, plc_errors};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program, Severity,
 };
@@ -201,17 +201,16 @@ fn label(instr: &Instr) -> Option<Device> {
     Some(Device { class, number })
 }
 
-/// Takes the PLC's error numbers away where the model's manual does not have them.
+/// Gives diagnostics the numbers of the model's own table of errors, where it has any.
 pub fn numbered(diagnostics: Diagnostics, model: &Model) -> Diagnostics {
-    let known = |code: u16| match model.error_numbers {
-        ErrorNumbers::No => false,
-        ErrorNumbers::All => true,
-        ErrorNumbers::AllButLogic => !matches!(code, 6601..=6604 | 6609..=6617),
-    };
     let mut kept = Diagnostics::new();
-    kept.extend(diagnostics.iter().cloned().map(|diagnostic| Diagnostic {
-        plc_error: diagnostic.plc_error.filter(|&code| known(code)),
-        ..diagnostic
+    kept.extend(diagnostics.iter().cloned().map(|diagnostic| {
+        Diagnostic {
+            plc_error: diagnostic
+                .plc_error
+                .and_then(|number| plc_errors::of_check(diagnostic.code, number, model)),
+            ..diagnostic
+        }
     }));
     kept
 }

@@ -16,7 +16,7 @@ const fn contact(name: &'static str, fnc: u16, join: Join, op: CmpOp) -> Inst {
         .lower(Lower::Compare(join, op))
         .text(
             "A contact that is closed while the comparison of S1 with S2 holds. Both are signed; the 32-bit form compares pairs. \
-             A counter from C200 on is 32 bits wide and needs the 32-bit form.",
+             Counters of 32 bits need it.",
         )
 }
 

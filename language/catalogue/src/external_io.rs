@@ -220,14 +220,14 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(FROM_FX)
         .variants(&[on(H1U).takes(FROM_H1U), on(H2U).takes(FROM)])
         .flags(&["M8164", "D8164", "M8299", "D8299"])
-        .errors(&[6381, 6706, 6709])
+        .errors(&[6381, 6706, 6750])
         .call(RtFn::From)
         .lower_on(&[
             (L01S, Lower::Call(RtFn::FromHost)),
             (REMOTELY, Lower::Call(RtFn::FromRemote)),
             (WITHOUT_M8164, Lower::Call(RtFn::FromStated)),
         ])
-        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n (FX2N, H1U, H2U, L01S). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
+        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n (FX2N, H1U, H2U). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("TO", 79, "Write to a module")
         .on(WITH_MODULES)
         .forms(ALL_FORMS)
@@ -235,14 +235,14 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(TO_FX)
         .variants(&[on(H1U).takes(TO_H1U), on(H2U).takes(TO)])
         .flags(&["M8164", "D8164", "M8299", "D8299"])
-        .errors(&[6381, 6706, 6709])
+        .errors(&[6381, 6706, 6750])
         .call(RtFn::To)
         .lower_on(&[
             (L01S, Lower::Call(RtFn::ToHost)),
             (REMOTELY, Lower::Call(RtFn::ToRemote)),
             (WITHOUT_M8164, Lower::Call(RtFn::ToStated)),
         ])
-        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n (FX2N, H1U, H2U, L01S). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
+        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n (FX2N, H1U, H2U). A remote module (100 and its station) that does not answer within D8299 ms (5 to 1000) switches M8299 on."),
     io("RD3A", 176, "Read an analog module")
         .repeat(Repeat::Same)
         .on(WITH_MODULES)

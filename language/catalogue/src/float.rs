@@ -98,7 +98,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S2", GROUPS.or(PLACES)).word().len(3),
             text_out("D", GROUPS.or(PLACES)).len(13),
         ])
-        .errors(&[6705, 6706])
+        .errors(&[6706])
         .text(
             "Writes the float S1 as text to D. S2 says how: 0 with a decimal point, 1 with an exponent; S2+1 is the number of \
              characters, S2+2 that of decimals.",
@@ -108,7 +108,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U_L01S)
         .takes(&[text("S", GROUPS.or(PLACES)).len(13), real_out("D", REAL_RESULTS)])
         .flags(&["M8020", "M8021", "M8022"])
-        .errors(&[6705, 6706])
+        .errors(&[6706])
         .text("Reads the text at S, with a decimal point or an exponent, as a float. Flags as EADD."),
     float("EBCD", 118, "Float to decimal", RtFn::Ebcd)
         .takes(&[real("S", REAL_RESULTS), DECIMAL])

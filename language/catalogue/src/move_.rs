@@ -124,7 +124,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(5, 9)
         .takes(&[both("D1", RESULTS), both("D2", RESULTS)])
         .flags(&["M8160"])
-        .errors(&[6705])
+        .errors(&[6706])
         .call(RtFn::Xch)
         .lower_on(&[(HM, Lower::Call(RtFn::XchWords))])
         .text(

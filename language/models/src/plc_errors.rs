@@ -6,7 +6,8 @@
 
 mod codes;
 
-use crate::{ModelId, ModelSet};
+use crate::model::ErrorNumbers;
+use crate::{Model, ModelId, ModelSet};
 
 /// An error code and its meaning on some models.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -49,6 +50,13 @@ const ALL: ModelSet = ModelSet::ALL;
 
 /// Effect of most operation errors.
 const SKIPPED: &str = "The instruction is skipped and the scan continues.";
+/// Remedies for errors of devices and values.
+const DEVICES_AND_DIVISORS: &str = "Check the index register and the count before the instruction; compare a divisor with 0 first.";
+const VALUES: &str =
+    "`rungc explain` with the name of the instruction lists the accepted values; check them first.";
+/// Title and remedy of 6708.
+const FROM_OR_TO: &str = "FROM or TO failed";
+const MODULES: &str = "Check the module number and what is fitted: `[[module]]` in rungc.toml, or what the host answers.";
 /// Effect of an error in PID's parameters.
 const PID_STOPS: &str = "PID stops until its contact turns off and on again.";
 /// Effect of an overflow in PID.
@@ -93,26 +101,65 @@ static OF_PROGRAMS: &[PlcError] = &[
     ),
     row(
         6706,
-        ALL,
+        H,
+        "a device does not exist, or a value has no result",
+        "An index register or a count goes past the last device of a class, DIV divides by 0, a function of floats has no result for its value, or a window of SPD \
+         is below 1. Other values that an instruction does not accept are error 6707. The instruction is skipped and the scan continues.",
+        DEVICES_AND_DIVISORS,
+    ),
+    row(
+        6706,
+        ModelSet::HM,
+        "a device does not exist",
+        "An index register or a count goes past the last device of a class. The instruction is skipped and the scan continues.",
+        "Check the index register and the count before the instruction.",
+    ),
+    row(
+        6706,
+        FX.without(FX3),
         "a device does not exist, or a value does not fit the instruction",
-        "An index register or a count goes past the last device of a class, a divisor is 0 (or, on FX3, a quotient is too large), or, on FX and L01S, an operand has a value \
-         that the instruction does not accept. The instruction is skipped and the scan continues.",
-        "Check the index register and the count before the instruction; compare a divisor with 0 first.",
+        "An index register or a count goes past the last device of a class, a divisor is 0, or an operand has a value that the instruction does not accept. \
+         The instruction is skipped and the scan continues.",
+        DEVICES_AND_DIVISORS,
+    ),
+    row(
+        6706,
+        FX3,
+        "a device does not exist, or a value does not fit the instruction",
+        "An index register or a count goes past the last device of a class, a divisor is 0, the quotient of DIV is too large, or an operand has a value that the \
+         instruction does not accept. The instruction is skipped and the scan continues.",
+        DEVICES_AND_DIVISORS,
     ),
     row(
         6707,
-        H.or(ModelSet::HM),
+        H,
         "a value does not fit the instruction",
         "An operand has a value that the instruction does not accept, for example an invalid BCD number or a negative count. The instruction \
          is skipped and the scan continues.",
-        "`rungc explain` with the name of the instruction lists the accepted values; check them first.",
+        VALUES,
+    ),
+    row(
+        6707,
+        ModelSet::HM,
+        "a value does not fit the instruction",
+        "An operand has a value that the instruction does not accept, for example a negative count. The instruction is skipped and the scan continues.",
+        VALUES,
     ),
     row(
         6708,
-        FX,
-        "FROM or TO failed",
+        ModelSet::FX3U,
+        FROM_OR_TO,
         "FROM, TO, RBFM, WBFM or an operand U\\G names a module that is not fitted, or buffer memory that it does not have. The instruction is skipped.",
-        "Check the module number and what is fitted: `[[module]]` in rungc.toml, or what the host answers.",
+        MODULES,
+    ),
+    row(
+        6708,
+        FX.without(ModelSet::FX3U)
+            .without(ModelSet::FX1S)
+            .without(ModelSet::FX3S),
+        FROM_OR_TO,
+        "FROM or TO names a module that is not fitted, or buffer memory that it does not have. The instruction is skipped.",
+        MODULES,
     ),
     row(
         6730,
@@ -242,14 +289,14 @@ static OF_PROGRAMS: &[PlcError] = &[
     ),
     row(
         6760,
-        H,
+        H.or(ModelSet::L01S),
         "too many high-speed comparisons at once",
         "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit have no effect.",
         "Drive them one after the other.",
     ),
     row(
         6760,
-        FX,
+        ModelSet::FX,
         "ABS: the sum of the servo amplifier's data is wrong",
         "The PLC's table gives the code to ABS alone. Compiled programs also report it where more high-speed comparisons are driven at the same time than the PLC has units for; those beyond the limit have no effect.",
         "Check the wires to the servo amplifier. Drive high-speed comparisons one after the other.",
@@ -292,6 +339,40 @@ pub fn find(code: u16, model: ModelId) -> Option<&'static PlcError> {
 pub fn title(code: u16, model: ModelId) -> &'static str {
     find(code, model).map_or("operation error", |error| error.title)
 }
+
+/// Number under which a model reports what a check with this identifier finds. The checks state numbers of H1U and H2U,
+/// whose table has one for all faults of operands (h1u-h2u-programming §8.2); FX tells them apart. `None`: the model
+/// does not number it.
+pub fn of_check(id: &str, number: u16, model: &Model) -> Option<u16> {
+    match model.error_numbers {
+        ErrorNumbers::No => None,
+        ErrorNumbers::AllButLogic => {
+            let is_logic = matches!(number, 6601..=6604 | 6609..=6617);
+            (!is_logic).then_some(number)
+        }
+        ErrorNumbers::All if number != OPERANDS => Some(number),
+        ErrorNumbers::All => Some(match id {
+            "E0106" | "E0108" | "E0110" => 6505,
+            "E0301" => OPERANDS,
+            _ => 6501,
+        }),
+    }
+}
+
+/// [`of_check`] for a reader of any model: `6503 on H1U and H2U, 6501 on FX`.
+pub fn check_in_words(id: &str, number: u16) -> String {
+    let on = |model| of_check(id, number, Model::get(model));
+    match (on(ModelId::H2u), on(ModelId::Fx3u)) {
+        (Some(here), Some(there)) if here != there => {
+            format!("{here} on H1U and H2U, {there} on FX")
+        }
+        (None, Some(there)) => format!("{there} on FX"),
+        (Some(_), _) | (None, None) => number.to_string(),
+    }
+}
+
+/// Faults of operands.
+const OPERANDS: u16 = 6503;
 
 /// Errors that a program for a model can report while it runs, in the order of their codes.
 pub fn of_programs(model: ModelId) -> impl Iterator<Item = &'static PlcError> {
@@ -352,12 +433,46 @@ mod tests {
         assert_eq!(without, [0u16; 0]);
     }
 
+    #[test]
+    fn meanings_are_those_of_one_model() {
+        for model in ModelId::ALL.map(Model::get) {
+            let errors = OF_PROGRAMS.iter().chain(CODES);
+            for error in errors.filter(|error| error.models.has(model.id)) {
+                let text = format!("{}\n{}\n{}", error.title, error.meaning, error.remedy);
+                for (class, number) in crate::special::devices_in(&text) {
+                    assert!(
+                        model.has(class, number),
+                        "{} {}: {text}",
+                        model.name,
+                        error.code
+                    );
+                }
+                let mut words = text.split(|c: char| !c.is_ascii_alphanumeric());
+                let family = |word: &str| {
+                    word.starts_with("FX") || ["H1U", "H2U", "L01S", "HM"].contains(&word)
+                };
+                assert!(!words.any(family), "{} {}: {text}", model.name, error.code);
+            }
+        }
+    }
+
+    #[test]
+    fn checks_have_the_numbers_of_the_model() {
+        let of = |id, number, model| super::of_check(id, number, Model::get(model));
+        assert_eq!(of("E0106", 6503, ModelId::H2u), Some(6503));
+        assert_eq!(of("E0106", 6503, ModelId::Fx2n), Some(6505));
+        assert_eq!(of("E0101", 6503, ModelId::Fx3u), Some(6501));
+        assert_eq!(of("E0301", 6503, ModelId::Fx1s), Some(6503));
+        assert_eq!(of("E0301", 6503, ModelId::Hm), None);
+        assert_eq!(of("E0401", 6610, ModelId::H1u), None);
+    }
+
     /// Codes that a runtime function or a port of a model shows.
     fn shown(model: &Model) -> Vec<u16> {
         let mut codes = vec![6105, 6701, 6702, 6706, model.value_error];
         codes.extend([6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6747, 6751]);
-        // HM has no FROM and TO.
-        if model.id != ModelId::Hm {
+        // These have no FROM and TO.
+        if ![ModelId::Hm, ModelId::Fx1s, ModelId::Fx3s].contains(&model.id) {
             let separate = model.value_error == 6707;
             codes.push(if separate { 6750 } else { 6708 });
         }

@@ -2,6 +2,11 @@
 //!
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
+mod meaning;
+
+#[cfg(test)]
+pub(crate) use meaning::devices_in;
+
 use crate::Model;
 use rungc_rt::comm::{Protocol, Protocols};
 use rungc_rt::modules::Place;
@@ -153,8 +158,8 @@ pub struct Special {
     pub default: i16,
     /// Status of its function.
     pub status: Status,
-    /// Meaning.
-    pub meaning: &'static str,
+    /// Meaning, in the notation of [`Special::meaning`].
+    pub text: &'static str,
 }
 
 impl Special {
@@ -476,12 +481,12 @@ pub(crate) const TIMING: Reason = because(
 );
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
-/// Writes a table of special devices, a row a line: `class first[-last] access default status "meaning";` with the
+/// Writes a table of special devices, a row a line: `class first[-last] access default status "text";` with the
 /// access `r`, `rw` or `r(ROLE)` and the status `scan`, `by("…")`, `modules(…)`, `module(…)` or `inert(…)`.
 macro_rules! specials {
     ($(
         $class:ident $first:literal $(- $last:literal)?
-        $access:ident $(($role:expr))? $default:literal $status:ident $(($why:expr))? $meaning:literal;
+        $access:ident $(($role:expr))? $default:literal $status:ident $(($why:expr))? $text:literal;
     )*) => {
         &[$($crate::special::Special {
             class: ::rungc_syntax::DeviceClass::$class,
@@ -490,7 +495,7 @@ macro_rules! specials {
             access: $crate::special::specials!(@access $access $($role)?),
             default: $default,
             status: $crate::special::specials!(@status $status $($why)?),
-            meaning: $meaning,
+            text: $text,
         }),*]
     };
     (@last $first:literal) => { $first };
@@ -544,7 +549,7 @@ mod tests {
                 let model = Model::get(id);
                 // HM's axes and modules have registers among the general ones.
                 let placed = row.first >= 8000 || id == ModelId::Hm && row.class == D;
-                assert!(placed && !row.meaning.is_empty(), "{row:?}");
+                assert!(placed && !row.text.is_empty(), "{row:?}");
                 assert!(model.has(row.class, row.first), "{id:?} {row:?}");
                 assert!(model.has(row.class, row.last), "{id:?} {row:?}");
             }

@@ -69,6 +69,14 @@ impl Plc {
         }
     }
 
+    /// Full name: `Inovance H2U-MTQ`.
+    pub fn title(self) -> &'static str {
+        match self.variant {
+            Some(variant) => variant.title,
+            None => Model::get(self.model).title,
+        }
+    }
+
     /// The model or variant with this name.
     ///
     /// # Errors

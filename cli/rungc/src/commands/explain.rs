@@ -1,12 +1,14 @@
 //! `rungc explain`.
 
+mod proposals;
+
 use super::{Failure, Outcome, Result, book, print_text};
 use crate::args::ExplainArgs;
-use rungc_models::plc_errors::{self, PlcError};
+use rungc_models::plc_errors::{self, PlcError, of_check};
 use rungc_models::runs::is_special;
-use rungc_models::{Model, ModelId, ModelSet, Variant, special};
+use rungc_models::{Model, ModelId, ModelSet, Plc, Variant, special};
+use rungc_syntax::DeviceClass;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
 
 /// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a
@@ -14,19 +16,9 @@ use std::fmt::Write;
 pub fn run(args: &ExplainArgs) -> Result {
     let of_book = || book::page(&args.topic).map(|page| page.text.to_string());
     let Some(page) = page(args).or_else(of_book) else {
-        let topic = args.topic.trim().to_uppercase();
-        let codes = codes::all()
-            .into_iter()
-            .flat_map(|code| [code.id, code.name]);
-        let names = codes.chain(rungc_catalogue::all().map(|inst| inst.name));
-        let pages = book::PAGES.iter().map(|page| page.name);
-        let hint = diag::did_you_mean(&topic, names)
-            .or_else(|| diag::did_you_mean(&topic.to_lowercase(), pages))
-            .map(|near| format!("; did you mean `{near}`?"))
-            .unwrap_or_default();
-        return Err(Failure::Because(format!(
-            "`{}` is not a diagnostic code, PLC error code, instruction, special device, variant of a model or page of the book{hint}",
-            args.topic
+        return Err(Failure::Because(proposals::unknown(
+            args.topic.trim(),
+            args.model,
         )));
     };
     print_text(&format!("{}\n", page.trim_end()))?;
@@ -36,21 +28,30 @@ pub fn run(args: &ExplainArgs) -> Result {
 /// What is known of a topic, but for the pages of the book.
 pub fn page(args: &ExplainArgs) -> Option<String> {
     let topic = args.topic.trim().to_uppercase();
+    let instruction = || match args.model {
+        Some(plc) => rungc_catalogue::explain_on(&topic, plc),
+        None => None,
+    };
     codes::find(&args.topic.trim().to_lowercase())
-        .map(code_page)
-        .or_else(|| plc_error_page(topic.parse().ok()?, args.model))
+        .map(|code| code_page(code, args.model))
+        .or_else(|| plc_error_page(topic.parse().ok()?, args.model.map(|plc| plc.model)))
         .or_else(|| special_page(&topic, args.model?))
         .or_else(|| Variant::find(&topic).map(variant_page))
+        .or_else(instruction)
         .or_else(|| rungc_catalogue::explain(&topic))
 }
 
-fn code_page(code: &Code) -> String {
+fn code_page(code: &Code, plc: Option<Plc>) -> String {
     let mut page = format!(
         "{} ({}): {}\n\n{}\n",
         code.id, code.name, code.title, code.text
     );
-    if let Some(error) = code.plc_error {
-        let _ = write!(page, "\nThe PLC reports this as error {error}.\n");
+    let number = code.plc_error.and_then(|number| match plc {
+        Some(plc) => of_check(code.id, number, Model::get(plc.model)).map(|on| on.to_string()),
+        None => Some(plc_errors::check_in_words(code.id, number)),
+    });
+    if let Some(number) = number {
+        let _ = write!(page, "\nThe PLC reports this as error {number}.\n");
     }
     let indented = |il: &str| {
         il.trim()
@@ -79,7 +80,7 @@ fn plc_error_page(number: u16, model: Option<ModelId>) -> Option<String> {
     }
     let codes: Vec<&Code> = codes::all()
         .into_iter()
-        .filter(|code| code.plc_error == Some(number))
+        .filter(|code| reports(code, number, model))
         .collect();
     let mut page = String::new();
     if let Some(id) = model.filter(|_| elsewhere) {
@@ -105,6 +106,18 @@ fn plc_error_page(number: u16, model: Option<ModelId>) -> Option<String> {
         }
     }
     Some(page)
+}
+
+/// Returns true if a model, or any model, has this number for what a check finds.
+fn reports(code: &Code, number: u16, model: Option<ModelId>) -> bool {
+    let Some(stated) = code.plc_error else {
+        return false;
+    };
+    let on = |id: ModelId| of_check(code.id, stated, Model::get(id)) == Some(number);
+    match model {
+        Some(id) => on(id),
+        None => ModelId::ALL.into_iter().any(on),
+    }
 }
 
 /// Codes of parameters, syntax and circuit.
@@ -179,32 +192,38 @@ fn variant_page(variant: &Variant) -> String {
     page
 }
 
-/// Meaning of a special device on one model, or that it has none.
-fn special_page(topic: &str, model: ModelId) -> Option<String> {
-    let (class, digits) = match topic.split_at_checked(1)? {
-        ("M", digits) => (DeviceClass::M, digits),
-        ("D", digits) => (DeviceClass::D, digits),
-        _ => return None,
-    };
-    let number: u32 = digits.parse().ok()?;
-    let title = Model::get(model).title;
-    if let Some(special) = Model::get(model).special(class, number) {
-        return Some(format!("{topic} on {title}: {}", describe(special)));
+/// Meaning of a special device on one PLC, or that it has none.
+fn special_page(topic: &str, plc: Plc) -> Option<String> {
+    let (class, number) = proposals::device(topic)?;
+    let (model, title) = (Model::get(plc.model), plc.title());
+    let device = class.number(number);
+    let lacks = plc.variant.is_some_and(|variant| {
+        let mut lacks = variant.lacks_devices.iter();
+        lacks.any(|&(of, first, last)| of == class && (first..=last).contains(&number))
+    });
+    if let Some(special) = model.special(class, number).filter(|_| !lacks) {
+        return Some(format!(
+            "{device} on {title}: {}",
+            describe(special, number)
+        ));
     }
     if !is_special(class, number) {
         return None;
     }
-    let missing = match Model::get(model).has(class, number) {
-        true => format!("{topic} has no meaning on {title}; `rungc check` warns of it (W0302)"),
-        false => format!("{topic} does not exist on {title}"),
+    let missing = match model.has(class, number) && !lacks {
+        true => format!("{device} has no meaning on {title}; `rungc check` warns of it (W0302)"),
+        false => format!("{device} does not exist on {title}"),
     };
     Some(match rungc_catalogue::explain(topic) {
         Some(others) => format!("{missing}. Other models:\n\n{others}"),
-        None => missing,
+        None => format!(
+            "{missing}{}",
+            proposals::near_special(class, number, Some(plc))
+        ),
     })
 }
 
-fn describe(special: &special::Special) -> String {
+fn describe(special: &special::Special, number: u32) -> String {
     let access = match special.access {
         special::Access::Read => "written by the PLC, read-only for programs".to_string(),
         special::Access::ReadWrite => "programs may write it".to_string(),
@@ -226,5 +245,8 @@ fn describe(special: &special::Special) -> String {
     } else {
         format!("; starts at {}", special.default)
     };
-    format!("{}\n    {access}; {status}{default}", special.meaning)
+    format!(
+        "{}\n    {access}; {status}{default}",
+        special.meaning(number)
+    )
 }

@@ -300,8 +300,40 @@ fn explain_topics() {
     let add = rungc(folder.path(), &["explain", "add"]);
     assert!(text(&add.stdout).contains("ADD"));
     assert_eq!(add.status.code(), Some(0));
-    let args = ["explain", "M8013", "--model", "h2u"];
-    insta::assert_snapshot!("explain_special_on_model", shown(folder.path(), &args));
+    for (topic, model) in [
+        ("M8013", "h2u"),
+        ("M8052", "fx3u"),
+        ("EADD", "fx1s"),
+        ("PLSR", "h2u-xp"),
+        ("6503", "fx2n"),
+        ("E0106", "fx3u"),
+        ("M8010", "fx3u"),
+    ] {
+        let name = match topic {
+            "M8013" => "explain_special_on_model".to_owned(),
+            _ => format!("explain_{topic}_on_{model}"),
+        };
+        let args = ["explain", topic, "--model", model];
+        insta::assert_snapshot!(name, shown(folder.path(), &args));
+    }
+}
+
+#[test]
+fn unknown_topics_get_proposals() {
+    let folder = folder(&[]);
+    for (topic, near) in [
+        ("6799", "6771, 6772, 6773"),
+        ("M8010", "M8009, M8011"),
+        ("d100", "`D100` is a general device"),
+        ("DMOVX", "`DMOV`"),
+        ("h2u-mtx", "`h2u-mtp`"),
+        ("dubble-coil", "`double-coil`"),
+    ] {
+        let found = rungc(folder.path(), &["explain", topic]);
+        assert_eq!(found.status.code(), Some(2), "{topic}");
+        let message = text(&found.stderr);
+        assert!(message.contains(near), "{topic}: {message}");
+    }
 }
 
 #[test]

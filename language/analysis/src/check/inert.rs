@@ -149,7 +149,7 @@ fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
 }
 
 fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
-    let (_, first) = devices.first()?;
+    let (named, first) = devices.first()?;
     let &(span, _) = first.places.first()?;
     let names: Vec<_> = devices
         .iter()
@@ -163,7 +163,7 @@ fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<D
     let message = format!("{subject} {verb} in a compiled program: {}", reason.text);
     let mut diagnostic = codes::INERT_DEVICE
         .at(span, message)
-        .label(first.row.meaning);
+        .label(first.row.meaning(named.number));
     if devices.len() > MAX_NAMED {
         diagnostic = diagnostic.devices(devices.iter().map(|(device, _)| *device));
     }
@@ -172,7 +172,10 @@ fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<D
             let what = if written { "written" } else { "read" };
             diagnostic = match (n, m) {
                 (0, 0) => diagnostic,
-                (_, 0) => diagnostic.other(span, format!("`{device}`: {}", used.row.meaning)),
+                (_, 0) => diagnostic.other(
+                    span,
+                    format!("`{device}`: {}", used.row.meaning(device.number)),
+                ),
                 _ => diagnostic.other(span, format!("`{device}` is {what} here")),
             };
         }

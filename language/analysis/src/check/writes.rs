@@ -44,7 +44,7 @@ fn maintained(
     let message = format!("`{mnemonic}` writes `{device}`, which the system maintains");
     let diagnostic = codes::WRITES_READ_ONLY
         .at(access.span, message)
-        .label(format!("{device}: {}", special.meaning));
+        .label(format!("{device}: {}", special.meaning(device.number)));
     Some(match role {
         None => diagnostic,
         Some(PortRole { port, title, .. }) => {

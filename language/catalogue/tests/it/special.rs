@@ -2,7 +2,7 @@
 
 use rungc_catalogue::{all, find};
 use rungc_models::special::Status;
-use rungc_models::{Model, ModelId};
+use rungc_models::{Model, ModelId, plc_errors};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ fn special_devices_name_instructions_of_their_model() {
                 Status::Instructions(names) => names,
                 _ => "",
             };
-            for name in instructions(names).chain(instructions(row.meaning)) {
+            for name in instructions(names).chain(instructions(row.text)) {
                 let inst = find(name).unwrap().inst;
                 if !inst.models.has(id) {
                     wrong.insert(format!("{id:?} {:?}{} {name}", row.class, row.first));
@@ -48,6 +48,28 @@ fn instructions_have_their_special_devices() {
                 let number = flag[1..].parse().unwrap();
                 if model.special(class, number).is_none() {
                     wrong.insert(format!("{} {flag} {}", inst.name, model.name));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Every instruction that an error's text names exists on the error's models.
+#[test]
+fn errors_name_instructions_of_their_model() {
+    let mut wrong = BTreeSet::new();
+    for id in ModelId::ALL {
+        for code in 0..10000 {
+            let Some(error) = plc_errors::find(code, id) else {
+                continue;
+            };
+            for text in [error.title, error.meaning, error.remedy] {
+                for name in instructions(text) {
+                    let inst = find(name).unwrap().inst;
+                    if !inst.models.has(id) {
+                        wrong.insert(format!("{id:?} {code} {name}"));
+                    }
                 }
             }
         }

@@ -169,7 +169,8 @@ pub(super) static CODES: &[PlcError] = codes! {
     6465 H "parameters: the latched devices are set wrongly";
     6501 FX "an instruction with a device that it does not take";
     6502 FX "a set value without OUT T or OUT C before it";
-    6503 PORTS "an operand or a set value is missing";
+    6503 H "an operand is wrong, missing or too many";
+    6503 FX "an operand or a set value is missing";
     6504 PORTS "a label occurs twice";
     6505 FX "a device number is out of range";
     6506 PORTS "an instruction that does not exist";

@@ -242,9 +242,12 @@ impl fmt::Display for Line {
 fn comment(resolved: &Resolved, row: &Row) -> String {
     let Device { class, number } = row.first;
     let written = resolved.program.comments.get(&row.first);
-    let meaning = || resolved.model.special(class, number).map(|row| row.meaning);
-    let text = written.map(String::as_str).or_else(meaning);
-    text.map(one_line).unwrap_or_default().into()
+    let meaning = || {
+        let special = resolved.model.special(class, number)?;
+        Some(special.meaning(number))
+    };
+    let text = written.cloned().or_else(meaning);
+    text.map(|text| one_line(&text).into()).unwrap_or_default()
 }
 
 /// The devices that two overlapping areas share.

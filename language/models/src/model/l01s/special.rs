@@ -12,7 +12,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8001 r 0 scan "RUN monitor inverted: off during RUN";
     M 8002 r 0 scan "initial pulse: on for the first scan after RUN";
     M 8003 r 0 scan "inverted initial pulse: off for the first scan after RUN, on afterwards";
-    M 8011-8012 r 0 scan "clock oscillating with 10–100 ms period";
+    M 8011-8012 r 0 scan "clock oscillating with {10|100} ms period";
     M 8013 r 0 scan "clock oscillating with 1 s period";
     M 8014 r 0 scan "clock oscillating with 1 min period";
     M 8020 r 0 by("arithmetic") "zero flag: on when an ADD/SUB-type result is 0";
@@ -33,12 +33,12 @@ pub(super) const L01S: &[Special] = specials! {
     M 8047 rw 0 scan "on: STL monitoring enabled (M8046; D8040 is an analog input here)";
     M 8048 r 0 scan "on when an annunciator S900-S999 is active and M8049 is on";
     M 8049 rw 0 scan "on: annunciator monitoring enabled";
-    M 8050-8055 rw 0 scan "on: input interrupt I00–50x (input X000–005) disabled; cleared on the change from RUN to STOP";
-    M 8056-8058 rw 0 scan "on: timer interrupt I600–800-I699–899 disabled (base 1 ms); cleared on the change from RUN to STOP";
+    M 8050-8055 rw 0 scan "on: input interrupt {I000|I100|I200|I300|I400|I500}/{I001|I101|I201|I301|I401|I501} ({X0+}) disabled; cleared on the change from RUN to STOP";
+    M 8056-8058 rw 0 scan "on: timer interrupt {I602–I699|I702–I799|I805–I899} disabled (base 1 ms); cleared on the change from RUN to STOP";
     M 8059 rw 0 scan "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
     M 8061 r 0 scan "PLC error, here of the watchdog";
-    M 8062-8063 rw 0 by("serial ports") "serial communication error 0–1";
+    M 8062-8063 rw 0 by("serial ports") "serial communication error {0+}";
     M 8064 r 0 inert(CHECKED) "parameter error";
     M 8065 r 0 inert(CHECKED) "syntax error";
     M 8066 r 0 inert(CHECKED) "circuit (ladder) error";
@@ -58,19 +58,19 @@ pub(super) const L01S: &[Special] = specials! {
     M 8125 rw 0 by("serial ports") "port 2 protocol select together with M8196=1";
     M 8128 r 0 by("serial ports") "port 2: RD3A/WR3A received correctly (resets itself)";
     M 8129 r 0 by("serial ports") "port 2: RD3A/WR3A communication timeout (resets itself)";
-    M 8151-8154 r 0 inert(LATER) "busy monitor of pulse axis 5–8";
+    M 8151-8154 r 0 inert(LATER) "busy monitor of pulse axis {5+}";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
     M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD): only the low byte of each register is used";
-    M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
+    M 8170-8177 rw 0 scan "pulse catch of input {X0+}: set on its rising edge";
     M 8192 rw 0 by("serial ports") "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
     M 8196 rw 0 by("serial ports") "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
     M 8198 rw 0 by("OUT C") "4-fold counting for C251, C252, C254 (off = 1-fold)";
     M 8199 rw 0 by("OUT C") "4-fold counting for C253, C255 (off = 1-fold)";
-    M 8200-8227 rw 0 by("OUT C") "count direction of C200–227: on = down, off = up";
+    M 8200-8227 rw 0 by("OUT C") "count direction of {C200+}: on = down, off = up";
     M 8228 rw 0 by("OUT C") "handwheel function start (not supported on this model); in FX also count direction of C228 (on = down)";
-    M 8229-8234 rw 0 by("OUT C") "count direction of C229–234: on = down, off = up";
-    M 8235-8245 rw 0 by("OUT C") "count direction of single-phase high-speed counter C235–245: on = down, off = up";
-    M 8246-8255 r 0 by("OUT C") "count direction monitor of high-speed counter C246–255: on = counting down, off = counting up";
+    M 8229-8234 rw 0 by("OUT C") "count direction of {C229+}: on = down, off = up";
+    M 8235-8245 rw 0 by("OUT C") "count direction of single-phase high-speed counter {C235+}: on = down, off = up";
+    M 8246-8255 r 0 by("OUT C") "count direction monitor of high-speed counter {C246+}: on = counting down, off = counting up";
     M 8329 r 0 by("pulse outputs") "instruction ended abnormally";
     M 8338 rw 0 inert(LATER) "PLSV with acceleration/deceleration: on = ramps with D8348/D8349, off = frequency changes at once";
     M 8340 r 0 by("pulse outputs") "Y000: pulse output in progress (BUSY/READY monitor)";
@@ -133,9 +133,9 @@ pub(super) const L01S: &[Special] = specials! {
     M 8432-8433 rw 0 inert(LATER) "interpolation mode";
     M 8434 rw 0 inert(LATER) "interpolation relative/absolute";
     M 8435 rw 0 inert(LATER) "interpolation clockwise/counter-clockwise";
-    M 8450-8453 rw 0 inert(LATER) "pulse stop for axis 5–8";
-    M 8464-8467 rw 0 inert(LATER) "Y000–003: clear-signal device designation enabled";
-    M 8473-8476 rw 0 by("PWM") "PWM: Y000–003 output signal inverted";
+    M 8450-8453 rw 0 inert(LATER) "pulse stop for axis {5+}";
+    M 8464-8467 rw 0 inert(LATER) "{Y0+}: clear-signal device designation enabled";
+    M 8473-8476 rw 0 by("PWM") "PWM: {Y0+} output signal inverted";
     D 8000 rw 200 scan "watchdog timer (ms)";
     D 8001 r 26232 scan "PLC type and system version";
     D 8002 r 8 scan "memory capacity in k steps; 8 if it is 16 k or more, see D8102";
@@ -151,8 +151,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8018 rw 0 scan "clock: year (last two digits)";
     D 8019 rw 0 scan "clock: weekday 0=Sunday";
     D 8020 rw 10 by("REFF") "input filter adjustment (ms)";
-    D 8030-8045 r 0 scan "analog input AD0–15 value";
-    D 8050-8057 rw 0 by("TO") "analog output DA0–7 value 0..4000; nonzero starts the conversion, 0 stops it";
+    D 8030-8045 r 0 scan "analog input {AD0+} value";
+    D 8050-8057 rw 0 by("TO") "analog output {DA0+} value 0..4000; nonzero starts the conversion, 0 stops it";
     D 8058 rw 0 inert(RAW) "current range of the analog outputs";
     D 8059 rw 0 scan "constant scan time in ms; 0: none";
     D 8073 rw 7 inert(RAW) "analog input sampling period in scans, 0..7; change takes effect after restart; =1 samples once per scan";
@@ -289,8 +289,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8434 rw 0 inert(NO_PORT) "RS2 received checksum";
     D 8435 rw 0 inert(NO_PORT) "RS2 computed checksum";
     D 8436 rw 0 inert(NO_PORT) "RS2 sent checksum";
-    D 8464-8467 rw 0 inert(LATER) "Y000–003: clear-signal device number";
-    D 8473-8476 rw 2 by("PWM") "PWM: time unit of Y000–003: 0 = 10 us, 1 = 10 us, 2 = 1 ms, 3 = 10 ms";
+    D 8464-8467 rw 0 inert(LATER) "{Y0+}: clear-signal device number";
+    D 8473-8476 rw 2 by("PWM") "PWM: time unit of {Y0+}: 0 = 10 us, 1 = 10 us, 2 = 1 ms, 3 = 10 ms";
 };
 
 /// Devices that its instructions use, as on FX3, though its list of special devices lacks them: the list of instructions
