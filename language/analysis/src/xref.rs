@@ -220,9 +220,30 @@ fn uses_of(resolved: &Resolved, i: usize) -> Vec<Use> {
             }));
         }
     }
-    let indexes = operands.iter().filter_map(|operand| index(&operand.kind));
-    uses.extend(indexes.map(|register| one(register, UseKind::Read)));
-    uses
+    // The pair (Vn, Zn) in a 32-bit instruction, named by its Z.
+    let is_pair = resolution.form.wide && resolved.model.z_pairs_with_v;
+    for register in operands.iter().filter_map(|operand| index(&operand.kind)) {
+        uses.push(one(register, UseKind::Read));
+        if is_pair && register.class == DeviceClass::Z {
+            let class = DeviceClass::V;
+            uses.push(one(Device { class, ..register }, UseKind::Read));
+        }
+    }
+    without_parts(uses)
+}
+
+/// Uses without those that are part of another one of the same kind: `ZRST D0 D9` names D9 within D0 to D9.
+fn without_parts(uses: Vec<Use>) -> Vec<Use> {
+    let is_part = |part: &Use| {
+        uses.iter().any(|whole| {
+            let within = whole.first.class == part.first.class
+                && whole.first.number <= part.first.number
+                && part.end() <= whole.end();
+            let counted = |one: &Use| matches!(one.reach, Reach::Count(_));
+            whole.kind == part.kind && within && whole != part && counted(whole) && counted(part)
+        })
+    };
+    uses.iter().filter(|one| !is_part(one)).copied().collect()
 }
 
 fn kind(basic: Option<Basic>, access: &Access) -> UseKind {

@@ -6,3 +6,4 @@ mod resolve;
 mod roles;
 mod undefined;
 mod variants;
+mod xref;
