@@ -508,7 +508,7 @@ pub struct ManArgs {
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
     /// A diagnostic code (E0106), an error code of the PLC (6706), an instruction (ADD, LD>=), a special device
-    /// (M8013), a variant of a model (h2u-mtq), or a page that `rungc book` lists.
+    /// (M8013), a model (fx3u) or a variant of one (h2u-mtq), or a page that `rungc book` lists.
     pub topic: String,
     /// PLC model whose instructions, special devices and error codes are shown. Default: all.
     #[arg(long, value_parser = plc, value_name = "MODEL")]

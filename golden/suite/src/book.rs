@@ -165,7 +165,7 @@ fn code_page(code: &Code) -> String {
 }
 
 fn instructions() -> Vec<Page> {
-    let mut index = "# Instructions\n\nEvery instruction, by family. `rungc explain ADD` shows an entry in the terminal.\n\n".to_owned();
+    let mut index = "# Instructions\n\nEvery instruction, by family. `rungc explain ADD` shows an entry in the terminal, with `--model fx3u` as it is on that model.\n\n".to_owned();
     for family in families() {
         let link = |inst: &Inst| {
             let (name, file, id) = (inst.name, family.name, anchor(inst.name));

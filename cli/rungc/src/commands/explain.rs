@@ -6,13 +6,13 @@ use super::{Failure, Outcome, Result, book, print_text};
 use crate::args::ExplainArgs;
 use rungc_models::plc_errors::{self, PlcError, of_check};
 use rungc_models::runs::is_special;
-use rungc_models::{Model, ModelId, ModelSet, Plc, Variant, special};
+use rungc_models::{Model, ModelId, ModelSet, Plc, VARIANTS, Variant, special};
 use rungc_syntax::DeviceClass;
 use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
 
-/// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a
-/// model.
+/// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device, a model or a
+/// variant of one.
 pub fn run(args: &ExplainArgs) -> Result {
     let of_book = || book::page(&args.topic).map(|page| page.text.to_string());
     let Some(page) = page(args).or_else(of_book) else {
@@ -37,6 +37,7 @@ pub fn page(args: &ExplainArgs) -> Option<String> {
         .or_else(|| plc_error_page(topic.parse().ok()?, args.model.map(|plc| plc.model)))
         .or_else(|| special_page(&topic, args.model?))
         .or_else(|| Variant::find(&topic).map(variant_page))
+        .or_else(|| ModelId::from_name(&topic).map(model_page))
         .or_else(instruction)
         .or_else(|| rungc_catalogue::explain(&topic))
 }
@@ -146,6 +147,49 @@ fn meaning(error: &PlcError, model: Option<ModelId>) -> String {
         let _ = write!(text, "\n{NEVER_RAISED}\n");
     }
     text
+}
+
+/// Devices of a model, and where the book has more.
+fn model_page(id: ModelId) -> String {
+    let model = Model::get(id);
+    let (name, steps) = (model.name, model.max_steps);
+    let mut page = format!(
+        "{name}: {}\n\nAt most {steps} steps, and these devices:\n\n",
+        model.title
+    );
+    for range in model.ranges {
+        let (first, last) = (
+            range.class.number(range.first),
+            range.class.number(range.last),
+        );
+        let special = is_special(range.class, range.first);
+        let kind = match (special, range.latched) {
+            (true, _) => ", special",
+            (false, true) => ", latched",
+            (false, false) => "",
+        };
+        let _ = match range.first == range.last {
+            true => writeln!(page, "    {first}{kind}"),
+            false => writeln!(page, "    {first} to {last}{kind}"),
+        };
+    }
+    let variants: Vec<_> = VARIANTS
+        .iter()
+        .filter(|variant| variant.model == id)
+        .map(|v| v.name)
+        .collect();
+    if !variants.is_empty() {
+        let _ = writeln!(
+            page,
+            "\nPLCs of this model that have less: {}",
+            variants.join(", ")
+        );
+    }
+    let _ = writeln!(
+        page,
+        "\nInstructions: `rungc book instructions/support`. Special devices: `rungc book special-devices/{name}`."
+    );
+    page
 }
 
 /// Features missing from a variant or base unit.

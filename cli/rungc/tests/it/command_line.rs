@@ -293,6 +293,7 @@ fn explain_topics() {
         "6503",
         "nonsense",
         "MOVE",
+        "fx1s",
     ] {
         let name = format!("explain_{}", topic.replace(">=", "_ge"));
         insta::assert_snapshot!(name, shown(folder.path(), &["explain", topic]));

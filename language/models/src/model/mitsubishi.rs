@@ -81,7 +81,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8028 rw 0 scan "Z0";
     D 8029 rw 0 scan "V0";
     D 8039 rw 0 scan "constant time of a scan in ms (with M8039)";
-    D 8040-8047 r 0 scan "the {lowest|second|third|fourth|fifth|sixth|seventh|eighth} step that is on, from the lowest (with M8047)";
+    D 8040-8047 r 0 scan "the {lowest|second|third|fourth|fifth|sixth|seventh|eighth} of the steps that are on (with M8047)";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
     D 8063 rw 0 by("serial ports") "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
@@ -220,7 +220,7 @@ pub(super) const FX1: &[Special] = specials! {
     M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
     D 8030-8031 r 0 scan "potentiometer {VR1|VR2}: 0 to 255";
     D 8112-8114 rw 0 module(BOARD) "boards FX1N-2AD-BD and FX1N-1DA-BD: value of {channel 1|channel 2|the output}";
-    D 8158-8159 rw -1 inert(DISPLAY) "display module FX1N-5DM: first register {D|that names relays M} with which a program controls it";
+    D 8158-8159 rw -1 inert(DISPLAY) "display module FX1N-5DM: number of the first {register D|relay M} by which a program controls it";
 };
 
 /// FX1S: version 2.00, 2 k steps.
@@ -534,7 +534,7 @@ pub(super) const FX3U: &[Special] = specials! {
     D 8139 r 0 by("HSCS, HSCR, HSZ, HSCT") "how many comparisons of high-speed counters are executed";
     D 8154 r -1 inert(INVERTERS) "channel 1: inverter communication: parameter of IVBWR with an error";
     D 8159 r -1 inert(INVERTERS) "channel 2: inverter communication: parameter of IVBWR with an error";
-    D 8300-8303 rw 0 inert(DISPLAY) "display module: {registers that control it|relays that control it|language|contrast}";
+    D 8300-8303 rw 0 inert(DISPLAY) "display module: {first register D that controls it|first relay M that controls it|language|contrast}";
     D 8310 rw 1 by("RND") "state of RND, low word";
     D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY for pulse {1+}";

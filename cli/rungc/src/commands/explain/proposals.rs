@@ -30,7 +30,7 @@ pub(super) fn unknown(topic: &str, plc: Option<Plc>) -> String {
     }
     let hint = near_name(topic, &upper).map(|near| format!("; did you mean `{near}`?"));
     format!(
-        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, variant of a model or page of the book{}",
+        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model or page of the book{}",
         hint.unwrap_or_default()
     )
 }
@@ -93,8 +93,9 @@ fn near_name(topic: &str, upper: &str) -> Option<String> {
     let lower = topic.to_lowercase();
     let titles = codes::all().into_iter().map(|code| code.name);
     let variants = VARIANTS.iter().map(|variant| variant.name);
+    let models = ModelId::ALL.map(|id| Model::get(id).name);
     let pages = book::PAGES.iter().map(|page| page.name);
     diag::did_you_mean(upper, in_upper.iter().map(String::as_str))
-        .or_else(|| diag::did_you_mean(&lower, titles.chain(variants).chain(pages)))
+        .or_else(|| diag::did_you_mean(&lower, titles.chain(variants).chain(models).chain(pages)))
         .map(str::to_owned)
 }
