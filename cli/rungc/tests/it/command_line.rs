@@ -328,6 +328,7 @@ fn unknown_topics_get_proposals() {
         ("d100", "`D100` is a general device"),
         ("DMOVX", "`DMOV`"),
         ("h2u-mtx", "`h2u-mtp`"),
+        ("fx3w", "`fx3"),
         ("dubble-coil", "`double-coil`"),
     ] {
         let found = rungc(folder.path(), &["explain", topic]);

@@ -24,7 +24,7 @@ impl Special {
         })
     }
 
-    /// Meaning of the row: runs as `X000–X005`, lists with commas.
+    /// Meaning of the row: runs as `X000–X005`, lists with commas, or semicolons if they have commas already.
     pub fn meanings(&self) -> String {
         if self.first == self.last {
             return self.text.to_owned();
@@ -35,6 +35,7 @@ impl Special {
                 (first, end) if first == end => first,
                 (first, end) => format!("{first}–{end}"),
             },
+            Part::List(list) if list.contains(", ") => list.replace('|', "; "),
             Part::List(list) => list.replace('|', ", "),
         })
     }
@@ -140,6 +141,11 @@ mod tests {
         assert_eq!(of(fx3u, M, 8213), "C213 counts down");
         let rows = find(fx3u, D, 8140).meanings();
         assert_eq!(rows, "pulses sent at Y000–Y001, low, high word");
+        let four_fold = find(fx3u, M, 8198).meanings();
+        assert!(
+            four_fold.ends_with("C251, C252 and C254; C253 and C255"),
+            "{four_fold}"
+        );
         let motion = of(ModelId::Hm, M, 8111);
         assert!(motion.contains("in place of X017 ("), "{motion}");
         assert_eq!(of(fx3u, M, 8000), find(fx3u, M, 8000).meanings());

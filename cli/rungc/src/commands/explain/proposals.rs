@@ -95,7 +95,9 @@ fn near_name(topic: &str, upper: &str) -> Option<String> {
     let variants = VARIANTS.iter().map(|variant| variant.name);
     let models = ModelId::ALL.map(|id| Model::get(id).name);
     let pages = book::PAGES.iter().map(|page| page.name);
-    diag::did_you_mean(upper, in_upper.iter().map(String::as_str))
-        .or_else(|| diag::did_you_mean(&lower, titles.chain(variants).chain(models).chain(pages)))
-        .map(str::to_owned)
+    let in_upper = diag::did_you_mean(upper, in_upper.iter().map(String::as_str));
+    let in_lower = diag::did_you_mean(&lower, titles.chain(variants).chain(models).chain(pages));
+    let far = |near: &str| diag::distance(&lower, &near.to_lowercase(), upper.len());
+    let found = in_upper.into_iter().chain(in_lower);
+    found.min_by_key(|near| far(near)).map(str::to_owned)
 }
