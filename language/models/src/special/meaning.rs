@@ -162,7 +162,9 @@ mod tests {
                     };
                     let fits = match Part::of(inner) {
                         Part::Run(run) => count.is_multiple_of(run.each),
-                        Part::List(list) => (count as usize).is_multiple_of(list.split('|').count()),
+                        Part::List(list) => {
+                            (count as usize).is_multiple_of(list.split('|').count())
+                        }
                     };
                     assert!(count > 1 && fits, "{id:?} {row:?}");
                 }
