@@ -92,8 +92,7 @@ fn a_program_keeps_its_last_error() {
     // Both of one scan, or of two where the lines came apart.
     let expected = [
         "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist",
-        "step 12: DIV D0 D1 D2: error 6706, a device does not exist, or a value does not fit the \
-         instruction",
+        "step 12: DIV D0 D1 D2: error 6706, a device does not exist, or a value has no result",
     ];
     assert_eq!(reported, expected);
 }

@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 pub(crate) struct Access {
     /// The first device.
     pub(crate) first: Device,
-    /// Number of devices, at most; `None` if it is only known at run time, so that any device of the class may be meant.
+    /// Maximum number of devices; `None` if only the run decides, so that any device of the class may be meant.
     pub(crate) count: Option<u32>,
     /// Number of devices that it takes with any settings.
     pub(crate) least: Option<u32>,

@@ -341,7 +341,7 @@ pub fn title(code: u16, model: ModelId) -> &'static str {
 }
 
 /// Number under which a model reports what a check with this identifier finds. The checks state numbers of H1U and H2U,
-/// whose table has one for all faults of operands (h1u-h2u-programming §8.2); FX tells them apart. `None`: the model
+/// whose table has one for all faults of operands (h1u-h2u-programming §8.2); FX has one for each. `None`: the model
 /// does not number it.
 pub fn of_check(id: &str, number: u16, model: &Model) -> Option<u16> {
     match model.error_numbers {

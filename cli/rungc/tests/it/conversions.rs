@@ -161,7 +161,7 @@ fn what_a_form_cannot_store_is_named() {
     fs::write(path.join("chosen.bin"), memory).unwrap();
     let latched =
         "the latched devices (M0 to M99, S500 to S999, C100 to C199, C220 to C255, D200 to D511)";
-    let all = format!("{latched}, the memory capacity (8 000 steps) and 1 file register block");
+    let all = format!("{latched} and 1 file register block");
     assert_eq!(omitted("chosen.bin", "il"), [all]);
     assert_eq!(omitted("chosen.bin", "image"), ["1 file register block"]);
     let variables = r#"<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous>

@@ -167,10 +167,9 @@ fn no_option_replaces_an_input_by_any_name() {
     #[cfg(unix)]
     std::os::unix::fs::symlink("a.il", at.join("soft.html")).unwrap();
     for line in options() {
-        let program = if line.arguments.contains("scope.il") {
-            "scope.il"
-        } else {
-            "a.il"
+        let mut programs = ["scope.il", "a.il"].into_iter();
+        let Some(program) = programs.find(|program| line.arguments.contains(program)) else {
+            continue;
         };
         let roundabout = format!("./sub/../{program}");
         let forced = [program, &roundabout, "rungc.toml"].map(|path| (path, true));

@@ -75,7 +75,8 @@ fn files_and_folders_are_checked() {
     );
     // A file that is named twice is checked once.
     let twice = rungc(path, &["check", "motor.il", "motor.il"]);
-    assert!(text(&twice.stderr).contains("Total 1 program:"));
+    assert_eq!(twice.status.code(), Some(2));
+    assert!(text(&twice.stderr).contains("can be read only once"));
 }
 
 #[test]

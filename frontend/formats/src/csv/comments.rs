@@ -77,8 +77,13 @@ pub(crate) fn is_comments(text: &str) -> bool {
             && device.is_some_and(|device| !matches!(device.class, DeviceClass::P | DeviceClass::I))
     };
     let devices = rows.iter().filter(is_device).count();
-    // Below a head of one row or two.
-    devices > 0 && devices + 2 >= rows.len()
+    let is_rail = |row: &Row| {
+        row.record
+            .get(0)
+            .is_some_and(|cell| cell.trim_start().starts_with(['|', '│', '├']))
+    };
+    // Below a head of one row or two, which is not a rung of a drawing.
+    devices > 0 && devices + 2 >= rows.len() && !rows.iter().any(is_rail)
 }
 
 /// Reads an export of device comments, and warns of rows that it cannot use. Rows without a comment, and those above

@@ -220,6 +220,13 @@ fn mistakes_have_their_place() {
     );
 }
 
+/// A device with an empty comment below a drawing makes no table of comments.
+#[test]
+fn a_drawing_above_a_row_is_a_drawing() {
+    let read = read_bytes("odd.txt", "|--[ X0 ]--( Y0 )--|\nX0;".as_bytes()).unwrap();
+    assert_eq!(read.program.instrs.len(), 2);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 

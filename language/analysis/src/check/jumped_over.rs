@@ -37,7 +37,7 @@ impl JumpedOver {
             .and_then(|pointer| pointer.labels.first());
         let zones = |i: usize| matches!(code.basic(i), Some(Basic::Mc | Basic::Mcr));
         match label {
-            // A loop in one zone goes on once the zone runs.
+            // Nothing ends a loop inside one zone once the zone runs.
             Some(&label) if label < i && !(label..i).any(zones) => backward(code, label, i, out),
             _ if drive.lasts != Lasts::Always => {}
             Some(&label) if label < i => backward(code, label, i, out),

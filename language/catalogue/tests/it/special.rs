@@ -35,8 +35,8 @@ fn special_devices_name_instructions_of_their_model() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Every special device that an instruction uses on a model is one there: a program that uses it is not told that
-/// nothing depends on it (W0302), and the scan obeys it.
+/// Every special device that an instruction uses on a model is one there: a program that uses it gets no warning
+/// that nothing depends on it (W0302), and the scan obeys it.
 #[test]
 fn instructions_have_their_special_devices() {
     let mut wrong = BTreeSet::new();

@@ -3,10 +3,11 @@
 use crate::args::ConvertTo;
 use crate::commands::counted;
 use rungc_analysis::latches;
+use rungc_analysis::resolve::resolve;
 use rungc_frontend::{Read, read_bytes};
 use rungc_lower::compile::{CompileOptions, model};
 use rungc_models::Model;
-use rungc_syntax::{DeviceRun, Instr, Parameters, Program};
+use rungc_syntax::{DeviceRun, Instr, Parameters, Program, codes};
 use std::collections::BTreeMap;
 
 /// Sentences that name what `bytes`, a program in an output form, do not hold of the program. `own` are the parameters
@@ -56,7 +57,8 @@ pub fn sentences(
     let latched = chosen_latches(&stated, back, model);
     let sets_latched = !latched.is_empty();
     let in_settings = |_: &str| "; `[latched]` of rungc.toml sets latched devices".to_owned();
-    let all = [latched, parameters(&stated, back)].concat();
+    let capacity = capacity(program, back, model);
+    let all = [latched, capacity, blocks(&stated, back)].concat();
     match sets_latched {
         true => say(all, &in_settings),
         false => say(all, &|_| String::new()),
@@ -140,7 +142,7 @@ fn texts(program: &Program, back: &Program) -> Vec<String> {
         program.instrs.iter().filter_map(Instr::note)
     }
     let lines = lacking(statements(program), statements(back));
-    // The note of an instruction that is implied becomes a line of its own.
+    // The note of an instruction that is implied becomes a separate line.
     let notes = lacking(notes(program), notes(back).chain(statements(back)));
     let is_lost = |old: &Option<String>, new: &Option<String>| old.is_some() && old != new;
     let title = is_lost(&program.title, &back.title).then(|| "the title".to_owned());
@@ -178,16 +180,27 @@ fn named(runs: &[DeviceRun]) -> Vec<String> {
     runs.iter().map(name).collect()
 }
 
-/// The other parameters that do not come back.
-fn parameters(program: &Program, back: &Program) -> Vec<String> {
+/// The memory capacity, if the program does not fit in it and the output does not say so any more.
+fn capacity(program: &Program, back: &Program, model: &'static Model) -> Vec<String> {
+    let fits = |program: &Program| {
+        let (_, found) = resolve(program, model);
+        found.iter().all(|one| one.code != codes::TOO_LONG.id)
+    };
+    let capacity = program.parameters.as_ref().and_then(|of| of.capacity);
+    let lost = capacity.filter(|_| !fits(program) && fits(back));
+    let named = lost.map(|steps| counted(steps as usize, "step"));
+    named
+        .map(|steps| format!("the memory capacity ({steps})"))
+        .into_iter()
+        .collect()
+}
+
+/// Blocks of memory beside the program that do not come back.
+fn blocks(program: &Program, back: &Program) -> Vec<String> {
     let of = |program: &Program| program.parameters.clone().unwrap_or_default();
     let (old, new) = (of(program), of(back));
-    let capacity = old.capacity.filter(|_| old.capacity != new.capacity);
-    let capacity =
-        capacity.map(|steps| format!("the memory capacity ({})", counted(steps as usize, "step")));
     let blocks = |old: u32, new: u32, what| some(old.saturating_sub(new) as usize, what);
     let parameters = [
-        capacity,
         blocks(old.comment_blocks, new.comment_blocks, "comment block"),
         blocks(
             old.file_register_blocks,

@@ -293,8 +293,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8473-8476 rw 2 by("PWM") "PWM: time unit of {Y0+}: 0 = 10 us, 1 = 10 us, 2 = 1 ms, 3 = 10 ms";
 };
 
-/// Devices that its instructions use, as on FX3, though its list of special devices lacks them: the list of instructions
-/// refers to FX3G and to the manual of all the maker's PLCs (l01s-programming §4.2).
+/// Devices that its instructions use, as on FX3, though its list of special devices lacks them: the list of
+/// instructions refers to FX3G and to the manual of all the maker's PLCs (l01s-programming §4.2).
 pub(super) const OF_INSTRUCTIONS: &[Special] = specials! {
     M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
     M 8026 rw 0 by("RAMP") "RAMP holds the final value";
