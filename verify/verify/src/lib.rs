@@ -27,3 +27,4 @@ pub mod sat;
 pub mod search;
 pub mod system;
 pub mod unroll;
+pub mod vacuous;

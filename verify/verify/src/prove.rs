@@ -55,6 +55,11 @@ pub enum Why {
         /// Number of scans.
         scans: usize,
     },
+    /// The program contradicts an assumption: a run ends where no scan keeps it, so that a proof says too little.
+    Vacuous {
+        /// The assumption, and the run.
+        contradiction: String,
+    },
     /// A run happens on the interpreter, but not on another engine.
     Engines {
         /// The engine, and the difference.

@@ -232,7 +232,7 @@ impl<'s> Lanes<'s> {
 }
 
 /// A bit of a part of a time, in all lanes.
-fn part_of(ms: u32, digit: Digit, bit: usize) -> u64 {
+pub(crate) fn part_of(ms: u32, digit: Digit, bit: usize) -> u64 {
     let value = match digit {
         Digit::Hundreds => ms / 100,
         Digit::Tens => ms / 10 % 10,

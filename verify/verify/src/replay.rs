@@ -284,10 +284,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         first.start = start;
     }
     if let Some(last) = changes.last_mut() {
-        for condition in property.conditions() {
-            last.after.extend(condition.values(&machine));
-        }
-        last.after.dedup();
+        last.after = property.values(&machine);
     }
     changes
 }

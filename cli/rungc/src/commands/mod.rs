@@ -266,10 +266,7 @@ pub fn stream_text(text: &str) -> io::Result<()> {
 fn write_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let written = out.write_all(bytes).and_then(|()| out.flush());
-    written.map_err(|error| match error.kind() {
-        io::ErrorKind::BrokenPipe => error,
-        kind => io::Error::new(kind, format!("standard output: {error}")),
-    })
+    written.map_err(|error| io::Error::new(error.kind(), format!("standard output: {error}")))
 }
 
 /// Prints a report, or writes the same to the requested file, with `force` or not; `summary` says what is in it.

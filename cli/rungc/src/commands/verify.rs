@@ -19,7 +19,8 @@ use rungc_sim::property::Condition;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
-use rungc_verify::prove::{Decision, Options, Verdict, decide};
+use rungc_verify::prove::{Decision, Options, Verdict, Why, decide};
+use rungc_verify::vacuous::dead_end;
 use std::time::{Duration, Instant};
 
 /// Time limit of a property, in milliseconds.
@@ -87,6 +88,16 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             )
         })
         .collect();
+    let is_proved = |decision: &Decision| decision.verdict == Verdict::Proved;
+    if decided.iter().any(|(decision, _)| is_proved(decision))
+        && let Some(why) = vacuous([&module], &options, &assumed)
+    {
+        let decisions = decided.iter_mut().map(|(decision, _)| decision);
+        for decision in decisions.filter(|decision| is_proved(decision)) {
+            decision.proof = None;
+            decision.verdict = Verdict::Undecided(why.clone());
+        }
+    }
     let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
     export::proofs(args, proof.map(certificate), options.time, cx)?;
     let runs = shown(&requested, &decided);
@@ -120,6 +131,18 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Reason to take proofs back: one of the programs contradicts an assumption.
+fn vacuous<'m>(
+    modules: impl IntoIterator<Item = &'m Module>,
+    options: &Options,
+    assumed: &[String],
+) -> Option<Why> {
+    let mut modules = modules.into_iter();
+    let end = modules.find_map(|module| dead_end(module, options))?;
+    let contradiction = report::contradiction(&end, assumed, options.world.scan_ms);
+    Some(Why::Vacuous { contradiction })
 }
 
 /// The runs that were found, to be shown on other engines.

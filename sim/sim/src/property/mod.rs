@@ -244,6 +244,21 @@ impl Property {
         }
     }
 
+    /// Values that it depends on, on a machine now, as [`Condition::values`]; each once.
+    pub fn values(&self, machine: &Machine) -> Vec<(String, (DeviceClass, u32), i64)> {
+        let mut found = Vec::new();
+        for value in self
+            .conditions()
+            .into_iter()
+            .flat_map(|of| of.values(machine))
+        {
+            if !found.contains(&value) {
+                found.push(value);
+            }
+        }
+        found
+    }
+
     /// Returns true if the event is wanted: a run is then no violation but the answer.
     pub fn is_wanted(&self) -> bool {
         matches!(self, Property::Reachable(_))

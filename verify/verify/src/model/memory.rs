@@ -3,7 +3,7 @@
 use super::shared::Signature;
 use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
 use crate::aig::Lit;
-use crate::bits::{Bits, constant, unsigned};
+use crate::bits::{Bits, constant, signed, unsigned};
 use rungc_ir::node::{Action, Expr, FunctionKind, Place, SetEntry, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::{called_functions, callees, statements};
@@ -435,6 +435,29 @@ impl Encoder<'_> {
             below_hundred: unsigned(&shown(self, &below_hundred), 7),
             below_ten: shown(self, &ones),
         });
+        self.keep_constant_scan(&raw, first);
+    }
+
+    /// Makes scans as long as the program asks for, but not the first one, before which there is none.
+    fn keep_constant_scan(&mut self, elapsed: &[Lit], first: Lit) {
+        let Some(devices) = self.module.model.constant_scan() else {
+            return;
+        };
+        let relay = devices.relay.map(|relay| {
+            let key = Key::Bit(DeviceClass::M, relay.number());
+            self.before.get(&key).map_or(Lit::FALSE, |bits| bits[0])
+        });
+        let on = relay.unwrap_or(Lit::TRUE);
+        let register = Key::Word(DeviceClass::D, devices.register.number());
+        let Some(least) = self.before.get(&register).filter(|_| on != Lit::FALSE) else {
+            return;
+        };
+        let width = elapsed.len().max(least.len()) + 1;
+        let least = signed(least, width);
+        let shorter = self.aig.less(&unsigned(elapsed, width), &least);
+        let kept = !self.aig.all([shorter, on, !first]);
+        self.constraints.push(kept);
+        self.constant_scan = Some(kept);
     }
 
     /// Devices that an index leads to, with the condition for each; `None` if there are too many.

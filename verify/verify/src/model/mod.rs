@@ -211,6 +211,8 @@ pub struct Encoder<'m> {
     lost_gap: Option<usize>,
     time: Option<Time>,
     scan_time: Option<Bits>,
+    /// On if the time since the scan before is what the program asks for, at least (M8039); `None` if it asks for none.
+    pub constant_scan: Option<Lit>,
     /// Values of special modules in this scan, word by word.
     buffers: BTreeMap<Key, Bits>,
     network: Option<u32>,
@@ -280,6 +282,7 @@ impl<'m> Encoder<'m> {
             lost_gap: None,
             time: None,
             scan_time: None,
+            constant_scan: None,
             buffers: BTreeMap::new(),
             network: None,
             statements: 0,

@@ -89,24 +89,20 @@ impl Searched<'_> {
     /// Values of the devices in question at the end of a run; `None` if there are none.
     pub fn after(&self, found: &Found) -> Option<Vec<Setting>> {
         let mut after = None;
-        let conditions = match found.what {
-            What::Property(number) => self.requested[number].property.conditions(),
-            What::Doubled(_) | What::Oscillation(_) => Vec::new(),
+        let property = match found.what {
+            What::Property(number) => Some(&self.requested[number].property),
+            What::Doubled(_) | What::Oscillation(_) => None,
             What::Error { .. } | What::Watchdog { .. } | What::Collision(_) => return None,
         };
         // A run that was found can be followed.
         let _ = self.follow(found, &mut |_, runner| {
             let machine = runner.machine();
-            let mut values: Vec<Setting> = Vec::new();
-            for condition in &conditions {
-                values.extend(condition.values(machine));
-            }
+            let mut values = property.map_or_else(Vec::new, |property| property.values(machine));
             if let What::Doubled(n) | What::Oscillation(n) = found.what {
                 let on = machine.bit(Class::Y, n) == Some(true);
                 let name = DeviceClass::Y.number(n).to_string();
                 values.push((name, (DeviceClass::Y, n), on.into()));
             }
-            values.dedup();
             after = Some(values);
             Ok(())
         });

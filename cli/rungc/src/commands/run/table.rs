@@ -53,9 +53,7 @@ impl Table {
         let fails = error.is_some();
         match error {
             Some(error) if !self.fails => {
-                eprint_line(&format!(
-                    "rungc: standard output: {error}; the run continues"
-                ));
+                eprint_line(&format!("rungc: {error}; the run continues"));
             }
             None if self.fails => eprint_line("rungc: standard output is written again"),
             _ => {}

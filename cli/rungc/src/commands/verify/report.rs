@@ -9,6 +9,7 @@ use rungc_syntax::codes;
 use rungc_verify::model::{Gap, Key, World, device_of};
 use rungc_verify::prove::{Decision, FOREVER_MS, Options, Verdict, Why};
 use rungc_verify::replay::{Change, Setting, story};
+use rungc_verify::vacuous::{Broken, DeadEnd};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::Duration;
@@ -38,6 +39,7 @@ impl Result<'_> {
     /// The verdict in a word.
     fn word(&self) -> &'static str {
         match (&self.decision.verdict, self.property.is_wanted()) {
+            (Verdict::Undecided(Why::Vacuous { .. }), _) => "vacuous",
             (Verdict::Undecided(_), _) => "not decided",
             (Verdict::Proved, false) => "proved",
             (Verdict::Found(_), false) => "violated",
@@ -117,6 +119,23 @@ impl Result<'_> {
     }
 }
 
+/// Contradiction between a program and what is assumed, in words.
+pub fn contradiction(end: &DeadEnd, assumed: &[String], scan_ms: u32) -> String {
+    let what = match end.broken {
+        Broken::Condition(n) => format!("the assumption `{}`", assumed[n]),
+        Broken::ScanTime => {
+            format!("scans of at most {scan_ms} ms: it asks for longer ones (constant scan, M8039)")
+        }
+        Broken::Together => "the assumptions together".to_string(),
+    };
+    let run = counted(end.scans, "scan");
+    format!(
+        "the program contradicts {what}; after a run of {run} ({} ms), nothing keeps it, and a proof would say nothing of \
+         what follows",
+        end.ms
+    )
+}
+
 /// Reason why a property is not decided, in words.
 pub fn reason(why: &Why) -> String {
     match why {
@@ -132,6 +151,7 @@ pub fn reason(why: &Why) -> String {
             "no run of {} keeps the assumptions",
             counted(*scans, "scan")
         ),
+        Why::Vacuous { contradiction } => contradiction.clone(),
         Why::Engines { difference } => format!(
             "the engines of rungc disagree, so no verdict can be trusted: {difference}; please report this with the \
              program"

@@ -68,6 +68,13 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let modules = [old_module, new_module];
     let mut compared = compare(&modules[0], &modules[1], &options);
     let is_same = |output: &Output| output.verdict == Verdict::Proved;
+    let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
+    if let Some(why) = super::vacuous(&modules, &options, &assumed) {
+        for output in compared.outputs.iter_mut().filter(|output| is_same(output)) {
+            output.proof = None;
+            output.verdict = Verdict::Undecided(why.clone());
+        }
+    }
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
     export::proofs(args, proofs, options.time, cx)?;
@@ -88,7 +95,6 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         cases.collect(),
         &mut reporter,
     )?;
-    let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
     let supposed = report::assumptions(&options.world, &assumed, &external);
     let text = || text(&compared, &names, &modules[1], &supposed);
     let outcomes = outputs.map(|output| outcome(&output.verdict));

@@ -135,6 +135,59 @@ fn outputs_are_terminals() {
     assert!(shown.contains("Outputs that can differ: Y000."), "{shown}");
 }
 
+/// A proof is taken back if the program itself ends all runs that keep what is assumed.
+#[test]
+fn what_a_program_contradicts_is_vacuous() {
+    let timed = "LD M8000\nOUT T0 K20\nLD T0\nOUT Y000\nOUT Y001\nLD X000\nOUT Y002\nEND\n";
+    let pacer =
+        "LD M8002\nMOV K2000 D8039\nLD M8000\nOUT M8039\nLD X000\nOUT M0\nLD M0\nOUT Y000\nEND\n";
+    let slow = "[project]\nprogram = \"pacer.il\"\n[[property]]\nalways = \"Y000 = M0\"\n";
+    let files = [
+        ("timed.il", timed.as_bytes()),
+        ("pacer.il", pacer.as_bytes()),
+        ("rungc.toml", slow.as_bytes()),
+    ];
+    let folder = folder(&files);
+    let verify = |args: &[&str]| {
+        let args = [&["verify", "--replay", "interp"], args].concat();
+        let output = rungc(folder.path(), &args);
+        (output.status.code(), text(&output.stdout))
+    };
+    let never = ["timed.il", "--never", "Y001"];
+    assert_eq!(verify(&never).0, Some(1));
+    let (code, shown) = verify(&[&never[..], &["--assume", "!Y000"]].concat());
+    assert_eq!(code, Some(3), "{shown}");
+    assert!(shown.starts_with("vacuous     never Y001"), "{shown}");
+    assert!(
+        shown.contains("the program contradicts the assumption `!Y000`"),
+        "{shown}"
+    );
+    // Inputs can keep what is assumed of them, whatever the program does.
+    let kept = [
+        "timed.il",
+        "--never",
+        "Y002 & X000 & X001",
+        "--assume",
+        "!(X000 & X001)",
+    ];
+    assert_eq!(verify(&kept).0, Some(0));
+    let kept = [
+        "timed.il",
+        "--never",
+        "Y002 & X001",
+        "--assume",
+        "!Y002 | !X001",
+    ];
+    assert_eq!(verify(&kept).0, Some(0));
+    // Scans that last longer than is assumed.
+    let (code, shown) = verify(&["pacer.il"]);
+    assert_eq!(code, Some(3), "{shown}");
+    assert!(shown.contains("scans of at most 200 ms"), "{shown}");
+    assert_eq!(verify(&["pacer.il", "--scan", "3s"]).0, Some(0));
+    let (code, shown) = verify(&["timed.il", "--same-as", "timed.il", "--assume", "!Y000"]);
+    assert_eq!(code, Some(3), "{shown}");
+}
+
 /// An index register that something else may write leads anywhere.
 #[test]
 fn index_registers_may_be_written_from_outside() {
