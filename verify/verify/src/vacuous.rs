@@ -56,6 +56,13 @@ pub fn dead_end(module: &Module, options: &Options) -> Option<DeadEnd> {
     if assumed.is_empty() {
         return None;
     }
+    let lits: Vec<Lit> = assumed.iter().map(|(_, lit)| *lit).collect();
+    let kept = encoder.aig.all(lits);
+    // What is not modelled could lead anywhere, also where no real run does.
+    let is_gap = |(_, input): &(Lit, Input)| matches!(input, Input::Gap(_));
+    if encoder.system(!kept).sliced().inputs.iter().any(is_gap) {
+        return None;
+    }
     let system = encoder.system(Lit::FALSE);
     let scan_ms = options.world.scan_ms;
     let mut search = Search::new(&system, &assumed, scan_ms);

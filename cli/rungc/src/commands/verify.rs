@@ -88,16 +88,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             )
         })
         .collect();
-    let is_proved = |decision: &Decision| decision.verdict == Verdict::Proved;
-    if decided.iter().any(|(decision, _)| is_proved(decision))
-        && let Some(why) = vacuous([&module], &options, &assumed)
-    {
-        let decisions = decided.iter_mut().map(|(decision, _)| decision);
-        for decision in decisions.filter(|decision| is_proved(decision)) {
-            decision.proof = None;
-            decision.verdict = Verdict::Undecided(why.clone());
-        }
-    }
+    withdraw(&mut decided, &module, &options, &assumed);
     let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
     export::proofs(args, proof.map(certificate), options.time, cx)?;
     let runs = shown(&requested, &decided);
@@ -131,6 +122,27 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Takes proofs back if the program contradicts an assumption.
+fn withdraw(
+    decided: &mut [(Decision, Duration)],
+    module: &Module,
+    options: &Options,
+    assumed: &[String],
+) {
+    let decisions = decided.iter_mut().map(|(decision, _)| decision);
+    let proved = decisions.filter(|decision| decision.verdict == Verdict::Proved);
+    let mut proved = proved.peekable();
+    if proved.peek().is_none() {
+        return;
+    }
+    if let Some(why) = vacuous([module], options, assumed) {
+        for decision in proved {
+            decision.proof = None;
+            decision.verdict = Verdict::Undecided(why.clone());
+        }
+    }
 }
 
 /// Reason to take proofs back: one of the programs contradicts an assumption.

@@ -37,12 +37,13 @@ fn simulated(machine: &str, image: &Path) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Succeeded, with nothing but the line that says so; the runtime may have to be built before.
+/// Succeeded, with nothing but the line that says so; the runtime may have to be built before, and a name be changed.
 pub fn quiet(output: &Output) {
     let messages = text(&output.stderr);
     assert!(output.status.success(), "{messages}");
     let lines = messages.lines();
     let other = lines.filter(|line| !line.starts_with("    Building the runtime for "));
+    let other = other.filter(|line| !line.starts_with("       Named "));
     assert_eq!(other.count(), 1, "{messages}");
 }
 

@@ -203,7 +203,10 @@ impl Variables {
         let mut twice = Vec::new();
         let is_set = |key: &str| matches!(list.attribute(key).map(str::trim), Some("true" | "1"));
         for node in children(list, "variable") {
-            let Some(name) = node.attribute("name") else {
+            let Some(name) = node
+                .attribute("name")
+                .filter(|name| !name.trim().is_empty())
+            else {
                 continue;
             };
             let name = name.to_uppercase();

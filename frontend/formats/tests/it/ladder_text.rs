@@ -224,7 +224,7 @@ fn mistakes_have_their_place() {
 #[test]
 fn a_drawing_above_a_row_is_a_drawing() {
     let read = read_bytes("odd.txt", "|--[ X0 ]--( Y0 )--|\nX0;".as_bytes()).unwrap();
-    assert_eq!(read.program.instrs.len(), 2);
+    assert_eq!(read.program.instrs.len(), 3);
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 use super::Target;
 use rungc_fleet::Fleet;
 use rungc_frontend::Names;
-use rungc_host::io;
+use rungc_host::{duration, io};
 use rungc_project::serve::{FxEnd, Line, LineEnd};
 use rungc_sim::property;
 use rungc_sim::protocol::Answer;
@@ -54,6 +54,7 @@ fn words(text: &str) {
     for word in text.lines() {
         let _ = rungc_sim::Target::parse(word);
         let _ = Answer::parse(word);
+        let _ = duration::parse_within(word, 1..=60_000);
         let _ = LineEnd::parse(word);
         let _ = LineEnd::parse_can(word);
         let _ = word.parse::<Line>();
@@ -109,7 +110,7 @@ pub(super) fn targets() -> [Target; 5] {
             "words",
             words,
             &[
-                "K4X000\nD0.f32\nT5.value\nY000.pulses\n-12\nnone\n",
+                "20ms\n1.5h\nK4X000\nD0.f32\nT5.value\nY000.pulses\n-12\nnone\n",
                 "COM1=/dev/ttyUSB0\ntcp:localhost:5000\nslcan:/dev/ttyACM0,250\nCOM3\n127.0.0.1:5551\n",
             ],
         ),

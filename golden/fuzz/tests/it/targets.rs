@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 41] = [
+const READERS: [(&str, &str); 43] = [
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
     ("firmware/src/flash/uf2.rs read", "flash-file"),
@@ -122,6 +122,8 @@ const READERS: [(&str, &str); 41] = [
     ("project/src/reader.rs read", "settings"),
     ("project/src/serve.rs parse", "words"),
     ("project/src/serve.rs parse_can", "words"),
+    ("runtime-rt/host/src/duration.rs parse", "words"),
+    ("runtime-rt/host/src/duration.rs parse_within", "words"),
     ("runtime-rt/host/src/io/settings.rs read", "connections"),
     ("runtime-rt/host/src/io/text.rs parse", "connections"),
     ("runtime-rt/host/src/io/topics.rs take", "connections"),
@@ -142,10 +144,10 @@ const READERS: [(&str, &str); 41] = [
     ("runtime-rt/rt/src/comm/modbus/tcp.rs answer", "decode-tcp"),
     ("sim/sim/src/plant/format/mod.rs parse", "machine"),
     ("sim/sim/src/plctest/mod.rs parse", "test-file"),
+    ("sim/sim/src/property/parse.rs parse", "condition"),
     ("sim/sim/src/protocol.rs parse", "words"),
     ("sim/sim/src/serve/decode.rs decode", "overheard"),
     ("sim/sim/src/target.rs parse", "words"),
-    ("verify/verify/src/property/parse.rs parse", "condition"),
 ];
 
 /// The public functions in the sources that take texts or bytes and whose names say that they read them.

@@ -6,7 +6,8 @@ use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
 use rungc_ir::reach::{beyond_operands, of_action};
-use rungc_rt::Transfer;
+use rungc_rt::special::D_ANALOG_INPUTS;
+use rungc_rt::{Register, RtFn, Transfer};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -34,6 +35,19 @@ const ERRORS: [(DeviceClass, u32, u32); 5] = [
     (DeviceClass::D, 8490, 8509),
 ];
 
+/// Special devices that a function may write, if it is known to write no others.
+fn own_specials(function: RtFn) -> Option<Vec<(DeviceClass, u32, u32)>> {
+    let register = |of: Register| (DeviceClass::D, of.number(), of.number());
+    if function == RtFn::Potentiometers {
+        return Some(D_ANALOG_INPUTS.run::<2>().map(register).into());
+    }
+    let specials = function.specials()?;
+    let relays = specials.writes.iter();
+    let relays = relays.map(|of| (DeviceClass::M, of.number(), of.number()));
+    let registers = specials.registers.iter().map(|&of| register(of));
+    Some(relays.chain(registers).chain(ERRORS).collect())
+}
+
 impl Encoder<'_> {
     /// The memory of these runs of devices.
     pub(super) fn named_in(&self, runs: &[(DeviceClass, u32, u32)]) -> Vec<Key> {
@@ -56,7 +70,10 @@ impl Encoder<'_> {
         if needs.anywhere {
             return self.state.keys().copied().collect();
         }
-        let mut keys = self.specials();
+        let mut keys = match own_specials(call.function) {
+            Some(own) => self.named_in(&own),
+            None => self.specials(),
+        };
         keys.extend(self.named_in(&beyond_operands(call)));
         keys
     }

@@ -16,7 +16,7 @@ use rungc_sim::property::{Condition, Property};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics};
 use rungc_verify::certificate;
-use rungc_verify::prove::Verdict;
+use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same::{Compared, Output, compare};
 use rungc_verify::search::Trace;
 use std::collections::BTreeSet;
@@ -67,14 +67,8 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     export::can_prove(args)?;
     let modules = [old_module, new_module];
     let mut compared = compare(&modules[0], &modules[1], &options);
-    let is_same = |output: &Output| output.verdict == Verdict::Proved;
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    if let Some(why) = super::vacuous(&modules, &options, &assumed) {
-        for output in compared.outputs.iter_mut().filter(|output| is_same(output)) {
-            output.proof = None;
-            output.verdict = Verdict::Undecided(why.clone());
-        }
-    }
+    withdraw(&mut compared, &modules, &options, &assumed);
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
     export::proofs(args, proofs, options.time, cx)?;
@@ -106,6 +100,20 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     );
     super::deliver(args, reporter, text, &summary, cx)?;
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+fn is_same(output: &Output) -> bool {
+    output.verdict == Verdict::Proved
+}
+
+/// Takes proofs back if one of the programs contradicts an assumption.
+fn withdraw(compared: &mut Compared, modules: &[Module; 2], options: &Options, assumed: &[String]) {
+    if let Some(why) = super::vacuous(modules, options, assumed) {
+        for output in compared.outputs.iter_mut().filter(|output| is_same(output)) {
+            output.proof = None;
+            output.verdict = Verdict::Undecided(why.clone());
+        }
+    }
 }
 
 /// The runs in which outputs differ, of either program.
