@@ -104,11 +104,7 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
         first.class,
         DeviceClass::D | DeviceClass::R | DeviceClass::ER
     );
-    let pair = match param.shape {
-        Shape::Value => wide,
-        Shape::Pair | Shape::Float => true,
-        Shape::Bit | Shape::Word | Shape::Text | Shape::Pointer | Shape::Mixed => false,
-    };
+    let pair = is_pair(param, wide);
     let each = match digits {
         Some(digits) => 4 * u32::from(digits),
         None if pair && word => 2,
@@ -129,6 +125,28 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
         indexed,
         span: operand.span,
     })
+}
+
+/// Number of words of buffer memory that an operand of instruction `i` takes, if known.
+pub(crate) fn buffer_words(resolved: &Resolved, i: usize, n: usize) -> Option<u32> {
+    let operands = &resolved.program.instrs[i].operands;
+    let resolution = resolved.instrs[i];
+    let (operand, param) = (operands.get(n)?, resolution.params.get(n)?);
+    let each = if is_pair(param, resolution.form.wide) {
+        2
+    } else {
+        1
+    };
+    Some(values(operands, operand, param)?.saturating_mul(each))
+}
+
+/// Returns true if a value of a parameter takes two words.
+fn is_pair(param: &Param, wide: bool) -> bool {
+    match param.shape {
+        Shape::Value => wide,
+        Shape::Pair | Shape::Float => true,
+        Shape::Bit | Shape::Word | Shape::Text | Shape::Pointer | Shape::Mixed => false,
+    }
 }
 
 /// Number of values of an operand, if known.

@@ -3,7 +3,7 @@
 use rungc_frontend::read_text;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_models::ModelId;
-use rungc_syntax::{DeviceClass, DeviceRun, Parameters, Program};
+use rungc_syntax::{DeviceClass, DeviceRun, FittedModule, Parameters, Program};
 
 const PROGRAM: &str = "LD X0\nOUT M400\nOUT M499\nOUT M500\nOUT M600\nLD M400\nOR M499\nOR M500\nOR M600\nMOV D6 Z0\nMOV D5Z0 D300\n\
     FMOV K0 D190 K20\nEND\n";
@@ -155,4 +155,48 @@ fn what_a_panel_writes_may_be_a_preset() {
     assert_eq!(findings(latched(&[run(0, 11)])), one);
     assert_eq!(findings(written(&[run(10, 3)])), [""; 0]);
     assert_eq!(findings(latched(&[run(10, 3)])), [""; 0]);
+}
+
+#[test]
+fn transfers_from_and_to_a_module_stay_within_what_it_has() {
+    let findings = |lines: &str| {
+        let text = format!("{}\nEND\n", lines.replace(" / ", "\n"));
+        let mut program = read_text("press.il", &text).program;
+        let module = FittedModule {
+            unit: 0,
+            kind: "FX2N-4AD",
+            delay_ms: 0,
+            pins: Vec::new(),
+        };
+        program.parameters = Some(Parameters {
+            modules: vec![module],
+            ..Parameters::default()
+        });
+        let options = CompileOptions {
+            model: Some(ModelId::Fx3u),
+            ..CompileOptions::default()
+        };
+        let found = compile(&program, &options).diagnostics;
+        let found = found.iter().filter(|d| d.code.starts_with("W066"));
+        found.map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let beyond = "FX2N-4AD (module 0) has no BFM 31";
+    let measured = "BFM 5 of FX2N-4AD (module 0) can only be read: mean value";
+    for (lines, expected) in [
+        ("LD X0 / BMOV U0\\G29 D0 K3", beyond),
+        ("LD X0 / BMOV D0 U0\\G1 K5", measured),
+        ("LD X0 / FMOV K0 U0\\G1 K5", measured),
+        ("LD X0 / DMOV U0\\G30 D0", beyond),
+        ("LD X1 / OUT M8024 / LD X0 / BMOV U0\\G5 D0 K2", measured),
+    ] {
+        assert_eq!(findings(lines), [expected], "{lines}");
+    }
+    for lines in [
+        "LD X0 / BMOV U0\\G5 D0 K8",
+        "LD X0 / BMOV U0\\G29 D0 D50",
+        "LD X0 / BMOV D0 U0\\G1 K4",
+        "LD X0 / FMOV K0 U0\\G1 K4",
+    ] {
+        assert_eq!(findings(lines), [""; 0], "{lines}");
+    }
 }

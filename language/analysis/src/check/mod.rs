@@ -209,19 +209,29 @@ impl<'a> Code<'a> {
         self.resolved.program.unread.iter().copied().peekable()
     }
 
-    /// The accesses of an instruction. BMOV goes either way, but forwards where nothing switches M8024 on.
+    /// The accesses of an instruction.
     fn accesses(&self, i: usize) -> impl Iterator<Item = Access> {
-        let two_way = matches!(self.lower(i), Some(Lower::Call(RtFn::Bmov)));
-        let forward = two_way && !*self.reverses.get_or_init(|| self.may_reverse());
-        let source = self.instr(i).operands.first().map(|source| source.span);
         accesses::of(self.resolved, i).map(move |access| Access {
-            role: match forward && access.role == Role::ReadWrite {
-                true if Some(access.span) == source => Role::Read,
-                true => Role::Write,
-                false => access.role,
-            },
+            role: self.role(i, access.span, access.role),
             ..access
         })
+    }
+
+    /// Use of an operand, given by its place, that its row uses in this way. BMOV goes either way, but forwards where
+    /// nothing switches M8024 on.
+    fn role(&self, i: usize, operand: Span, usual: Role) -> Role {
+        let two_way = matches!(self.lower(i), Some(Lower::Call(RtFn::Bmov)));
+        if !two_way || usual != Role::ReadWrite {
+            return usual;
+        }
+        if *self.reverses.get_or_init(|| self.may_reverse()) {
+            return usual;
+        }
+        let source = self.instr(i).operands.first().map(|source| source.span);
+        match source == Some(operand) {
+            true => Role::Read,
+            false => Role::Write,
+        }
     }
 
     /// Returns true if something may switch M8024 on.

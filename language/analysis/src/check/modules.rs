@@ -1,6 +1,7 @@
 //! FROM, TO and operands `U0\G5`, held to the special modules that the settings fit.
 
 use super::Code;
+use crate::accesses;
 use rungc_catalogue::{Lower, Role};
 use rungc_rt::modules::{self, Access, Kind, Place};
 use rungc_rt::{RtFn, Transfer};
@@ -46,23 +47,23 @@ impl Modules {
             self.hold(&words, out);
         }
         let operands = code.instr(i).operands.iter().zip(code.params(i));
-        for (operand, param) in operands {
+        for (n, (operand, param)) in operands.enumerate() {
             if let OperandKind::Buffer {
                 module,
                 address,
                 index,
             } = operand.kind
             {
-                let width = if code.wide(i) { 2 } else { 1 };
+                // Where only a run decides how many words they are, the first is certain.
+                let count = accesses::buffer_words(code.resolved, i, n).unwrap_or(1);
                 let first = i64::from(address);
+                let end = first.saturating_add(count.into());
                 self.hold(
                     &Words {
                         unit: module.into(),
                         unit_span: operand.span,
-                        run: index
-                            .is_none()
-                            .then_some((first..first + width, operand.span)),
-                        written: param.role != Role::Read,
+                        run: index.is_none().then_some((first..end, operand.span)),
+                        written: code.role(i, operand.span, param.role) != Role::Read,
                     },
                     out,
                 );
