@@ -47,6 +47,31 @@ fn a_choice_that_another_overrides() {
     }
 }
 
+/// Links with frames that no manual prints.
+#[test]
+fn a_link_that_an_input_chooses_has_frames_of_its_own() {
+    let notes = |model, text: &str| messages(model, &format!("{text}\nEND\n"), "N0601");
+    let may_be = |end: &str| {
+        format!(
+            "COM1 may be the {end} of a parallel link: its partners then have to run programs of rungc, too"
+        )
+    };
+    let is_master =
+        "COM1 is the master of a parallel link: its partners have to run programs of rungc, too";
+    for model in [ModelId::H2u, ModelId::Fx3u] {
+        assert_eq!(notes(model, "LD X0\nOUT M8070"), is_master);
+        let held = "LD X0\nSET M8070\nLDI X0\nRST M8070";
+        assert_eq!(notes(model, held), may_be("master"));
+        let either = "LD X0\nOUT M8070\nLDI X0\nOUT M8071";
+        assert_eq!(notes(model, either), may_be("master"));
+        let slave = "LD X1\nRST M8071\nLD X0\nSET M8071";
+        assert_eq!(notes(model, slave), may_be("slave"));
+        assert_eq!(notes(model, "LD X0\nRST M8070"), "");
+    }
+    let numbers = "LD X0\nMOV H2 D8126\nLDI X0\nMOV H3 D8126";
+    assert_eq!(notes(ModelId::H2u, numbers), "");
+}
+
 #[test]
 fn constants_say_what_a_port_will_be() {
     use ModelId::{Fx3u, H2u, Hm, L01s};

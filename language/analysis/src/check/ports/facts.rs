@@ -282,6 +282,25 @@ impl Facts {
         Some(wiring.protocol(&self.memory(wiring), uinit))
     }
 
+    /// Protocol of a port once a device has a value, and the others have what the first scan is certain to write.
+    pub(super) fn protocol_with(
+        &self,
+        wiring: &PortWiring,
+        device: Device,
+        value: u16,
+    ) -> Option<Protocol> {
+        let held = |other: Device| {
+            let certain = self.writes(other).iter().all(|write| write.first_scan);
+            match other == device {
+                true => value,
+                false if certain => self.held(other).known().unwrap_or(0),
+                false => self.at_power_on(other),
+            }
+        };
+        let memory = self.memory_of(wiring, held);
+        Some(wiring.protocol(&memory, self.uinit_words(wiring.number)?))
+    }
+
     /// The station of a port, if it is constant.
     pub(super) fn station(&self, wiring: &PortWiring) -> Option<u16> {
         match wiring.station {
@@ -304,7 +323,11 @@ impl Facts {
 
     /// The devices of a PLC that has been set up.
     fn memory(&self, wiring: &PortWiring) -> Memory {
-        let held = |device| self.held(device).known().unwrap_or(0);
+        self.memory_of(wiring, |device| self.held(device).known().unwrap_or(0))
+    }
+
+    /// The devices of a PLC whose set-up devices have these values.
+    fn memory_of(&self, wiring: &PortWiring, held: impl Fn(Device) -> u16) -> Memory {
         let mut memory = self.cleared(true);
         for register in wiring.setup_registers().chain(wiring.station) {
             memory.set_register(register, held(d(register)));

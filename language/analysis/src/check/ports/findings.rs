@@ -278,26 +278,20 @@ impl Port<'_> {
 
     /// A link whose frames the manuals do not print.
     fn own_frames(&self, out: &mut Diagnostics) {
-        use Protocol::{EnhancedMaster, EnhancedSlave, NnMaster, NnSlave};
-        use Protocol::{ParallelMaster, ParallelSlave};
-        let own = |protocol: &Protocol| {
-            matches!(
-                protocol,
-                EnhancedMaster
-                    | EnhancedSlave
-                    | NnMaster
-                    | NnSlave
-                    | ParallelMaster
-                    | ParallelSlave
-            )
+        let always = self.protocol.filter(has_own_frames);
+        let (place, is, partners) = match always {
+            Some(protocol) => {
+                let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
+                let place = places.next();
+                (place.map(|place| (place, protocol)), "is", "its partners")
+            }
+            None => (self.chosen_link(), "may be", "its partners then"),
         };
-        let Some(protocol) = self.protocol.filter(own) else {
+        let Some((place, protocol)) = place else {
             return;
         };
-        let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
-        let Some(place) = places.next() else { return };
         let message = format!(
-            "{} is the {}: its partners have to run programs of rungc, too",
+            "{} {is} the {}: {partners} have to run programs of rungc, too",
             self.name(),
             protocol.name()
         );
@@ -306,6 +300,20 @@ impl Port<'_> {
             .label("the manuals do not print the frames of this link")
             .help("`rungc book links` describes the frames");
         out.push(note);
+    }
+
+    /// A link with such frames that the port is at some time: where it is chosen first.
+    fn chosen_link(&self) -> Option<(usize, Protocol)> {
+        let chosen = self.chooses().flat_map(|device| {
+            let writes = self.facts.writes(device).iter();
+            let may_count = |write: &&Write| self.protocol.is_none() || !write.first_scan;
+            writes.filter(may_count).filter_map(move |write| {
+                let value = write.value.filter(|&value| value != 0)?;
+                let protocol = self.facts.protocol_with(self.wiring, device, value)?;
+                has_own_frames(&protocol).then_some((write.at, protocol))
+            })
+        });
+        chosen.min_by_key(|&(at, _)| at)
     }
 
     /// The set-up that the manual prescribes for the card H2U-ENET-BD (h1u-h2u-programming §6.7.2).
@@ -397,6 +405,16 @@ impl Port<'_> {
             None => diagnostic,
         }
     }
+}
+
+/// Returns true if the manuals do not print the frames of a protocol.
+fn has_own_frames(protocol: &Protocol) -> bool {
+    use Protocol::{EnhancedMaster, EnhancedSlave, NnMaster, NnSlave};
+    use Protocol::{ParallelMaster, ParallelSlave};
+    matches!(
+        protocol,
+        EnhancedMaster | EnhancedSlave | NnMaster | NnSlave | ParallelMaster | ParallelSlave
+    )
 }
 
 /// Returns true if a port with this protocol carries out a master's instruction. ADPRW of L01S asks in RTU alone
