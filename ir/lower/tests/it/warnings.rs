@@ -423,6 +423,11 @@ fn registers_that_nothing_writes() {
             "LD X0 / OUT C0 D100 / RST C0 / LD C0 / OUT Y0 / LD X1 / RST D100",
             "LDD> D10 K3 / OUT Y0 / LD X1 / MOV K1 D12",
             "LD D0.3 / OUT Y0",
+            "LD X0 / CMP D101 K3 M0 / LD M1 / OUT Y0",
+            "LD X0 / ZCP K1 D101 D102 M0 / LD M1 / OUT Y0 / LD X1 / MOV K5 D102",
+            "LD M8000 / OUT C235 K100000 / DHSCS D10 C235 Y0",
+            "LD M8000 / OUT C235 K100000 / DHSCR D10 C235 Y0 / LD X1 / MOV K1 D12",
+            "LD M8000 / OUT C235 K100000 / DHSZ K1 D10 C235 Y0",
         ],
         &[
             "LD= D101 K3 / OUT Y0 / LD X0 / MOV K1 D101",
@@ -435,6 +440,8 @@ fn registers_that_nothing_writes() {
             "LD= D512 K3 / OUT Y0 / LD> R5 K0 / OUT Y1 / LD> D8013 K3 / OUT Y2",
             "LD X0 / MOV D101 D102",
             "LD> D0Z0 K3 / OUT Y0",
+            "LD M8000 / OUT C235 K100000 / DHSCS D10 C235 Y0 / LD X1 / DMOV K500 D10",
+            "LD M8000 / OUT C235 K100000 / DHSZ K1 D10 C235 Y0 / LD X1 / MOV K500 D10",
             // Others write at the ports.
             "LD M8002 / MOV H6080 D8120 / LD= D101 K3 / OUT Y0",
             "LD M8038 / MOV K0 D8176 / MOV K2 D8177 / MOV K2 D8178 / LD= D10 K3 / OUT Y0",

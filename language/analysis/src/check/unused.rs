@@ -162,8 +162,11 @@ impl<'a, 'p> Unused<'a, 'p> {
 
     /// Takes an access to a register, whose class is at `at`: as a preset or in a comparison, or to a bit of it.
     fn note_register(&mut self, i: usize, access: &Access, at: usize) {
-        let decides =
-            matches!(self.code.lower(i), Some(Lower::Compare(..))) || self.code.basic(i).is_some();
+        let compares = matches!(
+            self.code.lower(i),
+            Some(Lower::Compare(..) | Lower::Cmp | Lower::Zcp | Lower::HighSpeed(_))
+        );
+        let decides = compares || self.code.basic(i).is_some();
         let one = access.reads() && access.count == Some(access.each);
         if !decides || !one || !self.classes[at].meets(access, CONTACT) {
             return;
