@@ -106,7 +106,7 @@ super::codes! {
 
     OUT_AND_SET = "W0221" "out-and-set" Warning None,
     "coil that both OUT and SET or RST write",
-    "OUT writes its coil in every scan, whether its contacts are closed or not, so it undoes a SET at once, and a RST before it too. A RST after the OUT, which forces the coil off for the rest of the scan, is not reported; neither are a SET and an OUT in different states.",
+    "OUT writes its coil in every scan, whether its contacts are closed or not, so it undoes a SET at once, and a RST before it too. A RST after the OUT, which forces the coil off for the rest of the scan, is not reported; neither are a SET and an OUT in different states. An instruction that writes the coil in every scan as part of a word, as `MOV D0 K2Y0` under M8000, undoes a SET or RST before it likewise.",
     wrong: "LD X0\nSET Y0\nLD X1\nRST Y0\nLD X2\nOUT Y0\nEND\n",
     right: "LD X0\nOR X2\nSET Y0\nLD X1\nRST Y0\nEND\n";
 

@@ -108,6 +108,43 @@ fn coils_of_out_and_set() {
 }
 
 #[test]
+fn coils_of_set_and_words() {
+    judge(
+        "out-and-set",
+        &[
+            "LD X0 / SET Y0 / LD M8000 / MOV D0 K2Y0",
+            "LD X0 / RST Y3 / LD M8000 / MOV D0 K2Y0 / LD X1 / SET Y3",
+            "LD X0 / SET Y0 / LD X1 / RST Y0 / LD M8000 / MOV D0 K2Y0",
+            "LD X0 / SET Y3 / LD X1 / RST Y3 / LD M8000 / MOV K0 K2Y0",
+            "LD X0 / SET M3 / LD M8000 / ZRST M0 M7 / LD X1 / SET M12",
+            "LD X0 / SET M1 / LD M8000 / CMP D0 K5 M0",
+            "LD X3 / CALL P0 / LD M8000 / MOV D0 K2Y0 / FEND / P0 / LD X0 / SET Y0 / SRET",
+        ],
+        &[
+            "LD X0 / SET Y0 / LD X1 / MOV D0 K2Y0",
+            "LD X0 / SET Y0 / LD M8000 / MOVP D0 K2Y0",
+            "LD X0 / SET Y10 / LD M8000 / MOV D0 K2Y0",
+            // The SET or RST comes last.
+            "LD M8000 / MOV D0 K2Y0 / LD X0 / SET Y0",
+            "LD M8000 / MOV K0 K2Y0 / LD X0 / SET Y0 / LD X1 / RST Y0",
+            // It is off anyway.
+            "LD X0 / RST Y0 / LD M8000 / MOV K0 K2Y0",
+            // Contacts see it before, or the word takes it over.
+            "LD X0 / SET M3 / LD M3 / OUT Y0 / LD M8000 / MOV D0 K4M0",
+            "LD X0 / SET Y0 / LD M8000 / WAND K2Y0 H0F K2Y0",
+            "LD X0 / SET Y0 / LD M8000 / REF Y0 K8 / MOV D0 K2Y0",
+            // Jumps skip one of the two.
+            "LD X5 / CJ P0 / LD M8000 / MOV D0 K2Y0 / P0 / LDI X5 / CJ P1 / LD X1 / SET Y0 / P1 / LD X6 / RST Y0",
+        ],
+    );
+    judge(
+        "double-coil",
+        &[],
+        &["LD X0 / OUT Y3 / LD M8000 / WAND K2Y0 H0F K2Y0"],
+    );
+}
+
+#[test]
 fn states_that_stand_twice() {
     let ladder = |second: &str| {
         format!(

@@ -1,6 +1,5 @@
 //! Coils, timers and counters that are driven at several places.
 
-use super::Code;
 use super::calls::{Calls, Order};
 use super::drives::{Drives, Lasts};
 use super::overlaps::clears;
@@ -8,6 +7,7 @@ use super::parallel::Ladders;
 use super::set_and_out::{Condition, begins_of_rungs, condition};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
+use super::{Code, Part};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{Basic, Lower, Role};
 use rungc_rt::{Needs, RtFn};
@@ -43,8 +43,8 @@ pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
     if driven.is_empty() {
         return;
     }
-    let mut found = Vec::new();
-    others(code, places, &mut driven, &mut found);
+    let mut found = sent(code, places, &driven);
+    add_words(code, places, &mut driven);
     driven.retain(|_, coils| coils.len() > 1);
     let reads = Reads::of(code, places.nesting, &driven);
     let together = Ladders::new(code, places.nesting).pairs(&driven, &reads);
@@ -62,24 +62,24 @@ pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
     out.extend(found);
 }
 
-/// Adds the instructions that write coils as parts of words or as results, and reports those that send pulses through a
-/// coil's output.
-fn others(
-    code: &Code,
-    places: Where,
-    driven: &mut BTreeMap<Coil, Vec<Place>>,
-    found: &mut Vec<Diagnostic>,
-) {
+/// Reports the instructions that send pulses through a coil's output.
+fn sent(code: &Code, places: Where, driven: &BTreeMap<Coil, Vec<Place>>) -> Vec<Diagnostic> {
+    let found = (0..code.len).filter_map(|i| {
+        let runs = places.nesting.of(i).routine != Routine::Nothing;
+        let output = pulse_output(code, i).filter(|_| runs && code.part(i) == Part::Output)?;
+        pulses(code, places, i, driven.get(&(output, None))?)
+    });
+    found.collect()
+}
+
+/// Adds the instructions that write coils as parts of words or as results.
+pub(super) fn add_words(code: &Code, places: Where, driven: &mut BTreeMap<Coil, Vec<Place>>) {
     let mut drives = Drives::default();
     for i in 0..code.len {
         let drive = drives.next(code, i);
         let Some(drive) = drive.filter(|_| places.nesting.of(i).routine != Routine::Nothing) else {
             continue;
         };
-        if let Some(output) = pulse_output(code, i) {
-            let coils = driven.get(&(output, None));
-            found.extend(coils.and_then(|coils| pulses(code, places, i, coils)));
-        }
         if code.basic(i).is_some() {
             continue;
         }
@@ -92,18 +92,24 @@ fn others(
                 continue;
             }
             let (first, last) = access.devices().into_inner();
-            for (_, coils) in driven.range_mut((first, None)..=(last, Some(u8::MAX))) {
+            for (&(device, _), coils) in driven.range_mut((first, None)..=(last, Some(u8::MAX))) {
                 let at = coils.partition_point(|place| place.at < i);
                 let place = Place {
                     is_word: true,
                     is_lost,
-                    decides,
+                    decides: decides && !takes(code, i, device),
                     ..Place::new(code, places, i)
                 };
                 coils.insert(at, place);
             }
         }
     }
+}
+
+/// Returns true if a device is also a source of an instruction, whose result may keep it.
+fn takes(code: &Code, i: usize, device: Device) -> bool {
+    let mut sources = code.accesses(i).filter(Access::reads);
+    sources.any(|source| source.devices().contains(&device))
 }
 
 /// A longer run of devices is not about one of them.
@@ -192,13 +198,13 @@ pub(super) struct Place {
     /// True if it writes more than the coil.
     pub(super) is_word: bool,
     /// True if it matters that its result is lost.
-    is_lost: bool,
+    pub(super) is_lost: bool,
     /// True if it writes the coil whenever it runs.
-    decides: bool,
+    pub(super) decides: bool,
 }
 
 impl Place {
-    fn new(code: &Code, places: Where, at: usize) -> Self {
+    pub(super) fn new(code: &Code, places: Where, at: usize) -> Self {
         let Where {
             skips,
             nesting,
@@ -219,7 +225,7 @@ impl Place {
 }
 
 /// The places that drive one coil.
-struct Places {
+pub(super) struct Places {
     all: Vec<Place>,
     /// Those under one condition, in order: they run in the same scans.
     alike: FxHashMap<Condition, Vec<usize>>,
@@ -228,7 +234,7 @@ struct Places {
 }
 
 impl Places {
-    fn new(all: Vec<Place>) -> Self {
+    pub(super) fn new(all: Vec<Place>) -> Self {
         let mut alike: FxHashMap<_, Vec<usize>> = FxHashMap::default();
         let deciding = all.iter().enumerate().filter(|(_, place)| place.decides);
         for (n, place) in deciding.clone() {
@@ -245,7 +251,7 @@ impl Places {
     }
 
     /// The places whose results are lost, with the one that decides.
-    fn lost(&self, device: Device, reads: &Reads) -> Option<(Vec<&Place>, &Place)> {
+    pub(super) fn lost(&self, device: Device, reads: &Reads) -> Option<(Vec<&Place>, &Place)> {
         let mut by_last: BTreeMap<usize, Vec<&Place>> = BTreeMap::new();
         for (n, place) in self
             .all
@@ -302,7 +308,7 @@ pub(super) struct Reads {
 }
 
 impl Reads {
-    fn of(code: &Code, nesting: &Nesting, driven: &BTreeMap<Coil, Vec<Place>>) -> Self {
+    pub(super) fn of(code: &Code, nesting: &Nesting, driven: &BTreeMap<Coil, Vec<Place>>) -> Self {
         let devices = driven.keys().map(|&(device, _)| device);
         let devices =
             devices.filter(|device| !matches!(device.class, DeviceClass::T | DeviceClass::C));

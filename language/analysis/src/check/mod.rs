@@ -30,6 +30,7 @@ pub mod ports;
 mod reserved;
 mod resets;
 mod set_and_out;
+mod set_and_word;
 mod short_drives;
 mod skips;
 mod states;
@@ -78,6 +79,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     };
     coils::check(&code, places, &mut out);
     set_and_out::check(&code, &nesting, &skips, &mut out);
+    set_and_word::check(&code, places, &mut out);
     timers::check(&code, &nesting, &calls, &mut out);
     states::check(&code, &nesting, &mut out);
     driven(&code, &pointers, &nesting, &skips, &mut out);
