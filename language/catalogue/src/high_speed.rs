@@ -186,12 +186,12 @@ const HM_FORMS: Variant = on(HM).forms(W32);
 /// HM names the axis instead of an output.
 pub(super) const AXIS: Param = src("axis", CONSTANTS).word().limits(0, 5).plain().pulses();
 const HM_PULSES: &[Param] = &[
-    src("D1", CONSTANTS.or(DATA)),
+    src("D1", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
     src("D2", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
     AXIS,
 ];
 const HM_RAMP: &[Param] = &[
-    src("D1", CONSTANTS.or(DATA)),
+    src("D1", CONSTANTS.or(DATA)).rules(COUNTED),
     src("D2", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
     src("D3", CONSTANTS.or(DATA)).limits(50, 5000),
     AXIS,

@@ -164,6 +164,8 @@ pub enum Rule {
     ClassLike(usize),
     /// A device not before operand `i`; either both or neither are special.
     NotBefore(usize),
+    /// With operands that do not pass this check, the instruction fails; the text says when it works.
+    WorksIf(fn(&[Operand]) -> bool, &'static str),
     /// A check of all operands; the text describes the demand.
     Holds(fn(&[Operand]) -> bool, &'static str),
     /// A constant suits this predicate, which the text states.

@@ -4,10 +4,47 @@ use super::high_speed::AXIS;
 use super::row::*;
 use super::{Basic, Drive, Inst, Lower, Param, Rule, Spelling};
 use rungc_rt::RtFn;
+use rungc_syntax::Operand;
 
 const fn any(name: &'static str) -> Param {
     src(name, CONSTANTS.or(DATA)).word()
 }
+
+/// A constant word from 1 to the greatest one.
+const POSITIVE: &[Rule] = &[Rule::WorksWith(1, i16::MAX as i64)];
+
+/// A constant operand as a word.
+fn word(operands: &[Operand], i: usize) -> Option<i16> {
+    operands.get(i)?.kind.constant().map(|value| value as i16)
+}
+
+const START_SPEED: &[Rule] = &[
+    Rule::WorksWith(0, i16::MAX as i64),
+    Rule::WorksIf(
+        |operands| match (word(operands, 1), word(operands, 2)) {
+            (Some(highest), Some(start)) => highest <= 0 || start <= highest,
+            _ => true,
+        },
+        "the start speed D3 is at most the highest speed D2",
+    ),
+];
+/// Without pulses, JOG needs a speed.
+const JOG_SPEED: Rule = Rule::WorksIf(
+    |operands| match (word(operands, 1), word(operands, 2)) {
+        (Some(0), Some(speed)) => speed > 0,
+        _ => true,
+    },
+    "the number of pulses D2 is not 0 or the speed D3 is above 0",
+);
+const JOG_INPUTS: Rule = Rule::WorksIf(
+    |operands| (word(operands, 3), word(operands, 4)) != (Some(0), Some(0)),
+    "D4 or D5 names an input",
+);
+/// Outputs send at most 600 pulses in a millisecond (hm-motion-controller §8.3.6).
+const INSERTED: Rule = Rule::WorksIf(
+    |operands| word(operands, 1).is_none_or(|count| (-600..=600).contains(&count)),
+    "D2 lies from -600 to 600",
+);
 
 /// A table or a 32-bit register with an even number.
 const fn table(name: &'static str) -> Param {
@@ -73,7 +110,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower(Lower::Axis(&[2, 3, 4]))
         .text("Sets the axis's units of time (ms), pulses and length."),
     motion("AXSP", "Speeds of an axis")
-        .takes(&[AXIS, any("D2"), any("D3")])
+        .takes(&[AXIS, any("D2").rules(POSITIVE), any("D3").rules(START_SPEED)])
         .lower(Lower::Axis(&[5, 6]))
         .text("Sets the axis's highest speed D2 and start speed D3."),
     motion("AXAS", "Acceleration of an axis")
@@ -85,7 +122,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower(Lower::Axis(&[8, 9, 10, 11]))
         .text("Says by masks which inputs are DOG, zero, left and right limit of the axis."),
     motion("AXOSP", "Homing speeds of an axis")
-        .takes(&[AXIS, any("D2"), any("D3")])
+        .takes(&[AXIS, any("D2"), any("D3").rules(POSITIVE)])
         .lower(Lower::Axis(&[12, 13]))
         .text("Sets the axis's homing speed D2 and creep speed D3."),
     motion("AXOX", "Homing mode of an axis")
@@ -98,7 +135,13 @@ pub(super) const ROWS: &[Inst] = &[
         .stops_undriven()
         .text("Runs the axis to its origin, as AXEI, AXOSP and AXOX say."),
     motion("JOG", "Jog")
-        .takes(&[AXIS, any("D2"), any("D3"), any("D4").inputs(), any("D5").inputs()])
+        .takes(&[
+            AXIS,
+            any("D2"),
+            any("D3").rules(&[JOG_SPEED]),
+            any("D4").inputs(),
+            any("D5").inputs().rules(&[JOG_INPUTS]),
+        ])
         .call(RtFn::AxisJog)
         .stops_undriven()
         .text("Jogs the axis by D2 pulses, then on and on at speed D3, while an input of mask D4 (forward) or D5 (backward) is on."),
@@ -111,18 +154,24 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             both("D1", DATA).word().len(11),
             table("D2").open_ended(),
-            any("D3"),
+            any("D3").rules(POSITIVE),
         ])
         .lower(Lower::Exclusive(RtFn::Ptab))
         .stops_undriven()
         .text("Appends a segment as the eleven words at D1 say to the point table at D2, one point for each interval D3."),
     wide("PTOUT", "Follow a point table")
-        .takes(&[AXIS, table("D2").open_ended(), table("D3"), src("D4", CONSTANTS.or(DATA)), any("D5").limits(0, 1)])
+        .takes(&[
+            AXIS,
+            table("D2").open_ended(),
+            table("D3"),
+            src("D4", CONSTANTS.or(DATA)).rules(COUNTED),
+            any("D5").limits(0, 1),
+        ])
         .call(RtFn::AxisPtout)
         .stops_undriven()
         .text("Moves the axis along the point table at D2 as register D3 goes through its range D4; D5 = 1 starts again at its end."),
     motion("IPL", "Insert pulses")
-        .takes(&[AXIS, any("D2")])
+        .takes(&[AXIS, any("D2").rules(&[INSERTED])])
         .call(RtFn::AxisIpl)
         .text("Inserts D2 pulses into what the axis sends, in the next millisecond, each time it is executed with its drive on."),
     motion("GEAR", "Electronic gear")
@@ -135,7 +184,7 @@ pub(super) const ROWS: &[Inst] = &[
             AXIS,
             table("D2").open_ended(),
             table("D3"),
-            src("D4", CONSTANTS.or(DATA)),
+            src("D4", CONSTANTS.or(DATA)).rules(COUNTED),
             // The manual says 28 words, and lists parameters up to the thirty-first.
             both("D5", DATA).word().len(31),
         ])

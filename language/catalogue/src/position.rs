@@ -27,7 +27,7 @@ const MOVE_INOVANCE: &[Param] = &[DISTANCE, speed("S2", INOVANCE_HZ), PULSE_OUTP
 const MOVE_L01S: &[Param] = &[DISTANCE, speed("S2", L01S_HZ), PULSE_OUTPUT, DIRECTION];
 const MOVE_HM: &[Param] = &[
     src("D1", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
-    src("D2", CONSTANTS.or(DATA)),
+    src("D2", CONSTANTS.or(DATA)).rules(NOT_NEGATIVE),
     AXIS,
 ];
 const MOVE_VARIANTS: &[Variant] = &[

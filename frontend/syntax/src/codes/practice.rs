@@ -124,7 +124,7 @@ super::codes! {
 
     DIVISION_BY_ZERO = "W0224" "division-by-zero" Warning Some(6706),
     "division by the constant 0",
-    "Each time the instruction runs, the PLC reports an operation error in M8067 and D8067 and leaves the result unchanged.",
+    "Each time the instruction runs, the PLC reports an operation error in M8067 and D8067 and leaves the result unchanged. On HM, DIV gives the limit of the range instead.",
     wrong: "LD X0\nDIV D0 K0 D2\nEND\n",
     right: "LD X0\nDIV D0 K10 D2\nEND\n";
 
@@ -186,7 +186,7 @@ super::codes! {
 
     CONSTANT_FAILS = "W0234" "constant-fails" Warning Some(6706),
     "constant with which the instruction always fails",
-    "The instruction does not accept this constant. Each time it runs, the PLC reports an operation error in M8067 and D8067 and leaves the result unchanged.",
+    "The instruction does not accept this constant. Each time it runs, the PLC reports an operation error in M8067 and D8067, on HM in M8006 and D8006, and leaves the result unchanged. Motions of HM do not start: they end with an error (64) in the state of their axis, or of their table. JOG without inputs never moves.",
     wrong: "LD X0\nMEAN D0 D100 K65\nEND\n",
     right: "LD X0\nMEAN D0 D100 K64\nEND\n";
 

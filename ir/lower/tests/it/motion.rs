@@ -96,6 +96,46 @@ fn two_motions_of_one_axis() {
 }
 
 #[test]
+fn constants_with_which_motions_of_hm_fail() {
+    judge_on(
+        ModelId::Hm,
+        "constant-fails",
+        &[
+            "LD M8002 / AXSP K0 K100 K200",
+            "LD M8002 / AXSP K0 K0 K0",
+            "LD M8002 / AXSP K0 K100 K-1",
+            "LD M8002 / AXSP K0 H9C40 D0",
+            "LD M8002 / AXOSP K0 K100 K0",
+            "LD X0 / DPLSR K0 K100 K100 K0",
+            "LD X0 / DPLSY K-1 K100 K0",
+            "LD X0 / DDRVI K100 K-5 K0",
+            "LD X0 / DDRVA K100 K-5 K0",
+            "LD X0 / DDVIT K100 K-5 K0",
+            "LD X0 / JOG K0 K10 K100 K0 K0",
+            "LD X0 / JOG K0 K0 K0 K1 K2",
+            "LD X0 / IPL K0 K-601",
+            "LD X0 / PTAB D1000 D2000 K0",
+            "LD X0 / PTOUT K0 D2000 D1000 K0 K0",
+            "LD X0 / CAM K0 D2000 D1000 K-1 D1100",
+        ],
+        &[
+            "LD M8002 / AXSP K0 K200 K200",
+            "LD M8002 / AXSP K0 D0 K200",
+            "LD M8002 / AXOSP K0 K0 K1",
+            "LD X0 / DPLSR K1 K-100 K100 K0",
+            "LD X0 / DPLSY K0 K100 K0",
+            "LD X0 / DDVIT K-100 K5 K0",
+            "LD X0 / DPLSV K-100 K0",
+            "LD X0 / JOG K0 K-10 K0 K0 K2",
+            "LD X0 / JOG K0 K0 K100 K1 D0",
+            "LD X0 / IPL K0 HFFF6",
+            "LD X0 / PTAB D1000 D2000 K1",
+            "LD X0 / PTOUT K0 D2000 D1000 D50 K0",
+        ],
+    );
+}
+
+#[test]
 fn counters_that_nothing_drives() {
     judge(
         "never-counts",

@@ -1,7 +1,7 @@
 //! Operands that make an instruction fail, or do less than it says, each time it runs.
 
 use super::Code;
-use rungc_catalogue::{ArithOp, Lower, Rule};
+use rungc_catalogue::{ArithOp, Lower, Rule, Shape};
 use rungc_syntax::{DeviceClass, Diagnostics, Fix, Operand, OperandKind, codes};
 
 /// Checks the constants of instruction `i`.
@@ -60,9 +60,21 @@ fn failing_constants(code: &Code, i: usize, out: &mut Diagnostics) {
         out.push(
             codes::CONSTANT_FAILS
                 .at(operand.span, message)
-                .label("an operation error each time this runs")
+                .label(effect(code, i))
                 .help(works),
         );
+    }
+}
+
+/// Effect of an instruction that fails.
+fn effect(code: &Code, i: usize) -> &'static str {
+    let mut params = code.params(i).iter();
+    let of_axis = params.any(|param| param.sends_pulses && param.shape == Shape::Word);
+    match code.lower(i) {
+        Some(Lower::Axis(_)) => "motions of the axis that need it do not start",
+        Some(Lower::Exclusive(_)) => "the table does not change",
+        _ if of_axis => "sends no pulses",
+        _ => "an operation error each time this runs",
     }
 }
 
@@ -91,6 +103,7 @@ fn broken(rule: &Rule, operand: &Operand, all: &[Operand]) -> Option<String> {
             let least = number(&other.kind)?;
             (value < least, format!("use `{}` or more", other.kind))
         }
+        Rule::WorksIf(works, when) => (!works(all), format!("it works if {when}")),
         _ => return None,
     };
     breaks.then_some(works)

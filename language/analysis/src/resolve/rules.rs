@@ -21,6 +21,7 @@ pub(super) fn broken(
         | Rule::WorksAbove(_)
         | Rule::WordWorksTo(..)
         | Rule::WorksFrom(_)
+        | Rule::WorksIf(..)
         | Rule::WideLimits(..)
         | Rule::WordsWith(_) => None,
         Rule::Not(min, max) => {

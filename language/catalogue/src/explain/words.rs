@@ -86,6 +86,7 @@ fn rule_words(rule: &Rule, params: &[Param], model: Option<&Model>) -> String {
         Rule::WorksAbove(bound) => format!("fails unless above {bound}"),
         Rule::WordWorksTo(i, max) => format!("fails above {max} if {} is a word", name(i)),
         Rule::WorksFrom(i) => format!("fails below {}", name(i)),
+        Rule::WorksIf(_, when) => format!("fails unless {when}"),
         Rule::MultipleOf(of) => format!("a multiple of {of}"),
         Rule::AtMost(i) => format!("at most {}", name(i)),
         Rule::AtLeast(i) => format!("at least {}", name(i)),
