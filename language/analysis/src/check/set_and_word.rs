@@ -14,16 +14,15 @@ pub(super) fn check(code: &Code, places: Where, out: &mut Diagnostics) {
     let mut others = BTreeSet::new();
     for i in 0..code.len {
         let device = code.device(i, 0);
-        let Some(device) = device.filter(|device| is_coil(*device)) else {
+        let runs = places.nesting.of(i).routine != Routine::Nothing;
+        let Some(device) = device.filter(|device| runs && is_coil(*device)) else {
             continue;
         };
         match code.basic(i) {
             Some(Basic::Set | Basic::Rst) => {
-                if places.nesting.of(i).routine != Routine::Nothing {
-                    let mut place = Place::new(code, places, i);
-                    place.decides = false;
-                    driven.entry((device, None)).or_default().push(place);
-                }
+                let mut place = Place::new(code, places, i);
+                place.decides = false;
+                driven.entry((device, None)).or_default().push(place);
             }
             Some(Basic::Out | Basic::Pls | Basic::Plf) => {
                 others.insert(device);
@@ -61,7 +60,8 @@ fn in_vain(
     let first_word = places.iter().find(|place| place.is_word && place.decides)?;
     let word_clears = clears(code, first_word.at);
     for place in &mut places {
-        place.is_lost = !place.is_word && !(word_clears && is_reset(place));
+        let stays = word_clears && is_reset(place);
+        place.is_lost = !place.is_word && !stays;
     }
     let places = Places::new(places);
     let (lost, last) = places.lost(device, reads)?;
