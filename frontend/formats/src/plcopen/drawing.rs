@@ -94,6 +94,29 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
             Err(Some(fault)) => drawing.reader.report(fault),
         }
     }
+    let contacts = children(body, "contact");
+    for node in contacts {
+        if drawing.reader.gives_up() {
+            return;
+        }
+        if !drawing.leads_on(node) {
+            drawing.reader.report(without_effect(node));
+        }
+    }
+}
+
+/// An element whose output leads to nothing.
+fn without_effect(node: Node) -> Fault {
+    let name = match variable_of(node) {
+        Some(name) => format!("contact `{}`", name.trim()),
+        None => called(node),
+    };
+    let what = format!("{name} drives nothing");
+    Fault::at(
+        node,
+        what,
+        "connect its output to a coil or a block, or delete it",
+    )
 }
 
 /// Row and column of an element.
@@ -158,7 +181,13 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
                 let device = self.reader.bit(node, &name)?;
                 self.store(node, ONE_WAY, logic, &device.to_smolstr())?;
             }
-            "block" => _ = self.block(node.attribute("localId").unwrap_or_default())?,
+            "block" => {
+                let parts = self.reader.parts.len();
+                self.block(node.attribute("localId").unwrap_or_default())?;
+                if self.reader.parts.len() == parts && !self.leads_on(node) {
+                    return Err(Some(without_effect(node)));
+                }
+            }
             "outVariable" | "inOutVariable" => self.out_variable(node)?,
             "label" => {
                 let label = node.attribute("label").unwrap_or_default();
@@ -261,6 +290,21 @@ impl<'a, 'i, 'r> Drawing<'a, 'i, 'r> {
             }
         }
         Ok(())
+    }
+
+    /// Returns true if the output of an element leads to another that uses it.
+    fn leads_on(&self, node: Node) -> bool {
+        let id = node.attribute("localId").unwrap_or_default();
+        let continues = |name: Option<&str>| {
+            let mut elements = self.by_id.values();
+            elements.any(|n| n.tag_name().name() == "continuation" && n.attribute("name") == name)
+        };
+        let mut uses = self.uses.get(id).into_iter().flatten();
+        uses.any(|(_, to)| match to.tag_name().name() {
+            "rightPowerRail" => false,
+            "connector" => continues(to.attribute("name")),
+            _ => true,
+        })
     }
 
     fn unconnected(&self, node: Node) -> Fault {

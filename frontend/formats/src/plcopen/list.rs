@@ -42,6 +42,7 @@ pub(super) fn read(reader: &mut Reader, body: Node) {
         };
         if let Err(fault) = result {
             list.reader.report(fault);
+            list.result = Accumulator::Unread;
         }
     }
     list.remark();
@@ -77,6 +78,8 @@ pub(super) fn condition(reader: &mut Reader, body: Node) -> Result<Logic, Fault>
 #[derive(Clone, Debug)]
 enum Accumulator {
     Nothing,
+    /// Anything: what would compute it was reported, so nothing that uses it is.
+    Unread,
     Flow(Logic),
     Word(Word),
     /// A sum or difference that waits for its destination: mnemonic and operands.
@@ -117,6 +120,8 @@ struct Branched {
     logic: Logic,
     /// Number of parts of the program at that time.
     parts: usize,
+    /// False if what would compute it was reported.
+    is_read: bool,
 }
 
 impl<'a, 'i, 'r> List<'a, 'i, 'r> {
@@ -208,6 +213,7 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     fn flow(&self, code: &str) -> Result<Logic, Fault> {
         match &self.result {
             Accumulator::Flow(logic) => Ok(logic.clone()),
+            Accumulator::Unread => Ok(Logic::wire()),
             _ => Err(self.foreign(code)),
         }
     }
@@ -215,11 +221,26 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     fn word(&self, code: &str) -> Result<Word, Fault> {
         match &self.result {
             Accumulator::Word(word) => Ok(word.clone()),
+            Accumulator::Unread => Ok(Word {
+                operand: "K0".into(),
+                kind: None,
+            }),
             _ => Err(self.foreign(code)),
         }
     }
 
     fn instruction(&mut self, operator: &str, operand: &str, code: &str) -> Result<(), Fault> {
+        let loads = matches!(operator, "LD" | "LDN")
+            || operator.starts_with(blocks::INSTRUCTION) && operand.starts_with('(');
+        let stays_unread = matches!(self.result, Accumulator::Unread) && !loads;
+        let read = self.operation(operator, operand, code);
+        if stays_unread {
+            self.result = Accumulator::Unread;
+        }
+        read
+    }
+
+    fn operation(&mut self, operator: &str, operand: &str, code: &str) -> Result<(), Fault> {
         if let Some(mnemonic) = operator.strip_prefix(blocks::INSTRUCTION) {
             return self.function(mnemonic, operand, code);
         }
@@ -319,6 +340,9 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
     }
 
     fn combine(&mut self, operator: &str, next: Logic, code: &str) -> Result<(), Fault> {
+        if matches!(self.result, Accumulator::Unread) {
+            return Ok(());
+        }
         let before = self.flow(code)?;
         let logic = match operator {
             "OR" => Logic::joined(vec![before, next]),
@@ -342,7 +366,10 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
             self.reader.output(logic, format_smolstr!("OUT {device}"));
             return Ok(());
         }
-        if negated {
+        if matches!(self.result, Accumulator::Unread) {
+            return self.store_unread(operand, negated);
+        }
+        if negated || matches!(self.result, Accumulator::Nothing) {
             return Err(self.foreign(code));
         }
         let to = number(self.reader, self.body, operand)?;
@@ -362,6 +389,18 @@ impl<'a, 'i, 'r> List<'a, 'i, 'r> {
         let enable = self.skipped.as_ref().map(|(_, logic)| logic.clone());
         self.reader.output(enable.unwrap_or_else(Logic::wire), line);
         self.result = Accumulator::Word(to);
+        Ok(())
+    }
+
+    /// Checks the destination of a result that could not be read.
+    fn store_unread(&mut self, operand: &str, negated: bool) -> Result<(), Fault> {
+        if self.keep(operand, negated, &Logic::wire()) {
+            if let Some(kept) = self.kept.get_mut(operand) {
+                kept.is_read = false;
+            }
+        } else if !operand.contains('.') {
+            self.reader.find(self.body, operand)?;
+        }
         Ok(())
     }
 

@@ -163,6 +163,89 @@ fn what_has_no_counterpart_is_named_with_its_line() {
     );
 }
 
+/// Contacts and blocks that drive nothing would be missing from the list.
+#[test]
+fn elements_that_drive_nothing_are_named() {
+    let and = r#"<block localId="9" typeName="AND"><position x="0" y="0"/><inputVariables>
+        <variable formalParameter="IN1"><connectionPointIn><connection refLocalId="2"/></connectionPointIn></variable>
+        <variable formalParameter="IN2"><connectionPointIn><connection refLocalId="2"/></connectionPointIn></variable>
+        </inputVariables><outputVariables><variable formalParameter="OUT"/></outputVariables></block>"#;
+    let found = read(&ladder(&[
+        element("contact", 2, "", &[1], "Start"),
+        element("coil", 3, "", &[2], "Motor"),
+        element("contact", 4, "", &[1], "Stop"),
+        element("contact", 5, "", &[4], "M7"),
+        element("contact", 6, "", &[2], "Hidden"),
+        element("rightPowerRail", 7, "", &[3, 6], ""),
+        and.to_owned(),
+    ]));
+    let messages: Vec<_> = found
+        .diagnostics
+        .iter()
+        .map(|d| d.message.as_str())
+        .collect();
+    let lines = messages
+        .iter()
+        .map(|message| message.split_once(": ").unwrap());
+    let (lines, said): (Vec<_>, Vec<_>) = lines.unzip();
+    assert_eq!(
+        said,
+        [
+            "element `block` `AND` drives nothing",
+            "contact `M7` drives nothing",
+            "contact `Hidden` drives nothing"
+        ]
+    );
+    assert!(
+        lines.iter().all(|line| line.starts_with("line ")),
+        "{lines:?}"
+    );
+}
+
+/// What follows from a line that cannot be read is not reported again.
+#[test]
+fn a_line_of_a_list_is_wrong_once() {
+    for (lines, wrong) in [
+        (
+            "LD Nowhere\nST Motor\n",
+            vec!["the variable `Nowhere` is not a device"],
+        ),
+        (
+            "LDP Start\nST Motor\nLD Start\nST Motor\n",
+            vec!["`LDP Start` has no counterpart in an FX list"],
+        ),
+        (
+            "LD Nowhere\nAND Start\nST D0\nST Motor\n",
+            vec!["the variable `Nowhere` is not a device"],
+        ),
+        (
+            "LD Nowhere\nAND( Start\nOR Stop\n)\nST MPS_1\nS Motor\nLD MPS_1\nST Motor\n",
+            vec!["the variable `Nowhere` is not a device"],
+        ),
+        (
+            "LD Nowhere\nGT 5\nST Motor\nLD Start\nST D0\n",
+            vec![
+                "the variable `Nowhere` is not a device",
+                "`D0` is not a bit",
+            ],
+        ),
+        (
+            "ST Motor\n",
+            vec!["`ST Motor` has no counterpart in an FX list"],
+        ),
+    ] {
+        let found = read(&project(
+            VARIABLES,
+            &format!("<IL><xhtml:p>{lines}</xhtml:p></IL>"),
+        ));
+        let messages = found
+            .diagnostics
+            .iter()
+            .map(|d| d.message.split_once(": ").unwrap().1);
+        assert_eq!(messages.collect::<Vec<_>>(), wrong, "{lines}");
+    }
+}
+
 #[test]
 fn hostile_drawings_end() {
     let stage = |n: u32| {

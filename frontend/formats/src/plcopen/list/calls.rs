@@ -148,6 +148,7 @@ impl List<'_, '_, '_> {
             let kept = Branched {
                 logic: logic.clone(),
                 parts: self.reader.parts.len(),
+                is_read: true,
             };
             self.kept.insert(to.to_owned(), kept);
             return true;
@@ -169,6 +170,10 @@ impl List<'_, '_, '_> {
         let Some(kept) = self.kept.get(operand) else {
             return Ok(false);
         };
+        if !kept.is_read {
+            self.result = Accumulator::Unread;
+            return Ok(true);
+        }
         let first = kept.logic.first();
         let since = &self.reader.parts[kept.parts..];
         let follows =
