@@ -1,10 +1,14 @@
 //! Encodings of text: by byte-order mark, by the shape of the bytes, and by what language the bytes make in each code
 //! page.
 
+use crate::il;
 use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
 use encoding_rs::{
-    EUC_JP, EUC_KR, Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251,
+    EUC_JP, EUC_KR, Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251, WINDOWS_1255,
 };
+
+/// End of a text in the way of DOS, Ctrl-Z.
+pub(crate) const DOS_END: u8 = 0x1A;
 
 /// Sample size of the detector, in bytes: of lines that are not ASCII.
 const SAMPLE: usize = 256 << 10;
@@ -14,6 +18,8 @@ const SAMPLE: usize = 256 << 10;
 /// afterwards.
 pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<(String, bool)> {
     let bytes = without_padding(bytes);
+    let end = dos_end(bytes).map_or(bytes.len(), |end| end.at);
+    let bytes = &bytes[..end];
     let marked = || Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
     let encoding = chosen
         .or_else(marked)
@@ -60,6 +66,41 @@ fn without_padding(bytes: &[u8]) -> &[u8] {
         }
         _ => &bytes[..end],
     }
+}
+
+/// End of a text in the way of DOS, Ctrl-Z, with what an editor did not clear below it.
+pub(crate) struct DosEnd {
+    /// Its place.
+    pub at: usize,
+    /// True if there are instructions below it.
+    pub hides_instructions: bool,
+}
+
+/// Finds the end of a list in the way of DOS. Where text with instructions follows, readers report the place.
+pub(crate) fn dos_end(bytes: &[u8]) -> Option<DosEnd> {
+    let at = memchr::memchr(DOS_END, bytes)?;
+    let (list, rest) = (&bytes[..at], &bytes[at..]);
+    let is_wide = Encoding::for_bom(bytes).is_some_and(|(found, _)| found != UTF_8);
+    if is_wide || list.contains(&0) || !has_instructions(list) {
+        return None;
+    }
+    let hides_instructions = has_instructions(rest);
+    let is_text = |b: &u8| *b == DOS_END || !b.is_ascii_control() || b.is_ascii_whitespace();
+    (!hides_instructions || !rest.iter().all(is_text)).then_some(DosEnd {
+        at,
+        hides_instructions,
+    })
+}
+
+/// Returns true if a line begins with a basic instruction after its step number, in a list or a table.
+fn has_instructions(bytes: &[u8]) -> bool {
+    let mut lines = bytes.split(|b| matches!(b, b'\n' | b'\r'));
+    lines.any(|line| {
+        let words = line.split(|b| !b.is_ascii_alphanumeric());
+        let mut words = words.filter(|word| !word.iter().all(u8::is_ascii_digit));
+        let first = words.next().map(str::from_utf8);
+        first.is_some_and(|word| word.is_ok_and(il::is_basic))
+    })
 }
 
 /// The encoding of short texts that share a code page: the one that `stated` names, if it reads them all, else the one
@@ -134,6 +175,7 @@ fn code_page(bytes: &[u8]) -> &'static Encoding {
         _ if !found.is_single_byte() || has_latin_neighbours(&sample) => found,
         // Words of few letters, all above 7Fh.
         _ if is_half_width(&sample) && reads(SHIFT_JIS, bytes) => SHIFT_JIS,
+        _ if found == WINDOWS_1255 && is_hebrew(&sample) => found,
         _ if is_cyrillic(&sample) => WINDOWS_1251,
         _ if found != WINDOWS_1251 && is_paired(&sample) && reads(GBK, bytes) => GBK,
         _ => found,
@@ -157,7 +199,7 @@ pub(crate) fn is_damaged_utf8(bytes: &[u8]) -> bool {
         for chunk in line.utf8_chunks() {
             for c in chunk.valid().chars().filter(|c| !c.is_ascii()) {
                 match c.len_utf8() {
-                    2 if is_readable(c) => count.two += 1,
+                    2 if is_readable(c) || is_hebrew_letter(c) => count.two += 1,
                     3 | 4 if is_readable(c) => count.three += 1,
                     _ => count.others += 1,
                 }
@@ -281,6 +323,30 @@ fn is_cyrillic(bytes: &[u8]) -> bool {
     words.peek().is_some() && words.all(|(run, _)| word(run))
 }
 
+/// Returns true if words read as Hebrew in Windows-1255, where those of Cyrillic have the same bytes: made of its letters
+/// alone, with final forms at ends of words, and with letters that are rare in Cyrillic.
+fn is_hebrew(bytes: &[u8]) -> bool {
+    let is_final = |b: &u8| matches!(b, 0xEA | 0xED | 0xEF | 0xF3 | 0xF5);
+    let (mut letters, mut misplaced, mut signs) = (0, 0, 0);
+    for (run, _) in runs(bytes) {
+        let [inside @ .., last] = run else { continue };
+        if !run.iter().all(|b| matches!(b, 0xE0..=0xFA)) {
+            return false;
+        }
+        letters += run.len();
+        misplaced += inside.iter().filter(|b| is_final(b)).count();
+        // Yod inside of words, he at their ends, shin and tav: a quarter of Hebrew, a fiftieth of Russian.
+        signs += inside.iter().filter(|b| **b == 0xE9).count() + usize::from(*last == 0xE4);
+        signs += run.iter().filter(|b| matches!(b, 0xF9 | 0xFA)).count();
+    }
+    letters > 3 && 10 * signs >= letters && 16 * misplaced <= letters
+}
+
+/// Letters of Hebrew, without points.
+fn is_hebrew_letter(c: char) -> bool {
+    matches!(c, '\u{5D0}'..='\u{5EA}')
+}
+
 /// UTF-16 without a mark. A text of bytes holds no zero, and wide characters read the wrong way round make no text.
 fn wide(bytes: &[u8]) -> Option<&'static Encoding> {
     let head = bytes.get(..4096).unwrap_or(&bytes[..bytes.len() & !1]);
@@ -357,6 +423,15 @@ mod tests {
             ("Стоп", WINDOWS_1251),
             ("ПУСК", WINDOWS_1251),
             ("насос\nклапан", WINDOWS_1251),
+            ("стоп", WINDOWS_1251),
+            ("датчик\nсвет", WINDOWS_1251),
+            ("автомат\nтаймер", WINDOWS_1251),
+            ("аварийный стоп\nщит", WINDOWS_1251),
+            ("התחלה", WINDOWS_1255),
+            ("עצירה", WINDOWS_1255),
+            ("לחצן חירום\nמנוע ראשי", WINDOWS_1255),
+            ("מסוע קדימה", WINDOWS_1255),
+            ("טיימר", WINDOWS_1255),
             ("启动按钮", GBK),
             ("停止", GBK),
             ("电机", GBK),
@@ -389,6 +464,7 @@ mod tests {
             ),
             ("LD X0 ; Пуск\nOUT Y0 ; Насос\nEND ; Конец", "ц"),
             ("LD X0 ; 起動ボタン\nOUT Y0 ; モータ\nEND ; 終わり", "り"),
+            ("LD X0 ; לחצן התחלה\nOUT Y0 ; מנוע\nEND ; סוף", "ע"),
         ] {
             let at = text.find(missing).unwrap();
             for cut in [at, at + missing.len() - 1] {

@@ -75,9 +75,6 @@ impl ReadOptions {
     }
 }
 
-/// End of a text in the way of DOS, Ctrl-Z.
-const DOS_END: char = '\u{1a}';
-
 /// Files over this size are rejected, in bytes: a list of a million steps takes a tenth of it.
 pub const MAX_SIZE: u64 = 128 << 20;
 
@@ -269,7 +266,7 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
             name: name.to_owned(),
         });
     };
-    text.truncate(text.trim_end_matches(DOS_END).len());
+    text.truncate(text.trim_end_matches(char::from(encoding::DOS_END)).len());
     let mut read = match csv::detect(&text) {
         _ if plcopen::is_project(&text) => plcopen::read(name, &text, &options.names),
         Some(layout) => csv::read(name, &text, layout),
@@ -279,6 +276,9 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     if replaced {
         let is_utf8 = options.encoding.is_none() && encoding::is_damaged_utf8(bytes);
         read.diagnostics.push(undecoded(&read.program, is_utf8));
+    }
+    if encoding::dos_end(bytes).is_some_and(|end| end.hides_instructions) {
+        read.diagnostics.push(hidden(&read.program));
     }
     Ok(read)
 }
@@ -293,6 +293,16 @@ fn check_kind(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<(), Rea
         }),
         None => Ok(()),
     }
+}
+
+/// Instructions follow the end of a text, among bytes that are not text.
+fn hidden(program: &Program) -> Diagnostic {
+    let end = program.source.text.trim_end().len() as u32;
+    let error =
+        codes::UNREADABLE_TEXT.at(Span::new(end, end), "this text goes on after Ctrl-Z (1Ah)");
+    error
+        .label("the text ends here, but instructions follow among other bytes")
+        .help("delete the Ctrl-Z and the bytes below it, or copy the whole file again from where it comes")
 }
 
 /// Some characters of a text were bytes without a meaning in its encoding.

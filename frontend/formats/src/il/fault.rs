@@ -309,6 +309,15 @@ impl Kind {
 fn line(span: Span, text: &str) -> Diagnostic {
     let word = text.split_whitespace().next().unwrap_or(text);
     let digits = word.len() - word.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    if text.starts_with(char::from(crate::encoding::DOS_END)) {
+        return codes::BAD_INSTRUCTION
+            .at(
+                span,
+                "the text goes on after Ctrl-Z (1Ah), the end of a text in DOS",
+            )
+            .label("the Ctrl-Z")
+            .help("delete it, and what is below it if that is not part of the program");
+    }
     let error = codes::BAD_INSTRUCTION.at(span, format!("expected an instruction, found `{word}`"));
     match word.split_at_checked(digits) {
         Some((step, rest)) if digits > 0 && !rest.is_empty() => error
