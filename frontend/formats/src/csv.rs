@@ -17,7 +17,7 @@ use rungc_syntax::{
 };
 use smol_str::SmolStr;
 
-pub(crate) use comments::{comments, is_comments, not_comments};
+pub(crate) use comments::{comments, is_comments, is_cross_reference, not_comments};
 pub(crate) use layout::{HEADERS, detect};
 
 /// Label of the row above the list that names the CPU.

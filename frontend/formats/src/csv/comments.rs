@@ -1,6 +1,6 @@
 //! The editors' export of device comments: a table of devices and texts.
 
-use super::layout::{HEAD_ROWS, plain, table};
+use super::layout::{HEAD_ROWS, is_instruction_heading, plain, table};
 use super::rows::{self, Row, Rows};
 use crate::il;
 use crate::text::clean;
@@ -34,7 +34,7 @@ fn comment_rows(text: &str) -> (Vec<Row>, [usize; 2]) {
     let of = |delimiter| {
         let records = table(text, delimiter).into_records();
         let head: Vec<StringRecord> = records.flatten().take(HEAD_ROWS).collect();
-        let columns = comment_columns(&head);
+        let columns = named_columns(&head).unwrap_or_else(|| [0, first_text(text, delimiter)]);
         let is_comment = |record: &StringRecord| {
             let comment = record.get(columns[1]);
             record.get(columns[0]).and_then(il::device).is_some() && comment.is_some()
@@ -50,8 +50,8 @@ fn comment_rows(text: &str) -> (Vec<Row>, [usize; 2]) {
     best.map_or_else(Default::default, |(_, rows, columns)| (rows, columns))
 }
 
-/// The columns of devices and comments: those that a row of names shows, or the first two.
-fn comment_columns(rows: &[StringRecord]) -> [usize; 2] {
+/// The columns of devices and comments that a row of names shows.
+fn named_columns(rows: &[StringRecord]) -> Option<[usize; 2]> {
     let named = |row: &StringRecord| {
         let find = |comment| {
             row.iter().position(|field| {
@@ -61,10 +61,50 @@ fn comment_columns(rows: &[StringRecord]) -> [usize; 2] {
         };
         Some([find(false)?, find(true)?])
     };
-    rows.iter()
-        .take(HEAD_ROWS)
-        .find_map(named)
-        .unwrap_or([0, 1])
+    rows.iter().take(HEAD_ROWS).find_map(named)
+}
+
+/// The first column with texts beside the devices of a table without names.
+fn first_text(text: &str, delimiter: u8) -> usize {
+    let rows = table(text, delimiter).into_records().flatten();
+    let of_devices = rows.filter(|row| row.get(0).and_then(il::device).is_some());
+    let texts = of_devices.filter_map(|row| {
+        let mut columns = row.iter().enumerate().skip(1);
+        columns.find_map(|(at, cell)| clean(cell).map(|_| at))
+    });
+    texts.min().unwrap_or(1)
+}
+
+/// Returns true for the lines of a cross-reference: names or rows of devices, and after them instructions that use
+/// them, where lists have instructions first.
+pub(crate) fn is_cross_reference(lines: &[&str]) -> bool {
+    let is_comment = |line: &&&str| line.starts_with(';') || line.starts_with("//");
+    let lines: Vec<&str> = lines
+        .iter()
+        .filter(|line| !is_comment(line))
+        .copied()
+        .collect();
+    let rows = |delimiter| lines.iter().map(move |line| rows::alone(line, delimiter));
+    let is_named = |row: &StringRecord| {
+        let find = |is: &dyn Fn(&str) -> bool| row.iter().position(|cell| is(&plain(cell)));
+        let of_device =
+            |name: &str| name == "devicelabel" || COMMENT_NAMES.contains(&(name, false));
+        let device = find(&of_device);
+        let instruction = find(&|name| name == "laddersymbol" || is_instruction_heading(name));
+        device.is_some() && device < instruction
+    };
+    let is_use = |row: &StringRecord| {
+        let device = row.get(0).and_then(il::device);
+        let word = row.get(1).unwrap_or_default().trim();
+        device.is_some() && il::is_basic(word) && !word.contains(|c: char| c.is_ascii_lowercase())
+    };
+    DELIMITERS.into_iter().any(|delimiter| {
+        let mut head = rows(delimiter).take(HEAD_ROWS).flatten();
+        // Below a head of one row or two.
+        let begins = rows(delimiter).take(3).flatten().any(|row| is_use(&row));
+        let uses = || rows(delimiter).flatten().filter(is_use).count();
+        head.any(|row| is_named(&row)) || begins && uses() + 2 >= lines.len()
+    })
 }
 
 /// Returns true for an export of device comments: rows of a device and a text. Lists hold labels, before `;` even.

@@ -224,6 +224,11 @@ fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
     None
 }
 
+/// Returns true for a name of the column of instructions, spelled as in [`NAMES`].
+pub(super) fn is_instruction_heading(name: &str) -> bool {
+    NAMES[2].contains(&name)
+}
+
 /// The name of a column without spaces and punctuation, in lower case.
 pub(super) fn plain(name: &str) -> String {
     let letters = name.chars().filter(|c| c.is_alphanumeric());

@@ -11,7 +11,16 @@ pub fn texts(program: &Program) -> Vec<String> {
 }
 
 /// Texts of other kinds, some of which contain lines of a program.
-const TEXTS: [(&str, &str); 19] = [
+const TEXTS: [(&str, &str); 22] = [
+    (
+        "references.csv",
+        "\"Device\",\"Instruction\",\"Step\"\r\n\"X000\",\"LD\",\"0\"\r\n\"\",\"AND\",\"7\"\r\n",
+    ),
+    (
+        "references.txt",
+        "デバイス\t命令\tステップ\r\nX000\tLD\t0\r\n\tAND\t7\r\nY000\tOUT\t1\r\n",
+    ),
+    ("headless.csv", "X000,LD,0\r\nX000,AND,7\r\nY000,OUT,1\r\n"),
     (
         "lfs.gxw",
         "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n",
@@ -99,6 +108,8 @@ fn device_comments_are_found_by_their_columns() {
         "Device\tLabel\tComment\r\nX000\ta\tstart\r\nX8\tb\tbad\r\nY001\tc\tmotor, left\r\n",
         "\"Comment\",\"Device Name\"\r\n\"start\",\"X000\"\r\n\"bad\",\"X8\"\r\n\"motor, left\",\"Y001\"\r\n",
         "X000,start\r\nX8,bad\r\nY001,\"motor, left\"\r\nM0,\"a\tb\"\r\n",
+        "X000,,start\r\nX8,,bad\r\nY001,,\"motor, left\"\r\n",
+        "X000\t\t\tstart\r\nX8\t\t\tbad\r\nY001\t\t\tmotor, left\r\n",
     ];
     std::fs::write(folder.path().join("MAIN.csv"), export("FXCPU FX3S")).unwrap();
     for table in tables {
@@ -236,6 +247,42 @@ fn lists_with_other_signs_are_read() {
             "{texts:?}"
         );
         assert_eq!(read.program.kind, SourceKind::Il, "{text}");
+    }
+}
+
+/// Bytes below the end of a text in the way of DOS are left out; instructions among them are errors.
+#[test]
+fn texts_end_at_ctrl_z() {
+    let list = "LD X0\r\nOUT Y0\r\nEND\r\n\x1A";
+    let table = "0,,LD,X0,,,\r\n1,,OUT,Y0,,,\r\n2,,END,,,,\r\n\x1A";
+    let rests: [&[u8]; 4] = [
+        b"\0\x03\x90motor\r\n\xFE\0",
+        b"s left over\r\n",
+        b"\x1A\x1A",
+        b"\xB5\xE7",
+    ];
+    for text in [list, table] {
+        for rest in rests {
+            let read = read_bytes("a.txt", &[text.as_bytes(), rest].concat()).unwrap();
+            assert!(read.diagnostics.is_empty(), "{:?}", read.diagnostics);
+            assert_eq!(texts(&read.program), ["LD X000", "OUT Y000", "END"]);
+        }
+    }
+    for (rest, message) in [
+        (
+            &b"LD X1\r\nEND\r\n"[..],
+            "the text goes on after Ctrl-Z (1Ah), the end of a text in DOS",
+        ),
+        (
+            b"\r\nOUT Y1\r\n\0\0\x02\x01\0\x08",
+            "this text goes on after Ctrl-Z (1Ah)",
+        ),
+    ] {
+        let read = read_bytes("a.txt", &[list.as_bytes(), rest].concat()).unwrap();
+        let found: Vec<_> = read.diagnostics.iter().collect();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].message, message);
+        assert!(found[0].span.start as usize >= list.trim_end().len() - 3);
     }
 }
 
