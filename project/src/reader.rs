@@ -197,6 +197,7 @@ impl Reader {
             }
         }
         self.together(document, project);
+        self.overlapping(project);
     }
 
     /// Reports keys that mean nothing without another.
@@ -213,17 +214,14 @@ impl Reader {
                 self.wrong(at, message, "add `program = \"…\"` to `[project]`");
             }
         }
-        if let (Some(row), None) = (project.modbus.first(), &project.program) {
-            let message = "`[[modbus]]` applies to the project's program, but there is none";
-            self.wrong(row.span, message, "add `program = \"…\"` to `[project]`");
-        }
-        if let (Some(station), None) = (&project.canlink, &project.program) {
-            let message = "`[canlink]` applies to the project's program, but there is none";
-            self.wrong(
-                station.span,
-                message,
-                "add `program = \"…\"` to `[project]`",
-            );
+        let modbus = project.modbus.first().map(|row| row.span);
+        let canlink = project.canlink.as_ref().map(|station| station.span);
+        for (table, at) in [("[[modbus]]", modbus), ("[canlink]", canlink)] {
+            if let (Some(at), None) = (at, &project.program) {
+                let message =
+                    format!("`{table}` applies to the project's program, but there is none");
+                self.wrong(at, message, "add `program = \"…\"` to `[project]`");
+            }
         }
         if let (Some(at), None) = (output, &project.build.emit) {
             let message = "`output` requires `emit`";

@@ -4,6 +4,7 @@ use super::{Reader, Value, span};
 use crate::Project;
 use crate::connections::Connected;
 use rungc_host::io::{Connection, overlap};
+use rungc_models::runs::rt_class;
 use rungc_syntax::{Span, codes};
 use toml::de::{DeTable, DeValue};
 
@@ -23,7 +24,13 @@ impl Reader {
                 }
             }
         }
-        if let Some(overlap) = overlap(&project.connections()) {
+    }
+
+    /// Reports devices and places with two sources, once all tables are read.
+    pub(super) fn overlapping(&mut self, project: &Project) {
+        let fault = project.retain_fault;
+        let fault = fault.and_then(|fault| Some((rt_class(fault.class)?, fault.first)));
+        if let Some(overlap) = overlap(&project.connections(), fault) {
             let connected = &project.io[overlap.connection];
             let at = overlap.row.and_then(|row| connected.rows.get(row));
             let at = at.copied().unwrap_or(connected.fault);

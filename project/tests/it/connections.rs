@@ -41,6 +41,29 @@ X007-X010 = "read b"
     assert_eq!(project.source.slice(why.span), "X777");
 }
 
+/// The device that shows that latched devices cannot be saved takes its value from there alone, wherever `[retain]`
+/// stands in the file.
+#[test]
+fn connections_do_not_set_the_fault_of_retain() {
+    let retain = "[retain]\nfile = 'latched'\nfault = 'M105'\n";
+    let row = "[io.panel]\nfiles = '.'\nM100-M107 = 'read switches'\n";
+    let fault = "[io.panel]\nfiles = '.'\nfault = 'M105'\nX000 = 'read switch'\n";
+    for (text, at) in [
+        (format!("{retain}{row}"), "6:1 `M100-M107`"),
+        (format!("{row}{retain}"), "3:1 `M100-M107`"),
+        (format!("{retain}{fault}"), "6:9 `'M105'`"),
+    ] {
+        let (place, quoted) = at.split_once(' ').unwrap();
+        let expected = format!(
+            "E0820 {place} `M105` takes its value from two places {quoted}\n    \
+             help: a device takes its value from one place\n"
+        );
+        assert_eq!(mistakes(&text), expected, "{text}");
+    }
+    let written = row.replace("read", "write");
+    assert!(parse(&format!("{retain}{written}")).is_ok());
+}
+
 /// Executables read connections line by line, without a library for TOML. What they cannot read so they reject: none of
 /// the connections that rungc makes is left out.
 #[test]

@@ -20,13 +20,15 @@ pub struct Overlap {
 }
 
 /// The first overlap: a device that two rows read, or that a row reads and a connection shows a fault with; or a
-/// place that two rows write.
-pub fn overlap(connections: &[Connection]) -> Option<Overlap> {
-    of_devices(connections).or_else(|| of_places(connections))
+/// place that two rows write. `retain_fault` is the device that shows that latched devices cannot be saved, if there
+/// is one: it takes its value from there.
+pub fn overlap(connections: &[Connection], retain_fault: Option<(Class, u32)>) -> Option<Overlap> {
+    of_devices(connections, retain_fault).or_else(|| of_places(connections))
 }
 
-fn of_devices(connections: &[Connection]) -> Option<Overlap> {
-    let mut taken: Vec<(Class, Range<u32>)> = Vec::new();
+fn of_devices(connections: &[Connection], retain_fault: Option<(Class, u32)>) -> Option<Overlap> {
+    let retain_fault = retain_fault.map(|(class, number)| (class, number..number + 1));
+    let mut taken: Vec<(Class, Range<u32>)> = retain_fault.into_iter().collect();
     for (n, connection) in connections.iter().enumerate() {
         let rows = connection
             .rows

@@ -161,7 +161,7 @@ fn a_place_is_written_by_one_row() {
     let rows = |kind: &str, rows: &[(&str, &str)]| {
         let pairs: Vec<_> = [(kind, "x")].iter().chain(rows).copied().collect();
         let connection = Connection::read("a", &pairs).unwrap();
-        overlap(&[connection]).map(|overlap| (overlap.message, overlap.row))
+        overlap(&[connection], None).map(|overlap| (overlap.message, overlap.row))
     };
     let twice = |place: &str| Some((format!("`{place}` takes its value from two rows"), Some(1)));
     let pair = |a, b| [("Y000-Y007", a), ("Y010-Y017", b)];

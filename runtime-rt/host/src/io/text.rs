@@ -50,7 +50,7 @@ pub fn parse(text: &str) -> Result<Vec<Connection>, String> {
     if connections.is_empty() {
         return Err("there is no table `[io.NAME]`".to_owned());
     }
-    match overlap(&connections) {
+    match overlap(&connections, None) {
         Some(overlap) => Err(tables[overlap.connection].contradicts(&overlap)),
         None => Ok(connections),
     }
