@@ -98,10 +98,31 @@ static void record_retained(const PROGRAM_plc *plc, uint32_t state)
     retained.writing = state;
 }
 
+/* Path of the file that is locked in place of the one that is replaced; false if it is too long. */
+static bool lock_path(char *path, size_t size)
+{
+    const int length = snprintf(path, size, "%s.lock", retained.target);
+
+    return length >= 0 && (size_t)length < size;
+}
+
 #ifdef _WIN32
 static const char *behind_links(const char *path)
 {
     return path;
+}
+
+/* Locks the file until the process ends; false if another process has locked it. */
+static bool lock_retained(void)
+{
+    char path[1024];
+
+    if (!lock_path(path, sizeof path)) {
+        return true;
+    }
+    const HANDLE file = CreateFileA(path, GENERIC_WRITE, 0, NULL, OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, NULL);
+
+    return file != INVALID_HANDLE_VALUE || GetLastError() != ERROR_SHARING_VIOLATION;
 }
 
 /* Flushes a file to the disk; false with errno if that fails. */
@@ -141,6 +162,68 @@ static const char *behind_links(const char *path)
 
     return target != NULL ? target : path;
 }
+
+#ifdef LOCK_EX
+/* The file that is locked. */
+static int lock_file;
+
+/* Returns true if the file that is locked has this path. */
+static bool is_locked(const char *path)
+{
+    struct stat own;
+    struct stat there;
+
+    if (fstat(lock_file, &own) != 0 || stat(path, &there) != 0) {
+        return false;
+    }
+    return own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+}
+
+/* Removes the file that is locked, as the process ends. */
+static void unlock_retained(void)
+{
+    char path[1024];
+
+    if (lock_path(path, sizeof path) && is_locked(path)) {
+        (void)unlink(path);
+    }
+}
+
+/* Locks the file until the process ends; false if another process has locked it. */
+static bool lock_retained(void)
+{
+    char path[1024];
+    int attempts = 100;
+
+    if (!lock_path(path, sizeof path)) {
+        return true;
+    }
+    /* One that another process removes meanwhile is another file. */
+    while (attempts-- > 0) {
+        lock_file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (lock_file < 0) {
+            return true;
+        }
+        const bool is_taken = flock(lock_file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (is_taken) {
+            close(lock_file);
+            return false;
+        }
+        if (is_locked(path)) {
+            atexit(unlock_retained);
+            return true;
+        }
+        close(lock_file);
+    }
+    return true;
+}
+#else
+/* This system has no locks. */
+static bool lock_retained(void)
+{
+    return true;
+}
+#endif
 
 /* Flushes a file to the disk; false with errno if that fails. */
 static bool flush_file(FILE *file)
@@ -263,7 +346,7 @@ static void *write_records(void *context)
     return NULL;
 }
 
-/* Starts it; false if the system has none. */
+/* Locks the file and starts the thread; false if another process uses the file, or if the system has no thread. */
 static bool begin_retained(void)
 {
     pthread_t thread;
@@ -273,6 +356,10 @@ static bool begin_retained(void)
         return true;
     }
     retained.target = behind_links(retained.path);
+    if (!lock_retained()) {
+        print(stderr, "PROGRAM: %s is in use by another process\n", retained.path);
+        return false;
+    }
     if (sem_init(&retained.to_write, 0, 0) != 0 || sem_init(&retained.written, 0, 0) != 0) {
         error = errno;
     } else {

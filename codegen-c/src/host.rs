@@ -96,7 +96,7 @@ const SERVERS_HEADERS: [&str; 1] = ["errno"];
 
 /// Those beside them of systems with POSIX.
 const POSIX_HEADERS: [&str; 2] = ["poll", "unistd"];
-const POSIX_RETAIN_HEADERS: [&str; 2] = ["fcntl", "sys/stat"];
+const POSIX_RETAIN_HEADERS: [&str; 3] = ["fcntl", "sys/file", "sys/stat"];
 const POSIX_LINES_HEADERS: [&str; 3] = ["fcntl", "glob", "termios"];
 const POSIX_SERVERS_HEADERS: [&str; 5] =
     ["fcntl", "netdb", "netinet/in", "netinet/tcp", "sys/socket"];
@@ -336,7 +336,7 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
     Retaining {
         header: "#include \"PROGRAM_retain.h\"\n",
         functions: template!("main_retain.c").replace("    /* UNSAVED */\n", &show),
-        load: "    if (!load_retained(plc) || !begin_retained()) {\n        return 2;\n    }\n",
+        load: "    if (!begin_retained() || !load_retained(plc)) {\n        return 2;\n    }\n",
         save: "        save_retained(plc, now_ms);\n",
         end: "    const bool is_saved = end_retained(plc);\n",
         code: "is_saved ? 0 : 1",
@@ -346,10 +346,16 @@ fn retaining(keeps: bool, fields: &Storage, unsaved: Option<(DeviceClass, u32)>)
 /// Feature test macros for the system's headers.
 fn features(ports: bool, retain: bool) -> &'static str {
     match (ports, retain) {
-        (true, _) => {
+        (true, true) => {
+            "#define _DARWIN_C_SOURCE\n#define _DEFAULT_SOURCE\n#define _POSIX_C_SOURCE 200809L\n\
+             #define _XOPEN_SOURCE 700"
+        }
+        (true, false) => {
             "#define _DEFAULT_SOURCE\n#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700"
         }
-        (false, true) => "#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700",
+        (false, true) => {
+            "#define _DARWIN_C_SOURCE\n#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700"
+        }
         (false, false) => "#define _POSIX_C_SOURCE 200809L",
     }
 }

@@ -1,8 +1,10 @@
 //! Latched devices that survive in a file, as a record of [`rungc_rt::retain`].
 
+mod lock;
 #[cfg(test)]
 mod tests;
 
+use lock::Lock;
 use rungc_rt::Program;
 use rungc_rt::retain::Loaded;
 use rungc_rt::retain::record::{self, Source};
@@ -33,6 +35,8 @@ pub struct RetainFile {
     writing: Option<u32>,
     /// Saving fails, which was reported.
     fails: bool,
+    /// Keeps other hosts from the file.
+    _lock: Option<Lock>,
 }
 
 /// A thread that replaces the file, so that no scan waits for the disk. It ends with the file.
@@ -74,6 +78,7 @@ impl RetainFile {
             writer: None,
             writing: None,
             fails: false,
+            _lock: None,
         };
         let bytes = match fs::read(&file.path) {
             Ok(bytes) => bytes,
@@ -103,16 +108,21 @@ impl RetainFile {
         Ok((file, loaded))
     }
 
-    /// Opens a file as a host does, which passes the messages for the user to `report`.
+    /// Opens a file as a host does, which passes the messages for the user to `report`. No other host can open it
+    /// meanwhile, where the system has locks.
     ///
     /// # Errors
-    /// Why the file cannot be used. One that holds the latched devices of another program is left as it is.
+    /// Why the file cannot be used. One that another process uses, or that holds the latched devices of another
+    /// program, is left as it is.
     pub fn begin(
         path: impl Into<PathBuf>,
         program: &mut dyn Program,
         report: impl FnOnce(String),
     ) -> Result<Self, String> {
-        let (file, loaded) = Self::open(path, program).map_err(|error| error.to_string())?;
+        let path = path.into();
+        let lock = Lock::take(&path).map_err(|error| error.to_string())?;
+        let (mut file, loaded) = Self::open(path, program).map_err(|error| error.to_string())?;
+        file._lock = lock;
         let path = file.path.display();
         match loaded {
             Loaded::Nothing => report(format!(

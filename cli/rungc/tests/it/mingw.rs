@@ -115,7 +115,9 @@ fn a_main_program_in_c_runs_on_windows_and_keeps_devices() {
     let twice = latched();
     run(folder, &[("X9=1", "Y001 on"), ("X0=1", "Y001 off")]);
     assert_ne!(latched(), twice);
-    assert!(!folder.join("latched.new").exists());
+    for rest in ["latched.new", "latched.lock"] {
+        assert!(!folder.join(rest).exists(), "{rest}");
+    }
 }
 
 #[test]

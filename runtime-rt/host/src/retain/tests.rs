@@ -190,3 +190,29 @@ fn a_save_replaces_only_what_a_save_has_left() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[cfg(any(target_os = "linux", target_os = "macos", windows))]
+#[test]
+fn one_host_at_a_time_has_a_file() {
+    let folder = std::env::temp_dir().join(format!("rungc-lock-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("motor.retain");
+    let begin = |path: &Path| RetainFile::begin(path, &mut Retaining::new(), |_| {});
+    let mut first = begin(&path).unwrap();
+    assert_eq!(begin(&path).unwrap_err(), "is in use by another process");
+    assert!(first.save(&Retaining::with_state(1)).unwrap());
+    // The file is another one now.
+    assert_eq!(begin(&path).unwrap_err(), "is in use by another process");
+    #[cfg(unix)]
+    {
+        let link = folder.join("link");
+        std::os::unix::fs::symlink(&path, &link).unwrap();
+        assert_eq!(begin(&link).unwrap_err(), "is in use by another process");
+    }
+    drop(first);
+    assert!(!folder.join("motor.retain.lock").exists());
+    drop(begin(&path).unwrap());
+    let missing = folder.join("missing/motor.retain");
+    assert!(begin(&missing).is_ok(), "what cannot be locked is used");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -257,6 +257,46 @@ fn killing_it_while_it_saves_tears_no_file() {
     });
 }
 
+/// One process at a time uses a file, whatever host it is, and nothing but the file remains.
+#[test]
+fn a_file_is_for_one_process() {
+    each(|host, folder| {
+        let retain = ["--retain", "disk/latched"];
+        let mut running = host.start(folder, &retain, &[]);
+        running.counts();
+        let [in_c, in_rust] = hosts::executables();
+        let rungc = Path::new(env!("CARGO_BIN_EXE_rungc"));
+        let others: [(&Path, &[&str]); 3] = [(in_c, &[]), (in_rust, &[]), (rungc, &["serve"])];
+        for (program, command) in others {
+            // One that is not refused would run on.
+            let refused = Command::new("timeout")
+                .arg("60")
+                .arg(program)
+                .args(command)
+                .args(retain)
+                .current_dir(folder)
+                .stdin(Stdio::null())
+                .output()
+                .unwrap();
+            let messages = text(&refused.stderr);
+            assert_eq!(refused.status.code(), Some(2), "{host:?}: {messages}");
+            assert!(
+                messages.contains("is in use by another process"),
+                "{host:?}: {messages}"
+            );
+        }
+        let (code, messages) = running.end();
+        assert_eq!(code, host.code(), "{messages}");
+        let files = fs::read_dir(folder.join("disk")).unwrap();
+        let names: Vec<_> = files.map(|file| file.unwrap().file_name()).collect();
+        assert_eq!(names, ["latched"], "{host:?}");
+        let mut again = host.start(folder, &retain, &[]);
+        again.counts();
+        let (code, messages) = again.end();
+        assert_eq!(code, host.code(), "{messages}");
+    });
+}
+
 /// libfaketime 0.9.10 takes absolute times of the monotonic clock for times of day, even where it is to leave that
 /// clock alone; later versions do not.
 const MONOTONIC: &str = "\
