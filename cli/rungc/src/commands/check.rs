@@ -13,16 +13,35 @@ use rungc_lower::compile;
 use rungc_models::Model;
 use rungc_syntax::{Device, DeviceClass, OperandKind, Parameters, Program};
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Reports everything that is wrong with programs.
 pub fn run(args: &CheckArgs, cx: Context) -> Result {
+    let mut noted = BTreeSet::new();
     subject::each(&args.inputs, cx, |subject, reporter| {
         if args.fix {
             fix::fix(subject, cx)?;
         }
-        check(subject, reporter, args, cx)
+        let outcome = check(subject, reporter, args, cx)?;
+        if reporter.is_for_people()
+            && let Some(path) = unapplied_properties(subject)
+            && noted.insert(path.clone())
+        {
+            cx.note(&format!(
+                "  Properties of {} apply to no program: name one with `program = \"…\"` in its `[project]`",
+                path.display()
+            ));
+        }
+        Ok(outcome)
     })
+}
+
+/// Settings whose properties apply to no program, because they name none.
+fn unapplied_properties(subject: &Subject) -> Option<PathBuf> {
+    let project = subject.project.as_deref()?;
+    let idle = project.program.is_none() && !project.properties.is_empty();
+    idle.then(|| subject::near(project.path.clone()))
 }
 
 fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Context) -> Result {

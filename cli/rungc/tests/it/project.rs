@@ -113,6 +113,33 @@ fn mistakes_are_drawn() {
     }
 }
 
+/// Properties in settings that name no program apply to none: `check` says so once, `verify` rejects it.
+#[test]
+fn properties_that_apply_to_no_program() {
+    let settings = "[[property]]\nnever = 'Y000 & Y001'\n";
+    let folder = folder(&[
+        ("a.il", b"LD X000\nOUT Y000\nEND\n"),
+        ("b.il", b"LD X001\nOUT Y001\nEND\n"),
+        ("rungc.toml", settings.as_bytes()),
+    ]);
+    let path = folder.path();
+    let note = "Properties of rungc.toml apply to no program";
+    let count = |args: &[&str]| {
+        let output = rungc(path, args);
+        assert_eq!(output.status.code(), Some(0), "{args:?}");
+        text(&output.stderr).matches(note).count()
+    };
+    assert_eq!(count(&["check", "a.il"]), 1);
+    assert_eq!(count(&["check", "."]), 1);
+    assert_eq!(count(&["check", "a.il", "--quiet"]), 0);
+    fs::write(
+        path.join("rungc.toml"),
+        format!("[project]\nprogram = 'a.il'\n{settings}"),
+    )
+    .unwrap();
+    assert_eq!(count(&["check", "."]), 0);
+}
+
 /// A relay with one half in the program has its other half outside: at a connection, in what is served, as a fault.
 #[test]
 fn halves_outside_the_program() {
