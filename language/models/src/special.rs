@@ -2,6 +2,7 @@
 //!
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
+mod maintained;
 mod meaning;
 
 #[cfg(test)]

@@ -22,5 +22,5 @@ mod target;
 pub mod wire;
 
 pub use problem::{LoadError, Problem};
-pub use setting::set;
+pub use setting::{check_lasts, set};
 pub use target::{Channel, Target};

@@ -1,10 +1,14 @@
 //! Setting devices of the interpreter by their names.
 
+use crate::record::TEXT_LENGTH;
 use crate::target::Target;
 use rungc_interp::{Machine, rt_class};
+use rungc_models::Model;
 use rungc_models::runs::is_counter32;
 use rungc_rt::modules::Signal;
-use rungc_rt::{Class, Plc, VirtualHal};
+use rungc_rt::special::{D_SECOND, M_CLOCK_HOLD, M_CLOCK_STOP};
+use rungc_rt::{Class, Plc, Relay, VirtualHal};
+use rungc_syntax::DeviceClass;
 
 fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
     machine.set_word(class, number, value as i16)?;
@@ -41,4 +45,38 @@ pub fn set(machine: &mut Machine, hal: &mut VirtualHal, target: Target, value: f
         }
         Target::Text(..) | Target::Pulses(_) | Target::Frequency(_) => None,
     }
+}
+
+/// Checks that a device keeps a value that it is given until the program reads it; the error states who sets it
+/// instead. `is_on` is the state of relays that let the clock's registers be set.
+///
+/// # Errors
+/// Each scan gives it its own value.
+pub fn check_lasts(
+    model: &Model,
+    target: Target,
+    is_on: impl Fn(Relay) -> bool,
+) -> Result<(), String> {
+    let (class, first, count) = target.devices(TEXT_LENGTH);
+    for number in first..first.saturating_add(count) {
+        let device = class.number(number);
+        if model.is_set_by_scan(class, number) {
+            let meaning = model.special(class, number).map(|row| row.meaning(number));
+            let meaning = meaning.unwrap_or_default();
+            return Err(format!(
+                "`{device}` cannot be set: each scan sets it ({meaning})"
+            ));
+        }
+        let clock = D_SECOND.run::<7>();
+        let shows_clock = model.scan_keeps(D_SECOND)
+            && class == DeviceClass::D
+            && clock.iter().any(|register| register.number() == number);
+        if shows_clock && !is_on(M_CLOCK_STOP) && !is_on(M_CLOCK_HOLD) {
+            let stop = DeviceClass::M.number(M_CLOCK_STOP.number());
+            return Err(format!(
+                "`{device}` follows the clock: set {stop} first, then the registers; when {stop} goes off, they set it"
+            ));
+        }
+    }
+    Ok(())
 }

@@ -19,6 +19,7 @@ use rungc_host::servers::cannot_serve;
 use rungc_host::wall::WallClock;
 use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
+use rungc_models::Model;
 use rungc_rt::comm::service::{ServerProtocol, Service};
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
 use rungc_syntax::{Diagnostic, FittedModule};
@@ -122,7 +123,7 @@ fn compile(
     };
     let mut options = subject.options();
     let model = compile::model(&read.program, &options);
-    let (settings, set) = settings(plcs, &Names::of(&read.program)).map_err(refuse)?;
+    let (settings, set) = settings(plcs, &Names::of(&read.program), model).map_err(refuse)?;
     options
         .observe
         .extend(plcs.observed(model).map_err(refuse)?);
@@ -170,11 +171,16 @@ fn compile(
 /// Settings of the file, as a fleet takes them and as they are written.
 type Settings = (Vec<Setting>, Vec<setting::Setting>);
 
-fn settings(plcs: &Plcs, names: &Names) -> std::result::Result<Settings, Box<Diagnostic>> {
+fn settings(
+    plcs: &Plcs,
+    names: &Names,
+    model: &Model,
+) -> std::result::Result<Settings, Box<Diagnostic>> {
     let (mut settings, mut written) = (Vec::new(), Vec::new());
     for Written { text, span } in &plcs.set {
-        let read =
-            setting::parse(text, names).map_err(|why| Box::new(FLEET_DEVICE.at(*span, why)))?;
+        let read = setting::parse(text, names)
+            .and_then(|read| setting::lasts(&read, model).map(|()| read))
+            .map_err(|why| Box::new(FLEET_DEVICE.at(*span, why)))?;
         let parts = At::parts(read.target, read.value).ok_or_else(|| {
             let why = format!("`{}` cannot be set in a fleet", read.target);
             Box::new(FLEET_DEVICE.at(*span, why))

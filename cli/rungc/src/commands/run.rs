@@ -112,6 +112,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     };
     reporter.add_count(&findings, subject.check_command().as_deref(), cx)?;
     reporter.finish()?;
+    setting::check(&requested.settings, module.model)?;
     requested.report_unused(args, subject, &read.program);
     let listed = requested.shown(&read.program, &module);
     let has_table = table == Table::Usual || !requested.watched.is_empty();

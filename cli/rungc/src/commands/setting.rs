@@ -4,6 +4,7 @@ use super::names::Names;
 use super::{Failure, eprint_line};
 use rungc_emit::events;
 use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_project::device;
 use rungc_sim::Target;
@@ -68,6 +69,24 @@ pub fn items<'t>(
         all.extend(items);
     }
     Ok(all)
+}
+
+/// Checks that the device of a setting keeps its value; a register of the clock may do so, while a relay stops it.
+///
+/// # Errors
+/// The reason why it does not.
+pub fn lasts(setting: &Setting, model: &Model) -> std::result::Result<(), String> {
+    rungc_sim::check_lasts(model, setting.target, |_| true)
+}
+
+/// Checks that the devices of what follows `--set` keep their values.
+pub fn check(settings: &[Setting], model: &Model) -> std::result::Result<(), Failure> {
+    settings.iter().try_for_each(|setting| {
+        let why = |why: String| {
+            Failure::Because(format!("--set {}={}: {why}", setting.target, setting.value))
+        };
+        lasts(setting, model).map_err(why)
+    })
 }
 
 /// The name in a setting. Comments may contain the sign.

@@ -512,7 +512,7 @@ fn requests_that_mean_harm_are_rejected() {
     );
 }
 
-/// Commands for a device that is not there, by what is forced and watched: 200 or 422.
+/// Commands for a device that is not there, by what is forced and watched, and for one that each scan sets: 200 or 422.
 #[test]
 fn what_is_not_forced_or_watched_is_not_released() {
     let page = Page::open(&[]);
@@ -531,6 +531,13 @@ fn what_is_not_forced_or_watched_is_not_released() {
         (r#""watch","device":"D77""#, 200),
         (r#""unwatch","device":"D77""#, 200),
         (r#""unwatch","device":"D77""#, 422),
+        (r#""force","device":"M8000","value":0"#, 422),
+        (r#""force","device":"K1M8010","value":0"#, 422),
+        (r#""set","device":"M8013","value":1"#, 422),
+        (r#""force","device":"D8013","value":5"#, 422),
+        (r#""force","device":"M8015","value":1"#, 200),
+        (r#""force","device":"D8013","value":5"#, 200),
+        (r#""force","device":"M8034","value":1"#, 200),
     ] {
         let body = format!(r#"{{"do":{command}}}"#);
         assert_eq!(page.command(&body, &json), status, "{command}");

@@ -3,4 +3,5 @@
 mod plant;
 mod program_files;
 mod runner;
+mod settings;
 mod test_files;

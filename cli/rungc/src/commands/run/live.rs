@@ -9,7 +9,7 @@ use rungc_interp::Machine;
 use rungc_ladder::build;
 use rungc_live::{Command, Frame, Log, Order, Scene, Server, token};
 use rungc_models::Model;
-use rungc_rt::{Plc, Program as _, VirtualHal};
+use rungc_rt::{Class, Plc, Program as _, VirtualHal};
 use rungc_runtime_sources::cache;
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
@@ -95,6 +95,14 @@ impl Running<'_, '_> {
                 self.machine.module().model.title
             )),
         }
+    }
+
+    /// Checks that a device can be set to a value, which it keeps.
+    fn takes(&self, target: Target, value: f64) -> Result<(), String> {
+        fits(target, value)?;
+        rungc_sim::check_lasts(self.machine.module().model, target, |relay| {
+            self.machine.bit(Class::M, relay.number()) == Some(true)
+        })
     }
 
     /// Sets a device; an input has an edge.
@@ -377,7 +385,7 @@ impl Live {
             Command::Pace { .. } => return Err(format!("the pace is from 1 to {SLOWEST}")),
             Command::Set { device, value } => {
                 let target = running.device(device, &self.names)?;
-                fits(target, *value)?;
+                running.takes(target, *value)?;
                 running.set(target, *value);
                 self.log
                     .write(now_ms, "event", &format!("{target} set to {value}"));
@@ -442,7 +450,7 @@ impl Live {
         running: &mut Running,
     ) -> Result<(), String> {
         let target = running.device(device, &self.names)?;
-        fits(target, value)?;
+        running.takes(target, value)?;
         let mut forced = self.control.forced.iter().map(|(other, _)| *other);
         if let Some(other) = forced.find(|other| overlap(*other, target)) {
             return Err(format!("release {other} first, which is forced"));
