@@ -329,12 +329,6 @@ fn of_text(name: &str, text: &str) -> Option<Recognised> {
     if let Some(known) = of_toml(&all).or_else(|| texts::spoilt(&all)) {
         return Some(known);
     }
-    if csv::is_cross_reference(&all) {
-        return is(
-            "a cross-reference table",
-            "name the program that it was made of, or export that as a list (CSV)",
-        );
-    }
     if lines().any(is_instruction) {
         return None;
     }

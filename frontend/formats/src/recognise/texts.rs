@@ -1,6 +1,7 @@
 //! Texts that are not programs: what shows each, which an instruction list does not have.
 
 use super::Recognised;
+use crate::csv;
 
 const RECORDS: &str = "name the program that the memory was made of";
 const BYTES: &str = "name the file that the bytes are of; `xxd -r` and `base64 -d` make it again";
@@ -44,6 +45,12 @@ pub(super) fn spoilt(lines: &[&str]) -> Option<Recognised> {
     }
     if any("```") {
         return is("a text in Markdown", WRITING);
+    }
+    if csv::is_cross_reference(lines) {
+        return is(
+            "a cross-reference table",
+            "name the program that it was made of, or export that as a list (CSV)",
+        );
     }
     None
 }
