@@ -13,6 +13,7 @@ mod time;
 
 use anstream::{AutoStream, ColorChoice};
 use args::{Cli, ColorWhen, Command, Emit};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
 use output::OutputPath;
@@ -30,7 +31,7 @@ pub fn main() -> ExitCode {
         return ExitCode::from(2);
     }
     let matches = Cli::command().color(usage_color()).try_get_matches();
-    let matches = matches.unwrap_or_else(|error| reject(&error));
+    let matches = matches.unwrap_or_else(|error| reject(&advised(error)));
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
     let cx = context(&cli);
@@ -118,6 +119,28 @@ fn broken_argument() -> Option<String> {
     let mut arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
     let broken = arguments.find(|argument| report::breaks_lines(argument))?;
     Some(report::visible_line(&broken).into_owned())
+}
+
+/// The error about an option with a negative value, which no option takes: without the advice to put it after `--`.
+fn advised(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg) else {
+        return error;
+    };
+    let number = unknown.strip_prefix('-').unwrap_or_default();
+    let arguments: Vec<_> = std::env::args_os().collect();
+    let option = arguments.windows(2).find_map(|pair| {
+        let [option, value] = [&pair[0], &pair[1]].map(|word| word.to_string_lossy());
+        let is_option = option.starts_with('-') && !option.contains('=') && option != "--";
+        (is_option && value.starts_with(unknown)).then(|| option.into_owned())
+    });
+    if let Some(option) = option
+        && error.kind() == ErrorKind::UnknownArgument
+        && number.starts_with(|c: char| c.is_ascii_digit())
+    {
+        let tip = format!("'{option}' takes no negative value").into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    }
+    error
 }
 
 /// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown

@@ -66,6 +66,10 @@ impl Side {
             reading: args.reading(),
         };
         let subject = subject::one(&input, cx)?;
+        let named = match file.is_dir() {
+            true => subject.file.clone(),
+            false => named,
+        };
         let mut reporter = Reporter::new(&subject.reporting, cx, true);
         let read = read_as_written(&subject, &mut reporter)?;
         if read.diagnostics.has_errors() || !read.program.is_complete() {

@@ -7,7 +7,7 @@ use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
-use rungc_project::{Error, Project};
+use rungc_project::{Error, FILE, Project};
 use rungc_syntax::{DeviceClass, Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -155,6 +155,41 @@ impl Projects<'_> {
         })
     }
 
+    /// The program of a folder: the one that its settings name, else the only one in it.
+    fn inside(&mut self, path: &Path) -> std::result::Result<PathBuf, Failure> {
+        if !path.is_dir() {
+            return Ok(path.to_owned());
+        }
+        let has_settings = self.reading.project.is_none() && path.join(FILE).is_file();
+        let settings = if has_settings { self.of(path)? } else { None };
+        let named = settings
+            .as_ref()
+            .and_then(|project| project.program.as_deref());
+        if let (Some(project), Some(program)) = (&settings, named) {
+            return match project.absent(program, project.program_span) {
+                Some(absent) => Err(refuse(absent, &self.reading.reporting, self.cx)),
+                None => Ok(path.join(program)),
+            };
+        }
+        if rungc_frontend::is_project(path) {
+            return Ok(path.to_owned());
+        }
+        match &programs_in(path)?[..] {
+            // Reported where it is read.
+            [] => Ok(path.to_owned()),
+            [one] => Ok(one.clone()),
+            [one, other, ..] => {
+                let [one, other] = [one, other].map(|path| path.display().to_string());
+                let (one, other) = (visible_line(&one), visible_line(&other));
+                let folder = path.display();
+                Err(Failure::Because(format!(
+                    "`{folder}` has several programs, such as `{one}` and `{other}`: name one of them, or set \
+                     `program` in `[project]` of its {FILE}"
+                )))
+            }
+        }
+    }
+
     /// The program of the project that this folder belongs to.
     fn own(&mut self) -> std::result::Result<PathBuf, Failure> {
         let Some(project) = self.of(Path::new("."))? else {
@@ -172,6 +207,14 @@ impl Projects<'_> {
             ))
         })
     }
+}
+
+/// The programs in a folder and below, named as a shell would.
+fn programs_in(folder: &Path) -> std::result::Result<Vec<PathBuf>, Failure> {
+    let found = rungc_frontend::programs(folder, usize::MAX);
+    let found = found.map_err(|error| Failure::Because(error.to_string()))?;
+    let named = |path: PathBuf| path.strip_prefix(".").map_or(path.clone(), Path::to_owned);
+    Ok(found.into_iter().map(named).collect())
 }
 
 /// A path as seen from the current folder, where it lies below it.
@@ -240,7 +283,7 @@ pub fn one(input: &Input, cx: Context) -> std::result::Result<Subject, Failure> 
         loaded: BTreeMap::new(),
     };
     let file = match &input.file {
-        Some(file) => file.clone(),
+        Some(file) => projects.inside(file)?,
         None => projects.own()?,
     };
     projects.subject(file)
@@ -269,8 +312,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
             files.push(file.clone());
             continue;
         }
-        let found = rungc_frontend::programs(file, usize::MAX);
-        let mut found = found.map_err(|error| Failure::Because(error.to_string()))?;
+        let mut found = programs_in(file)?;
         let names = found.iter().map(|path| path.to_string_lossy());
         if let Some(broken) = names.into_iter().find(|name| breaks_lines(name)) {
             let name = visible_line(&broken);
@@ -283,9 +325,7 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
         } else {
             many = true;
         }
-        // `check .` names programs as a shell would.
-        let named = |path: PathBuf| path.strip_prefix(".").map_or(path.clone(), Path::to_owned);
-        files.extend(found.into_iter().map(named));
+        files.extend(found);
     }
     if inputs.files.is_empty() {
         files.push(projects.own()?);
@@ -389,6 +429,14 @@ impl OutputPaths {
         subject: &Subject,
     ) -> std::result::Result<Option<PathBuf>, Failure> {
         match output {
+            Some(path) if many && is_file_name(path) => {
+                let (path, folder) = (path.display(), path.with_extension(""));
+                Err(Failure::Because(format!(
+                    "-o: several programs need a folder, and `{path}` is the name of a file: name a folder, such as \
+                     `{}`",
+                    folder.display()
+                )))
+            }
             Some(folder) if many => self.claim(folder.join(name()), subject).map(Some),
             None if many => {
                 let why = "-o: several programs need a folder; name one";
@@ -397,4 +445,14 @@ impl OutputPaths {
             output => Ok(output.map(Path::to_owned)),
         }
     }
+}
+
+/// Returns true for a path that is no folder and has the name extension of a file that rungc writes.
+fn is_file_name(path: &Path) -> bool {
+    const ENDINGS: [&str; 8] = ["bin", "csv", "html", "il", "json", "md", "txt", "xml"];
+    let ending = path.extension().unwrap_or_default();
+    !path.is_dir()
+        && ENDINGS
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known))
 }

@@ -52,6 +52,28 @@ fn check_for_tools() {
     }
 }
 
+/// `--` before a negative value would not help.
+#[test]
+fn options_take_no_negative_values() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    for [command, option, value] in [
+        ["run", "--for", "-1s"],
+        ["run", "--for", "-0.5s"],
+        ["explore", "--seed", "-1"],
+    ] {
+        let output = rungc(folder.path(), &[command, "motor.il", option, value]);
+        let said = text(&output.stderr);
+        let tip = format!("'{option}' takes no negative value");
+        assert!(said.contains(&tip) && !said.contains("'-- "), "{said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let output = rungc(folder.path(), &["check", "-1"]);
+    assert!(
+        text(&output.stderr).contains("'-- -1'"),
+        "a file may have this name"
+    );
+}
+
 /// A limit of the PLC keeps a program from being built, unless it is made a warning; what has no storage stays an
 /// error.
 #[test]

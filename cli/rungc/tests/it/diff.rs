@@ -79,6 +79,45 @@ fn equal_programs_end_with_0() {
     assert_eq!(out.status.code(), Some(0), "{}", text(&out.stdout));
 }
 
+/// A folder stands for the program that its settings name, or for the only one in it.
+#[test]
+fn folders_of_projects_are_compared() {
+    let folder = folder(&[]);
+    let place = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    place("old/rungc.toml", "[project]\nprogram = \"p.il\"\n");
+    place("old/p.il", MOTOR);
+    place("old/another.il", "LD X7\nOUT Y7\nEND\n");
+    place("new/rungc.toml", "");
+    place("new/p.il", MOTOR);
+    place("many/a.il", MOTOR);
+    place("many/b.il", MOTOR);
+    let out = rungc(folder.path(), &["diff", "old", "new"]);
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+    let names = format!(
+        "--- {}\n+++ {}\n",
+        Path::new("old").join("p.il").display(),
+        Path::new("new").join("p.il").display()
+    );
+    assert!(
+        text(&out.stdout).starts_with(&names),
+        "{}",
+        text(&out.stdout)
+    );
+    let out = rungc(folder.path(), &["diff", "old", "many"]);
+    assert_eq!(out.status.code(), Some(2));
+    let said = text(&out.stderr);
+    assert!(said.contains("`many` has several programs"), "{said}");
+    let out = rungc(folder.path(), &["run", "new", "--for", "10ms"]);
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stderr));
+    place("old/rungc.toml", "[project]\nprogram = \"absent.il\"\n");
+    let out = rungc(folder.path(), &["diff", "old", "new"]);
+    assert!(text(&out.stderr).contains("there is no `absent.il`"));
+}
+
 #[test]
 fn networks_that_move_do_the_same_unless_their_order_matters() {
     let same = "Same behaviour: with the same inputs, all devices have the same values.";

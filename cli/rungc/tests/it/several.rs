@@ -176,6 +176,12 @@ fn several_programs_are_converted_into_a_folder() {
             .contains("OUT")
     );
     assert!(path.join("out/motor.il").is_file());
+    let output = rungc(path, &[&args[..], &["-o", "all.il"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let said = text(&output.stderr);
+    let advice = "`all.il` is the name of a file: name a folder, such as `all`";
+    assert!(said.contains(advice), "{said}");
+    assert!(!path.join("all.il").exists());
 }
 
 /// The document for tools stays one, whatever happens between the files.
