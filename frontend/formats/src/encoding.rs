@@ -323,8 +323,8 @@ fn is_cyrillic(bytes: &[u8]) -> bool {
     words.peek().is_some() && words.all(|(run, _)| word(run))
 }
 
-/// Returns true if words read as Hebrew in Windows-1255, where those of Cyrillic have the same bytes: made of its letters
-/// alone, with final forms at ends of words, and with letters that are rare in Cyrillic.
+/// Returns true if words read as Hebrew in Windows-1255, where those of Cyrillic have the same bytes: made of its
+/// letters alone, with final forms at ends of words, and with letters that are rare in Cyrillic.
 fn is_hebrew(bytes: &[u8]) -> bool {
     let is_final = |b: &u8| matches!(b, 0xEA | 0xED | 0xEF | 0xF3 | 0xF5);
     let (mut letters, mut misplaced, mut signs) = (0, 0, 0);

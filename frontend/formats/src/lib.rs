@@ -298,8 +298,10 @@ fn check_kind(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<(), Rea
 /// Instructions follow the end of a text, among bytes that are not text.
 fn hidden(program: &Program) -> Diagnostic {
     let end = program.source.text.trim_end().len() as u32;
-    let error =
-        codes::UNREADABLE_TEXT.at(Span::new(end, end), "this text goes on after Ctrl-Z (1Ah)");
+    let error = codes::UNREADABLE_TEXT.at(
+        Span::new(end, end),
+        "this text continues after Ctrl-Z (1Ah)",
+    );
     error
         .label("the text ends here, but instructions follow among other bytes")
         .help("delete the Ctrl-Z and the bytes below it, or copy the whole file again from where it comes")

@@ -447,7 +447,7 @@ impl OutputPaths {
     }
 }
 
-/// Returns true for a path that is no folder and has the name extension of a file that rungc writes.
+/// Returns true for a path that is not a folder and has the name extension of a file that rungc writes.
 fn is_file_name(path: &Path) -> bool {
     const ENDINGS: [&str; 8] = ["bin", "csv", "html", "il", "json", "md", "txt", "xml"];
     let ending = path.extension().unwrap_or_default();

@@ -313,7 +313,7 @@ fn line(span: Span, text: &str) -> Diagnostic {
         return codes::BAD_INSTRUCTION
             .at(
                 span,
-                "the text goes on after Ctrl-Z (1Ah), the end of a text in DOS",
+                "the text continues after Ctrl-Z (1Ah), the end of a text in DOS",
             )
             .label("the Ctrl-Z")
             .help("delete it, and what is below it if that is not part of the program");

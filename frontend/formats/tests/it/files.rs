@@ -271,11 +271,11 @@ fn texts_end_at_ctrl_z() {
     for (rest, message) in [
         (
             &b"LD X1\r\nEND\r\n"[..],
-            "the text goes on after Ctrl-Z (1Ah), the end of a text in DOS",
+            "the text continues after Ctrl-Z (1Ah), the end of a text in DOS",
         ),
         (
             b"\r\nOUT Y1\r\n\0\0\x02\x01\0\x08",
-            "this text goes on after Ctrl-Z (1Ah)",
+            "this text continues after Ctrl-Z (1Ah)",
         ),
     ] {
         let read = read_bytes("a.txt", &[list.as_bytes(), rest].concat()).unwrap();

@@ -96,8 +96,8 @@ fn tasks_that_one_scan_cannot_replace_are_errors() {
             "E0063 line 7: the program `First` runs twice\n",
         ),
         (
-            resource(&task("t", every, &["Frist"])),
-            "E0063 line 7: the project has no program `Frist`, which is to run\n",
+            resource(&task("t", every, &["Third"])),
+            "E0063 line 7: the project has no program `Third`, which is to run\n",
         ),
         (
             resource(&task("t", event, &["First"])),

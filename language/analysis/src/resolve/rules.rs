@@ -74,17 +74,20 @@ pub(super) fn broken(
             let barred = wide && classes.meets(Classes::of(&operand.kind));
             barred.then(|| only_narrow(operand))
         }
-        Rule::Holds(holds, demand) => (!holds(operands)).then(|| {
-            let message = format!("`{}` contradicts the other operands", operand.kind);
-            codes::OPERANDS_DISAGREE
-                .at(operand.span, message)
-                .label(demand)
-        }),
+        Rule::Holds(holds, demand) => (!holds(operands)).then(|| contradictory(operand, demand)),
         Rule::Suits(suits, demand) => {
             (!suits(operand.kind.constant()?)).then(|| unsuited(operand, demand))
         }
         Rule::ClassLike(other) => unlike_class(operand, operands.get(other)?),
     })
+}
+
+/// Operands that a predicate does not accept together.
+fn contradictory(operand: &Operand, demand: &'static str) -> Diagnostic {
+    let message = format!("`{}` contradicts the other operands", operand.kind);
+    codes::OPERANDS_DISAGREE
+        .at(operand.span, message)
+        .label(demand)
 }
 
 /// A constant that a predicate does not accept.

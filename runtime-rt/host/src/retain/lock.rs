@@ -77,7 +77,7 @@ fn open(path: &Path) -> io::Result<File> {
     }
 }
 
-/// Opens a file that nobody else can open meanwhile; [`ErrorKind::WouldBlock`] if another process has it open.
+/// Opens a file that no one else can open meanwhile; [`ErrorKind::WouldBlock`] if another process has it open.
 #[cfg(windows)]
 fn open(path: &Path) -> io::Result<File> {
     use std::os::windows::fs::OpenOptionsExt;
@@ -114,7 +114,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     own.map(identity).ok() == there.map(identity).ok()
 }
 
-/// Returns true if an open file has this path: nobody can have removed it.
+/// Returns true if an open file has this path: so no one has removed it.
 #[cfg(not(unix))]
 fn is_at(_: &File, _: &Path) -> bool {
     true

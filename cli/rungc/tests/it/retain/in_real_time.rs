@@ -268,7 +268,7 @@ fn a_file_is_for_one_process() {
         let rungc = Path::new(env!("CARGO_BIN_EXE_rungc"));
         let others: [(&Path, &[&str]); 3] = [(in_c, &[]), (in_rust, &[]), (rungc, &["serve"])];
         for (program, command) in others {
-            // One that is not refused would run on.
+            // One that is not rejected would run on.
             let refused = Command::new("timeout")
                 .arg("60")
                 .arg(program)
