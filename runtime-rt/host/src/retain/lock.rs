@@ -1,7 +1,7 @@
 //! Locks among processes, so that two do not save into the same file.
 
 use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -67,7 +67,7 @@ fn open(path: &Path) -> io::Result<File> {
         fn flock(file: c_int, operation: c_int) -> c_int;
     }
 
-    let mut options = OpenOptions::new();
+    let mut options = File::options();
     options.read(true).write(true).create(true).truncate(false);
     let file = options.open(path)?;
     // SAFETY: the file is open, and flock takes no pointers.
@@ -85,7 +85,7 @@ fn open(path: &Path) -> io::Result<File> {
     const FILE_FLAG_DELETE_ON_CLOSE: u32 = 0x0400_0000;
     const ERROR_SHARING_VIOLATION: i32 = 32;
 
-    let mut options = OpenOptions::new();
+    let mut options = File::options();
     options.write(true).create(true).truncate(false);
     options
         .share_mode(0)
