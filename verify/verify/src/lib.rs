@@ -28,3 +28,22 @@ pub mod search;
 pub mod system;
 pub mod unroll;
 pub mod vacuous;
+
+#[cfg(test)]
+mod tests {
+    use rungc_ir::Module;
+    use rungc_ir::passes::simplify;
+    use rungc_lower::compile::{CompileOptions, compile};
+
+    /// A program as proofs take it.
+    pub(crate) fn module(list: &str) -> Module {
+        let program = rungc_frontend::read_text("program.il", list).program;
+        let options = CompileOptions {
+            optimise: false,
+            ..CompileOptions::default()
+        };
+        let mut module = compile(&program, &options).module.unwrap();
+        simplify(&mut module);
+        module
+    }
+}

@@ -79,11 +79,15 @@ pub fn is_possible(of: &Condition, module: &Module) -> bool {
 /// Time limit for the question whether a condition is possible, which has no program in it.
 const LIMIT: Duration = Duration::from_secs(5);
 
+/// Relay that switches the output terminals off.
+pub(crate) const OUTPUTS_OFF: Key = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());
+
 /// An output at its terminal: pulses show there, and M8034 switches it off.
 fn terminal(encoder: &mut Encoder, number: u32) -> Lit {
-    let off = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());
     // A program that does not know the relay leaves it off.
-    let off = encoder.after(off).map_or(Lit::FALSE, |bits| bits[0]);
+    let off = encoder
+        .after(OUTPUTS_OFF)
+        .map_or(Lit::FALSE, |bits| bits[0]);
     let image = encoder.read_at(AccessKind::Bit, DeviceClass::Y, number)[0];
     let pulse = encoder.pulse(number);
     let on = encoder.aig.or(image, pulse);
@@ -156,10 +160,9 @@ mod tests {
     use crate::model::{Encoder, World};
     use crate::random::{Lanes, Random};
     use crate::replay::Run;
+    use crate::tests::module;
     use rungc_interp::Machine;
     use rungc_ir::Module;
-    use rungc_ir::passes::simplify;
-    use rungc_lower::compile::{CompileOptions, compile};
     use rungc_rt::{Class, Plc};
     use rungc_sim::property::{Condition, Property, Watcher, parse};
 
@@ -167,17 +170,6 @@ mod tests {
     const PROGRAM: &str = "LD M8000\nWAND K4X000 H8003 D0\nMOV K4X010 D1\nMOV K4X000 K4Y000\nMOV D0 K4M0\nMOV D1 K3M16\n\
                            MOV D0 D2\nWAND K4X010 H8001 D3\nLD X000\nOUT T0 K3\nLD X001\nOUT C0 K2\nLD X002\nOUT M8200\n\
                            LD X003\nOUT C200 K-2\nLD X017\nAND X016\nOUT M8034\nEND\n";
-
-    fn module(list: &str) -> Module {
-        let program = rungc_frontend::read_text("program.il", list).program;
-        let options = CompileOptions {
-            optimise: false,
-            ..CompileOptions::default()
-        };
-        let mut module = compile(&program, &options).module.unwrap();
-        simplify(&mut module);
-        module
-    }
 
     /// A condition as it is written, and its meaning by the page of the book on properties.
     struct Written {

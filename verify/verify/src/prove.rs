@@ -462,23 +462,10 @@ mod tests {
     use crate::model::World;
     use crate::proof::{Fact, Proof};
     use crate::sat::{Answer, Solver};
-    use rungc_ir::Module;
-    use rungc_ir::passes::simplify;
-    use rungc_lower::compile::{CompileOptions, compile};
+    use crate::tests::module;
     use rungc_sim::property::{Property, parse};
     use std::time::Duration;
     use web_time::Instant;
-
-    fn module(list: &str) -> Module {
-        let program = rungc_frontend::read_text("program.il", list).program;
-        let options = CompileOptions {
-            optimise: false,
-            ..CompileOptions::default()
-        };
-        let mut module = compile(&program, &options).module.unwrap();
-        simplify(&mut module);
-        module
-    }
 
     #[test]
     fn each_way_to_a_proof_leaves_what_others_can_check() {

@@ -206,7 +206,7 @@ impl Drive {
 }
 
 /// The level of a master control, or of its end.
-fn level(code: &Code, i: usize) -> u32 {
+pub(super) fn level(code: &Code, i: usize) -> u32 {
     code.device(i, 0).map_or(0, |level| level.number)
 }
 

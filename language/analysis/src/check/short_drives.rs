@@ -1,7 +1,7 @@
 //! Motions whose contacts are closed for one scan, so that they stop in the next.
 
 use super::Code;
-use super::drives::{Drive, Lasts};
+use super::drives::{Drive, Lasts, level};
 use super::overlaps::clears;
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
@@ -40,10 +40,9 @@ pub(super) fn check(
 fn in_zones(code: &Code) -> Vec<bool> {
     let mut open = 0;
     let inside = |i| {
-        let level = || code.device(i, 0).map_or(0, |level| level.number);
         match code.basic(i) {
-            Some(Basic::Mc) => open = level() + 1,
-            Some(Basic::Mcr) => open = open.min(level()),
+            Some(Basic::Mc) => open = level(code, i) + 1,
+            Some(Basic::Mcr) => open = open.min(level(code, i)),
             Some(Basic::Fend | Basic::End | Basic::Sret | Basic::Iret | Basic::Pret) => open = 0,
             _ => {}
         }

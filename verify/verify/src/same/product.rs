@@ -4,20 +4,16 @@ use crate::aig::Lit;
 use crate::bits::Bits;
 use crate::model::{Encoder, Key, Names, Shared, World, device_of};
 use crate::proof::Formula;
-use crate::property;
+use crate::property::{self, OUTPUTS_OFF};
 use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_models::runs::is_special;
-use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::property::Condition;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
 use web_time::Instant;
-
-/// Relay that switches the output terminals off.
-const OUTPUTS_OFF: Key = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());
 
 /// Two programs that are executed at the same time with the same inputs.
 ///
