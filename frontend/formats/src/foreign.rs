@@ -50,8 +50,8 @@ pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     Some((program, diagnostic))
 }
 
-/// The language of a text, if it is one of these, and what shows it. It must show early or often: a single line may be
-/// a mistake.
+/// The language of a text, if it is one of these, and what shows it. It must show at once, or often and in more lines
+/// than those of an FX list: lines of another language in a list are mistakes, which hide no others.
 fn language(text: &str) -> Option<(Language, Span)> {
     let begin = text.len()
         - text
@@ -74,6 +74,7 @@ fn language(text: &str) -> Option<(Language, Span)> {
     }
     let mut found: Vec<(Language, Span)> = Vec::new();
     let mut lines = 0;
+    let mut of_lists = 0;
     let mut at = 0;
     for line in text.split_inclusive('\n') {
         let start = at;
@@ -84,6 +85,7 @@ fn language(text: &str) -> Option<(Language, Span)> {
             continue;
         }
         lines += 1;
+        of_lists += usize::from(is_of_list(code));
         found.extend(sign(code).map(|(language, from, to)| {
             (
                 language,
@@ -104,7 +106,22 @@ fn language(text: &str) -> Option<(Language, Span)> {
     } else {
         first
     };
-    (at_once || 4 * found.len() >= lines).then_some((language, span))
+    let often = 4 * found.len() >= lines && found.len() > of_lists;
+    (at_once || often).then_some((language, span))
+}
+
+/// Whether a line is a contact or coil of an FX list: `LD X000`, `OUT T0 K10`.
+fn is_of_list(line: &str) -> bool {
+    const WORDS: [&str; 9] = ["LD", "LDI", "AND", "ANI", "OR", "ORI", "OUT", "SET", "RST"];
+    let mut words = line.split_whitespace();
+    let (Some(word), Some(operand)) = (words.next(), words.next()) else {
+        return false;
+    };
+    let (class, number) = operand.split_at(operand.chars().next().map_or(0, char::len_utf8));
+    WORDS.contains(&word.to_ascii_uppercase().as_str())
+        && "XYMSTC".contains(&class.to_ascii_uppercase())
+        && !number.is_empty()
+        && number.bytes().all(|digit| digit.is_ascii_digit())
 }
 
 /// End of the first line of code.
@@ -190,5 +207,13 @@ mod tests {
         assert!(detect("a.il", "LD X0 ; VAR := 5 %IX0.0\n; IF\nEND\n").is_none());
         assert!(detect("a.il", "LD X0\n$MOV \"%IX0 := \" D0\nEND\n").is_none());
         assert!(detect("a.il", "").is_none());
+    }
+
+    #[test]
+    fn foreign_lines_in_a_list_hide_none_of_its_mistakes() {
+        let list = "LD X0\nTON T0 K30\nLD X1\nOUT Y1\nIF M0\nOUT %QX0.0\nEND\n";
+        assert!(detect("a.il", list).is_none());
+        assert!(detect("a.st", "IF X0 THEN\nLD X0\nOUT Y0\nEND_IF\n").is_some());
+        assert!(detect("a.il", "LD start\nIF X0\nY0 := X0\nEND\n").is_some());
     }
 }

@@ -147,6 +147,21 @@ const HABITS: &[(&[&str], &str, &str)] = &[
         "OUT",
         "a counter is a coil with its preset: `OUT C0 K10`",
     ),
+    (
+        &[
+            "IF",
+            "ELSIF",
+            "ELSE",
+            "END_IF",
+            "ENDIF",
+            "CASE",
+            "END_CASE",
+            "WHILE",
+            "END_WHILE",
+        ],
+        "CJ",
+        "a list has no statements: a condition is contacts before what they drive (`LD M0`, `OUT Y000`) or before a jump",
+    ),
 ];
 
 /// No mnemonic is longer than this by more than a typing error.
