@@ -273,16 +273,16 @@ fn magnitude(value: i32) -> u32 {
     rank << 1 | u32::from(value < 0)
 }
 
-/// The parts of a condition without `!`, `&` and `|`.
+/// The parts of a condition that do not join others.
 fn leaves<'c>(condition: &'c Condition, found: &mut Vec<&'c Condition>) {
     match condition {
-        Condition::Constant(_) => {}
-        Condition::On(_) | Condition::Compare(..) => found.push(condition),
-        Condition::Not(a) => leaves(a, found),
-        Condition::And(a, b) | Condition::Or(a, b) | Condition::Same(a, b) => {
-            leaves(a, found);
-            leaves(b, found);
-        }
+        Condition::On(_) | Condition::WordBit(..) => found.push(condition),
+        // What a number was is in no feature.
+        Condition::Compare(..) if !condition.has_memory() => found.push(condition),
+        _ => condition
+            .parts()
+            .into_iter()
+            .for_each(|part| leaves(part, found)),
     }
 }
 

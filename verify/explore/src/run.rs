@@ -6,7 +6,7 @@ use rungc_interp::{Machine, Saved};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::{Plant, Wired};
-use rungc_sim::property::{Watcher, read};
+use rungc_sim::property::{Monitor, Watcher, read};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
 use std::collections::VecDeque;
@@ -26,6 +26,7 @@ pub struct Runner<'t> {
     hal: Box<VirtualHal>,
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
+    assumed: Monitor<'t>,
     inputs: Vec<i32>,
     /// Pulses of the step that has begun; their times are since power-on.
     coming: VecDeque<Change>,
@@ -55,6 +56,7 @@ pub struct Moment<'t> {
     hal: Option<Box<VirtualHal>>,
     plant: Option<Plant>,
     watchers: Vec<Watcher<'t>>,
+    assumed: Monitor<'t>,
     inputs: Vec<i32>,
     now_ms: u64,
     before: (u64, i32),
@@ -100,6 +102,7 @@ impl<'t> Runner<'t> {
             hal,
             plant,
             watchers: task.properties.iter().map(Watcher::new).collect(),
+            assumed: Monitor::new(task.assumed),
             inputs: vec![0; task.inputs.len()],
             coming: VecDeque::new(),
             now_ms: 0,
@@ -139,9 +142,9 @@ impl<'t> Runner<'t> {
         self.before.1
     }
 
-    /// The properties, as far as the run has followed them.
-    pub(crate) fn watchers(&self) -> &[Watcher<'t>] {
-        &self.watchers
+    /// The properties and the assumptions, as far as the run has followed them.
+    pub(crate) fn followed(&self) -> (&[Watcher<'t>], &Monitor<'t>) {
+        (&self.watchers, &self.assumed)
     }
 
     /// Duration of the last scan in milliseconds; `None` before the first.
@@ -161,6 +164,7 @@ impl<'t> Runner<'t> {
             hal: self.uses_hal.then(|| self.hal.clone()),
             plant: self.plant.clone(),
             watchers: self.watchers.clone(),
+            assumed: self.assumed.clone(),
             inputs: self.inputs.clone(),
             now_ms: self.now_ms,
             before: self.before,
@@ -179,6 +183,7 @@ impl<'t> Runner<'t> {
         }
         self.plant.clone_from(&moment.plant);
         self.watchers.clone_from(&moment.watchers);
+        self.assumed.clone_from(&moment.assumed);
         self.inputs.clone_from(&moment.inputs);
         self.now_ms = moment.now_ms;
         self.before = moment.before;
@@ -243,6 +248,7 @@ impl<'t> Runner<'t> {
         self.constant_ms = 0;
         self.errors = 0;
         self.watchers = self.task.properties.iter().map(Watcher::new).collect();
+        self.assumed = Monitor::new(self.task.assumed);
         self.outputs
             .iter_mut()
             .for_each(|(_, on, times)| (*on, *times) = (false, 0));
@@ -267,14 +273,13 @@ impl<'t> Runner<'t> {
         let scan_us = scan_ms.saturating_mul(1000);
         self.hal
             .scan(&mut self.machine, self.now_ms as u32, scan_us);
-        let mut elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
+        let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
         // Events between two scans are evaluated as in test files, which read once the time has passed.
         if self.takes_events {
-            elapsed_ms = scan_ms;
             self.pass(scan_ms);
         }
-        if !self.task.assumed.iter().all(|a| a.holds(&self.machine)) {
+        if !self.assumed.all_hold(&self.machine, elapsed_ms) {
             return Scanned::Excluded;
         }
         let machine = &self.machine;

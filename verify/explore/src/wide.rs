@@ -15,7 +15,7 @@ use rungc_models::runs::{is_counter32, is_special, rt_class};
 use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
-use rungc_sim::property::{Condition, Devices, Property, Watcher};
+use rungc_sim::property::{Condition, Devices, Monitor, Property, Watcher};
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use std::array;
@@ -193,6 +193,7 @@ struct Lane<'i, 't> {
     values: Vec<i32>,
     last: Last,
     watchers: Vec<Watcher<'t>>,
+    assumed: Monitor<'t>,
     /// True if the machine permits the changes.
     goes_on: bool,
     changes: Vec<(usize, i32)>,
@@ -278,15 +279,22 @@ impl<'t> Sweep<'_, 't> {
             items: self.items,
             values: values.clone(),
             last: last.clone(),
-            watchers: runner.watchers().to_vec(),
+            watchers: runner.followed().0.to_vec(),
+            assumed: runner.followed().1.clone(),
             goes_on: true,
             changes: Vec::new(),
             new: Vec::new(),
         };
-        let mut properties = self.task.properties.iter();
+        let properties = self.task.properties.iter();
+        let conditions = properties.clone().flat_map(Property::conditions);
+        let has_memory = conditions
+            .chain(self.task.assumed)
+            .any(Condition::has_memory);
+        let mut waiting =
+            properties.filter(|property| matches!(property, Property::Whenever { .. }));
         Judge {
             sweep: self,
-            waits: properties.any(|property| matches!(property, Property::Whenever { .. })),
+            waits: has_memory || waiting.next().is_some(),
             lanes: array::from_fn(|_| lane()),
             last_ms: runner.last_ms(),
             begun: false,
@@ -326,7 +334,7 @@ const DIFFER: &str = "lanes and interpreter disagree, which is an error of rungc
 /// Follows the lanes of a sweep.
 pub struct Judge<'s, 't> {
     sweep: &'s Sweep<'s, 't>,
-    /// True if a property waits for something, so that time matters.
+    /// True if a property waits for something, or remembers something, so that scans without changes matter.
     waits: bool,
     lanes: [Lane<'s, 't>; LANES],
     last_ms: Option<u32>,
@@ -404,7 +412,10 @@ impl Lane<'_, '_> {
         for &(item, value) in &changes {
             self.values[item] = value;
         }
-        if touched && !task.assumed.iter().all(|a: &Condition| a.holds(self)) {
+        let mut assumed = std::mem::replace(&mut self.assumed, Monitor::new(&[]));
+        let is_possible = assumed.all_hold(self, elapsed_ms);
+        self.assumed = assumed;
+        if !is_possible {
             self.goes_on = false;
             return;
         }

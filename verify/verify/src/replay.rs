@@ -6,7 +6,7 @@ use crate::search::{Scan, Trace};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
-use rungc_sim::property::{Condition, Property, Watcher};
+use rungc_sim::property::{Condition, Monitor, Property, Reading, Watcher};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 use web_time::Instant;
@@ -82,10 +82,10 @@ pub fn replay(
     trace: &Trace,
 ) -> Option<usize> {
     let mut run = Run::new(module, trace);
-    let mut watcher = Watcher::new(property);
+    let (mut watcher, mut monitor) = (Watcher::new(property), Monitor::new(assumed));
     for (n, scan) in trace.scans.iter().enumerate() {
         let elapsed = run.scan(scan)?;
-        if !assumed.iter().all(|a| a.holds(&run.machine)) {
+        if !monitor.all_hold(&run.machine, elapsed) {
             return None;
         }
         if watcher.happened(&run.machine, elapsed) {
@@ -215,7 +215,7 @@ pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace) -> Tra
 }
 
 /// A device with a name as test files have it, and its value.
-pub type Setting = (String, (DeviceClass, u32), i64);
+pub type Setting = (String, (DeviceClass, u32), Reading);
 
 /// Equal scans of a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -242,7 +242,7 @@ pub struct Change {
 pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change> {
     let mut machine = Machine::new(module);
     let mut hal = VirtualHal::new();
-    let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value));
+    let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value.into()));
     for (&key, &value) in &trace.start {
         set(&mut machine, &mut hal, key, value);
     }

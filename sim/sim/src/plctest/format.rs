@@ -4,6 +4,7 @@ use super::keys;
 use super::naming::Named;
 use super::program::{self, CaseProgram, RawProgram, Tested};
 use super::raw::{Map, Near, RawCase, RawFile, RawPlc, RawRow, RawScenario, Scalar};
+use super::rules::RawOverTime;
 use super::serial::{self, PortId};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
@@ -111,7 +112,13 @@ impl Reader<'_> {
         self.no_index(raw.index.as_ref());
         self.take_scenarios(raw.scenario);
         self.named = self.of_file(given, program.as_ref());
-        let rules = self.rules(raw.never, raw.whenever);
+        let rules = self.rules(RawOverTime {
+            never: raw.never,
+            always: raw.always,
+            reachable: raw.reachable,
+            whenever: raw.whenever,
+            stays: raw.stays,
+        });
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
             for (row, case) in self.rows(case) {
@@ -291,7 +298,13 @@ impl Reader<'_> {
         }
         let init = self.settings(raw.init);
         let steps: Vec<Step> = self.steps(raw.step);
-        let rules = self.rules(raw.never, raw.whenever);
+        let rules = self.rules(RawOverTime {
+            never: raw.never,
+            always: raw.always,
+            reachable: raw.reachable,
+            whenever: raw.whenever,
+            stays: raw.stays,
+        });
         let trace = self.trace(raw.name.get_ref(), &raw.trace);
         let check = match raw.rejects {
             Some(rejects) => {

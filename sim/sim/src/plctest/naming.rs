@@ -26,7 +26,8 @@ impl Named {
         }
     }
 
-    fn comments(&mut self) -> &Comments {
+    /// Devices by the comments of its program.
+    pub(super) fn comments(&mut self) -> &Comments {
         let program = &self.program;
         self.comments.get_or_insert_with(|| match program {
             CaseProgram::List(list) => {

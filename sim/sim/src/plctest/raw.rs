@@ -5,6 +5,7 @@ use super::modules;
 use super::program::RawProgram;
 use super::serial::{Protocol, RawMode, RawSent};
 use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -26,10 +27,13 @@ pub(super) struct RawFile {
     pub(super) index: Option<Spanned<IgnoredAny>>,
     #[serde(default)]
     pub(super) scenario: Vec<RawScenario>,
-    #[serde(default)]
-    pub(super) never: Vec<RawSettings>,
+    pub(super) never: Option<Spanned<RawRules>>,
+    pub(super) always: Option<Spanned<RawRules>>,
+    pub(super) reachable: Option<Spanned<RawRules>>,
     #[serde(default)]
     pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    #[serde(default)]
+    pub(super) stays: Vec<Spanned<RawStays>>,
     pub(super) case: Vec<Spanned<RawCase>>,
 }
 
@@ -60,17 +64,50 @@ pub(super) struct RawCase {
     pub(super) serve: Map<Protocol>,
     #[serde(default)]
     pub(super) rows: Vec<RawRow>,
-    #[serde(default)]
-    pub(super) never: Vec<RawSettings>,
+    pub(super) never: Option<Spanned<RawRules>>,
+    pub(super) always: Option<Spanned<RawRules>>,
+    pub(super) reachable: Option<Spanned<RawRules>>,
     #[serde(default)]
     pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    #[serde(default)]
+    pub(super) stays: Vec<Spanned<RawStays>>,
     #[serde(default)]
     pub(super) trace: Vec<Spanned<String>>,
     pub(super) rejects: Option<RawRejects>,
 }
 
-/// Devices and their values, with their place.
-pub(super) type RawSettings = Spanned<Map<Spanned<Scalar>>>;
+/// A condition: a text as properties have it, or devices and their values.
+#[derive(Clone)]
+pub(super) enum RawCondition {
+    Text(String),
+    Table(Map<Spanned<Scalar>>),
+}
+
+/// One condition, or several.
+#[derive(Clone)]
+pub(super) enum RawRules {
+    One(RawCondition),
+    Several(Vec<Spanned<RawCondition>>),
+}
+
+impl RawRules {
+    /// The conditions with their places.
+    pub(super) fn all(rules: Spanned<RawRules>) -> Vec<Spanned<RawCondition>> {
+        let span = rules.span();
+        match rules.into_inner() {
+            RawRules::One(only) => vec![Spanned::new(span, only)],
+            RawRules::Several(several) => several,
+        }
+    }
+}
+
+/// Something that goes on until something else happens.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawStays {
+    pub(super) holds: Spanned<String>,
+    pub(super) until: Option<Spanned<String>>,
+}
 
 /// Values of the names with a `$` in one of several cases.
 pub(super) type RawRow = Spanned<Map<Spanned<Scalar>>>;
@@ -87,9 +124,10 @@ pub(super) struct RawScenario {
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawWhenever {
-    pub(super) when: Map<Spanned<Scalar>>,
-    pub(super) then: Map<Spanned<Scalar>>,
+    pub(super) when: Spanned<RawCondition>,
+    pub(super) then: Spanned<RawCondition>,
     pub(super) within_ms: Option<Spanned<RawCount>>,
+    pub(super) within: Option<Spanned<String>>,
 }
 
 /// Condition within a time of a step.
@@ -138,7 +176,7 @@ pub(super) struct RawStep {
     pub(super) at_most_ms: Option<Spanned<RawCount>>,
     pub(super) scan_ms: Option<Spanned<RawCount>>,
     pub(super) within: Vec<Spanned<RawWithin>>,
-    pub(super) never: Vec<RawSettings>,
+    pub(super) never: Option<Spanned<RawRules>>,
     pub(super) whenever: Vec<Spanned<RawWhenever>>,
     pub(super) expect: Map<Spanned<Scalar>>,
     pub(super) pulses: Option<Map<RawPulses>>,
@@ -196,6 +234,64 @@ pub(super) struct Near {
 impl<'de> Deserialize<'de> for Scalar {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(ScalarVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for RawCondition {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ConditionVisitor)
+    }
+}
+
+struct ConditionVisitor;
+
+impl<'de> Visitor<'de> for ConditionVisitor {
+    type Value = RawCondition;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a condition: `\"Y000 & Y001\"`, or `{ Y000 = 1, Y001 = 1 }`")
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<RawCondition, E> {
+        Ok(RawCondition::Text(text.to_string()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawCondition, A::Error> {
+        let table = Map::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(RawCondition::Table(table))
+    }
+}
+
+impl<'de> Deserialize<'de> for RawRules {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(RulesVisitor)
+    }
+}
+
+struct RulesVisitor;
+
+impl<'de> Visitor<'de> for RulesVisitor {
+    type Value = RawRules;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        ConditionVisitor.expecting(f)?;
+        f.write_str(", or a list of such")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<RawRules, E> {
+        ConditionVisitor.visit_str(text).map(RawRules::One)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawRules, A::Error> {
+        ConditionVisitor.visit_map(map).map(RawRules::One)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<RawRules, A::Error> {
+        let mut several = Vec::new();
+        while let Some(condition) = seq.next_element()? {
+            several.push(condition);
+        }
+        Ok(RawRules::Several(several))
     }
 }
 

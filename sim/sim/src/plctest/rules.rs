@@ -1,10 +1,12 @@
 //! Rules over time: `never`, `whenever`, `within` and `until`.
 
 use super::format::Reader;
-use super::raw::{RawSettings, RawWhenever, RawWithin};
+use super::raw::{RawCondition, RawRules, RawStays, RawWhenever, RawWithin};
 use super::runner::Running;
+use super::stated::{Following, Stated};
 use super::{Failure, Setting, Step};
-use crate::property::Deadline;
+use crate::property::{Deadline, Property};
+use rungc_models::{Model, ModelId};
 use std::fmt;
 use toml::Spanned;
 
@@ -15,6 +17,8 @@ pub struct Rules {
     pub never: Vec<Never>,
     /// Conditions that must be followed by others.
     pub whenever: Vec<Whenever>,
+    /// Rules whose conditions are texts.
+    pub stated: Vec<Stated>,
 }
 
 /// After no scan, all of this holds at once.
@@ -61,6 +65,12 @@ pub enum RuleKind {
     Within,
     /// [`Step::until`].
     Until,
+    /// [`Property::Always`].
+    Always,
+    /// [`Property::Reachable`].
+    Reachable,
+    /// [`Property::Stays`].
+    Stays,
 }
 
 impl RuleKind {
@@ -71,6 +81,9 @@ impl RuleKind {
             RuleKind::Whenever => "whenever",
             RuleKind::Within => "within",
             RuleKind::Until => "until",
+            RuleKind::Always => "always",
+            RuleKind::Reachable => "reachable",
+            RuleKind::Stays => "stays",
         }
     }
 }
@@ -80,65 +93,114 @@ impl Rules {
     pub(super) fn extend(&mut self, others: &Rules) {
         self.never.extend(others.never.iter().cloned());
         self.whenever.extend(others.whenever.iter().cloned());
+        self.stated.extend(others.stated.iter().cloned());
+    }
+
+    fn is_empty(&self) -> bool {
+        self.never.is_empty() && self.whenever.is_empty() && self.stated.is_empty()
     }
 
     /// All that the rules look at.
-    pub fn settings(&self) -> impl Iterator<Item = &Setting> {
+    pub fn settings(&self) -> impl Iterator<Item = Setting> {
         let never = self.never.iter().flat_map(|never| &never.all);
         let whenever = self
             .whenever
             .iter()
             .flat_map(|w| w.when.iter().chain(&w.then));
-        never.chain(whenever)
+        let stated = self.stated.iter().flat_map(Stated::settings);
+        never.chain(whenever).cloned().chain(stated)
     }
 }
 
 impl Step {
     /// All that the step compares with what devices hold.
-    pub fn compared(&self) -> impl Iterator<Item = &Setting> {
+    pub fn compared(&self) -> impl Iterator<Item = Setting> {
         let within = self.within.iter().flat_map(|within| &within.all);
         let at_end = self.expect.iter().chain(&self.until);
-        at_end.chain(within).chain(self.rules.settings())
+        let at_end = at_end.chain(within).cloned();
+        at_end.chain(self.rules.settings())
     }
 
     /// Returns true if a rule is checked after each scan.
     fn watches(&self) -> bool {
-        !self.within.is_empty() || !self.rules.never.is_empty() || !self.rules.whenever.is_empty()
+        !self.within.is_empty() || !self.rules.is_empty()
     }
+}
+
+/// Rules as the file has them.
+#[derive(Default)]
+pub(super) struct RawOverTime {
+    pub(super) never: Option<Spanned<RawRules>>,
+    pub(super) always: Option<Spanned<RawRules>>,
+    pub(super) reachable: Option<Spanned<RawRules>>,
+    pub(super) whenever: Vec<Spanned<RawWhenever>>,
+    pub(super) stays: Vec<Spanned<RawStays>>,
 }
 
 /// Reading.
 impl Reader<'_> {
     /// Rules that must hold after each scan.
-    pub(super) fn rules(
-        &mut self,
-        never: Vec<RawSettings>,
-        whenever: Vec<Spanned<RawWhenever>>,
-    ) -> Rules {
-        let never = never.into_iter().filter_map(|raw| {
+    pub(super) fn rules(&mut self, raw: RawOverTime) -> Rules {
+        let (mut stated, tables) = self.stated(RuleKind::Never, raw.never, Property::Never);
+        let never = tables.into_iter().filter_map(|raw| {
             let at = raw.span().start;
-            let all = self.expected(raw.into_inner());
+            let RawCondition::Table(table) = raw.into_inner() else {
+                return None;
+            };
+            let all = self.expected(table);
             let line = self.line(at);
             self.some(at, all).map(|all| Never { line, all })
         });
         let never = never.collect();
-        let whenever = whenever.into_iter().filter_map(|raw| {
-            let at = raw.span().start;
-            let raw = raw.into_inner();
-            let within_ms = match raw.within_ms {
-                Some(ms) => self.count(&ms)?,
-                None => 0,
-            };
-            let (when, then) = (self.expected(raw.when), self.expected(raw.then));
-            Some(Whenever {
-                line: self.line(at),
-                when: self.some(at, when)?,
-                then: self.some(at, then)?,
-                within_ms,
-            })
-        });
-        let whenever = whenever.collect();
-        Rules { never, whenever }
+        stated.extend(self.texts(RuleKind::Always, raw.always, Property::Always));
+        stated.extend(self.texts(RuleKind::Reachable, raw.reachable, Property::Reachable));
+        stated.extend(raw.stays.into_iter().filter_map(|raw| self.staying(raw)));
+        let mut rules = Rules {
+            never,
+            whenever: Vec::new(),
+            stated,
+        };
+        for raw in raw.whenever {
+            // What is wrong was reported.
+            let _ = self.whenever(raw, &mut rules);
+        }
+        rules
+    }
+
+    /// Adds a condition that must be followed by another: both are texts, or both are tables.
+    fn whenever(&mut self, raw: Spanned<RawWhenever>, rules: &mut Rules) -> Option<()> {
+        let at = raw.span().start;
+        let raw = raw.into_inner();
+        let (line, within_ms) = (self.line(at), self.limit(&raw)?);
+        let ends = [raw.when, raw.then].map(|end| (end.span().start, end.into_inner()));
+        match ends {
+            [
+                (when_at, RawCondition::Text(when)),
+                (then_at, RawCondition::Text(then)),
+            ] => {
+                let (when, then) = ((when.as_str(), when_at), (then.as_str(), then_at));
+                rules
+                    .stated
+                    .push(self.followed(line, when, then, within_ms)?);
+            }
+            [
+                (_, RawCondition::Table(when)),
+                (_, RawCondition::Table(then)),
+            ] => {
+                let (when, then) = (self.expected(when), self.expected(then));
+                rules.whenever.push(Whenever {
+                    line,
+                    when: self.some(at, when)?,
+                    then: self.some(at, then)?,
+                    within_ms,
+                });
+            }
+            [_, (then_at, _)] => {
+                let message = "write `when` and `then` both as texts, or both as tables";
+                self.report(then_at, message.to_string());
+            }
+        }
+        Some(())
     }
 
     /// Condition that must come to hold while a step runs.
@@ -164,28 +226,32 @@ impl Reader<'_> {
 }
 
 /// State of the rules while a case runs.
-#[derive(Default)]
 pub(super) struct Watch<'c> {
     /// The rules of the case and, at the end, those of the step.
     never: Vec<&'c Never>,
     whenever: Vec<(&'c Whenever, Deadline)>,
+    stated: Vec<Following<'c>>,
     /// Number of the case's rules among them.
-    of_case: (usize, usize),
+    of_case: (usize, usize, usize),
     /// Conditions that have not come to hold in the running step.
     within: Vec<&'c Within>,
-    /// Time of the last scan that was judged.
+    /// The model of the case's PLC.
+    model: ModelId,
+    /// When the last scan that was judged began.
     last_ms: u32,
 }
 
 impl<'c> Watch<'c> {
     /// For a case with these rules.
-    pub(super) fn new(rules: &'c Rules) -> Self {
+    pub(super) fn new(rules: &'c Rules, model: ModelId) -> Self {
         let whenever = rules.whenever.iter();
         Watch {
             never: rules.never.iter().collect(),
             whenever: whenever.map(|w| (w, Deadline::default())).collect(),
-            of_case: (rules.never.len(), rules.whenever.len()),
+            stated: rules.stated.iter().map(Following::new).collect(),
+            of_case: (rules.never.len(), rules.whenever.len(), rules.stated.len()),
             within: Vec::new(),
+            model,
             last_ms: 0,
         }
     }
@@ -194,22 +260,30 @@ impl<'c> Watch<'c> {
     pub(super) fn begin(&mut self, step: &'c Step) {
         self.never.truncate(self.of_case.0);
         self.whenever.truncate(self.of_case.1);
+        self.stated.truncate(self.of_case.2);
         if step.power_cycle {
+            self.last_ms = 0;
             self.whenever
                 .iter_mut()
                 .for_each(|(_, deadline)| *deadline = Deadline::default());
+            self.stated.iter_mut().for_each(Following::restart);
         }
         if step.watches() {
             self.never.extend(&step.rules.never);
             let whenever = step.rules.whenever.iter();
             self.whenever
                 .extend(whenever.map(|w| (w, Deadline::default())));
+            self.stated
+                .extend(step.rules.stated.iter().map(Following::new));
         }
         self.within = step.within.iter().collect();
     }
 
     fn is_idle(&self) -> bool {
-        self.never.is_empty() && self.whenever.is_empty() && self.within.is_empty()
+        self.never.is_empty()
+            && self.whenever.is_empty()
+            && self.stated.is_empty()
+            && self.within.is_empty()
     }
 }
 
@@ -241,7 +315,7 @@ impl Running<'_> {
         Ok(true)
     }
 
-    fn broken(&self, kind: RuleKind, line: u32, message: String) -> Failure {
+    pub(super) fn broken(&self, kind: RuleKind, line: u32, message: String) -> Failure {
         Failure::Rule {
             step: self.step,
             line,
@@ -264,8 +338,13 @@ impl Running<'_> {
         Ok(texts.join(", "))
     }
 
-    /// A scan is over. The step began at `begin_ms`.
-    pub(super) fn watch(&mut self, watch: &mut Watch, begin_ms: u32) -> Result<(), Failure> {
+    /// A scan is over, which began at `scan_ms`; the step began at `begin_ms`.
+    pub(super) fn watch(
+        &mut self,
+        watch: &mut Watch,
+        begin_ms: u32,
+        scan_ms: u32,
+    ) -> Result<(), Failure> {
         if watch.is_idle() {
             return Ok(());
         }
@@ -276,10 +355,12 @@ impl Running<'_> {
                 return Err(self.broken(RuleKind::Never, never.line, message));
             }
         }
-        let elapsed_ms = now_ms.wrapping_sub(std::mem::replace(&mut watch.last_ms, now_ms));
+        let elapsed_ms = scan_ms.wrapping_sub(std::mem::replace(&mut watch.last_ms, scan_ms));
         for (whenever, deadline) in &mut watch.whenever {
             self.follow(whenever, deadline, elapsed_ms)?;
         }
+        let model = Model::get(watch.model);
+        self.follow_stated(&mut watch.stated, model, elapsed_ms)?;
         let mut open = Vec::new();
         for within in std::mem::take(&mut watch.within) {
             let waited_ms = now_ms.wrapping_sub(begin_ms);
@@ -343,6 +424,11 @@ impl Running<'_> {
             All(self, &rule.then),
         );
         Err(self.broken(RuleKind::Whenever, rule.line, message))
+    }
+
+    /// The case is over.
+    pub(super) fn end_case(&self, watch: &Watch) -> Result<(), Failure> {
+        self.end_stated(&watch.stated)
     }
 
     /// A step is over.

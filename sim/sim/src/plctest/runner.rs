@@ -218,7 +218,7 @@ fn run_case(
     }
     running.select(0)?;
     running.wire_up()?;
-    let mut watch = Watch::new(&case.rules);
+    let mut watch = Watch::new(&case.rules, case.model);
     let mut tracer = case.trace.as_ref().map(Tracer::new);
     for (i, step) in steps.iter().enumerate() {
         running.step = i + 1;
@@ -226,6 +226,7 @@ fn run_case(
         tracer.iter_mut().for_each(|tracer| tracer.begin(i + 1));
         running.run_step(step, &mut watch, tracer.as_mut())?;
     }
+    running.end_case(&watch)?;
     tracer.map_or(Ok(()), Tracer::end)
 }
 
@@ -385,6 +386,7 @@ impl Running<'_> {
                 Run::Ms(_) => self.now_ms.wrapping_sub(begin_ms) < needed_ms,
             }
         {
+            let scan_begin_ms = self.now_ms;
             let scan_ms = self.scan(step.scan_ms)?;
             done += 1;
             for _ in 0..scan_ms {
@@ -402,7 +404,7 @@ impl Running<'_> {
                 self.move_machine(self.now_ms, &others)?;
                 self.tick()?;
             }
-            self.watch(watch, begin_ms)?;
+            self.watch(watch, begin_ms, scan_begin_ms)?;
             if let Some(tracer) = &mut tracer {
                 tracer.scanned(self)?;
             }

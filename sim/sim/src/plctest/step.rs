@@ -2,6 +2,7 @@
 
 use super::format::Reader;
 use super::raw::{Map, RawCount, RawEncoder, RawPulses, RawStep, Scalar};
+use super::rules::RawOverTime;
 use super::serial::{RawMode, Switch, Way};
 use super::values::integer;
 use super::{Run, Setting, Step};
@@ -173,7 +174,11 @@ impl Reader<'_> {
                 .into_iter()
                 .filter_map(|w| self.within(w))
                 .collect(),
-            rules: self.rules(raw.never, raw.whenever),
+            rules: self.rules(RawOverTime {
+                never: raw.never,
+                whenever: raw.whenever,
+                ..RawOverTime::default()
+            }),
             expect_bfm: self.buffer(raw.expect_bfm),
             expect_position: raw.expect_position.into_iter().collect(),
         }

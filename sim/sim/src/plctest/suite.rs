@@ -264,12 +264,15 @@ fn observed(case: &Case, plc: usize) -> Devices {
     let Check::Steps { init, steps } = &case.check else {
         return Vec::new();
     };
-    let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(s.compared()));
+    let of_steps = steps
+        .iter()
+        .flat_map(|s| s.set.iter().cloned().chain(s.compared()));
     let of_rules = case.rules.settings();
     let of_machine = case.machine.iter().filter(|_| plc == 0);
     let of_machine = of_machine.flat_map(|machine| machine.terminals());
     let of_others = case.others.iter().flat_map(|other| &other.init);
-    let settings = init.iter().chain(of_others).chain(of_steps).chain(of_rules);
+    let at_first = init.iter().chain(of_others).cloned();
+    let settings = at_first.chain(of_steps).chain(of_rules);
     let devices = settings
         .filter(|setting| setting.plc == plc)
         .flat_map(|setting| {

@@ -2,11 +2,16 @@
 //! values in a run. Test files, replays, searches and proofs all read properties here; `rungc-verify` makes logic of
 //! them.
 
+mod eval;
 mod parse;
+#[cfg(test)]
+mod tests;
+mod text;
+mod token;
 mod watch;
 
 pub use parse::{ParseError, parse};
-pub use watch::{Deadline, Watcher};
+pub use watch::{Deadline, Monitor, Watcher};
 
 use crate::Target;
 use rungc_interp::{Machine, rt_class};
@@ -15,33 +20,191 @@ use rungc_models::Model;
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, CmpOp, Plc, Program};
 use rungc_syntax::DeviceClass;
+use std::fmt;
 
-/// A condition over devices, as they are after a scan.
+/// A condition over devices, as they are after a scan, and as they were after the scans before.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Condition {
     /// A constant.
     Constant(bool),
     /// A bit device is on.
     On(Target),
+    /// A bit of a word is on: 0 to 15.
+    WordBit(Target, u8),
     /// Not.
     Not(Box<Condition>),
     /// Both.
     And(Box<Condition>, Box<Condition>),
     /// At least one.
     Or(Box<Condition>, Box<Condition>),
-    /// Both are on, or both off.
+    /// Both hold, or neither does.
     Same(Box<Condition>, Box<Condition>),
-    /// A comparison of numbers, which are signed as in the PLC's comparisons.
+    /// A comparison of numbers, which are signed as in the PLC's comparisons: two integers, or two floats.
     Compare(CmpOp, Number, Number),
+    /// As many of several as this hold.
+    Count {
+        /// At least so many.
+        least: u32,
+        /// At most so many.
+        most: u32,
+        /// The conditions.
+        of: Vec<Condition>,
+    },
+    /// It held after the scan before; before the first scan nothing does.
+    Was(Box<Condition>),
+    /// It holds, and did not after the scan before.
+    Rises(Box<Condition>),
+    /// It does not hold, and did after the scan before.
+    Falls(Box<Condition>),
+    /// It holds now and after every scan since one that began this many milliseconds ago, or earlier.
+    For(Box<Condition>, u32),
+    /// The second does not begin to hold unless the first has held: after the same scan, or after an earlier one since
+    /// the second last held.
+    Before(Box<Condition>, Box<Condition>),
 }
 
 /// A number in a comparison.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Number {
     /// A constant.
     Constant(i32),
+    /// A constant with a decimal point, or beside a float.
+    Float(f32),
     /// Value of a device.
     Of(Target),
+    /// Value after the scan before; in the first scan the value now.
+    Was(Box<Number>),
+    /// A result.
+    Calc(Box<Calc>),
+}
+
+/// An arithmetic operation.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Calc {
+    /// The operation.
+    pub op: CalcOp,
+    /// Kind of the result, to whose width it wraps; never [`NumberKind::Constant`].
+    pub kind: NumberKind,
+    /// Left operand.
+    pub a: Number,
+    /// Right operand.
+    pub b: Number,
+}
+
+/// Operators of arithmetic.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CalcOp {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient, of integers truncated towards 0; 0 if the divisor is 0.
+    Div,
+    /// Remainder with the sign of the dividend, of integers only; 0 if the divisor is 0.
+    Rem,
+}
+
+impl CalcOp {
+    /// As conditions write it.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            CalcOp::Add => "+",
+            CalcOp::Sub => "-",
+            CalcOp::Mul => "*",
+            CalcOp::Div => "/",
+            CalcOp::Rem => "%",
+        }
+    }
+}
+
+/// Kind of a number.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NumberKind {
+    /// An integer of any width.
+    Constant,
+    /// 16 bits, signed.
+    Word,
+    /// 32 bits, signed.
+    Double,
+    /// A float of 32 bits.
+    Float,
+}
+
+impl NumberKind {
+    /// Number of bits of an integer.
+    pub const fn width(self) -> u32 {
+        match self {
+            NumberKind::Word => 16,
+            NumberKind::Constant | NumberKind::Double | NumberKind::Float => 32,
+        }
+    }
+}
+
+impl Number {
+    /// Its kind.
+    pub fn kind(&self) -> NumberKind {
+        match self {
+            Number::Constant(_) => NumberKind::Constant,
+            Number::Float(_) => NumberKind::Float,
+            Number::Of(target) => match (access(*target), target) {
+                (_, Target::Float(..)) => NumberKind::Float,
+                (Some((AccessKind::Pair | AccessKind::Nibbles { wide: true, .. }, ..)), _) => {
+                    NumberKind::Double
+                }
+                _ => NumberKind::Word,
+            },
+            Number::Was(of) => of.kind(),
+            Number::Calc(calc) => calc.kind,
+        }
+    }
+
+    /// Calls `f` with everything that it looks at.
+    pub fn targets(&self, f: &mut impl FnMut(Target)) {
+        match self {
+            Number::Constant(_) | Number::Float(_) => {}
+            Number::Of(target) => f(*target),
+            Number::Was(of) => of.targets(f),
+            Number::Calc(calc) => {
+                calc.a.targets(f);
+                calc.b.targets(f);
+            }
+        }
+    }
+
+    /// Number of cells of memory that it needs.
+    fn cells(&self) -> usize {
+        match self {
+            Number::Constant(_) | Number::Float(_) | Number::Of(_) => 0,
+            Number::Was(of) => 1 + of.cells(),
+            Number::Calc(calc) => calc.a.cells() + calc.b.cells(),
+        }
+    }
+}
+
+/// Value of a device in a report.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Reading {
+    /// A bit or an integer.
+    Integer(i64),
+    /// A float.
+    Float(f32),
+}
+
+impl From<i64> for Reading {
+    fn from(value: i64) -> Self {
+        Reading::Integer(value)
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reading::Integer(value) => value.fmt(f),
+            Reading::Float(value) => write!(f, "{value:?}"),
+        }
+    }
 }
 
 /// A property.
@@ -89,59 +252,68 @@ impl Condition {
     pub fn targets(&self, f: &mut impl FnMut(Target)) {
         match self {
             Condition::Constant(_) => {}
-            Condition::On(target) => f(*target),
-            Condition::Not(a) => a.targets(f),
-            Condition::And(a, b) | Condition::Or(a, b) | Condition::Same(a, b) => {
+            Condition::On(target) | Condition::WordBit(target, _) => f(*target),
+            Condition::Compare(_, a, b) => {
                 a.targets(f);
                 b.targets(f);
             }
-            Condition::Compare(_, a, b) => {
-                for number in [a, b] {
-                    if let Number::Of(target) = number {
-                        f(*target);
-                    }
-                }
-            }
+            _ => self.parts().into_iter().for_each(|part| part.targets(f)),
         }
     }
 
-    /// Values that it depends on, on a machine now: names as in test files, first devices, values.
-    pub fn values(&self, machine: &Machine) -> Vec<(String, (DeviceClass, u32), i64)> {
+    /// The conditions that it joins.
+    pub fn parts(&self) -> Vec<&Condition> {
+        match self {
+            Condition::Constant(_)
+            | Condition::On(_)
+            | Condition::WordBit(..)
+            | Condition::Compare(..) => Vec::new(),
+            Condition::Not(a)
+            | Condition::Was(a)
+            | Condition::Rises(a)
+            | Condition::Falls(a)
+            | Condition::For(a, _) => vec![a],
+            Condition::And(a, b)
+            | Condition::Or(a, b)
+            | Condition::Same(a, b)
+            | Condition::Before(a, b) => vec![a, b],
+            Condition::Count { of, .. } => of.iter().collect(),
+        }
+    }
+
+    /// Number of cells of memory that it needs.
+    fn cells(&self) -> usize {
+        let own = match self {
+            Condition::Was(_) | Condition::Rises(_) | Condition::Falls(_) | Condition::For(..) => 1,
+            Condition::Before(..) => 2,
+            Condition::Compare(_, a, b) => a.cells() + b.cells(),
+            _ => 0,
+        };
+        let parts = self.parts().into_iter().map(Condition::cells);
+        own + parts.sum::<usize>()
+    }
+
+    /// Returns true if it depends on scans before the last one.
+    pub fn has_memory(&self) -> bool {
+        self.cells() > 0
+    }
+
+    /// Values that it depends on, by devices now: names as in test files, first devices, values.
+    pub fn values(&self, devices: &impl Devices) -> Vec<(String, (DeviceClass, u32), Reading)> {
         let mut found = Vec::new();
         self.targets(&mut |target| {
             let (class, first, _) = target.devices(0);
-            let device = class.number(first);
-            let name = match target {
-                Target::Current(..) => format!("{device}.value"),
-                Target::Pair(..) => format!("{device}.i32"),
-                Target::Nibbles(digits, ..) => format!("K{digits}{device}"),
-                _ => device.to_string(),
+            let value = read(devices, target);
+            let value = match target {
+                Target::Float(..) => Reading::Float(f32::from_bits(value as u32)),
+                _ => Reading::Integer(value.into()),
             };
-            let value = (name, (class, first), read(machine, target).into());
+            let value = (target.to_string(), (class, first), value);
             if !found.contains(&value) {
                 found.push(value);
             }
         });
         found
-    }
-
-    /// Returns true if it holds for the devices now.
-    pub fn holds(&self, devices: &impl Devices) -> bool {
-        match self {
-            Condition::Constant(on) => *on,
-            Condition::On(target) => read(devices, *target) != 0,
-            Condition::Not(a) => !a.holds(devices),
-            Condition::And(a, b) => a.holds(devices) && b.holds(devices),
-            Condition::Or(a, b) => a.holds(devices) || b.holds(devices),
-            Condition::Same(a, b) => a.holds(devices) == b.holds(devices),
-            Condition::Compare(op, a, b) => {
-                let [a, b] = [a, b].map(|number| match *number {
-                    Number::Constant(value) => value,
-                    Number::Of(target) => read(devices, target),
-                });
-                op.holds(a, b)
-            }
-        }
     }
 }
 
@@ -155,15 +327,14 @@ pub fn access(target: Target) -> Option<(AccessKind, DeviceClass, u32)> {
         }
         Target::Current(class, number) => (AccessKind::Word, class, number),
         Target::Pair(class, number) => (AccessKind::Pair, class, number),
+        Target::Float(class, number) => (AccessKind::Float, class, number),
         Target::Nibbles(digits, class, number) => {
             let wide = digits > 4;
             (AccessKind::Nibbles { digits, wide }, class, number)
         }
-        Target::Float(..)
-        | Target::Text(..)
-        | Target::Pulses(_)
-        | Target::Frequency(_)
-        | Target::Channel(_) => return None,
+        Target::Text(..) | Target::Pulses(_) | Target::Frequency(_) | Target::Channel(_) => {
+            return None;
+        }
     })
 }
 
@@ -200,7 +371,7 @@ impl Devices for Machine<'_> {
     }
 }
 
-/// Value of devices; 0 for targets that conditions cannot use.
+/// Value of devices, of a float its bits; 0 for targets that conditions cannot use.
 pub fn read(devices: &impl Devices, target: Target) -> i32 {
     let Some((kind, class, number)) = access(target) else {
         return 0;
@@ -244,13 +415,13 @@ impl Property {
         }
     }
 
-    /// Values that it depends on, on a machine now, as [`Condition::values`]; each once.
-    pub fn values(&self, machine: &Machine) -> Vec<(String, (DeviceClass, u32), i64)> {
+    /// Values that it depends on, by devices now, as [`Condition::values`]; each once.
+    pub fn values(&self, devices: &impl Devices) -> Vec<(String, (DeviceClass, u32), Reading)> {
         let mut found = Vec::new();
         for value in self
             .conditions()
             .into_iter()
-            .flat_map(|of| of.values(machine))
+            .flat_map(|of| of.values(devices))
         {
             if !found.contains(&value) {
                 found.push(value);

@@ -1,6 +1,7 @@
 //! Properties over the scans of a run.
 
-use super::{Devices, Property};
+use super::eval::{Memory, Pass};
+use super::{Condition, Devices, Property};
 
 /// Wait for a condition that must follow another.
 ///
@@ -41,10 +42,36 @@ impl Deadline {
     }
 }
 
+/// Follows conditions over the scans of a machine.
+#[derive(Clone, Debug)]
+pub struct Monitor<'c> {
+    conditions: &'c [Condition],
+    memory: Memory,
+}
+
+impl<'c> Monitor<'c> {
+    /// Before the first scan.
+    pub fn new(conditions: &'c [Condition]) -> Self {
+        Monitor {
+            conditions,
+            memory: Memory::of(conditions),
+        }
+    }
+
+    /// Returns true if all of them hold after the scan that has just ended, which began `elapsed_ms` after the one
+    /// before. To be called after each scan.
+    pub fn all_hold(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
+        let mut pass = Pass::new(devices, elapsed_ms, &mut self.memory);
+        let hold = self.conditions.iter().map(|a| pass.holds(a));
+        hold.fold(true, |all, holds| all && holds)
+    }
+}
+
 /// Follows a property over the scans of a machine.
 #[derive(Clone)]
 pub struct Watcher<'p> {
     property: &'p Property,
+    memory: Memory,
     deadline: Deadline,
     /// True if the condition of `stays` holds and has not ended.
     stays: bool,
@@ -55,27 +82,29 @@ impl<'p> Watcher<'p> {
     pub fn new(property: &'p Property) -> Self {
         Watcher {
             property,
+            memory: Memory::of(property.conditions()),
             deadline: Deadline::default(),
             stays: false,
         }
     }
 
     /// Returns true if the event has happened in the scan that has just ended, which began `elapsed_ms` after the one
-    /// before.
+    /// before. To be called after each scan.
     pub fn happened(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
+        let mut pass = Pass::new(devices, elapsed_ms, &mut self.memory);
         match self.property {
-            Property::Never(condition) | Property::Reachable(condition) => condition.holds(devices),
-            Property::Always(condition) => !condition.holds(devices),
+            Property::Never(condition) | Property::Reachable(condition) => pass.holds(condition),
+            Property::Always(condition) => !pass.holds(condition),
             Property::Whenever {
                 when,
                 then,
                 within_ms,
             } => {
-                let state = (when.holds(devices), then.holds(devices));
+                let state = (pass.holds(when), pass.holds(then));
                 self.deadline.is_missed(state, *within_ms, elapsed_ms)
             }
             Property::Stays { holds, until } => {
-                let (holds, until) = (holds.holds(devices), until.holds(devices));
+                let (holds, until) = (pass.holds(holds), pass.holds(until));
                 std::mem::replace(&mut self.stays, holds && !until) && !holds && !until
             }
         }

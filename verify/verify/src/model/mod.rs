@@ -319,7 +319,7 @@ impl<'m> Encoder<'m> {
     }
 
     /// A free value, because of something that is not modelled.
-    fn fresh(&mut self, width: usize, what: &str) -> Bits {
+    pub(crate) fn fresh(&mut self, width: usize, what: &str) -> Bits {
         let gap = self.gap(what);
         self.fresh_of(width, gap)
     }
