@@ -28,18 +28,32 @@ pub mod search;
 pub mod system;
 pub mod unroll;
 pub mod vacuous;
+pub mod written;
 
 #[cfg(test)]
 mod tests {
     use rungc_ir::Module;
     use rungc_ir::passes::simplify;
     use rungc_lower::compile::{CompileOptions, compile};
+    use rungc_sim::property::{Condition, Property};
+    use rungc_syntax::DeviceClass;
 
     /// A program as proofs take it.
     pub(crate) fn module(list: &str) -> Module {
+        compiled(list, Vec::new())
+    }
+
+    /// The same with the devices that a property looks at.
+    pub(crate) fn observing(list: &str, property: &Property) -> Module {
+        let conditions = property.conditions().into_iter();
+        compiled(list, conditions.flat_map(Condition::devices).collect())
+    }
+
+    fn compiled(list: &str, observe: Vec<(DeviceClass, u32)>) -> Module {
         let program = rungc_frontend::read_text("program.il", list).program;
         let options = CompileOptions {
             optimise: false,
+            observe,
             ..CompileOptions::default()
         };
         let mut module = compile(&program, &options).module.unwrap();

@@ -308,4 +308,4 @@ fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

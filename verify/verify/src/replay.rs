@@ -35,6 +35,24 @@ fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> boo
     done.is_some()
 }
 
+/// Present value of a piece of memory that a host can set, but for buffer memory.
+fn get(machine: &Machine, key: Key) -> Option<i64> {
+    let bit = |class, number| machine.bit(class, number).map(i64::from);
+    let word = |class, number| machine.word(class, number).map(i64::from);
+    match key {
+        Key::Bit(class, number) => bit(rt_class(class)?, number),
+        Key::Word(class, number) => word(rt_class(class)?, number),
+        Key::Timer(number, TimerPart::Value) => word(Class::T, number),
+        Key::Timer(number, TimerPart::Done) => bit(Class::T, number),
+        Key::Counter(number, CounterPart::Value) => {
+            let value = machine.counter32(number).map(i64::from);
+            value.or_else(|| word(Class::C, number))
+        }
+        Key::Counter(number, CounterPart::Done) => bit(Class::C, number),
+        _ => None,
+    }
+}
+
 /// A program that is given a trace.
 pub struct Run<'m> {
     /// The program.
@@ -255,10 +273,11 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         now_ms += u64::from(scan.ms);
         let mut set_now = BTreeMap::new();
         for (&key, &value) in &scan.set {
+            // What the program has overwritten is set again. A module is there as soon as its memory is set, if only
+            // to 0.
+            let before = get(&machine, key).or_else(|| known.get(&key).copied());
+            known.insert(key, value);
             set(&mut machine, &mut hal, key, value);
-            // A module is there as soon as its memory is set, if only to 0.
-            let is_buffer = matches!(key, Key::Buffer(..));
-            let before = known.insert(key, value).or((!is_buffer).then_some(0));
             if before != Some(value) {
                 set_now.insert(key, value);
             }

@@ -19,8 +19,8 @@ pub struct VerifyArgs {
         conflicts_with_all = ["never", "always", "reachable", "aiger", "btor2", "write_test"],
     )]
     pub same_as: Option<PathBuf>,
-    /// Engines that must confirm a run before it is reported, in addition to the interpreter. Default: all that can be
-    /// built here.
+    /// Engines that must confirm a run before it is reported, in addition to the interpreter; those of C and Rust are
+    /// built first. `all`: those that can be built here.
     #[arg(long, value_enum, value_name = "ENGINE")]
     pub replay: Option<EngineChoice>,
     /// Latched devices start at 0, as in a new PLC. Default: at any value.

@@ -7,7 +7,7 @@ mod report;
 mod test_file;
 
 use super::check::draw;
-use super::properties::{Reader, RequestedProperty, at_writes, module};
+use super::properties::{Reader, RequestedProperty, at_writes, module, report_undriven};
 use super::run::{because, hardware, recording::Recording};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, interruption, print_text, read};
@@ -81,6 +81,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         reporter.finish()?;
         return Ok(Outcome::Unusable);
     };
+    report_undriven(&requested, &read, &subject, &external, &mut reporter)?;
     let machine = args.machine.as_deref().map(plant::load).transpose();
     let machine = machine.map_err(because)?;
     if let Some(machine) = &machine {
@@ -211,7 +212,7 @@ impl Searched<'_> {
             let set = set.map(|&(input, value)| {
                 let target = self.task.inputs[input].target;
                 let (class, number, _) = target.devices(0);
-                (target.to_string(), (class, number), i64::from(value))
+                (target.to_string(), (class, number), i64::from(value).into())
             });
             story.push(Change {
                 start: Vec::new(),

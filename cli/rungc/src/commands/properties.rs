@@ -5,19 +5,20 @@ use super::names::Names;
 use super::subject::{self, Subject};
 use super::{Context, Failure, findings};
 use crate::args::Properties;
-use crate::report::Reporter;
+use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::resolve;
-use rungc_analysis::xref::{CrossReference, Use, UseKind};
+use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::Model;
+use rungc_models::runs::is_special;
 use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::Target;
 use rungc_sim::property::{Condition, ParseError, Property, parse};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program, Span, codes};
 use rungc_verify::property::is_possible;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -424,6 +425,66 @@ pub fn open_indexes(
     indexes
         .filter(|device| external.devices.contains_key(device) || !written.contains(device))
         .collect()
+}
+
+/// Reports properties of devices that nothing drives.
+pub fn report_undriven(
+    requested: &[RequestedProperty],
+    read: &Read,
+    subject: &Subject,
+    external: &ExternalWrites,
+    reporter: &mut Reporter,
+) -> Result<()> {
+    let found = undriven(requested, &read.program, &subject.options(), external);
+    if found.is_empty() {
+        return Ok(());
+    }
+    let findings = Findings::new(&subject.file, &read.program, found, &subject.reporting);
+    Ok(reporter.add(&findings)?)
+}
+
+/// Warnings about properties of devices that nothing drives: no instruction, no input, nothing outside the program.
+fn undriven(
+    requested: &[RequestedProperty],
+    program: &Program,
+    options: &CompileOptions,
+    external: &ExternalWrites,
+) -> Diagnostics {
+    let model = rungc_lower::compile::model(program, options);
+    let (resolved, _) = resolve(program, model);
+    let uses = CrossReference::new(&resolved).uses;
+    let drives = |used: &Use, (class, number): (DeviceClass, u32)| {
+        let is_there = match used.reach {
+            Reach::Count(_) => (used.first.number..used.end()).contains(&number),
+            Reach::Open | Reach::Indexed => true,
+        };
+        // What the program only reads counts as written by a panel, but for outputs.
+        let is_read = matches!(used.kind, UseKind::Contact | UseKind::Read);
+        used.first.class == class && is_there && !(is_read && class == DeviceClass::Y)
+    };
+    let mut found = Diagnostics::new();
+    for requested in requested {
+        let devices = requested.property.conditions().into_iter();
+        let devices: BTreeSet<_> = devices.flat_map(Condition::devices).collect();
+        let is_driven = |device: &(DeviceClass, u32)| {
+            device.0 == DeviceClass::X
+                || is_special(device.0, device.1)
+                || external.source(model, *device).is_some()
+                || uses.iter().any(|used| drives(used, *device))
+        };
+        let names = devices.iter().filter(|device| !is_driven(device));
+        let names: Vec<String> = names
+            .map(|(class, number)| format!("`{}`", class.number(*number)))
+            .collect();
+        if !names.is_empty() {
+            let message = format!("`{}`: nothing drives {}", requested.text, names.join(", "));
+            let warning = codes::PROPERTY_OF_UNDRIVEN.at(Span::default(), message);
+            found.push(warning.help(
+                "is the number right? What a panel writes belongs in rungc.toml: `[hmi] writes = \"M500\"`",
+            ));
+        }
+    }
+    found
 }
 
 /// A diagnostic at the instructions that write these devices, if there are any.

@@ -7,7 +7,9 @@ mod same;
 pub(super) mod test_file;
 
 use super::check::draw;
-use super::properties::{ExternalWrites, Reader, RequestedProperty, at_writes, module};
+use super::properties::{
+    ExternalWrites, Reader, RequestedProperty, at_writes, module, report_undriven,
+};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, put, read};
 use crate::args::VerifyArgs;
@@ -77,6 +79,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         deliver(args, reporter, String::new, UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
+    report_undriven(&requested, &read, &subject, &external, &mut reporter)?;
     export::questions(args, &module, &requested, &options, cx)?;
     let mut decided: Vec<(Decision, Duration)> = requested
         .iter()
@@ -111,7 +114,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let text = || report::human(&results, &module, &options, (&assumed, &external));
     deliver(args, reporter, text, &report::summary(&results), cx)?;
     if let Some(path) = &args.write_test {
-        let text = test_file::text(&subject.file, path, &module, &results);
+        let text = test_file::text(&subject.file, path, &module, &results, cx);
         match text {
             Some(text) => {
                 write_file(path, text.as_bytes(), args.force)?;

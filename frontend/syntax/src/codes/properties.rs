@@ -13,6 +13,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    PROPERTY_OF_UNDRIVEN = "W0802" "property-of-undriven" Warning None,
+    "a property is about a device that nothing drives",
+    "The property names a device that no instruction writes, that is no input, and that nothing outside the program writes as far as rungc knows: an output without a coil, or a relay or register that the program does not use. Such an output is always off, so that a property of it is proved of any program; any other such device may have any value, so that a property of it is easily violated. Is the number right? What a panel or another PLC writes is named in rungc.toml, `[hmi] writes = \"M500\"`, or with `--free`. Special devices, which the PLC itself drives, are not reported.",
+    wrong: "",
+    right: "";
+
     OUTPUTS_DIFFER = "E0821" "outputs-differ" Error None,
     "an output of the program can differ from that of the older one",
     "`rungc verify --same-as` has found a run in which the output differs, with the same inputs at the same times in both programs. The run has been replayed on both and happened there.",

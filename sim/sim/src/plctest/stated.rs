@@ -291,6 +291,11 @@ impl Running<'_> {
         if all.is_empty() {
             return Ok(());
         }
+        // In STOP nothing is asked; with RUN, the program begins anew.
+        if !self.is_running(0) {
+            all.iter_mut().for_each(Following::restart);
+            return Ok(());
+        }
         let mut snapshot = Snapshot {
             model,
             bits: BTreeMap::new(),

@@ -57,13 +57,13 @@ impl<'p, D: Devices> Pass<'p, D> {
             Condition::WordBit(word, bit) => read(self.devices, *word) >> bit & 1 == 1,
             Condition::Not(a) => !self.holds(a),
             Condition::And(a, b) => {
-                let first = self.holds(a);
-                // What has memory is evaluated after each scan.
-                (first || !self.cells.is_empty()) && self.holds(b) && first
+                // Both, as either may have memory.
+                let (a, b) = (self.holds(a), self.holds(b));
+                a && b
             }
             Condition::Or(a, b) => {
-                let first = self.holds(a);
-                first && self.cells.is_empty() || self.holds(b) || first
+                let (a, b) = (self.holds(a), self.holds(b));
+                a || b
             }
             Condition::Same(a, b) => self.holds(a) == self.holds(b),
             Condition::Compare(op, a, b) => self.compare(*op, a, b),

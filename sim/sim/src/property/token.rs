@@ -121,8 +121,7 @@ fn word<'t>(whole: &'t str, is_name: &dyn Fn(&str) -> bool) -> &'t str {
     // `1e-5` and `K-5` are numbers, `Pump-1` may be a name.
     let longest = ends
         .chain([whole.len()])
-        .filter(|&end| is_whole(&whole[..end]))
-        .last();
+        .rfind(|&end| is_whole(&whole[..end]));
     &whole[..longest.unwrap_or_else(|| whole.find(is_sign).unwrap_or(whole.len()))]
 }
 

@@ -62,8 +62,11 @@ impl<'c> Monitor<'c> {
     /// before. To be called after each scan.
     pub fn all_hold(&mut self, devices: &impl Devices, elapsed_ms: u32) -> bool {
         let mut pass = Pass::new(devices, elapsed_ms, &mut self.memory);
-        let hold = self.conditions.iter().map(|a| pass.holds(a));
-        hold.fold(true, |all, holds| all && holds)
+        let mut all = true;
+        for condition in self.conditions {
+            all &= pass.holds(condition);
+        }
+        all
     }
 }
 

@@ -66,8 +66,8 @@ impl Seen {
 type History = [Seen];
 
 /// A condition as it is written, and its meaning by the page of the book on properties: after the scan of this number.
-struct Written {
-    text: String,
+pub(crate) struct Written {
+    pub text: String,
     holds: Box<dyn Fn(&History, usize) -> bool>,
 }
 
@@ -80,7 +80,7 @@ struct Quantity {
     bits: u32,
 }
 
-fn pick<T: Copy>(of: &[T], random: &mut Random) -> T {
+pub(crate) fn pick<T: Copy>(of: &[T], random: &mut Random) -> T {
     of[random.below(of.len() as u64) as usize]
 }
 
@@ -371,7 +371,7 @@ fn compound(depth: u32, random: &mut Random) -> Written {
     }
 }
 
-fn any(depth: u32, random: &mut Random) -> Written {
+pub(crate) fn any(depth: u32, random: &mut Random) -> Written {
     if depth > 0 && random.below(4) != 0 {
         return compound(depth, random);
     }
@@ -488,8 +488,8 @@ fn agree(module: &Module, random: &mut Random) -> usize {
 fn a_property_means_the_same_on_bits_on_values_and_in_the_book() {
     let module = module(PROGRAM);
     let mut random = Random::new();
-    let violated: usize = (0..150).map(|_| agree(&module, &mut random)).sum();
-    assert!((300..1050).contains(&violated), "{violated} of 1200 runs");
+    let violated: usize = (0..100).map(|_| agree(&module, &mut random)).sum();
+    assert!((200..700).contains(&violated), "{violated} of 800 runs");
 }
 
 #[test]

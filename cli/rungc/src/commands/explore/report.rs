@@ -104,5 +104,5 @@ fn named(&(at, count): &(At, i32)) -> Setting {
         At::Input(n) => (format!("pulses at {}", x(n)), n),
         At::Encoder(a, b) => (format!("cycles of {} and {}", x(a), x(b)), a),
     };
-    (name, (DeviceClass::X, first), count.into())
+    (name, (DeviceClass::X, first), i64::from(count).into())
 }

@@ -1,10 +1,10 @@
 //! Runs that were found as a test file.
 
 use super::{Searched, Shown, What, relative_to};
-use crate::commands::verify::test_file::{quoted, step};
 use rungc_explore::trains::{At, hertz};
 use rungc_syntax::DeviceClass;
 use rungc_verify::replay::Change;
+use rungc_verify::written::{Names, quoted, step, table};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -21,16 +21,17 @@ impl Searched<'_> {
         if let Some(machine) = &self.args.machine {
             let _ = writeln!(text, "machine = {}", named(machine));
         }
+        let mut names = Names::default();
         for shown in shown {
-            self.case(&mut text, shown);
+            let name = names.name(&self.title(&shown.found.what));
+            self.case(&mut text, &name, shown);
         }
         text
     }
 
-    fn case(&self, text: &mut String, shown: &Shown) {
+    fn case(&self, text: &mut String, name: &str, shown: &Shown) {
         let expected = self.expected(shown);
-        let name = quoted(&self.title(&shown.found.what));
-        let _ = writeln!(text, "\n[[case]]\nname = {name}");
+        let _ = writeln!(text, "\n[[case]]\nname = {}", quoted(name));
         for rule in &expected.rules {
             let _ = writeln!(text, "{rule}");
         }
@@ -49,13 +50,11 @@ impl Searched<'_> {
             });
         }
         let last = story.len().saturating_sub(1);
-        for (i, change) in story.iter_mut().enumerate() {
-            let at_end = expected.at_end.iter().filter(|_| i == last);
-            let class = DeviceClass::M;
-            change.after = at_end
-                .map(|(name, value)| (name.clone(), (class, 0), *value))
-                .collect();
+        for (i, change) in story.iter().enumerate() {
             step(text, change);
+            if i == last && !expected.at_end.is_empty() {
+                let _ = writeln!(text, "expect = {}", table(&expected.at_end));
+            }
             let trains = shown.pulses.get(i).map_or(&[][..], Vec::as_slice);
             pulses(text, trains, change.scan_ms);
             if shown.power.get(i) == Some(&true) {

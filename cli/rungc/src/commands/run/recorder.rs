@@ -3,7 +3,7 @@
 //! A step ends where outputs change: one step of scans in which they stay as they are, then one scan after which they
 //! are as they are from then on. So the test fails if an output changes in an earlier or in a later scan.
 
-use super::super::verify::test_file::{quoted, relative, table};
+use super::super::verify::test_file::relative;
 use super::super::{Failure, parent_dir};
 use crate::output::{make_folder, write_file};
 use rungc_ir::Module;
@@ -12,6 +12,7 @@ use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{self, Suite};
 use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::DeviceClass;
+use rungc_verify::written::{quoted, table};
 use std::fmt::Write;
 use std::mem;
 use std::ops::ControlFlow;

@@ -23,12 +23,12 @@ pub struct Shown<'a> {
     pub trace: &'a Trace,
 }
 
-/// Replays runs on the engines chosen, or on all that can be built here; what the first engine that does otherwise
-/// makes of a verdict, for each run that differs.
+/// Replays runs on the engines chosen, if there are others than the interpreter; what the first engine that does
+/// otherwise makes of a verdict, for each run that differs.
 ///
 /// # Errors
 ///
-/// An engine that was chosen cannot be built.
+/// An engine that was named cannot be built.
 pub fn replay(
     choice: Option<EngineChoice>,
     modules: &[Module],
@@ -36,7 +36,7 @@ pub fn replay(
     cx: Context,
 ) -> Result<BTreeMap<usize, Why>, Failure> {
     let mut differing = BTreeMap::new();
-    let kinds = engines(choice.unwrap_or(EngineChoice::All)).into_iter();
+    let kinds = engines(choice.unwrap_or(EngineChoice::Interp)).into_iter();
     let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
     if runs.is_empty() || kinds.is_empty() {
         return Ok(differing);
@@ -49,7 +49,7 @@ pub fn replay(
         let mut engine = match (built, choice) {
             (Ok(engine), _) => engine,
             // This engine was not requested by name, and its compiler is not there.
-            (Err(error), None) if lacks_tool(kind, &error) => {
+            (Err(error), Some(EngineChoice::All)) if lacks_tool(kind, &error) => {
                 let name = kind.name();
                 cx.note(&format!(
                     "    Not replayed on {name}: {}",

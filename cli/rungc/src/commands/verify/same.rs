@@ -12,7 +12,7 @@ use crate::report::{Findings, Reporter};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_sim::Target;
-use rungc_sim::property::{Condition, Property};
+use rungc_sim::property::{Condition, Property, Reading};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics};
 use rungc_verify::certificate;
@@ -48,6 +48,11 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     };
     let assumed = reader.assumed()?;
     let external = reader.external()?;
+    if let Some((text, _)) = assumed.iter().find(|(_, a)| a.has_memory()) {
+        return Err(Failure::Because(format!(
+            "--same-as assumes of a scan what its devices are then, and `{text}` depends on earlier scans"
+        )));
+    }
     let options = super::options(args, &reader, &assumed, &external)?;
     let looked = || options.assumed.iter();
     let old_module = module(&before, &read_old, looked(), &external, &mut reporter)?;
@@ -299,9 +304,11 @@ fn difference(
     };
     let property = Property::Never(Condition::On(target));
     let story = rungc_verify::replay::story(module, &property, trace);
-    let on = story
-        .last()
-        .is_some_and(|last| last.after.iter().any(|(.., value)| *value != 0));
+    let on = story.last().is_some_and(|last| {
+        last.after
+            .iter()
+            .any(|(.., value)| *value != Reading::Integer(0))
+    });
     report::write_story(text, module, &story);
     let other = i32::from(!on);
     let _ = writeln!(text, "            {:<26}  in {new}; {other} in {old}", "");

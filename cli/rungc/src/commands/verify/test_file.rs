@@ -1,79 +1,57 @@
-//! Counterexamples as a test file.
+//! Runs that were found as a test file.
 
 use super::report::Result;
+use crate::commands::Context;
 use rungc_ir::Module;
 use rungc_verify::prove::Verdict;
-use rungc_verify::replay::{Change, Setting, story};
-use std::fmt::Write;
+use rungc_verify::written::{Names, case, outcomes, quoted};
 use std::path::Path;
 
-/// The test file of all runs that were found; `None` if there are none.
-pub fn text(program: &Path, path: &Path, module: &Module, results: &[Result]) -> Option<String> {
+/// The test file of all runs that were found; `None` if there are none. A run that its case does not show is left out,
+/// with a note.
+pub fn text(
+    program: &Path,
+    path: &Path,
+    module: &Module,
+    results: &[Result],
+    cx: Context,
+) -> Option<String> {
+    let head = format!(
+        "topic = \"runs that rungc verify has found\"\nmodel = {}\nprogram = {{ file = {} }}\n",
+        quoted(module.model.name),
+        quoted(&relative(program, path))
+    );
+    let mut names = Names::default();
     let mut text = String::new();
-    let named = relative(program, path);
-    let _ = writeln!(text, "topic = \"runs that rungc verify has found\"");
-    let _ = writeln!(text, "model = {}", quoted(module.model.name));
-    let _ = writeln!(text, "program = {{ file = {} }}", quoted(&named));
-    let mut any = false;
     for result in results {
         let Verdict::Found(trace) = &result.decision.verdict else {
             continue;
         };
-        any = true;
-        let _ = writeln!(text, "\n[[case]]\nname = {}", quoted(result.requested));
-        let story = story(module, result.property, trace);
-        if let Some(first) = story.first().filter(|first| !first.start.is_empty()) {
-            let _ = writeln!(text, "init = {}", table(&plain(&first.start)));
+        let case = case(
+            &names.name(result.requested),
+            module,
+            result.property,
+            trace,
+        );
+        match shows(path, &format!("{head}{case}"), result) {
+            Ok(()) => text.push_str(&case),
+            Err(why) => cx.note(&format!(
+                "     No test of `{}`: as a test, the run shows something else ({why})",
+                result.requested
+            )),
         }
-        for change in &story {
-            step(&mut text, change);
-        }
     }
-    any.then_some(text)
+    (!text.is_empty()).then(|| head + &text)
 }
 
-/// A step of a case.
-pub fn step(text: &mut String, change: &Change) {
-    let _ = writeln!(text, "[[case.step]]");
-    if !change.set.is_empty() {
-        let _ = writeln!(text, "set = {}", table(&plain(&change.set)));
+/// Returns an error if the test of a run does not show on the interpreter what the run shows.
+fn shows(path: &Path, text: &str, result: &Result) -> std::result::Result<(), String> {
+    let outcomes = outcomes(&path.to_string_lossy(), text)?;
+    match (&outcomes[..], result.property.is_wanted()) {
+        ([None], true) | ([Some(_)], false) => Ok(()),
+        ([Some(why)], true) => Err(why.clone()),
+        _ => Err("it passes".to_string()),
     }
-    if !change.buffers.is_empty() {
-        let words = change.buffers.iter();
-        let words =
-            words.map(|(module, address, value)| format!("\"{module}:{address}\" = {value}"));
-        let words: Vec<String> = words.collect();
-        let _ = writeln!(text, "bfm = {{ {} }}", words.join(", "));
-    }
-    let _ = writeln!(text, "scans = {}", change.scans);
-    let _ = writeln!(text, "scan_ms = {}", change.scan_ms);
-    if !change.after.is_empty() {
-        let _ = writeln!(text, "expect = {}", table(&plain(&change.after)));
-    }
-}
-
-fn plain(values: &[Setting]) -> Vec<(String, i64)> {
-    let values = values.iter();
-    values
-        .map(|(name, _, value)| (name.clone(), *value))
-        .collect()
-}
-
-/// Devices and their values, as a table of TOML.
-pub fn table(values: &[(String, impl std::fmt::Display)]) -> String {
-    let values = values.iter();
-    let values: Vec<String> = values
-        .map(|(name, value)| match name.contains('.') {
-            true => format!("{} = {value}", quoted(name)),
-            false => format!("{name} = {value}"),
-        })
-        .collect();
-    format!("{{ {} }}", values.join(", "))
-}
-
-/// A text as TOML has it.
-pub fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
 }
 
 /// The program as seen from the test file's folder.
