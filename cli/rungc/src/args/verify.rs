@@ -44,7 +44,7 @@ pub struct VerifyArgs {
     /// installed.
     #[arg(long, requires = "certificate")]
     pub drat: bool,
-    /// Write the runs found to a test file, which reproduces them: `rungc test FILE`.
+    /// Write the runs found to a test file, whose cases fail until the program is repaired: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<OutputPath>,
     /// Output file for the verdicts, in the format of --format; overwrites earlier ones. Default: standard output.

@@ -337,3 +337,6 @@ impl Running<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

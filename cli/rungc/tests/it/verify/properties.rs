@@ -1,6 +1,6 @@
 //! What properties mean: conditions, time, outputs, and what is outside the program.
 
-use super::MODES;
+use super::{MODES, timeless};
 use crate::common::{folder, rungc, text};
 
 /// Each table is valid without its last line. `check` reports what the commands that prove and search report.
@@ -235,4 +235,103 @@ fn a_property_of_devices_that_are_not_there_is_rejected() {
             );
         }
     }
+}
+
+/// Each new form of conditions, in `rungc.toml` and on the command line, by comments too.
+#[test]
+fn conditions_speak_of_bits_results_and_earlier_scans() {
+    let program = ";! D0 = Speed\n;! Y000 = Pump\n;! Y001 = Valve\n;! X000 = Start\n\
+                   LD M8000\nMOV K2X000 D0\nDMOV K0 D10\nLD D0.3\nOUT Y000\nLDP X000\nOUT Y001\nLD X001\nOUT M0\nEND\n";
+    let folder = folder(&[("p.il", program.as_bytes())]);
+    let code = |args: &[&str]| {
+        let args = [&["verify", "p.il"], args].concat();
+        rungc(folder.path(), &args).status.code()
+    };
+    for proved in [
+        "Speed.3 = Pump",
+        "Speed + 10 > 9",
+        "Valve = rises(Start)",
+        "!Valve | !was(Valve)",
+        "Start before Valve",
+        "!(Valve for 1ms)",
+        "at most one of (Valve, falls(Start))",
+        "M0 = X001 & (D0.f32 < 1e-30 | D1 != 0)",
+    ] {
+        assert_eq!(code(&["--always", proved]), Some(0), "{proved}");
+    }
+    for violated in [
+        "Speed - was(Speed) < 100",
+        "!(Pump for 2s)",
+        "Valve before Pump",
+        "exactly one of (Pump, Valve)",
+        "Speed * Speed < 32768",
+    ] {
+        assert_eq!(code(&["--always", violated]), Some(1), "{violated}");
+    }
+    // Arithmetic of floats is not modelled: neither proved nor violated.
+    let args = [
+        "verify",
+        "p.il",
+        "--always",
+        "D10.f32 + 1 > 0.5",
+        "--timeout",
+        "2s",
+    ];
+    let output = rungc(folder.path(), &args);
+    insta::assert_snapshot!("floats_not_modelled", timeless(&text(&output.stdout)));
+    assert_eq!(output.status.code(), Some(3));
+}
+
+#[test]
+fn a_property_of_what_nothing_drives_has_a_warning() {
+    let folder = folder(&[(
+        "p.il",
+        b"LD X000\nOR M5\nMOV K3 D0Z0\nOUT Y000\nLD Y005\nOUT Y001\nEND\n",
+    )]);
+    let warned = |condition: &str, more: &[&str]| {
+        let args = [&["verify", "p.il", "--never", condition], more].concat();
+        let shown = text(&rungc(folder.path(), &args).stderr);
+        let line = shown.lines().find(|line| line.contains("W0802"));
+        line.unwrap_or_default().to_string()
+    };
+    insta::assert_snapshot!(warned("Y005 & M500 & D7 > 1 & X077 & M8013 & M5", &[]), @"");
+    assert_eq!(warned("Y001 & M500", &["--free", "M500"]), "");
+    assert_eq!(warned("Y000 & X005 & !M5", &[]), "");
+}
+
+/// The same property twice, and a device that the program writes and something else, too (P11, P12).
+#[test]
+fn a_written_test_is_read_again_and_fails() {
+    let program = "LD X000\nOUT M22\nLD M22\nOUT Y000\nEND\n";
+    let settings = "[project]\nprogram = \"p.il\"\n[verify]\nfree = [\"M22\"]\n\
+                    [[property]]\nnever = \"Y000 | M22\"\n[[property]]\nnever = \"Y000 | M22\"\n\
+                    [[property]]\nwhenever = \"Y000 & was(Y000)\"\nthen = \"\"\"\n!M22 &\n !X000\"\"\"\nwithin = \"20ms\"\n";
+    let folder = folder(&[
+        ("p.il", program.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+    ]);
+    let args = ["verify", "--write-test", "t.plctest.toml"];
+    let output = rungc(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let test = std::fs::read_to_string(folder.path().join("t.plctest.toml")).unwrap();
+    insta::assert_snapshot!("written_test", test);
+    let output = rungc(folder.path(), &["test", "t.plctest.toml"]);
+    let shown = text(&output.stdout) + &text(&output.stderr);
+    assert!(shown.contains("0 passed, 3 failed"), "{shown}");
+}
+
+/// The first violation does not wait for a compiler.
+#[test]
+fn a_violation_is_shown_without_building_anything() {
+    let folder = folder(&[("p.il", b"LD X000\nOUT Y000\nEND\n")]);
+    let cache = folder.path().join("cache");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .current_dir(folder.path())
+        .args(["verify", "p.il", "--never", "Y000"])
+        .env("RUNGC_CACHE_DIR", &cache)
+        .env("PATH", "")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(!cache.exists(), "nothing is built");
 }
