@@ -29,8 +29,8 @@ pub(crate) const M_SEND_FAILED: Relay = Relay(8293);
 pub(crate) const M_RECEIVED: Relay = Relay(8294);
 pub(crate) const M_SENDS: Relay = Relay(8298);
 pub(crate) const M_LATE: Relay = Relay(8299);
-/// There is no card.
-const M_MISSING: Relay = Relay(8281);
+/// There is a card (h1u-h2u-programming §5.9.5).
+const M_CARD: Relay = Relay(8281);
 /// Bytes of the last frame received; the frame, its first four bytes in the first two registers, the low word first.
 pub(crate) const D_LENGTH: Register = Register(8292);
 pub(crate) const D_DATA: Register = Register(8295);
@@ -46,14 +46,7 @@ pub(crate) fn turn_us(plc: &dyn Plc) -> u32 {
 }
 
 /// All special devices of CANTX and CANRX, which are stored where a program uses them.
-pub(super) const RELAYS: [Relay; 6] = [
-    M_MISSING,
-    M_WAITS,
-    M_SEND_FAILED,
-    M_RECEIVED,
-    M_SENDS,
-    M_LATE,
-];
+pub(super) const RELAYS: [Relay; 6] = [M_CARD, M_WAITS, M_SEND_FAILED, M_RECEIVED, M_SENDS, M_LATE];
 pub(super) const REGISTERS: [Register; 6] = {
     let [a, b, c, d] = D_DATA.run();
     [D_LENGTH, a, b, c, d, D_TIME_OUT]
@@ -132,7 +125,7 @@ impl Session<'_> {
             sends = port.unsent(now_us) > 0;
             is_there = true;
         }
-        M_MISSING.set(self.plc, !is_there);
+        M_CARD.set(self.plc, is_there);
         if !sends {
             M_SENDS.set(self.plc, false);
         }
@@ -370,7 +363,7 @@ mod tests {
         assert_eq!(bus.sent, Some(frame(0x200)));
         M_SENDS.set(&mut plc, true);
         crate::comm::advance(&mut plc, &mut bus, 0);
-        assert!(M_SENDS.is_on(&plc) && !M_MISSING.is_on(&plc));
+        assert!(M_SENDS.is_on(&plc) && M_CARD.is_on(&plc));
         let can = |plc: &mut Double| plc.port(CAN_PORT).unwrap().progress.unwrap().can;
         let mut turn = can(&mut plc);
         assert_eq!(turn.visit(1, 0x300, 0, TURN_US), None);
@@ -384,7 +377,7 @@ mod tests {
             Some(frame(0x300))
         );
         crate::comm::advance(&mut plc, &mut crate::NoHal, 2000);
-        assert!(M_MISSING.is_on(&plc));
+        assert!(!M_CARD.is_on(&plc));
     }
 
     proptest! {

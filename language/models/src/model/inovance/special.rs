@@ -142,7 +142,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8276 r 0 inert(BOARDS) "COM3: on when the 485BD card is effective";
     M 8279 rw 0 by("serial ports") "COM3: time-out";
     M 8280 rw 0 by("CANlink") "CANlink 3.0: 0 protocol 3.00, 1 protocol 1.00";
-    M 8281 r 0 by("CANTX, CANRX") "no CAN card found: CANlink not usable";
+    M 8281 r 0 by("CANTX, CANRX") "there is a CAN card; off: CANlink is not usable";
     M 8282 rw 0 inert(CAN_FREE) "0 CANlink protocol, 1 free CAN protocol";
     M 8284 rw 0 by("CANlink") "0: CANlink address from switches (shown in D8284); 1: set by D8284";
     M 8285 rw 0 inert(CAN_RATE) "0: baud rate from switches (shown in D8285); 1: chosen by M8286";
