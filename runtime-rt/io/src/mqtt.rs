@@ -5,7 +5,9 @@ use crate::tls::explained;
 #[cfg(not(feature = "tls"))]
 use rumqttc::ConnectionError;
 use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
-use rungc_host::io::{Connection, Driver, ExchangeError, Opener, address, password, take, topics};
+use rungc_host::io::{
+    Connection, Driver, ExchangeError, LeftOut, Opener, address, password, take, topics,
+};
 use std::collections::BTreeMap;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::thread::{self, JoinHandle};
@@ -47,6 +49,7 @@ struct Broker {
     status: Option<String>,
     /// Values last published, by topic.
     published: BTreeMap<String, String>,
+    left_out: LeftOut,
 }
 
 /// Returns the opener of a broker.
@@ -124,6 +127,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         thread: Some(thread.map_err(|error| error.to_string())?),
         status,
         published: BTreeMap::new(),
+        left_out: LeftOut::default(),
     };
     // The system may take longer to find out that no one answers.
     match broker
@@ -182,7 +186,8 @@ impl Driver for Broker {
         loop {
             match self.news.try_recv() {
                 Ok(News::Value(publish)) => {
-                    take(connection, &publish.topic, &publish.payload, inputs);
+                    let (topic, payload) = (&publish.topic, &publish.payload);
+                    take(connection, topic, payload, inputs, &mut self.left_out);
                 }
                 Ok(News::Connected) => {}
                 Ok(News::Lost(why)) => return Err(ExchangeError::Lost(why)),
@@ -192,6 +197,10 @@ impl Driver for Broker {
                 }
             }
         }
+    }
+
+    fn reports(&mut self) -> Vec<String> {
+        self.left_out.reports()
     }
 
     fn end(&mut self) {

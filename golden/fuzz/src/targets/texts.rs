@@ -40,7 +40,9 @@ fn connections(text: &str) {
         let mut inputs = vec![0; length.unwrap_or(0)];
         let topics = connection.directed(true).flat_map(io::topics);
         for topic in topics.collect::<Vec<_>>() {
-            io::take(connection, &topic.name, payload.as_bytes(), &mut inputs);
+            let payload = payload.as_bytes();
+            let mut left_out = io::LeftOut::default();
+            io::take(connection, &topic.name, payload, &mut inputs, &mut left_out);
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Files, standard input and output: for scripts, and for the files by which Linux shows LEDs and converters.
 
 use super::cycle::{Driver, ExchangeError};
+use super::left_out::{LeftOut, shown};
 use super::settings::{Connection, End, Row, devices};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
@@ -16,34 +17,8 @@ const LARGEST: u64 = 1 << 20;
 /// Lines of standard input that wait for a cycle.
 const LINES: usize = 64;
 
-/// Maximum number of reports of input that is left out.
-const MAX_REPORTS: usize = 32;
-
-/// Characters of a line in a report.
-const SHOWN: usize = 40;
-
 /// The longest line of standard input, in bytes.
 const LONGEST_LINE: u64 = 1024;
-
-/// Reports of input that is left out, each made once.
-#[derive(Default)]
-struct LeftOut {
-    known: BTreeSet<String>,
-    reports: Vec<String>,
-}
-
-impl LeftOut {
-    fn add(&mut self, report: String) {
-        if self.known.len() == MAX_REPORTS || !self.known.insert(report.clone()) {
-            return;
-        }
-        self.reports.push(report);
-        if self.known.len() == MAX_REPORTS {
-            let last = "other input that is left out is not reported";
-            self.reports.push(last.to_string());
-        }
-    }
-}
 
 /// Files of a folder.
 struct Folder {
@@ -103,7 +78,7 @@ impl Driver for Folder {
     }
 
     fn reports(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.left_out.reports)
+        self.left_out.reports()
     }
 }
 
@@ -125,18 +100,6 @@ fn read(path: &Path, values: &mut [i16]) -> io::Result<Option<String>> {
     }
     values.copy_from_slice(&read);
     Ok(words.next().map(str::to_string))
-}
-
-/// Input in a report: its beginning, without control characters.
-fn shown(text: &str) -> String {
-    let mut shown = text.chars();
-    let begin: String = shown
-        .by_ref()
-        .take(SHOWN)
-        .flat_map(char::escape_debug)
-        .collect();
-    let end = if shown.next().is_some() { "…" } else { "" };
-    format!("{begin}{end}")
 }
 
 /// Returns true if a file holds numbers alone, as rows write them, or is not a regular file.
@@ -278,7 +241,7 @@ impl Driver for Console {
     }
 
     fn reports(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.left_out.reports)
+        self.left_out.reports()
     }
 }
 

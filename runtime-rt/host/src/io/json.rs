@@ -19,8 +19,8 @@ pub(super) fn value(text: &str) -> Option<Value> {
     rest.0.is_empty().then_some(value)
 }
 
-/// The items of an object, with their names, or of an array; none if the text is neither.
-pub(super) fn items(text: &str) -> Vec<(Option<String>, Value)> {
+/// The items of an object, with their names, or of an array; `None` if the text is neither.
+pub(super) fn items(text: &str) -> Option<Vec<(Option<String>, Value)>> {
     let mut rest = Rest(text.as_bytes());
     let items = match rest.next() {
         Some(b'{') => rest.items(b'}', 0),
@@ -28,7 +28,7 @@ pub(super) fn items(text: &str) -> Vec<(Option<String>, Value)> {
         _ => None,
     };
     rest.skip();
-    items.filter(|_| rest.0.is_empty()).unwrap_or_default()
+    items.filter(|_| rest.0.is_empty())
 }
 
 /// Objects and arrays in each other, at most.
@@ -135,9 +135,9 @@ mod tests {
         assert_eq!(value("1.5"), Some(Value::Other));
         for wrong in ["", "+1", "1 2", "yes", "\"a", "{", "[1", "{\"a\":}", "[1,]"] {
             assert_eq!(value(wrong), None, "{wrong}");
-            assert_eq!(items(wrong), [], "{wrong}");
+            assert_eq!(items(wrong), None, "{wrong}");
         }
-        let found = items(" { \"D0\" : 7 , \"x\\\"}\":{\"a\":[1]}, \"D1\":false } ");
+        let found = items(" { \"D0\" : 7 , \"x\\\"}\":{\"a\":[1]}, \"D1\":false } ").unwrap();
         let names: Vec<_> = found
             .iter()
             .map(|(name, value)| (name.as_deref(), *value))
@@ -150,9 +150,10 @@ mod tests {
         assert_eq!(names, expected);
         assert_eq!(
             items("[1, null]"),
-            [(None, Value::Number(1)), (None, Value::Other)]
+            Some(vec![(None, Value::Number(1)), (None, Value::Other)])
         );
-        assert_eq!(items("[] x"), []);
-        assert_eq!(items(&"[".repeat(100_000)), []);
+        assert_eq!(items("{}"), Some(Vec::new()));
+        assert_eq!(items("[] x"), None);
+        assert_eq!(items(&"[".repeat(100_000)), None);
     }
 }

@@ -17,6 +17,7 @@
 //! | `topics.rs`, `json.rs` | topics and payloads of brokers, by any client |
 //! | `gpio.rs` | pins (Linux) |
 //! | `files.rs` | files, standard input and output |
+//! | `left_out.rs` | reports of input that fits no device |
 //! | `sys.rs` | serial ports, and the calls of Linux that the standard library does not have |
 //! | `no_serial.rs` | the same ports on other systems: none |
 //! | `host.rs`, `log.rs` | what `--io` and `--log` of an executable do |
@@ -27,6 +28,7 @@ mod files;
 mod gpio;
 mod host;
 mod json;
+mod left_out;
 mod log;
 mod modbus;
 mod mqtt;
@@ -47,6 +49,7 @@ mod topics;
 pub use cycle::{Driver, ExchangeError, GiveRow, Io, Of, Opener, TakeRow, Terminals};
 pub use files::holds_numbers;
 pub use host::Environment;
+pub use left_out::LeftOut;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;

@@ -2,6 +2,7 @@
 //! published again with the next one.
 
 use super::cycle::{Driver, ExchangeError};
+use super::left_out::LeftOut;
 use super::modbus::connect;
 use super::settings::Connection;
 use super::topics::{address, password, take, topics};
@@ -45,6 +46,7 @@ struct Broker {
     status: Option<String>,
     /// Values last published, by topic.
     published: BTreeMap<String, String>,
+    left_out: LeftOut,
 }
 
 /// A packet of a type, by the parts that follow its length.
@@ -118,6 +120,7 @@ pub(super) fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         last_sent: now,
         status: connection.options.get("status").cloned(),
         published: BTreeMap::new(),
+        left_out: LeftOut::default(),
     };
     broker.greet(connection)?;
     Ok(Box::new(broker))
@@ -263,7 +266,7 @@ impl Broker {
             match head & 0xf0 {
                 PUBLISH => {
                     if let Some((topic, payload)) = published(head, &content) {
-                        take(connection, topic, payload, inputs);
+                        take(connection, topic, payload, inputs, &mut self.left_out);
                     }
                 }
                 // A topic that this end may not read.
@@ -306,6 +309,10 @@ impl Driver for Broker {
     ) -> Result<(), ExchangeError> {
         let done = self.turn(connection, inputs, outputs);
         done.map_err(|error| ExchangeError::Lost(error.to_string()))
+    }
+
+    fn reports(&mut self) -> Vec<String> {
+        self.left_out.reports()
     }
 
     fn end(&mut self) {

@@ -243,6 +243,62 @@ fn files_are_read_and_written() {
 }
 
 #[test]
+fn payloads_are_taken_or_left_out_with_a_reason() {
+    let pairs = [
+        ("mqtt", "127.0.0.1"),
+        ("X000-X001", "read hall/{}"),
+        ("D10", "read speed"),
+        ("D20-D21", "read recipe"),
+    ];
+    let connection = Connection::read("broker", &pairs).unwrap();
+    let mut inputs = [0; 5];
+    let mut left_out = LeftOut::default();
+    let mut take = |topic: &str, payload: &str| {
+        topics::take(
+            &connection,
+            topic,
+            payload.as_bytes(),
+            &mut inputs,
+            &mut left_out,
+        );
+        (left_out.reports(), inputs)
+    };
+    for (topic, payload) in [
+        ("hall/X000", "ON"),
+        ("hall/X001", " true "),
+        ("speed", "65535"),
+        ("recipe", "[1]"),
+        ("recipe", "{\"D21\": 7, \"batch\": \"a\"}"),
+        ("speed", ""),
+        ("other", "x"),
+    ] {
+        assert!(take(topic, payload).0.is_empty(), "{topic} {payload}");
+    }
+    let word = "takes a whole number from -32768 to 65535";
+    for (topic, payload, why) in [
+        ("speed", "abc", format!("D10 {word}")),
+        ("speed", "65536", format!("D10 {word}")),
+        ("speed", "1.5", format!("D10 {word}")),
+        (
+            "hall/X001",
+            "2",
+            "X001 takes 0, 1, true, false, on or off".to_string(),
+        ),
+        ("recipe", "[1, null]", format!("D21 {word}")),
+        ("recipe", "[1, 7, 3]", "the row has 2 values".to_string()),
+        (
+            "recipe",
+            "5",
+            "several values are written `{\"D20\": 1}` or `[1, 0]`".to_string(),
+        ),
+    ] {
+        let report = format!("{topic}: `{payload}` is left out: {why}");
+        assert_eq!(take(topic, payload), (vec![report], [1, 1, -1, 1, 7]));
+        assert!(take(topic, payload).0.is_empty(), "each is reported once");
+    }
+}
+
+#[test]
 fn lines_of_standard_input_are_taken_or_left_out_with_a_reason() {
     let pairs = [
         ("console", "true"),

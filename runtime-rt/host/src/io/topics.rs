@@ -1,6 +1,7 @@
 //! Topics and payloads of brokers, by any client: a topic for each device, or one JSON object for the devices of a row.
 
 use super::json::{self, Value};
+use super::left_out::{LeftOut, shown};
 use super::settings::{Connection, End, Row};
 use std::fs;
 
@@ -50,31 +51,60 @@ impl Topic {
     }
 }
 
-/// Takes the payload of a topic; what does not fit a device is left out.
-pub fn take(connection: &Connection, topic: &str, payload: &[u8], inputs: &mut [i16]) {
-    let payload = str::from_utf8(payload).unwrap_or_default().trim();
+/// Takes the payload of a topic. What does not fit a device is left out; an empty payload, by which brokers say that a
+/// retained one is deleted, changes nothing.
+pub fn take(
+    connection: &Connection,
+    topic: &str,
+    payload: &[u8],
+    inputs: &mut [i16],
+    left_out: &mut LeftOut,
+) {
+    let payload = String::from_utf8_lossy(payload);
+    let payload = payload.trim();
+    if payload.is_empty() {
+        return;
+    }
     for row in connection.directed(true) {
         for Topic { device, .. } in topics(row).into_iter().filter(|own| own.name == topic) {
             let values = &mut inputs[row.place.clone()];
-            match device {
-                Some(n) => set(row, values.get_mut(n as usize), word(payload)),
+            let taken = match device {
+                Some(n) => set(row, n, values, word(payload)),
                 None => all(row, values, payload),
+            };
+            if let Err(why) = taken {
+                let (payload, topic) = (shown(payload), shown(topic));
+                left_out.add(format!("{topic}: `{payload}` is left out: {why}"));
             }
         }
     }
 }
 
 /// Takes an object by names of devices, or an array.
-fn all(row: &Row, values: &mut [i16], payload: &str) {
-    for (at, (name, value)) in json::items(payload).into_iter().enumerate() {
-        let place = match &name {
-            Some(name) => (0..row.count).position(|n| row.name(n) == *name),
-            None => Some(at),
+///
+/// # Errors
+/// Reason why a value is left out: the first one's.
+fn all(row: &Row, values: &mut [i16], payload: &str) -> Result<(), String> {
+    let example = row.name(0);
+    let items = json::items(payload)
+        .ok_or_else(|| format!("several values are written `{{\"{example}\": 1}}` or `[1, 0]`"))?;
+    let mut result = Ok(());
+    for (n, (name, value)) in (0..).zip(items) {
+        let n = match &name {
+            Some(name) => (0..row.count).find(|&n| row.name(n) == *name),
+            None if n < row.count => Some(n),
+            None => {
+                let why = format!("the row has {} values", row.count);
+                result = result.and(Err(why));
+                break;
+            }
         };
-        if let Some(place) = place {
-            set(row, values.get_mut(place), Some(value));
+        if let Some(n) = n {
+            let taken = set(row, n, values, Some(value));
+            result = result.and(taken);
         }
     }
+    result
 }
 
 /// A value alone; `on` and `off`, as many switches say.
@@ -86,20 +116,27 @@ fn word(payload: &str) -> Option<Value> {
     }
 }
 
-/// Gives a device a value that fits it.
-fn set(row: &Row, device: Option<&mut i16>, payload: Option<Value>) {
+/// Gives a device of a row a value.
+///
+/// # Errors
+/// The values that fit the device.
+fn set(row: &Row, n: u32, values: &mut [i16], payload: Option<Value>) -> Result<(), String> {
+    let (range, meaning) = match row.is_bits() {
+        true => (0..=1, "0, 1, true, false, on or off"),
+        false => (-0x8000..=0xffff, "a whole number from -32768 to 65535"),
+    };
     let number = match payload {
-        Some(Value::Bool(on)) => i64::from(on),
-        Some(Value::Number(number)) => number,
-        Some(Value::Other) | None => return,
+        Some(Value::Bool(on)) => Some(i64::from(on)),
+        Some(Value::Number(number)) => Some(number),
+        Some(Value::Other) | None => None,
     };
-    let range = if row.is_bits() {
-        0..=1
-    } else {
-        -0x8000..=0xffff
-    };
-    if let Some(device) = device.filter(|_| range.contains(&number)) {
-        *device = number as i16;
+    let number = number.filter(|number| range.contains(number));
+    match number.zip(values.get_mut(n as usize)) {
+        Some((number, device)) => {
+            *device = number as i16;
+            Ok(())
+        }
+        None => Err(format!("{} takes {meaning}", row.name(n))),
     }
 }
 
