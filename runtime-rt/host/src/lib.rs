@@ -16,4 +16,6 @@ pub mod duration;
 pub mod io;
 pub mod retain;
 pub mod servers;
+#[cfg(unix)]
+pub mod signals;
 pub mod wall;

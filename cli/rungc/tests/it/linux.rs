@@ -260,7 +260,7 @@ fn the_console_takes_anything() {
     drop(input);
     shows("Y000=0", -3);
     let pid = run.id().to_string();
-    let interrupted = Command::new("kill").args(["-INT", &pid]).status();
+    let interrupted = Command::new("kill").args(["-TERM", &pid]).status();
     assert!(interrupted.unwrap().success());
     let output = run.wait_with_output().unwrap();
     let messages = text(&output.stderr);

@@ -224,7 +224,7 @@ mod interrupted {
         let id = child.id().to_string();
         assert!(
             Command::new("kill")
-                .args(["-INT", &id])
+                .args(["-TERM", &id])
                 .status()
                 .unwrap()
                 .success()
@@ -304,21 +304,33 @@ mod interrupted {
         let path = folder.path();
         let tools = path.join("tools");
         fs::create_dir(&tools).unwrap();
-        let slow = "#!/bin/sh\ntouch \"$BEGUN\"\nexec sleep 60\n";
+        let slow = "#!/bin/sh\necho $$ > \"$BEGUN\"\nexec sleep 60\n";
         write_executable(&tools.join("make"), slow.as_bytes());
         let begun = path.join("begun");
+        let temporary = path.join("temporary");
+        fs::create_dir(&temporary).unwrap();
         let search = std::env::var("PATH").unwrap();
         let child = begin(
             Command::new(env!("CARGO_BIN_EXE_rungc"))
                 .args(["build", "motor.il", "--emit", "bin", "-o", "out/motor"])
                 .env("PATH", format!("{}:{search}", tools.display()))
                 .env("BEGUN", &begun)
+                .env("TMPDIR", &temporary)
                 .current_dir(path),
         );
-        soon("make is called", || begun.exists());
+        let mut make = String::new();
+        soon("make is called", || {
+            make = fs::read_to_string(&begun).unwrap_or_default();
+            make.ends_with('\n')
+        });
         let output = interrupt(child);
         assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
         assert!(!path.join("out").exists());
+        // The signal was for this process alone; what it has started ends with it.
+        if cfg!(target_os = "linux") {
+            assert!(!Path::new("/proc").join(make.trim()).exists(), "{make}");
+            assert_eq!(fs::read_dir(&temporary).unwrap().count(), 0);
+        }
     }
 }
 

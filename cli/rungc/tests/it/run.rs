@@ -256,7 +256,7 @@ fn an_interrupted_run_keeps_its_recording() {
     let id = child.id().to_string();
     assert!(
         Command::new("kill")
-            .args(["-INT", &id])
+            .args(["-TERM", &id])
             .status()
             .unwrap()
             .success()

@@ -12,10 +12,10 @@ use std::process::{Child, Command, Stdio};
 pub struct Ends(pub Child);
 
 impl Ends {
-    /// Interrupts it as Ctrl-C does; its exit code.
+    /// Asks it to end, as Ctrl-C does, which a caller in the background may ignore; its exit code.
     pub fn interrupt(&mut self) -> Option<i32> {
         let pid = self.0.id().to_string();
-        let killed = Command::new("kill").args(["-INT", &pid]).status().unwrap();
+        let killed = Command::new("kill").args(["-TERM", &pid]).status().unwrap();
         assert!(killed.success());
         self.0.wait().unwrap().code()
     }
