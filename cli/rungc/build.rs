@@ -21,6 +21,9 @@ const LEFT_OUT: [&str; 6] = [
     "instructions/",
 ];
 
+/// The page that says which models have which instructions; `rungc explain` names it.
+const SUPPORT: &str = "instructions/support";
+
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     let variable = |name| env::var_os(name).map(PathBuf::from);
@@ -45,7 +48,7 @@ fn main() -> io::Result<()> {
             true => name.starts_with(*left),
             false => name == *left,
         };
-        if LEFT_OUT.iter().any(is_left_out) {
+        if LEFT_OUT.iter().any(is_left_out) && name != SUPPORT {
             continue;
         }
         let file = book.join(format!("{name}.md"));

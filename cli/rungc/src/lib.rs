@@ -181,8 +181,10 @@ fn man(command: Option<&str>) -> commands::Result {
             })?
         }
     };
+    let source = format!("rungc {}", env!("CARGO_PKG_VERSION"));
     let mut page = Vec::new();
-    clap_mangen::Man::new(shown).render(&mut page)?;
+    let man = clap_mangen::Man::new(shown).source(source).manual("rungc");
+    man.render(&mut page)?;
     commands::print_text(&String::from_utf8_lossy(&page))?;
     Ok(Outcome::Success)
 }

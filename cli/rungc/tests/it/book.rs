@@ -47,6 +47,9 @@ fn help_and_explanations_point_to_pages_that_rungc_has() {
             texts.push(print(&["explain", code]));
         }
     }
+    for topic in ["h2u", "fx3u", "h2u-mtq", "ADD", "M8000", "6706"] {
+        texts.push(print(&["explain", topic]));
+    }
     for board in ["pico", "fx3u-f103vc"] {
         texts.push(print(&["boards", board, "--toml"]));
     }
@@ -59,6 +62,7 @@ fn help_and_explanations_point_to_pages_that_rungc_has() {
     }
     assert!(named.len() > 15, "{named:?}");
     named.remove("PAGE");
+    assert!(named.contains("instructions/support"), "{named:?}");
     for name in named {
         assert!(print(&["book", &name]).starts_with("# "), "{name}");
     }
@@ -105,6 +109,8 @@ fn every_command_has_a_manual_page() {
     for name in commands(path).iter().filter(|name| *name != "help") {
         let page = page(&["man", name]);
         assert!(page.contains(&format!(".TH rungc-{name} 1")), "{page}");
+        let source = concat!("\"rungc ", env!("CARGO_PKG_VERSION"), "\"");
+        assert!(page.contains(source), "{page}");
         assert!(page.contains(".SH OPTIONS"), "{page}");
     }
     assert_eq!(code(path, &["man", "nothing"]), 2);

@@ -39,7 +39,7 @@ super::codes! {
 
     UNCERTAIN_PIN = "W0850" "uncertain-pin" Warning None,
     "a terminal of the program is at a pin that is not certain",
-    "The description of the board marks this pin as uncertain: it comes from one published source, or its polarity or range is not published, and boards of the same name are sold with other pins. Write the pins-only image first (`rungc boards BOARD --pins-only`), which reads inputs and switches one output at a time, and compare the terminals. `rungc boards BOARD --toml` writes the description, in which you correct the pin or remove `uncertain`.",
+    "The description of the board marks this pin as uncertain: it comes from one published source, or its polarity or range is not published, and boards of the same name are sold with other pins. Write the pins-only image first (`rungc boards BOARD --pins-only -o pins.elf`), which reads inputs and switches one output at a time, and compare the terminals. `rungc boards BOARD --toml` writes the description, in which you correct the pin or remove `uncertain`.",
     wrong: "",
     right: "";
 }
