@@ -9,6 +9,7 @@ use super::serial::{self, PortId};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
+use crate::setting::check_lasts;
 use crate::target::Target;
 use rungc_models::{ModelId, Plc};
 use rungc_project::Project;
@@ -391,7 +392,26 @@ impl Reader<'_> {
         if let Some(at) = near.map(|value| value.span().start) {
             self.report(at, "`tolerance` belongs to an expected value".to_string());
         }
+        for name in raw.keys() {
+            self.lasting(name);
+        }
         self.expected(raw)
+    }
+
+    /// Reports a device that keeps no value that it is given.
+    fn lasting(&mut self, name: &Spanned<String>) {
+        let known = self.problems.len();
+        let Some((plc, target)) = self.target(name) else {
+            // Reported where its value is read.
+            self.problems.truncate(known);
+            return;
+        };
+        let Some(model) = self.named.get(plc).map(Named::model) else {
+            return;
+        };
+        if let Err(why) = check_lasts(model, target, |_| true) {
+            self.report(name.span().start, why);
+        }
     }
 
     /// Devices of which these values are expected.

@@ -26,6 +26,11 @@ impl Named {
         }
     }
 
+    /// Its model.
+    pub(super) fn model(&self) -> &'static Model {
+        Model::get(self.plc.model)
+    }
+
     /// Devices by the comments of its program.
     pub(super) fn comments(&mut self) -> &Comments {
         let program = &self.program;
@@ -92,7 +97,7 @@ impl Reader<'_> {
     /// Message for a port that the PLC does not have.
     fn missing(&self, plc: usize, port: &PortId) -> Option<String> {
         let (number, named) = (port.number()?, self.named.get(plc)?);
-        let model = Model::get(named.plc.model);
+        let model = named.model();
         let (message, help) = serve::missing_port(model, number)?;
         // A model stands for compatible boards, too.
         let of_boards = model
