@@ -44,7 +44,18 @@ impl Serving {
     }
 
     fn printing(folder: &Path, servers: usize, args: &[&str], output: Stdio) -> Serving {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        let command = Command::new(env!("CARGO_BIN_EXE_rungc"));
+        Self::of(command, folder, servers, args, output)
+    }
+
+    fn of(
+        mut command: Command,
+        folder: &Path,
+        servers: usize,
+        args: &[&str],
+        output: Stdio,
+    ) -> Serving {
+        let mut child = command
             .arg("serve")
             .args(args)
             .current_dir(folder)
@@ -74,10 +85,10 @@ impl Serving {
         stream
     }
 
-    /// Ctrl-C. Returns what it has printed; ports are named after their order.
+    /// Asks it to end, as Ctrl-C does, which a caller in the background may ignore. Returns what it has printed; ports are named after their order.
     fn interrupt(mut self) -> Output {
         let pid = self.child.id().to_string();
-        let kill = Command::new("kill").args(["-INT", &pid]).status().unwrap();
+        let kill = Command::new("kill").args(["-TERM", &pid]).status().unwrap();
         assert!(kill.success());
         let mut stderr = Vec::new();
         self.errors.read_to_end(&mut stderr).unwrap();
@@ -132,6 +143,45 @@ fn row(table: &str, begin: &[&str]) -> Vec<String> {
         .map(str::trim)
         .filter(|cell| !cell.is_empty());
     cells.map(str::to_string).collect()
+}
+
+/// A client is told nothing else by its protocol than that the request is carried out.
+#[test]
+fn writes_without_effect_are_reported_once() {
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", SETTINGS.as_bytes()),
+    ]);
+    let serving = Serving::start(folder.path(), 4, &[]);
+    let mut modbus = serving.connect(0);
+    let write_m8000 = [0, 3, 0, 0, 0, 6, 1, 5, 0x1f, 0x40, 0, 0];
+    for request in [write_m8000, write_m8000, WRITE_D100] {
+        assert_eq!(ask(&mut modbus, &request, 12), request);
+    }
+    let errors = text(&serving.interrupt().stderr);
+    let report = "writes M8000, without effect: each scan sets it (RUN monitor";
+    assert_eq!(errors.matches(report).count(), 1, "{errors}");
+    assert_eq!(errors.matches("without effect").count(), 1, "{errors}");
+}
+
+/// As an executable does: what the caller ignores stays ignored.
+#[test]
+fn a_run_under_nohup_outlives_its_terminal() {
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", SETTINGS.as_bytes()),
+    ]);
+    let mut command = Command::new("nohup");
+    command.arg(env!("CARGO_BIN_EXE_rungc"));
+    let serving = Serving::of(command, folder.path(), 4, &[], Stdio::piped());
+    let pid = serving.child.id().to_string();
+    let sent = Command::new("kill").args(["-HUP", &pid]).status().unwrap();
+    assert!(sent.success());
+    let mut client = serving.connect(0);
+    for _ in 0..20 {
+        ask(&mut client, &WRITE_D100, 12);
+    }
+    assert_eq!(serving.interrupt().status.code(), Some(130));
 }
 
 #[test]

@@ -48,6 +48,8 @@ struct Connection {
 pub struct Traffic {
     decoder: Decoder,
     connections: BTreeMap<Place, Connection>,
+    /// Devices of this PLC that others have written.
+    written: Devices,
 }
 
 impl Traffic {
@@ -56,6 +58,7 @@ impl Traffic {
         Traffic {
             decoder,
             connections: BTreeMap::new(),
+            written: Devices::new(),
         }
     }
 
@@ -83,6 +86,7 @@ impl Traffic {
     /// Counts a frame; returns what it says.
     pub fn frame(&mut self, seen: Seen) -> Decoded {
         let decoder = self.decoder;
+        let mut written = Devices::new();
         let connection = self.connection(seen.place, seen.link);
         let last = connection.last.take();
         let before = last
@@ -113,12 +117,23 @@ impl Traffic {
         let done = decoded.error.is_none() && (!is_request || decoded.broadcast);
         let pending = std::mem::take(&mut connection.pending);
         match (done, is_request) {
-            (true, _) => connection.written.extend(pending),
+            (true, _) => {
+                if !seen.link.is_request() {
+                    written.extend(&pending);
+                }
+                connection.written.extend(pending);
+            }
             (false, true) => connection.pending = pending,
             (false, false) => {}
         }
         connection.last = Some((seen.direction, seen.bytes.to_vec()));
+        self.written.extend(written);
         decoded
+    }
+
+    /// Devices of this PLC that requests have written since the last call.
+    pub fn take_written(&mut self) -> Devices {
+        std::mem::take(&mut self.written)
     }
 
     /// Returns true if a row is informative: a server that has had clients has a row for each of them.

@@ -5,7 +5,10 @@ use crate::commands::{Failure, eprint_line, parent_dir};
 use crate::output::{Kind, make_folder, permit};
 use crate::report::visible;
 use rungc_models::Model;
+use rungc_rt::Class;
 use rungc_sim::serve::{Decoder, Direction, LinkProtocol, Place, Seen, Traffic};
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
@@ -17,7 +20,10 @@ pub const STANDARD_ERROR: &str = "-";
 
 /// Frames and their connections.
 pub struct Watch {
+    model: &'static Model,
     traffic: Traffic,
+    /// Devices whose writing by others had no effect, which was reported.
+    without_effect: BTreeSet<(DeviceClass, u32)>,
     log: Log,
     /// The last frames, until they are retrieved.
     recorded: Option<Vec<String>>,
@@ -55,7 +61,10 @@ impl Watch {
     ///
     /// # Errors
     /// A file that cannot be created.
-    pub fn new(model: &Model, (trace, force): (Option<&Path>, bool)) -> Result<Self, Failure> {
+    pub fn new(
+        model: &'static Model,
+        (trace, force): (Option<&Path>, bool),
+    ) -> Result<Self, Failure> {
         let log = match trace {
             None => Log::Nowhere,
             Some(path) if path == Path::new(STANDARD_ERROR) => Log::StandardError,
@@ -81,7 +90,9 @@ impl Watch {
         let decoder = Decoder::new(model.ports, model.type_code());
         let traffic = Traffic::new(decoder);
         Ok(Watch {
+            model,
             traffic,
+            without_effect: BTreeSet::new(),
             log,
             recorded: None,
         })
@@ -108,6 +119,7 @@ impl Watch {
     /// A frame was seen `at_us` microseconds after the run began.
     pub fn frame(&mut self, at_us: u64, way: Way, seen: Seen) {
         let decoded = self.traffic.frame(seen);
+        self.report_without_effect(seen);
         let line = || {
             let Place { port, peer } = seen.place;
             let arrow = match seen.direction {
@@ -151,6 +163,29 @@ impl Watch {
                 "rungc: --trace-frames: {error}; no more frames are logged"
             ));
             self.log = Log::Failed;
+        }
+    }
+
+    /// Reports, once for each, the devices that a request has written and that each scan sets.
+    fn report_without_effect(&mut self, seen: Seen) {
+        for (class, number) in self.traffic.take_written() {
+            let class = match class {
+                Class::M => DeviceClass::M,
+                Class::D => DeviceClass::D,
+                _ => continue,
+            };
+            if !self.model.is_set_by_scan(class, number)
+                || !self.without_effect.insert((class, number))
+            {
+                continue;
+            }
+            let device = class.number(number);
+            let row = self.model.special(class, number);
+            let meaning = row.map(|row| row.meaning(number)).unwrap_or_default();
+            let Place { port, peer } = seen.place;
+            eprint_line(&format!(
+                "rungc: {port}: {peer} writes {device}, without effect: each scan sets it ({meaning})"
+            ));
         }
     }
 
