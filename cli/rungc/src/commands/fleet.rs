@@ -152,6 +152,12 @@ fn compile(
         Some(module) if !findings.failed() => {
             reporter.add_count(&findings, subject.check_command().as_deref(), cx)?;
             reporter.finish()?;
+            if module.has_ports() {
+                let name = &plcs.name.text;
+                eprint_line(&format!(
+                    "rungc: {name}: serial ports and CAN cards of a fleet are not connected: its links have no partners"
+                ));
+            }
             let parameters = read.program.parameters.as_ref();
             Ok(Ok(Compiled {
                 module,

@@ -79,6 +79,22 @@ fn mistakes_have_their_place() {
 }
 
 #[test]
+fn ports_that_lead_nowhere_are_reported() {
+    let rs = b"LD M8000\nRS D0 K1 D10 K1\nEND\n";
+    let fleet = b"[plc.scale]\nprogram = 'rs.il'\n[plc.adds]\nprogram = 'p.il'\n";
+    let folder = folder(&[
+        ("p.il", ADDS.as_bytes()),
+        ("rs.il", rs),
+        ("fleet.toml", fleet),
+    ]);
+    let args = ["fleet", "fleet.toml", "--virtual", "--for", "100ms"];
+    let said = shown(folder.path(), &args);
+    let report = "serial ports and CAN cards of a fleet are not connected";
+    assert_eq!(said.matches(report).count(), 1, "{said}");
+    assert!(said.contains(&format!("scale: {report}")), "{said}");
+}
+
+#[test]
 fn settings_come_to_each_plc_in_its_time() {
     // D0 counts the scans in which X000 is on: 5 of 10, later in each PLC; D1 has its number.
     let program = "LD X000\nINC D0\nLD M8000\nMOV D10 D11\nEND\n";
